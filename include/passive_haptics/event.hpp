@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What one tick has to tell its caller, and how much a type promises.
+
+#include <algorithm>
+#include <cstdint>
+
+namespace passive_haptics::inline v0 {
+
+/// What happened in a tick, in order of rising severity; a tick reports the worst. The numbers are
+/// stable from 1.0 on.
+enum class event : std::uint8_t {
+  nominal,          ///< all is well
+  debt,             ///< the ledger is negative: the hand has been fed more than it paid
+  late_tick,        ///< dt is longer than loop_limits::longest_tick: the bound assumed less
+  no_target,        ///< the environment has published nothing yet: force zero
+  rejected_target,  ///< the published constraint is unusable: the last good one stays
+  stale_target,     ///< no good constraint for too long: the contact is fading out
+  rejected_sample,  ///< NaN, infinity, dt ≤ 0, an impossible jump: force zero, credit forfeited
+  rejected_parameters,  ///< check() names the fault: force zero for ever
+};
+
+/// The text of an event, for logs.
+[[nodiscard]] constexpr const char* to_string(event e) noexcept {
+  switch (e) {
+    case event::nominal:
+      return "nominal";
+    case event::debt:
+      return "debt";
+    case event::late_tick:
+      return "late tick";
+    case event::no_target:
+      return "no target";
+    case event::stale_target:
+      return "stale target";
+    case event::rejected_target:
+      return "rejected target";
+    case event::rejected_sample:
+      return "rejected sample";
+    case event::rejected_parameters:
+      return "rejected parameters";
+  }
+  return "unknown event";
+}
+
+[[nodiscard]] constexpr event worse(event a, event b) noexcept {
+  return std::max(a, b);
+}
+
+/// How far a policy, or a composition, is passive at the device port.
+///   strict       E1 ≥ 0 for every motion, every environment, every schedule of updates
+///   conditional  the same under assumptions named where the policy is defined
+///   none         no promise; the header shows the loss
+enum class guarantee : std::uint8_t { none, conditional, strict };
+
+[[nodiscard]] constexpr const char* to_string(guarantee g) noexcept {
+  switch (g) {
+    case guarantee::none:
+      return "none";
+    case guarantee::conditional:
+      return "conditional";
+    case guarantee::strict:
+      return "strict";
+  }
+  return "unknown guarantee";
+}
+
+/// Why a parameter is refused. Converts to true when there IS a fault:
+///     static_assert(!bound.check());
+///     if (const auto fault = model.check()) complain(fault.parameter, fault.value, fault.remedy);
+template <class Scalar>
+struct parameter_fault {
+  const char* parameter = nullptr;  ///< its name, null when all is well
+  Scalar value{};                   ///< the value refused
+  const char* remedy = "";          ///< the range allowed
+
+  constexpr explicit operator bool() const noexcept { return parameter != nullptr; }
+};
+
+}  // namespace passive_haptics::inline v0

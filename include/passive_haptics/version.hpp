@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The version of the library, and its only home: CMakeLists.txt and conan/conanfile.py read it
+// here.
+
+namespace passive_haptics::inline v0 {
+
+inline constexpr int version_major = 0;
+inline constexpr int version_minor = 1;
+inline constexpr int version_patch = 0;
+
+}  // namespace passive_haptics::inline v0
