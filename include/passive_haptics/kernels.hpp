@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The equations, one function each: plain scalars in, a plain scalar out, no state, no branch that
+// is not in the formula. Own your loop? Then this header is all you need.
+//
+//   2.5    damping_per_tick          B = b/T
+//   2.14   worst_outflow             f²/(4B)            most energy the next tick can take
+//   2.17   strict_force_bound        √(4 B E1)
+//   2.27   depth_bound               f/K
+//   L6     outward_reach             how far the device can come out in the next tick
+//   § 9    reachable_force_bound     largest force whose work over that reach the ledger covers
+//   § 9    sampled_stiffness, sampled_damping          what a sampled mass can take
+//   2.30   half_angle_turn           cos φ and sin φ of a small turn, without cos and sin
+//
+// Numbers with a dot are equations of McWilliam's 2017 thesis "Local Model Interpolation for Stable
+// Haptic Interaction" with the signs put right (docs/design/audit.md); L and § refer to
+// docs/design/mathematics.md.
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <type_traits>
+
+namespace passive_haptics::inline v0 {
+
+/// A real number type: float, double, long double, or anything that does arithmetic, compares, and
+/// has numeric_limits and a sqrt found by argument-dependent look-up (Boost.Multiprecision).
+template <class S>
+concept real = std::regular<S> && std::totally_ordered<S> &&
+               std::numeric_limits<S>::is_specialized && !std::numeric_limits<S>::is_integer &&
+               requires(S a, S b) {
+  {S(a + b)};
+  {S(a - b)};
+  {S(a * b)};
+  {S(a / b)};
+  {S(-a)};
+  {S(1)};
+};
+
+namespace kernels {
+
+template <real S>
+[[nodiscard]] constexpr S smaller(S a, S b) noexcept {
+  return b < a ? b : a;
+}
+template <real S>
+[[nodiscard]] constexpr S larger(S a, S b) noexcept {
+  return a < b ? b : a;
+}
+
+template <real S>
+[[nodiscard]] constexpr S magnitude(S a) noexcept {
+  return a < S(0) ? S(-a) : a;
+}
+
+/// x − x is zero for numbers and NaN for NaN and the infinities.
+template <real S>
+[[nodiscard]] constexpr bool is_finite(S x) noexcept {
+  return x - x == S(0);
+}
+
+/// √x for x ≥ 0, also in a constant expression (where Newton's iteration descends until it stalls).
+template <real S>
+[[nodiscard]] constexpr S square_root(S x) noexcept {
+  if (std::is_constant_evaluated()) {
+    if (!(x > S(0)) || !is_finite(x)) return x;
+    S root = x < S(1) ? S(1) : x;
+    S next = (root + x / root) / S(2);
+    while (next < root) {
+      root = next;
+      next = (root + x / root) / S(2);
+    }
+    return root;
+  }
+  using std::sqrt;
+  return sqrt(x);
+}
+
+/// B = b/T [N/m]: damping b [N·s/m] seen over one tick of length T [s]. (2.5)
+template <real S>
+[[nodiscard]] constexpr S damping_per_tick(S b, S T) noexcept {
+  return b / T;
+}
+
+/// f²/(4B) [J]: the most energy that force f [N], held for the next tick, can hand to the user
+/// whatever the motion: min over Δx of BΔx² − fΔx, reached at Δx = f/(2B). (2.14, lemma L3)
+template <real S>
+[[nodiscard]] constexpr S worst_outflow(S f, S B) noexcept {
+  return f * f / (S(4) * B);
+}
+
+/// f_max = √(4 B E1) [N], zero for a ledger in debt. The clamp stays inside the root (A6). (2.17)
+template <real S>
+[[nodiscard]] constexpr S strict_force_bound(S E1, S B) noexcept {
+  return E1 > S(0) ? square_root(S(4) * B * E1) : S(0);
+}
+
+/// The factor that brings a force whose worst outflow is `outflow` [J] down to what E1 [J] covers:
+/// √(E1/outflow), rounded towards zero; 1 when it is covered already. (2.17 for any direction)
+template <real S>
+[[nodiscard]] constexpr S strict_scale(S E1, S outflow) noexcept {
+  if (outflow <= E1) return S(1);
+  if (!(E1 > S(0))) return S(0);
+  return square_root(E1 / outflow) * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
+}
+
+/// d_max = f/K [m]; with no stiffness there is no force to place. (2.27, A10)
+template <real S>
+[[nodiscard]] constexpr S depth_bound(S f, S K) noexcept {
+  return K > S(0) ? f / K : S(0);
+}
+
+/// δ [m]: the farthest that a mass m [kg] can travel outwards in the next tick, of length ≤ T [s].
+///     x(n+1) − x(n) = Δx·T/T₀ + double integral of a(t),   |a| ≤ (|f| + F_other)/m
+/// `outward` is the travel along the force in the last tick [m], which lasted T₀ [s]; `held` and
+/// `next` are the force magnitudes over the last and the next tick; `other` bounds all else that
+/// pushes. Exact for the double integrator; with T₀ = T it is lemma L6.
+template <real S>
+[[nodiscard]] constexpr S outward_reach(S outward, S held, S next, S other, S m, S T0,
+                                        S T) noexcept {
+  const S last = (held + other) * T0 * T / (S(2) * m);
+  const S coming = (next + other) * T * T / (S(2) * m);
+  return outward * T / T0 + last + coming;
+}
+
+/// The largest force F [N] with F s − B s² ≤ E1 for every 0 ≤ s ≤ δ:
+///     δ ≤ 0: any force      δ < √(E1/B): E1/δ + B δ      else: √(4 B E1)
+/// The two branches meet where s = δ is itself the worst case (AM-GM), so it is continuous. (§ 9)
+template <real S>
+[[nodiscard]] constexpr S reachable_force_bound(S E1, S B, S reach) noexcept {
+  if (!(reach > S(0))) return std::numeric_limits<S>::max();
+  const S credit = larger(E1, S(0));
+  if (B * reach * reach < credit) {
+    return (credit / reach + B * reach) * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
+  }
+  return strict_force_bound(credit, B) * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
+}
+
+/// K_s = min(K, κ m/T²) [N/m]: the stiffness that a mass sampled every T can be held with. (§ 9)
+template <real S>
+[[nodiscard]] constexpr S sampled_stiffness(S K, S fraction, S m, S T) noexcept {
+  return smaller(K, fraction * m / (T * T));
+}
+
+/// B_s = min(2 ζ √(K_s m), β m/T) [N·s/m]: damping ratio ζ, kept below what sampling allows. (§ 9)
+template <real S>
+[[nodiscard]] constexpr S sampled_damping(S K, S ratio, S fraction, S m, S T) noexcept {
+  return smaller(S(2) * ratio * square_root(K * m), fraction * m / T);
+}
+
+/// The cap on the ledger [J] that still lets a wall push back with F [N]: F²/(4B) (A9).
+template <real S>
+[[nodiscard]] constexpr S bank_for_hold(S F, S b, S T) noexcept {
+  return worst_outflow(F, damping_per_tick(b, T));
+}
+
+/// cos and sin of a turn, and the chord it spans on the unit circle.
+template <real S>
+struct turn {
+  S cosine, sine, chord_squared;
+};
+
+/// The turn by 2 atan(φ/2), from tan(turn/2) = φ/2: never more than φ [rad], short of it by φ³/12.
+/// cos² + sin² = 1 to rounding, for any φ ≥ 0. (2.30-2.31 without cos and sin, A20)
+template <real S>
+[[nodiscard]] constexpr turn<S> half_angle_turn(S angle) noexcept {
+  const S t = angle / S(2);
+  const S d = S(1) + t * t;
+  return {(S(1) - t * t) / d, S(2) * t / d, S(4) * t * t / d};
+}
+
+}  // namespace kernels
+}  // namespace passive_haptics::inline v0
