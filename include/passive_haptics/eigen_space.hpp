@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// space<Scalar, Dof> for two and more degrees of freedom, on Eigen. The only core header that names
+// it.
+
+#include <passive_haptics/space.hpp>
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace passive_haptics::inline v0 {
+
+/// A vector at rest: trivially copyable (Eigen's are not), so it can cross threads and be
+/// snapshotted. Converts from any Eigen expression of that shape, and to space::vector.
+template <real Scalar, int Dof>
+struct stored_vector {
+  std::array<Scalar, static_cast<std::size_t>(Dof)> values{};
+
+  constexpr stored_vector() noexcept = default;
+
+  template <class... Numbers>
+  requires(
+      sizeof...(Numbers) == Dof &&
+      (std::convertible_to<Numbers, Scalar> &&
+       ...)) constexpr stored_vector(Numbers... numbers) noexcept  // NOLINT(google-explicit-constructor)
+      : values{static_cast<Scalar>(numbers)...} {}
+
+  template <class Expression>
+  stored_vector(const Eigen::MatrixBase<Expression>& v) noexcept {  // NOLINT: a view of the same
+    Eigen::Map<Eigen::Matrix<Scalar, Dof, 1>>(values.data()) = v;
+  }
+
+  [[nodiscard]] constexpr Scalar operator[](std::size_t i) const noexcept { return values[i]; }
+
+  operator Eigen::Matrix<Scalar, Dof, 1>() const noexcept {  // NOLINT: a view of the same thing
+    return Eigen::Map<const Eigen::Matrix<Scalar, Dof, 1>>(values.data());
+  }
+};
+
+template <real Scalar, int Dof>
+requires(Dof >= 2) struct space<Scalar, Dof> {
+  using scalar = Scalar;
+  using vector = Eigen::Matrix<Scalar, Dof, 1>;
+  using coordinates = stored_vector<Scalar, Dof>;
+  static constexpr int dof = Dof;
+
+  [[nodiscard]] static vector zero() noexcept { return vector::Zero(); }
+  [[nodiscard]] static Scalar dot(const vector& a, const vector& b) noexcept { return a.dot(b); }
+  [[nodiscard]] static Scalar norm(const vector& a) noexcept { return a.norm(); }
+  [[nodiscard]] static bool is_finite(const vector& a) noexcept { return a.allFinite(); }
+
+  [[nodiscard]] static Scalar weighted_square(const vector& w, const vector& a) noexcept {
+    return a.cwiseAbs2().dot(w);
+  }
+  [[nodiscard]] static Scalar inversely_weighted_square(const vector& w, const vector& a) noexcept {
+    return a.cwiseAbs2().cwiseQuotient(w).sum();
+  }
+  [[nodiscard]] static Scalar smallest(const vector& a) noexcept { return a.minCoeff(); }
+
+  /// A unit vector orthogonal to the unit vector n; the choice is fixed, so it is repeatable (A19).
+  [[nodiscard]] static vector orthogonal(const vector& n) noexcept {
+    Eigen::Index least = 0;
+    n.cwiseAbs().minCoeff(&least);
+    vector u = -n(least) * n;
+    u(least) += Scalar(1);
+    return u / u.norm();
+  }
+
+  [[nodiscard]] static vector cross(const vector& a, const vector& b) noexcept requires(Dof == 3) {
+    return {a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0)};
+  }
+};
+
+}  // namespace passive_haptics::inline v0
