@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Energy observers: how the energy at the device port is counted.
+//
+//   reduced_energy   E1 += Δxᵀ(b/dt)Δx − f_held·Δx     the ledger of the thesis (2.9, 2.16)
+//   no_observer      nothing                           with no_bound only
+//
+// Not offered: pairing the NEW force with the last displacement. It flips the sign of the energy
+// that the zero-order hold leaks and makes the observer blind (lemma L2).
+
+#include <passive_haptics/concepts.hpp>
+
+#include <limits>
+
+namespace passive_haptics::inline v0 {
+
+/// A sum that carries on what rounding cut off (Kahan's, with Knuth's exact error of a sum): in
+/// float, 1e-9 J still counts against 1 J.
+template <real Scalar>
+class compensated_sum {
+ public:
+  constexpr compensated_sum() noexcept = default;
+  constexpr compensated_sum(Scalar start) noexcept : sum_(start) {}  // NOLINT: a number
+
+  constexpr compensated_sum& operator+=(Scalar term) noexcept {
+    const Scalar carried = term + lost_;
+    const Scalar next = sum_ + carried;
+    const Scalar gained = next - sum_;
+    lost_ = (sum_ - (next - gained)) + (carried - gained);
+    sum_ = next;
+    return *this;
+  }
+  constexpr operator Scalar() const noexcept { return sum_; }  // NOLINT: a number
+
+ private:
+  Scalar sum_{}, lost_{};
+};
+
+/// The reduced energy E1 [J] that has flowed from the hand into the device and is not yet spent:
+///     E1(n) = E1(n−1) + Δxᵀ(b/dt)Δx − f_held·Δx                                    (2.9, 2.16)
+/// exact for a zero-order hold but for the damping, which it never overstates (lemma L1). `dt` is
+/// the measured length of the tick. A negative E1 is a debt: it is kept, it is visible, it is
+/// repaid. Start with `.energy > 0` and the guarantee becomes E ≥ −that much (A8).
+template <class Space, class Damping = isotropic_damping<Space>,
+          class Ledger = typename Space::scalar>
+struct reduced_energy {
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bool counts = true;
+
+  Damping damping{};                                ///< b [N·s/m], a lower bound
+  scalar cap = std::numeric_limits<scalar>::max();  ///< most credit to keep [J] (A9, L7)
+  scalar reset_after =
+      std::numeric_limits<scalar>::max();  ///< force-free time that voids credit [s]
+  Ledger energy{};                         ///< E1 [J]; its first value is the loan
+  scalar idle{};                           ///< force-free time so far [s]
+
+  constexpr void update(const vector& displacement, const vector& held, scalar dt) noexcept {
+    energy += damping.dissipated(displacement, dt) - Space::dot(held, displacement);
+    idle = Space::dot(held, held) > scalar(0) ? scalar(0) : idle + dt;
+    const scalar most = idle >= reset_after ? scalar(0) : cap;
+    if (value() > most) energy = most;  // only ever lowers: a debt stays (L7)
+  }
+
+  /// A tick passed and nobody saw the motion: write off the worst that `held` can have done, down
+  /// to an empty ledger. Any bound that kept its promise has covered exactly that.
+  constexpr void forfeit(const vector& held, scalar T) noexcept {
+    const scalar left = value() - damping.worst_outflow(held, T);
+    const scalar floor = kernels::smaller(value(), scalar(0));
+    energy = kernels::larger(left, floor);
+  }
+
+  [[nodiscard]] constexpr scalar value() const noexcept { return static_cast<scalar>(energy); }
+
+  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
+    if (const auto fault = damping.check()) return fault;
+    if (!(cap >= scalar(0))) return {"cap", cap, "≥ 0 J"};
+    if (!(reset_after >= scalar(0))) return {"reset_after", reset_after, "≥ 0 s"};
+    if (!(value() >= scalar(0)) || !kernels::is_finite(value())) {
+      return {"energy", value(), "finite and ≥ 0 J at the start"};
+    }
+    return {};
+  }
+};
+
+/// Counts nothing, promises nothing. For comparison, and for worlds proved passive otherwise.
+template <class Space>
+struct no_observer {
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  static constexpr guarantee passivity = guarantee::none;
+  static constexpr bool counts = false;
+
+  /// Answers for the damping that nobody has stated.
+  struct unknown_damping {
+    [[nodiscard]] constexpr scalar worst_outflow(const vector& /*force*/,
+                                                 scalar /*T*/) const noexcept {
+      return scalar(0);
+    }
+  };
+  [[no_unique_address]] unknown_damping damping{};
+
+  constexpr void update(const vector& /*dx*/, const vector& /*held*/, scalar /*dt*/) noexcept {}
+  constexpr void forfeit(const vector& /*held*/, scalar /*T*/) noexcept {}
+  [[nodiscard]] constexpr scalar value() const noexcept { return scalar(0); }
+  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept { return {}; }
+};
+
+static_assert(energy_observer_for<reduced_energy<space<float, 1>>, space<float, 1>>);
+static_assert(energy_observer_for<no_observer<space<float, 1>>, space<float, 1>>);
+
+}  // namespace passive_haptics::inline v0
