@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The passive local model: five parts, one tick.
+//
+//  x, dt ─▶ guard ─▶ observer ─▶ probe ─▶ normal ─▶ contact law ─▶ bound ─▶ follow ─▶ force
+//           finite?   E1 += …    depth in  n_LM →    f* = K d …     |f| ≤    own plane
+//           dt > 0?              both      n_VE                     f(E1)    at depth f/K
+//
+// The order is the thesis's (Fig. 2.7, A27). Only this class holds the last position and the forces
+// held, so the ledger always pairs a displacement with the force that was there while it happened.
+// In a tick: no exception, heap, lock, clock, virtual call, I/O or recursion.
+
+#include <passive_haptics/concepts.hpp>
+
+#include <array>
+
+namespace passive_haptics::inline v0 {
+
+/// What the loop around the model keeps to. A guarantee holds while it does; a tick that does not
+/// is reported.
+template <class Space>
+struct loop_limits {
+  using scalar = typename Space::scalar;
+  scalar longest_tick = scalar(0.001);  ///< T_max [s]: set it to the worst tick of YOUR loop
+  scalar top_speed = scalar(100);       ///< faster than this is a sensor fault [m/s]
+
+  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
+    if (!(longest_tick > scalar(0)) || !kernels::is_finite(longest_tick)) {
+      return {"longest_tick", longest_tick, "finite and > 0 s"};
+    }
+    if (!(top_speed > scalar(0)) || !kernels::is_finite(top_speed)) {
+      return {"top_speed", top_speed, "finite and > 0 m/s"};
+    }
+    return {};
+  }
+};
+
+/// All that a tick knows. Trivial to log.
+template <class Space>
+struct tick_result {
+  typename Space::vector force;   ///< on the device [N]
+  typename Space::scalar depth;   ///< penetration in the local model [m], 0 outside
+  typename Space::scalar energy;  ///< E1 [J]
+  event what = event::nominal;    ///< the worst that happened
+  bool limited = false;           ///< the bound changed the desired force
+};
+
+/// Compose by value; class template argument deduction finds the type:
+///     ph::local_model wall{scene{},
+///                          ph::rigid{ph::half_space<scene>{0.0, -1.0, 1e4}},
+///                          ph::snap<scene>{},
+///                          ph::spring<scene>{},
+///                          ph::reduced_energy<scene>{.damping = 0.03},
+///                          ph::strict_bound<scene>{}};
+///     device.command(wall.tick(position, dt).force);
+template <class Space, class Supply, class Normals, class Contact, class Observer, class Bound>
+class local_model {
+ public:
+  using space_type = Space;
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  using constraint_type = typename Supply::constraint_type;
+
+  static_assert(constraint_for<constraint_type, Space>,
+                "passive_haptics: the constraint does not model constraint_for: see concepts.hpp");
+  static_assert(normal_interpolation_for<Normals, Space>,
+                "passive_haptics: the normal interpolation does not model "
+                "normal_interpolation_for: see concepts.hpp");
+  static_assert(
+      contact_law_for<Contact, Space>,
+      "passive_haptics: the contact law does not model contact_law_for: see concepts.hpp");
+  static_assert(energy_observer_for<Observer, Space>,
+                "passive_haptics: the observer does not model energy_observer_for: "
+                "see concepts.hpp");
+  static_assert(force_bound_for<Bound, Space>,
+                "passive_haptics: the bound does not model force_bound_for: see concepts.hpp");
+  static_assert(Observer::counts || !Bound::needs_ledger,
+                "passive_haptics: this bound spends energy that no_observer does not count: "
+                "use reduced_energy");
+  static_assert(Supply::moves || !Bound::needs_local_model,
+                "passive_haptics: this bound compares with a local model that can move: "
+                "use following instead of rigid");
+
+  /// The weakest promise among the parts.
+  static constexpr guarantee passivity =
+      std::min({Normals::passivity, Contact::passivity, Observer::passivity, Bound::passivity});
+
+  constexpr local_model(Space /*scene*/, const Supply& supply, const Normals& normals,
+                        const Contact& contact, const Observer& observer, const Bound& bound,
+                        const loop_limits<Space>& limits = {}) noexcept
+      : supply_(supply),
+        normals_(normals),
+        contact_(contact),
+        observer_(observer),
+        bound_(bound),
+        limits_(limits) {
+    held_.fill(Space::zero());
+    sound_ = !check();
+    if constexpr (!Supply::moves) contact_.adopt(supply_.target().stiffness, limits_.longest_tick);
+  }
+
+  /// The first parameter that is out of its range, if any. Such a model ticks with force zero.
+  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
+    if (const auto fault = limits_.check()) return fault;
+    if (const auto fault = normals_.check()) return fault;
+    if (const auto fault = contact_.check()) return fault;
+    if (const auto fault = observer_.check()) return fault;
+    if (const auto fault = bound_.check()) return fault;
+    return supply_.check();
+  }
+
+  /// Hands over the environment's newest constraint, from the haptic thread. False: it is unusable
+  /// and the last good one stays; the next tick says so too.
+  constexpr bool retarget(const constraint_type& next) noexcept requires(Supply::moves) {
+    return supply_.retarget(next);
+  }
+
+  /// One tick: the device is at `position` [m], `dt` [s] after the last one. The force of the last
+  /// tick is taken to have been held exactly.
+  [[nodiscard]] constexpr tick_result<Space> tick(const vector& position, scalar dt) noexcept {
+    return tick(position, dt, held_.back());
+  }
+  /// The same for a device that reports the force it really held.
+  [[nodiscard]] constexpr tick_result<Space> tick(const device_sample<Space>& sample) noexcept {
+    if (!sample.valid) return refuse(event::rejected_sample, sample.dt);
+    return tick(sample.position, sample.dt, sample.held);
+  }
+
+  [[nodiscard]] constexpr const constraint_type& local() const noexcept { return supply_.local(); }
+  [[nodiscard]] constexpr const constraint_type& target() const noexcept {
+    return supply_.target();
+  }
+  [[nodiscard]] constexpr scalar energy() const noexcept { return observer_.value(); }
+  [[nodiscard]] constexpr const Contact& contact() const noexcept { return contact_; }
+
+ private:
+  static constexpr std::size_t latency = static_cast<std::size_t>(Bound::latency);
+
+  [[nodiscard]] constexpr tick_result<Space> tick(const vector& position, scalar dt,
+                                                  const vector& held) noexcept {
+    if (!sound_) return refuse(event::rejected_parameters, dt);
+    const vector last = position_;
+    const vector travel = seen_ ? vector(position - last) : Space::zero();
+    if (!trusted(position, travel, held, dt)) return refuse(event::rejected_sample, dt);
+
+    event what = dt > limits_.longest_tick ? event::late_tick : event::nominal;
+    const bool known = seen_ && !(blind_ > scalar(0));
+    const vector displacement = known ? travel : Space::zero();
+    if (known) {
+      observer_.update(displacement, held, dt);
+    } else {
+      observer_.forfeit(held, limits_.longest_tick);
+    }
+    position_ = position;
+    seen_ = true;
+    blind_ = scalar(0);
+    if (observer_.value() < scalar(0)) what = worse(what, event::debt);
+
+    // Where are we, in the newest target and in our own constraint?
+    const constraint_type& target = supply_.target();
+    const scalar weight = presence(dt, what);
+    const scalar target_depth = target.depth(position);
+    const bool behind = weight > scalar(0) && target_depth > scalar(0);
+    const bool in_target = behind && target.covers(position);
+    scalar depth = target_depth;
+    bool in_local = in_target && !beside_;  // coming in sideways is an update, not a contact (A18)
+    if constexpr (Supply::moves) {
+      if (!supply_.together()) {
+        depth = supply_.local().depth(position);
+        in_local = depth > scalar(0) && supply_.local().covers(position);
+      }
+      beside_ = behind && !in_target;
+    }
+
+    // Which way, and how hard, if nothing held us back?
+    [[maybe_unused]] const Contact before = contact_;  // with the stiffness up to now
+    if (fresh()) contact_.adopt(target.stiffness, limits_.longest_tick);
+    const vector goal = target.outward();
+    vector normal = goal;
+    if constexpr (Supply::moves) {
+      if (in_local && !supply_.together()) {
+        normal = normals_.step(supply_.local().outward(), goal, dt);
+      }
+    }
+    const scalar outward_speed = Space::dot(displacement, normal) / dt;
+    scalar felt = in_target ? target_depth : scalar(0);
+    scalar asked = in_target ? weight * contact_.force(target_depth, outward_speed) : scalar(0);
+    if (!kernels::is_finite(asked) || !kernels::is_finite(felt)) {
+      asked = felt = scalar(0);
+      what = worse(what, event::rejected_target);
+    }
+    const vector desired = normal * asked;
+
+    // How much of it does the ledger cover?
+    scalar local_force(0);
+    if constexpr (Bound::needs_local_model) {
+      if (in_local) local_force = weight * before.force(depth, outward_speed);
+    }
+    const tick_state<Space, decltype(observer_.damping)> state{observer_.damping,
+                                                               observer_.value(),
+                                                               in_flight(),
+                                                               dt,
+                                                               limits_.longest_tick,
+                                                               held,
+                                                               displacement,
+                                                               normal,
+                                                               target.stiffness,
+                                                               depth,
+                                                               target_depth,
+                                                               local_force,
+                                                               fresh()};
+    vector force = bound_.limit(desired, state);
+    if (!Space::is_finite(force)) {
+      force = Space::zero();
+      what = worse(what, event::rejected_sample);
+    }
+    const bool limited = !(force == desired);
+
+    // Put our own constraint where that force says it is.
+    if constexpr (Supply::moves) {
+      if (limited) {
+        felt = contact_.depth(Space::dot(force, normal), outward_speed);
+        supply_.approach(in_local, position, normal, felt);
+      } else if (in_target && !(normal == goal)) {
+        supply_.approach(in_local, position, normal, felt);
+      } else {
+        supply_.sync();
+      }
+      supply_.seen();
+    }
+    hold(force);
+    return {force, felt, observer_.value(), what, limited};
+  }
+
+  /// A finite sample, no farther from the last good one than the device can have gone since.
+  [[nodiscard]] constexpr bool trusted(const vector& position, const vector& travel,
+                                       const vector& held, scalar dt) const noexcept {
+    if (!(dt > scalar(0)) || !kernels::is_finite(dt)) return false;
+    if (!Space::is_finite(position) || !Space::is_finite(held)) return false;
+    const scalar farthest = limits_.top_speed * (blind_ + dt);
+    const scalar square = Space::dot(travel, travel);
+    return kernels::is_finite(square) && square <= farthest * farthest;
+  }
+
+  /// How far the contact counts at all: 1, less as a silent environment fades, 0 before
+  /// its first word.
+  [[nodiscard]] constexpr scalar presence(scalar dt, event& what) noexcept {
+    if constexpr (Supply::moves) {
+      if (supply_.refused()) what = worse(what, event::rejected_target);
+      if (!supply_.published()) {
+        what = worse(what, event::no_target);
+        return scalar(0);
+      }
+      if (!supply_.changed()) supply_.grow_older(dt);
+      if (supply_.stale()) what = worse(what, event::stale_target);
+      return supply_.weight();
+    } else {
+      return scalar(1);
+    }
+  }
+
+  [[nodiscard]] constexpr bool fresh() const noexcept {
+    if constexpr (Supply::moves) return supply_.changed();
+    return false;
+  }
+
+  /// ¼ Σ fᵀB⁻¹f over the commands that are still on their way to the motors (§ 3).
+  [[nodiscard]] constexpr scalar in_flight() const noexcept {
+    scalar promised(0);
+    for (std::size_t j = 0; j < latency; ++j) {
+      promised += observer_.damping.worst_outflow(held_[j], limits_.longest_tick);
+    }
+    return promised;
+  }
+
+  constexpr void hold(const vector& force) noexcept {
+    for (std::size_t j = latency; j > 0; --j) held_[j] = held_[j - 1];
+    held_[0] = force;
+  }
+
+  /// Force zero; the motion since the last good sample is unknown and written off.
+  constexpr tick_result<Space> refuse(event why, scalar dt) noexcept {
+    if (sound_) observer_.forfeit(held_.back(), limits_.longest_tick);
+    const scalar passed = dt > scalar(0) && kernels::is_finite(dt) ? dt : limits_.longest_tick;
+    blind_ += passed;
+    if constexpr (Supply::moves) supply_.grow_older(passed);
+    hold(Space::zero());
+    return {Space::zero(), scalar(0), observer_.value(), why, false};
+  }
+
+  Supply supply_;
+  [[no_unique_address]] Normals normals_;
+  Contact contact_;
+  [[no_unique_address]] Observer observer_;
+  [[no_unique_address]] Bound bound_;
+  loop_limits<Space> limits_;
+  std::array<typename Space::coordinates, latency + 1> held_{};  ///< newest first; the last is held
+  typename Space::coordinates position_{};                       ///< of the last good sample
+  scalar blind_{};       ///< time since then that bad samples took [s]
+  bool seen_ = false;    ///< has there been a good sample?
+  bool beside_ = false;  ///< behind the surface, but outside its edges
+  bool sound_ = true;    ///< are the parameters good?
+};
+
+}  // namespace passive_haptics::inline v0
