@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A simulated haptic device: position out, force in, one period per exchange, exact physics.
+//
+//   command ─▶ driver ─▶ held for T ─┐
+//              refuse, saturate,     ├─▶ m ẍ + b ẋ = f + load + F_hand, per axis ─▶ encoders ─▶
+//              sample delay       load, hand┘   friction, end stops, exactly              quantum
+//                                              └─▶ meter: E = ∫ b v² dt − Σ f·Δx, true positions
+//
+// The force is a zero-order hold over T and the hand one over T/substeps; between those instants
+// nothing is approximated, so energy books close to rounding. With no_hand the period is one step.
+
+#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/simulation/axis.hpp>
+#include <passive_haptics/simulation/driver.hpp>
+#include <passive_haptics/simulation/hand.hpp>
+#include <passive_haptics/simulation/meter.hpp>
+
+#include <concepts>
+
+namespace passive_haptics::inline v0::simulation {
+
+/// Models haptic_device_for<Space>. One whose check() names a fault answers with samples that are
+/// not valid, and does not move.
+///     device<scene, impedance_hand<scene>> falcon{{.mass = 0.15, .force_limit = 9.0}, {.limit
+///     = 5.0}}; sample = falcon.exchange(force);
+template <class Space, class Hand = no_hand<Space>>
+class device {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  using state = typename physical<Space>::vector;
+  using parameters_type = device_parameters<Space>;
+
+  static_assert(hand_for<Hand, Space>,
+                "passive_haptics: the hand does not model hand_for: see simulation/hand.hpp");
+
+  explicit device(const parameters_type& parameters = {}, const Hand& hand = {}) noexcept
+      : parameters_(parameters),
+        hand_(hand),
+        driver_(parameters),
+        position_(parameters.start),
+        velocity_(parameters.start_velocity),
+        moving_mass_(parameters.mass + hand.mass()),
+        meter_(kinetic()) {
+    const bool has_period = set_period(parameters.period);
+    sound_ = has_period && !check();
+  }
+
+  /// Holds the force that is due for one period and returns what the device then knows: the
+  /// position at its end, the force held during it, its length.
+  device_sample<Space> exchange(const vector& force) noexcept {
+    if (!sound_) return {};
+    const vector held = driver_.next(force);
+    const state actuator = to_physical<Space>(held);
+    const state load = parameters_.load;
+    const double now = time();
+    for (int i = 0; i < pieces(); ++i) {
+      const double t = now + i * step_.duration();
+      const state asked = hand_.force(t, position_, velocity_);
+      const state push = physical<Space>::is_finite(asked) ? asked : physical<Space>::zero();
+      meter_.book(move(actuator, push, load));
+    }
+    time_ += static_cast<double>(period_);
+    return {measured<Space>(position_, parameters_.quantum), held, period_, true};
+  }
+
+  /// The length of the coming periods [s], for jitter. False, and nothing changes, unless it is
+  /// finite and > 0.
+  bool set_period(double T) noexcept {
+    const scalar rounded = static_cast<scalar>(T);
+    if (!(rounded > scalar(0)) || !kernels::is_finite(rounded)) return false;
+    const double h = static_cast<double>(rounded) / pieces();
+    if (!(rounded == period_)) step_ = flow{parameters_.damping / moving_mass_, h};
+    period_ = rounded;
+    return true;
+  }
+
+  /// The first parameter that is out of its range, if any.
+  [[nodiscard]] parameter_fault<double> check() const noexcept {
+    if (const auto fault = parameters_.check()) return fault;
+    return hand_.check();
+  }
+
+  [[nodiscard]] const state& position() const noexcept { return position_; }  ///< true [m]
+  [[nodiscard]] const state& velocity() const noexcept { return velocity_; }  ///< true [m/s]
+  [[nodiscard]] double time() const noexcept { return time_; }                ///< virtual [s]
+  [[nodiscard]] Hand& hand() noexcept { return hand_; }
+  [[nodiscard]] const Hand& hand() const noexcept { return hand_; }
+  [[nodiscard]] const port_energy_meter& meter() const noexcept { return meter_; }
+  [[nodiscard]] const parameters_type& parameters() const noexcept { return parameters_; }
+  /// ½ (m + m_hand) ‖v‖² [J]; the hand's mass is the one it had at the start.
+  [[nodiscard]] double kinetic() const noexcept {
+    return moving_mass_ * physical<Space>::dot(velocity_, velocity_) / 2.0;
+  }
+  /// The energy the books cannot explain [J]: zero to rounding, or the simulation is wrong.
+  [[nodiscard]] double residual() const noexcept { return meter_.residual(kinetic()); }
+
+ private:
+  [[nodiscard]] int pieces() const noexcept {
+    if constexpr (std::same_as<Hand, no_hand<Space>>) return 1;
+    return parameters_.substeps > 1 ? parameters_.substeps : 1;
+  }
+
+  /// All axes through one hold of the hand's force.
+  energy_flows move(const state& actuator, const state& push, const state& load) noexcept {
+    energy_flows flows;
+    for (int i = 0; i < Space::dof; ++i) {
+      const axis along{moving_mass_, parameters_.damping, parameters_.friction,
+                       component(parameters_.lower, i), component(parameters_.upper, i)};
+      const double f = component(actuator, i);
+      const double pushed = component(push, i);
+      const double weight = component(load, i);
+      axis_state here{component(position_, i), component(velocity_, i)};
+      const axis_motion moved = along.advance(here, f + pushed + weight, step_);
+      component(position_, i) = here.position;
+      component(velocity_, i) = here.velocity;
+      flows.damping += moved.damping;
+      flows.friction += moved.friction;
+      flows.stops += moved.stops;
+      flows.actuator += f * moved.displacement;
+      flows.hand += pushed * moved.displacement;
+      flows.load += weight * moved.displacement;
+    }
+    return flows;
+  }
+
+  parameters_type parameters_;
+  Hand hand_;
+  driver<Space> driver_;
+  state position_, velocity_;
+  double moving_mass_;
+  port_energy_meter meter_;
+  flow step_;
+  scalar period_{};
+  compensated_sum<double> time_;
+  bool sound_ = false;  ///< are the parameters good?
+};
+
+static_assert(haptic_device_for<device<space<float, 1>>, space<float, 1>>);
+
+}  // namespace passive_haptics::inline v0::simulation

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What a simulated device is made of, and what lies between a command and its motors.
+//
+//   device_parameters   every number of the device, with its unit and default
+//   driver              refuses what is no number, saturates, delays: returns the force REALLY held
+
+#include <passive_haptics/event.hpp>
+#include <passive_haptics/simulation/components.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace passive_haptics::inline v0::simulation {
+
+/// The defaults are the ideal device of docs/design/mathematics.md § 5. Vectors are written
+/// {x, y, z}, and as a plain number for one degree of freedom.
+template <class Space>
+struct device_parameters {
+  using coordinates = typename physical<Space>::coordinates;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr int max_latency = 8;
+
+  double mass = 0.1;                                 ///< m [kg], the same along every axis
+  double damping = 0.03;                             ///< b [N·s/m]
+  double friction = 0.0;                             ///< f_c [N], Coulomb, per axis
+  double force_limit = infinity;                     ///< most ‖f‖ [N]; the direction is kept
+  double quantum = 0.0;                              ///< positions are floored to multiples [m]
+  coordinates lower = every_axis<Space>(-infinity);  ///< end stops [m], inelastic
+  coordinates upper = every_axis<Space>(infinity);   ///< end stops [m], inelastic
+  coordinates load{};                                ///< constant force, a weight [N]
+  double period = 1e-3;                              ///< T [s]
+  coordinates start{};                               ///< position [m]
+  coordinates start_velocity{};                      ///< [m/s]
+  int substeps = 20;                                 ///< times per period the hand is asked
+  int latency = 0;                                   ///< periods from a command to its holding
+
+  [[nodiscard]] parameter_fault<double> check() const noexcept {
+    const auto finite = [](double x) { return kernels::is_finite(x); };
+    if (!(mass > 0.0) || !finite(mass)) return {"mass", mass, "finite and > 0 kg"};
+    if (!(damping >= 0.0) || !finite(damping)) return {"damping", damping, "finite and ≥ 0 N·s/m"};
+    if (!(friction >= 0.0) || !finite(friction)) return {"friction", friction, "finite and ≥ 0 N"};
+    if (!(force_limit >= 0.0)) return {"force_limit", force_limit, "≥ 0 N"};
+    if (!(quantum >= 0.0) || !finite(quantum)) return {"quantum", quantum, "finite and ≥ 0 m"};
+    for (int i = 0; i < Space::dof; ++i) {
+      const double x = component(start, i);
+      const double low = component(lower, i);
+      if (!(low < component(upper, i))) return {"lower", low, "< upper on every axis"};
+      if (!finite(x) || x < low || x > component(upper, i)) {
+        return {"start", x, "finite and between the end stops"};
+      }
+      const double v = component(start_velocity, i);
+      if (!finite(v)) return {"start_velocity", v, "finite"};
+      if (!finite(component(load, i))) return {"load", component(load, i), "finite"};
+    }
+    if (!(period > 0.0) || !finite(period)) return {"period", period, "finite and > 0 s"};
+    if (substeps < 1 || substeps > 10000) return {"substeps", double(substeps), "1 to 10000"};
+    if (latency < 0 || latency > max_latency) return {"latency", double(latency), "0 to 8 periods"};
+    return {};
+  }
+};
+
+/// The force commanded in period n is held during period n + latency; until then, zero. A command
+/// that is not finite is held as zero, as a real driver would.
+template <class Space>
+class driver {
+ public:
+  using vector = typename Space::vector;
+  using parameters = device_parameters<Space>;
+
+  explicit driver(const parameters& p) noexcept : limit_(p.force_limit), latency_(p.latency) {
+    queue_.fill(Space::zero());
+  }
+
+  /// Takes the command of this period and returns the force held during it, both [N].
+  [[nodiscard]] vector next(const vector& command) noexcept {
+    const std::size_t last = static_cast<std::size_t>(latency_);
+    for (std::size_t j = last; j > 0; --j) queue_[j] = queue_[j - 1];
+    queue_[0] = Space::is_finite(command) ? saturated(command) : Space::zero();
+    return queue_[last];
+  }
+
+ private:
+  [[nodiscard]] vector saturated(const vector& command) const noexcept {
+    return to_port<Space>(clamp_norm<Space>(to_physical<Space>(command), limit_));
+  }
+
+  double limit_;
+  int latency_;
+  std::array<typename Space::coordinates, parameters::max_latency + 1> queue_{};
+};
+
+/// What the encoders show [m]: the true position floored to a multiple of `quantum`, in the Space's
+/// own scalar.
+template <class Space>
+[[nodiscard]] typename Space::vector measured(const typename physical<Space>::vector& position,
+                                              double quantum) noexcept {
+  if (!(quantum > 0.0)) return to_port<Space>(position);
+  typename physical<Space>::vector seen = position;
+  for (int i = 0; i < Space::dof; ++i) {
+    component(seen, i) = std::floor(component(position, i) / quantum) * quantum;
+  }
+  return to_port<Space>(seen);
+}
+
+}  // namespace passive_haptics::inline v0::simulation

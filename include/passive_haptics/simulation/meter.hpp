@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The exact energy at the device port, from the true motion: what an energy observer is judged by.
+//
+//     E(t) = ∫ b v² dt − Σ f_held·Δx                [J]   > 0: the hand has paid in
+//
+// A controller is passive at the port when minimum() ≥ 0 (less the energy it was lent). The other
+// flows are booked too, so that the simulation can be proved: every joule must be somewhere.
+//
+//     residual = Δ(½ m v²) + damping + friction + stops − actuator − hand − load = 0
+
+#include <passive_haptics/observers.hpp>
+
+namespace passive_haptics::inline v0::simulation {
+
+/// Energy [J] of one interval: three sinks, each ≥ 0, and the work of three sources on the device.
+struct energy_flows {
+  double damping = 0.0;   ///< ∫ b v² dt
+  double friction = 0.0;  ///< ∫ f_c |v| dt
+  double stops = 0.0;     ///< lost in inelastic impacts
+  double actuator = 0.0;  ///< f_held·Δx
+  double hand = 0.0;      ///< F_hand·Δx
+  double load = 0.0;      ///< F_load·Δx
+};
+
+/// Compensated sums: 10⁷ ticks later, 10⁻¹² J still counts.
+class port_energy_meter {
+ public:
+  port_energy_meter() noexcept = default;
+  /// Starts with a device that already moves: ½ m v² [J].
+  explicit port_energy_meter(double kinetic) noexcept : kinetic_at_start_(kinetic) {}
+
+  void book(const energy_flows& flows) noexcept {
+    port_ += flows.damping;
+    port_ += -flows.actuator;
+    if (!(value() >= minimum_)) minimum_ = value();  // so written, NaN is a minimum and stays one
+    damping_ += flows.damping;
+    friction_ += flows.friction;
+    stops_ += flows.stops;
+    actuator_ += flows.actuator;
+    hand_ += flows.hand;
+    load_ += flows.load;
+  }
+
+  [[nodiscard]] double value() const noexcept { return port_; }       ///< E [J]
+  [[nodiscard]] double minimum() const noexcept { return minimum_; }  ///< least E so far [J], ≤ 0
+  [[nodiscard]] double hand_work() const noexcept { return hand_; }   ///< ∫ F_hand dx [J]
+  [[nodiscard]] energy_flows total() const noexcept {
+    return {damping_, friction_, stops_, actuator_, hand_, load_};
+  }
+
+  /// The energy [J] that is missing from the books, given ½ m v² now. Zero to rounding.
+  [[nodiscard]] double residual(double kinetic) const noexcept {
+    compensated_sum<double> sum = kinetic;
+    for (const double part : {-kinetic_at_start_, double(damping_), double(friction_),
+                              double(stops_), -double(actuator_), -double(hand_), -double(load_)}) {
+      sum += part;
+    }
+    return sum;
+  }
+
+ private:
+  compensated_sum<double> port_, damping_, friction_, stops_, actuator_, hand_, load_;
+  double minimum_ = 0.0;
+  double kinetic_at_start_ = 0.0;
+};
+
+}  // namespace passive_haptics::inline v0::simulation

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// When a slow environment answers, in virtual time, and where all randomness comes from. The same
+// seed gives the same numbers on every platform, which the distributions of <random> do not.
+//
+//   random_source     uniform numbers and directions
+//   update_schedule   due(time): every 20-50 ms, at random (20-50 Hz), or at a fixed period
+//   one_update_late   answers with what it was given one update ago: a pipelined environment
+
+#include <passive_haptics/event.hpp>
+#include <passive_haptics/simulation/components.hpp>
+
+#include <cstdint>
+#include <utility>
+
+namespace passive_haptics::inline v0::simulation {
+
+/// splitmix64 (Steele, Lea and Flood, 2014) and 53 of its bits as a double. Needs no heap and eight
+/// bytes; not for cryptography.
+class random_source {
+ public:
+  constexpr explicit random_source(std::uint64_t seed = 1) noexcept : state_(seed) {}
+
+  [[nodiscard]] constexpr std::uint64_t bits() noexcept {
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
+    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31U);
+  }
+  /// In [0, 1), in steps of 2⁻⁵³.
+  [[nodiscard]] constexpr double uniform() noexcept {
+    return static_cast<double>(bits() >> 11U) * 0x1p-53;
+  }
+  [[nodiscard]] constexpr double uniform(double low, double high) noexcept {
+    return low + (high - low) * uniform();
+  }
+  /// True with that probability.
+  [[nodiscard]] constexpr bool chance(double probability) noexcept {
+    return uniform() < probability;
+  }
+  /// A unit vector of any direction: a sign, a point of the circle or of the sphere, by rejection
+  /// from the cube (on average 1.9 tries on the sphere; the square root is all it asks of libm).
+  template <class Space>
+  [[nodiscard]] constexpr typename physical<Space>::vector direction() noexcept {
+    static_assert(Space::dof <= 3, "random_source::direction: rejection is for 1 to 3 axes");
+    auto v = physical<Space>::zero();
+    double square = 0.0;
+    while (!(square > 1e-6 && square <= 1.0)) {
+      for (int i = 0; i < Space::dof; ++i) component(v, i) = uniform(-1.0, 1.0);
+      square = physical<Space>::dot(v, v);
+    }
+    return v / physical<Space>::norm(v);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// The first update is due at once, the next ones after periods drawn uniformly from
+/// [shortest, longest). Periods count from due instant to due instant, so the way the caller polls
+/// does not stretch them. Equal bounds: a fixed period.
+class update_schedule {
+ public:
+  constexpr explicit update_schedule(std::uint64_t seed = 1, double shortest = 0.020,
+                                     double longest = 0.050) noexcept
+      : shortest_(shortest), longest_(longest), random_(seed) {}
+
+  /// Is an update due at this virtual time [s]? True once per update; late polls do not pile up.
+  [[nodiscard]] constexpr bool due(double time) noexcept {
+    if (!(time >= next_)) return false;
+    next_ += random_.uniform(shortest_, longest_);
+    if (next_ <= time) next_ = time + random_.uniform(shortest_, longest_);
+    return true;
+  }
+  [[nodiscard]] constexpr double next() const noexcept { return next_; }  ///< due then [s]
+
+  [[nodiscard]] constexpr parameter_fault<double> check() const noexcept {
+    if (!(shortest_ > 0.0)) return {"shortest", shortest_, "> 0 s"};
+    if (!(longest_ >= shortest_ && kernels::is_finite(longest_))) {
+      return {"longest", longest_, "finite and ≥ shortest"};
+    }
+    return {};
+  }
+
+ private:
+  double shortest_, longest_;
+  double next_ = 0.0;
+  random_source random_;
+};
+
+/// Returns the value of the update before: the environment computed with what it saw then.
+template <class T>
+class one_update_late {
+ public:
+  constexpr explicit one_update_late(const T& first = {}) : last_(first) {}
+  [[nodiscard]] constexpr T operator()(const T& now) { return std::exchange(last_, now); }
+
+ private:
+  T last_;
+};
+
+}  // namespace passive_haptics::inline v0::simulation
