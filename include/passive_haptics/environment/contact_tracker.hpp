@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Which triangle is touched, from update to update.
+//
+// The closest triangle flips from one to its neighbour and back when the point trembles over their
+// common edge, and with it the normal of the force. The tracker holds on to the present triangle
+// until another is closer by more than a margin (A26).
+
+#include <passive_haptics/environment/surface.hpp>
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace passive_haptics::inline v0::environment {
+
+class contact_tracker {
+ public:
+  /// `margin` ≥ 0 [m]: more than the noise of the position, much less than an edge of the surface.
+  explicit contact_tracker(double margin) : margin_(margin) {
+    if (!(margin >= 0.0) || !std::isfinite(margin)) {
+      throw std::invalid_argument(
+          sentence("contact_tracker: margin ", margin, " m is refused; give a finite one, ≥ 0"));
+    }
+  }
+
+  /// The contact for x. It stays on the present triangle unless that is degenerate, or on the wrong
+  /// side (the sign of depth always tells inside from outside), or another triangle is closer by
+  /// more than the margin. None, and nothing changes, where closest_point has none.
+  [[nodiscard]] std::optional<surface_point> find(surface_view surface, nodes_view nodes,
+                                                  const Eigen::Vector3d& x) {
+    const auto closest = closest_point(surface, nodes, x);
+    if (!closest) return std::nullopt;
+    if (triangle_ >= 0 && triangle_ < static_cast<int>(surface.size())) {
+      const auto held = point_on(surface, nodes, triangle_, x);
+      const bool near = held && held->distance <= closest->distance + margin_;
+      if (near && (held->depth > 0.0) == (closest->depth > 0.0)) return held;
+    }
+    triangle_ = closest->triangle;
+    return closest;
+  }
+
+  /// The present triangle, −1 before the first contact.
+  [[nodiscard]] int triangle() const noexcept { return triangle_; }
+  [[nodiscard]] double margin() const noexcept { return margin_; }
+
+  /// Forgets the present triangle: after a jump of the device, or another surface.
+  void reset() noexcept { triangle_ = -1; }
+
+ private:
+  double margin_;
+  int triangle_ = -1;
+};
+
+}  // namespace passive_haptics::inline v0::environment

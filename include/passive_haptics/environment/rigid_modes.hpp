@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// How many rigid motions the fixed nodes leave to a mesh: what makes a stiffness matrix singular.
+//
+//   fixed nodes of one connected part     none   1   2 or any on a line   3 not on a line
+//   rigid motions left                     6     3           1                   0
+//
+// Parts that share no node move on their own: each needs its three (A24).
+
+#include <passive_haptics/environment/mesh.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace passive_haptics::inline v0::environment {
+
+/// The parts of a mesh that share no node.
+struct connected_parts {
+  std::vector<int> of_node;  ///< part of each node, counted from 0 in the order of the nodes
+  int count = 0;
+};
+
+[[nodiscard]] inline connected_parts find_parts(const tetrahedral_mesh& mesh) {
+  std::vector<int> parent(mesh.nodes.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto up = [&](int node) -> int& { return parent[static_cast<std::size_t>(node)]; };
+  const auto root = [&](int node) {
+    while (up(node) != node) node = up(node) = up(up(node));
+    return node;
+  };
+  for (const auto& tetrahedron : mesh.tetrahedra) {
+    for (const int node : tetrahedron) up(root(node)) = root(tetrahedron[0]);
+  }
+  connected_parts parts{std::vector<int>(mesh.nodes.size(), -1), 0};
+  for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node) {
+    int& part = parts.of_node[static_cast<std::size_t>(root(node))];
+    if (part < 0) part = parts.count++;
+    parts.of_node[static_cast<std::size_t>(node)] = part;
+  }
+  return parts;
+}
+
+/// 6 − rank R, where R stacks [I, −[x]×] over the points x held in place: the rigid motions that
+/// leave them all where they are. Points closer to a line than 1e-6 of their extent count as on it.
+[[nodiscard]] inline int rigid_modes_left(std::span<const Eigen::Vector3d> held) {
+  if (held.empty()) return 6;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const auto& x : held) centre += x / static_cast<double>(held.size());
+  double extent = 0.0;
+  for (const auto& x : held) extent = std::max(extent, (x - centre).norm());
+  if (!(extent > 0.0)) extent = 1.0;
+
+  Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();  // RᵀR
+  for (const auto& x : held) {
+    const Eigen::Vector3d r = (x - centre) / extent;
+    Eigen::Matrix<double, 3, 6> row;
+    row << 1, 0, 0, 0, r.z(), -r.y(),  //
+        0, 1, 0, -r.z(), 0, r.x(),     //
+        0, 0, 1, r.y(), -r.x(), 0;
+    gram += row.transpose() * row;
+  }
+  using solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>;
+  const Eigen::Matrix<double, 6, 1> squares = solver(gram, Eigen::EigenvaluesOnly).eigenvalues();
+  return static_cast<int>((squares.array() <= 1e-12 * squares.maxCoeff()).count());
+}
+
+/// The same for a mesh with fixed nodes, summed over its connected parts.
+[[nodiscard]] inline int rigid_modes_left(const tetrahedral_mesh& mesh,
+                                          std::span<const int> fixed_nodes) {
+  const connected_parts parts = find_parts(mesh);
+  std::vector<std::vector<Eigen::Vector3d>> held(static_cast<std::size_t>(parts.count));
+  for (const int node : fixed_nodes) {
+    const auto part = parts.of_node.at(static_cast<std::size_t>(node));
+    held[static_cast<std::size_t>(part)].push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+  }
+  return std::accumulate(held.begin(), held.end(), 0, [](int sum, const auto& points) {
+    return sum + rigid_modes_left(std::span<const Eigen::Vector3d>(points));
+  });
+}
+
+}  // namespace passive_haptics::inline v0::environment

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The surface of a tetrahedral mesh, and where a point is with respect to it.
+//
+//   boundary        the faces owned by one element, outward
+//   point_on        the point of ONE triangle closest to p
+//   closest_point   the point of the whole surface closest to p, with the right side told
+//   match_normal    the thesis's choice (appendix A.1), for comparison
+//
+// Topology (surface) and positions (nodes) are apart: the body deforms, its triangles stay the
+// same. All searches look at every triangle; some hundred triangles take some microseconds.
+
+#include <passive_haptics/environment/mesh.hpp>
+#include <passive_haptics/environment/triangle.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace passive_haptics::inline v0::environment {
+
+/// Three nodes of the mesh, counter-clockwise seen from outside.
+struct surface_triangle {
+  std::array<int, 3> nodes;
+};
+
+using surface_view = std::span<const surface_triangle>;
+using nodes_view = std::span<const Eigen::Vector3d>;  ///< positions [m]
+
+/// Corners of a surface triangle.
+[[nodiscard]] inline triangle corners(const surface_triangle& t, nodes_view nodes) {
+  return {nodes[static_cast<std::size_t>(t.nodes[0])], nodes[static_cast<std::size_t>(t.nodes[1])],
+          nodes[static_cast<std::size_t>(t.nodes[2])]};
+}
+
+/// The faces owned by exactly one element, outward, in the order of the elements. The mesh must
+/// pass check(). mesh_error for a face with more than two owners, or two on the same side of it.
+[[nodiscard]] inline std::vector<surface_triangle> boundary(const tetrahedral_mesh& mesh) {
+  // Outward faces of the upright element 0123.
+  constexpr std::array<std::array<std::size_t, 3>, 4> faces{
+      {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  struct face {
+    std::array<int, 3> key;    // sorted
+    std::array<int, 3> nodes;  // outward, smallest first: two owners see opposite cycles
+    std::size_t number;        // 4 · element + face
+  };
+  std::vector<face> all;
+  all.reserve(4 * mesh.tetrahedra.size());
+  for (std::size_t e = 0; e < mesh.tetrahedra.size(); ++e) {
+    for (const auto& corner : faces) {
+      const auto& element = mesh.tetrahedra[e];
+      face f{{element[corner[0]], element[corner[1]], element[corner[2]]}, {}, all.size()};
+      f.nodes = f.key;
+      std::rotate(f.nodes.begin(), std::min_element(f.nodes.begin(), f.nodes.end()), f.nodes.end());
+      std::sort(f.key.begin(), f.key.end());
+      all.push_back(f);
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const face& a, const face& b) {
+    return std::pair(a.key, a.number) < std::pair(b.key, b.number);
+  });
+
+  std::vector<face> single;
+  for (auto first = all.begin(); first != all.end();) {
+    const auto last =
+        std::find_if(first, all.end(), [&](const face& f) { return f.key != first->key; });
+    const auto owners = last - first;
+    if (owners > 2 || (owners == 2 && first->nodes == std::next(first)->nodes)) {
+      throw mesh_error("surface",
+                       sentence("elements ", first->number / 4, " and ",
+                                std::prev(last)->number / 4, " overlap at the face ", first->key[0],
+                                " ", first->key[1], " ", first->key[2], " (", owners, " owners)"),
+                       "a face has one element on each side: mesh the volume again");
+    }
+    if (owners == 1) single.push_back(*first);
+    first = last;
+  }
+  std::sort(single.begin(), single.end(),
+            [](const face& a, const face& b) { return a.number < b.number; });
+  std::vector<surface_triangle> result;
+  result.reserve(single.size());
+  for (const face& f : single) result.push_back({f.nodes});
+  return result;
+}
+
+/// A point of the surface next to another point x.
+struct surface_point {
+  int triangle = -1;
+  Eigen::Vector3d point{0.0, 0.0, 0.0};    ///< p, on the triangle [m]
+  Eigen::Vector3d weights{0.0, 0.0, 0.0};  ///< barycentric, of p
+  Eigen::Vector3d normal{0.0, 0.0, 1.0};   ///< n of the triangle, unit, outward
+  double distance = 0.0;                   ///< |p − x| [m]
+  double depth = 0.0;                      ///< d = (p − x)·n [m], positive behind the triangle
+};
+
+/// The point of triangle `number` closest to x; none if the triangle is degenerate (A17) or x is
+/// not finite.
+[[nodiscard]] inline std::optional<surface_point> point_on(surface_view surface, nodes_view nodes,
+                                                           int number, const Eigen::Vector3d& x) {
+  const triangle t = corners(surface[static_cast<std::size_t>(number)], nodes);
+  if (is_degenerate(t) || !x.allFinite()) return std::nullopt;
+  surface_point result;
+  result.triangle = number;
+  result.weights = closest_weights(t, x);
+  result.point = point_at(t, result.weights);
+  result.normal = unit_normal(t);
+  result.distance = (result.point - x).norm();
+  result.depth = (result.point - x).dot(result.normal);
+  return result;
+}
+
+/// True if triangle t touches the feature that the point lies on: every corner of positive weight.
+[[nodiscard]] inline bool touches(const surface_triangle& t, const surface_triangle& owner,
+                                  const Eigen::Vector3d& weights) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (weights[static_cast<Eigen::Index>(k)] > 0.0 &&
+        std::find(t.nodes.begin(), t.nodes.end(), owner.nodes[k]) == t.nodes.end()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Σ αₜ nₜ over the triangles that touch the point, αₜ the angle each takes there: 2π inside a
+/// face, π on an edge, the corner's angle at a node. Its side is the side of the surface, also
+/// where the normal of one triangle is not: Bærentzen and Aanæs, "Signed distance computation using
+/// the angle weighted pseudonormal", IEEE TVCG 11(3), 2005.
+[[nodiscard]] inline Eigen::Vector3d pseudo_normal(surface_view surface, nodes_view nodes,
+                                                   const surface_point& on) {
+  const surface_triangle& owner = surface[static_cast<std::size_t>(on.triangle)];
+  Eigen::Index heaviest = 0;
+  on.weights.maxCoeff(&heaviest);
+  const bool at_node = (on.weights.array() > 0.0).count() == 1;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const surface_triangle& t : surface) {
+    const triangle shape = corners(t, nodes);
+    if (!touches(t, owner, on.weights) || is_degenerate(shape)) continue;
+    double angle = 1.0;  // the same for both sides of an edge
+    if (at_node) {
+      const int node = owner.nodes[static_cast<std::size_t>(heaviest)];
+      const auto k = static_cast<std::size_t>(std::find(t.nodes.begin(), t.nodes.end(), node) -
+                                              t.nodes.begin());
+      const Eigen::Vector3d a = shape[(k + 1) % 3] - shape[k];
+      const Eigen::Vector3d b = shape[(k + 2) % 3] - shape[k];
+      angle = std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+    sum += angle * unit_normal(shape);
+  }
+  return sum;
+}
+
+/// The point of the surface closest to x. On an edge or a node it belongs to several triangles:
+/// named is the one that faces x most squarely, so that depth > 0 inside the body and < 0 outside,
+/// at edges and nodes too. None if x is not finite or every triangle degenerate.
+[[nodiscard]] inline std::optional<surface_point> closest_point(surface_view surface,
+                                                                nodes_view nodes,
+                                                                const Eigen::Vector3d& x) {
+  std::optional<surface_point> best;
+  const auto count = static_cast<int>(surface.size());
+  for (int i = 0; i < count; ++i) {
+    const auto candidate = point_on(surface, nodes, i, x);
+    if (candidate && (!best || candidate->distance < best->distance)) best = candidate;
+  }
+  if (!best || best->weights.minCoeff() > 0.0) return best;
+  const double side =
+      (best->point - x).dot(pseudo_normal(surface, nodes, *best)) < 0.0 ? -1.0 : 1.0;
+  const surface_point found = *best;
+  for (int i = 0; i < count; ++i) {
+    if (!touches(surface[static_cast<std::size_t>(i)],
+                 surface[static_cast<std::size_t>(found.triangle)], found.weights)) {
+      continue;
+    }
+    const auto twin = point_on(surface, nodes, i, x);
+    if (twin && side * twin->depth > side * best->depth) best = twin;
+  }
+  return best;
+}
+
+/// True if x is inside the body.
+[[nodiscard]] inline bool is_inside(surface_view surface, nodes_view nodes,
+                                    const Eigen::Vector3d& x) {
+  const auto closest = closest_point(surface, nodes, x);
+  return closest && closest->depth > 0.0;
+}
+
+/// The triangle whose normal is nearest to the direction from `centre` to x (thesis A.1): right for
+/// a sphere at rest, wrong for other shapes and for deformed ones (A26). depth is the one of its
+/// plane.
+[[nodiscard]] inline std::optional<surface_point> match_normal(surface_view surface,
+                                                               nodes_view nodes,
+                                                               const Eigen::Vector3d& centre,
+                                                               const Eigen::Vector3d& x) {
+  int best = -1;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < static_cast<int>(surface.size()); ++i) {
+    const triangle t = corners(surface[static_cast<std::size_t>(i)], nodes);
+    if (is_degenerate(t)) continue;
+    const double match = unit_normal(t).dot(x - centre);
+    if (match > largest) {
+      largest = match;
+      best = i;
+    }
+  }
+  if (best < 0) return std::nullopt;
+  return point_on(surface, nodes, best, x);
+}
+
+}  // namespace passive_haptics::inline v0::environment

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The stiffness matrix of an elastic body made of linear tetrahedra.
+//
+//   K_ab = V (λ g_a g_bᵀ + μ g_b g_aᵀ + μ (g_a·g_b) I)      3×3 block of nodes a, b of one element
+//   λ = Eν/((1 + ν)(1 − 2ν)),  μ = E/(2(1 + ν))             Lamé's constants [Pa]
+//
+// g_a [1/m] is the gradient of the shape function of node a, V [m³] the volume. Small strains,
+// constant in each element; ν → 0.5 locks. Zienkiewicz and Taylor, The Finite Element Method,
+// vol. 1.
+
+#include <passive_haptics/environment/mesh.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/SparseCore>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+namespace passive_haptics::inline v0::environment {
+
+/// A homogeneous isotropic material.
+struct material {
+  double young;    ///< E [Pa], > 0
+  double poisson;  ///< ν, −1 < ν < 0.5
+
+  [[nodiscard]] double lame() const noexcept {
+    return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+  }
+  [[nodiscard]] double shear() const noexcept { return young / (2.0 * (1.0 + poisson)); }
+};
+
+/// Throws std::invalid_argument for a material that stores no energy when it is strained.
+inline void check(const material& m) {
+  if (!(m.young > 0.0) || !std::isfinite(m.young)) {
+    throw std::invalid_argument(sentence("material: Young's modulus ", m.young,
+                                         " Pa is refused; give a finite one above zero"));
+  }
+  if (!(m.poisson > -1.0 && m.poisson < 0.5)) {
+    throw std::invalid_argument(sentence("material: Poisson's ratio ", m.poisson,
+                                         " is refused; it lies between -1 and 0.5, both excluded"));
+  }
+}
+
+/// Gradients of the four shape functions [1/m]: the face opposite to a, inward, over 3V.
+[[nodiscard]] inline std::array<Eigen::Vector3d, 4> shape_gradients(
+    const tetrahedral_mesh& mesh, const std::array<int, 4>& tetrahedron) {
+  const auto& origin = mesh.nodes[static_cast<std::size_t>(tetrahedron[0])];
+  const auto edge = [&](std::size_t k) -> Eigen::Vector3d {
+    return mesh.nodes[static_cast<std::size_t>(tetrahedron[k])] - origin;
+  };
+  const double volume6 = 6.0 * signed_volume(mesh, tetrahedron);
+  std::array<Eigen::Vector3d, 4> g;
+  g[1] = edge(2).cross(edge(3)) / volume6;
+  g[2] = edge(3).cross(edge(1)) / volume6;
+  g[3] = edge(1).cross(edge(2)) / volume6;
+  g[0] = -(g[1] + g[2] + g[3]);
+  return g;
+}
+
+/// Rows of the reduced system: 3·result[node] is the first of the three rows of a free node; −1 for
+/// a fixed one. std::invalid_argument for a fixed node that does not exist.
+[[nodiscard]] inline std::vector<int> free_numbers(const tetrahedral_mesh& mesh,
+                                                   std::span<const int> fixed_nodes) {
+  std::vector<int> number(mesh.nodes.size(), 0);
+  for (const int node : fixed_nodes) {
+    if (node < 0 || node >= static_cast<int>(number.size())) {
+      throw std::invalid_argument(sentence(
+          "fixed node ", node, " is refused; the mesh has nodes 0 to ", number.size() - 1));
+    }
+    number[static_cast<std::size_t>(node)] = -1;
+  }
+  int next = 0;
+  for (int& n : number) {
+    if (n == 0) n = next++;
+  }
+  return number;
+}
+
+/// K [N/m] of the free nodes, three rows per node, symmetric; rows and columns of the fixed nodes
+/// are struck out (thesis A.5). Without fixed nodes: the whole singular matrix. The mesh must pass
+/// check().
+[[nodiscard]] inline Eigen::SparseMatrix<double> stiffness_matrix(
+    const tetrahedral_mesh& mesh, const material& m, std::span<const int> fixed_nodes = {}) {
+  check(m);
+  const std::vector<int> number = free_numbers(mesh, fixed_nodes);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(144 * mesh.tetrahedra.size());
+  for (const auto& tetrahedron : mesh.tetrahedra) {
+    const auto g = shape_gradients(mesh, tetrahedron);
+    const double volume = signed_volume(mesh, tetrahedron);
+    for (std::size_t a = 0; a < 4; ++a) {
+      for (std::size_t b = 0; b < 4; ++b) {
+        const int row = number[static_cast<std::size_t>(tetrahedron[a])];
+        const int column = number[static_cast<std::size_t>(tetrahedron[b])];
+        if (row < 0 || column < 0) continue;
+        const Eigen::Matrix3d block =
+            volume * (m.lame() * g[a] * g[b].transpose() + m.shear() * g[b] * g[a].transpose() +
+                      m.shear() * g[a].dot(g[b]) * Eigen::Matrix3d::Identity());
+        for (int i = 0; i < 3; ++i) {
+          for (int j = 0; j < 3; ++j)
+            entries.emplace_back(3 * row + i, 3 * column + j, block(i, j));
+        }
+      }
+    }
+  }
+  Eigen::Index free_rows = 0;
+  for (const int n : number) free_rows += n < 0 ? 0 : 3;
+  Eigen::SparseMatrix<double> result(free_rows, free_rows);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+}  // namespace passive_haptics::inline v0::environment
