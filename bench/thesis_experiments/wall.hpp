@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The wall of thesis section 3.2: a device is dropped from −61 mm onto a stiff spring and left
+// alone.
+//
+//   S0   ideal device, static wall            S1   the wall gives way: surface = F/K, updates at
+//   S2   9 N saturation, 0.2 N dry friction        20-50 Hz, one haptic tick late
+//
+// docs/design/mathematics.md § 5 has the definitions: peak to peak after 2 s; settled within 0.5 mm
+// of the final mean, the last 2 s calmer than 1 mm; minimum of the TRUE port energy.
+
+#include "report.hpp"
+#include <passive_haptics/environment/spring_wall.hpp>
+#include <passive_haptics/passive_haptics.hpp>
+#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/schedule.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <optional>
+
+namespace experiments {
+
+namespace ph = passive_haptics;
+namespace sim = passive_haptics::simulation;
+
+using line = ph::space<double, 1>;
+
+struct wall_scene {
+  std::string name;
+  double mass = 0.1;       ///< [kg]
+  double stiffness = 1e4;  ///< of the wall [N/m]
+  bool yields = false;     ///< S1
+  bool lags = false;       ///< the environment answers one update late
+  double force_limit = sim::device_parameters<line>::infinity;
+  double friction = 0.0;  ///< [N]
+};
+
+struct wall_result {
+  double peak_to_peak = 0;       ///< after 2 s [m]
+  double settle = std::nan("");  ///< [s]; none: never
+  double last_swing = 0;         ///< peak to peak of the last 2 s [m]
+  double rest = 0;               ///< mean position of the last 2 s [m]
+  double port_energy = 0;        ///< least [J]
+  double force_error = 0;        ///< mean |f − K d| in contact [N]
+};
+
+inline wall_result judge(const std::vector<double>& x, double period) {
+  const auto swing = [&x](std::size_t from) {
+    const auto [low, high] = std::minmax_element(x.begin() + static_cast<long>(from), x.end());
+    return *high - *low;
+  };
+  const std::size_t two_seconds = static_cast<std::size_t>(2.0 / period + 0.5);
+  wall_result result;
+  result.peak_to_peak = swing(two_seconds);
+  const std::size_t tail = x.size() - two_seconds;
+  result.last_swing = swing(tail);
+  result.rest = std::accumulate(x.begin() + static_cast<long>(tail), x.end(), 0.0) /
+                static_cast<double>(two_seconds);
+  if (result.last_swing < 1e-3) {
+    std::size_t first = x.size();
+    while (first > 0 && std::abs(x[first - 1] - result.rest) < 0.5e-3) --first;
+    result.settle = static_cast<double>(first) * period;
+  }
+  return result;
+}
+
+/// Drops the device onto the wall for 10 s of virtual time.
+template <class Model>
+wall_result drop(Model model, const wall_scene& scene, std::uint64_t seed,
+                 csv_file* csv = nullptr) {
+  const ph::environment::spring_wall springs({2 * scene.stiffness, 2 * scene.stiffness});
+  sim::device<line> device({.mass = scene.mass,
+                            .damping = 0.03,
+                            .friction = scene.friction,
+                            .force_limit = scene.force_limit,
+                            .lower = -0.061,
+                            .load = 9.81 * scene.mass,
+                            .start = -0.061});
+  sim::update_schedule schedule(seed);
+  sim::one_update_late<double> late(0.0);
+  double surface = 0.0;
+  std::vector<double> positions;
+  double error = 0.0;
+  int in_contact = 0;
+  ph::device_sample<line> sample = device.exchange(0.0);
+  for (int n = 0; n < 10000; ++n) {
+    if (schedule.due(device.time()) && (scene.yields || n == 0)) {
+      const double now = scene.yields ? springs.surface(std::abs(sample.held)) : 0.0;
+      surface = scene.lags ? late(now) : now;
+      model.retarget({surface, -1.0, scene.stiffness});
+    }
+    const auto out = model.tick(sample);
+    const double x = device.position();
+    sample = device.exchange(out.force);
+    if (x > surface) {
+      error += std::abs(-sample.held - scene.stiffness * (x - surface));
+      ++in_contact;
+    }
+    if (csv != nullptr) {
+      csv->row(device.time(), x, model.local().point, surface, -sample.held, out.energy,
+               device.meter().value());
+    }
+    positions.push_back(device.position());
+  }
+  wall_result result = judge(positions, 1e-3);
+  result.port_energy = device.meter().minimum();
+  result.force_error = in_contact > 0 ? error / in_contact : 0.0;
+  return result;
+}
+
+struct wall_controller {
+  std::string name;
+  std::function<wall_result(const wall_scene&, std::uint64_t seed, csv_file*)> run;
+};
+
+/// A local model over a half-space that follows the wall.
+template <class Contact, class Observer, class Bound>
+auto wall_model(const Contact& contact, const Observer& observer, const Bound& bound) {
+  return ph::local_model{
+      line{}, ph::following<ph::half_space<line>>{}, ph::snap<line>{}, contact, observer, bound};
+}
+
+/// Passive and settled (docs/design/mathematics.md § 9): the composition of the sweep.
+inline auto settling_model(double mass) {
+  return wall_model(ph::damped_spring<line>{.mass = mass},
+                    ph::reduced_energy<line>{.damping = 0.03},
+                    ph::reachable_bound<line>{.mass = mass, .hand_force = 5.0});
+}
+
+inline std::vector<wall_controller> wall_controllers() {
+  const auto with = [](std::string name, auto make) {
+    return wall_controller{std::move(name),
+                           [make](const wall_scene& scene, std::uint64_t seed, csv_file* csv) {
+                             return drop(make(scene), scene, seed, csv);
+                           }};
+  };
+  const ph::spring<line> spring;
+  const ph::reduced_energy<line> ledger{.damping = 0.03};
+  return {
+      with("none",
+           [=](const wall_scene&) {
+             return wall_model(spring, ph::no_observer<line>{}, ph::no_bound<line>{});
+           }),
+      with("strict",
+           [=](const wall_scene&) { return wall_model(spring, ledger, ph::strict_bound<line>{}); }),
+      with("thesis",
+           [=](const wall_scene&) { return wall_model(spring, ledger, ph::thesis_bound<line>{}); }),
+      with("reachable",
+           [=](const wall_scene& scene) {
+             return wall_model(spring, ledger,
+                               ph::reachable_bound<line>{.mass = scene.mass, .hand_force = 5.0});
+           }),
+      with("damped spring + reachable",
+           [](const wall_scene& scene) { return settling_model(scene.mass); }),
+  };
+}
+
+inline std::string file_name(std::string text) {
+  std::replace(text.begin(), text.end(), ' ', '_');
+  text.erase(std::remove(text.begin(), text.end(), '+'), text.end());
+  return text;
+}
+
+/// All controllers in all scenes. S1 is random in its schedule and run `seeds` times; S0 and S2
+/// have nothing random in them.
+inline void run_wall(report& out, int seeds) {
+  const std::vector<wall_scene> scenes{{.name = "S0"},
+                                       {.name = "S1", .yields = true},
+                                       {.name = "S2", .force_limit = 9.0, .friction = 0.2}};
+  const auto controllers = wall_controllers();
+  progress bar("wall", static_cast<int>(controllers.size()) * (2 + seeds));
+  std::vector<std::string> json;
+  table rows({"scene", "controller", "runs", "peak to peak mm", "settled", "settle s (worst)",
+              "min port energy J", "mean force error N", "rest mm"});
+  for (const auto& scene : scenes) {
+    for (const auto& controller : controllers) {
+      const int runs = scene.yields ? seeds : 1;
+      wall_result mean;
+      int settled = 0;
+      double worst = 0.0;
+      for (int seed = 1; seed <= runs; ++seed) {
+        csv_file csv(out.path("wall_" + scene.name + "_" + file_name(controller.name) + "_" +
+                              std::to_string(seed) + ".csv"),
+                     "time s,device m,local surface m,environment surface m,force N,E1 J,"
+                     "port energy J");
+        const wall_result r = controller.run(scene, static_cast<std::uint64_t>(seed), &csv);
+        csv.close();
+        mean.peak_to_peak += r.peak_to_peak / runs;
+        mean.force_error += r.force_error / runs;
+        mean.rest += r.rest / runs;
+        mean.port_energy = std::min(mean.port_energy, r.port_energy);
+        if (std::isfinite(r.settle)) {
+          ++settled;
+          worst = std::max(worst, r.settle);
+        }
+        bar.step();
+      }
+      const double settle = settled == runs ? worst : std::nan("");
+      rows.add({scene.name, controller.name, std::to_string(runs),
+                format("%.3f", mean.peak_to_peak * 1e3),
+                std::to_string(settled) + " of " + std::to_string(runs), format("%.3f", settle),
+                format("%.3g", mean.port_energy), format("%.3g", mean.force_error),
+                format("%.3f", mean.rest * 1e3)});
+      json.push_back(json_object({{"scene", json_string(scene.name)},
+                                  {"controller", json_string(controller.name)},
+                                  {"runs", std::to_string(runs)},
+                                  {"runs_settled", std::to_string(settled)},
+                                  {"peak_to_peak_mm", json_number(mean.peak_to_peak * 1e3)},
+                                  {"settle_s", json_number(settle)},
+                                  {"min_port_energy_J", json_number(mean.port_energy)},
+                                  {"mean_force_error_N", json_number(mean.force_error)},
+                                  {"rest_mm", json_number(mean.rest * 1e3)}}));
+    }
+  }
+  out.section(
+      "Wall (thesis section 3.2)",
+      "A device of 0.1 kg and 0.03 N·s/m falls 61 mm onto a wall of 10 kN/m. S0: ideal "
+      "device, static wall. S1: the wall gives way, surface = F/K, at 20-50 Hz. S2: 9 N "
+      "saturation and 0.2 N dry friction. Settle time and energy are the worst of the runs, "
+      "the rest their mean. The port energy is the simulator's own, never the observer's.");
+  out.show(rows);
+  out.member("wall", json_array(json));
+  const auto figure = [&out](const std::string& name, const std::string& caption,
+                             const std::string& run, const std::string& range) {
+    const std::string data = "'wall_" + run + "_1.csv' using 1:";
+    out.plot(name, caption,
+             "set xlabel 'time [s]'\nset ylabel 'position [mm]'\nset xrange " + range +
+                 "\nset autoscale y\nplot " + data +
+                 "($2*1e3) with lines lc rgb '#cc2222' dt 4 title 'device', " + data +
+                 "($3*1e3) with lines lc rgb 'black' title 'local model', " + data +
+                 "($4*1e3) with lines lc rgb '#777777' dt 2 title 'environment'");
+  };
+  figure("fig_3_1", "As Fig. 3.1: without a bound the device bounces for ever (S1)", "S1_none",
+         "[0:2]");
+  figure(
+      "fig_3_1_S2",
+      "Fig. 3.1 on a device with 9 N saturation and 0.2 N friction: a limit cycle of millimetres "
+      "(S2)",
+      "S2_none", "[0:2]");
+  figure("fig_3_2", "As Fig. 3.2: with the thesis's bound (S1)", "S1_thesis", "[0:2]");
+  figure("fig_3_2_S2", "Fig. 3.2 on the device of S2: it settles", "S2_thesis", "[0:1]");
+  figure("fig_3_3",
+         "As Fig. 3.3: the local model between two updates, where the bound holds it (S1)",
+         "S1_thesis", "[0.1:0.3]");
+  const auto energy = [](const std::string& run, const std::string& title) {
+    return "'wall_S0_" + run + "_1.csv' every 10 using 1:7 with lines lw 2 title '" + title + "'";
+  };
+  out.plot("port_energy", "Energy that the hand has paid in, less what it got back (S0)",
+           "set xlabel 'time [s]'\nset ylabel 'energy at the port [J]'\nset xrange [0:3]\nplot " +
+               energy("none", "no bound: the wall feeds the hand") + ", " +
+               energy("strict", "strict bound") + ", " +
+               energy("damped_spring__reachable", "damped spring + reachable bound"));
+  figure("fig_settled", "Passive and settled: damped spring + reachable bound (S1)",
+         "S1_damped_spring__reachable", "[0:2]");
+}
+
+/// § 9: masses and stiffnesses over decades, on an ideal device. 48 cases with the static wall and
+/// with one update of lag, 24 more without the lag.
+inline void run_sweep(report& out) {
+  struct kind {
+    std::string name;
+    bool yields, lags;
+  };
+  const std::vector<kind> kinds{{"static wall (S0)", false, false},
+                                {"yielding, one update late (S1)", true, true},
+                                {"yielding (S1)", true, false}};
+  const std::vector<double> masses{0.05, 0.1, 0.15, 0.5};
+  const std::vector<double> stiffnesses{1e2, 1e3, 1e4, 1e5, 1e6, 1e9};
+  progress bar("sweep", static_cast<int>(kinds.size() * masses.size() * stiffnesses.size()));
+  csv_file csv(out.path("sweep.csv"),
+               "kind,mass kg,stiffness N/m,last swing mm,settle s,min port energy J");
+  table rows({"settle s", "K = 1e2", "1e3", "1e4", "1e5", "1e6", "1e9 N/m"});
+  std::vector<std::string> json;
+  int settled = 0, settled_of_48 = 0, cases = 0;
+  double worst = 0.0, least = 0.0;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    for (const double mass : masses) {
+      std::vector<std::string> row{kinds[k].name + ", " + format("%g kg", mass)};
+      for (const double stiffness : stiffnesses) {
+        const wall_scene scene{.name = "sweep",
+                               .mass = mass,
+                               .stiffness = stiffness,
+                               .yields = kinds[k].yields,
+                               .lags = kinds[k].lags};
+        const wall_result r = drop(settling_model(mass), scene, 7);
+        const bool good = r.last_swing < 0.5e-3 && r.settle < 3.0;
+        ++cases;
+        settled += good ? 1 : 0;
+        settled_of_48 += good && k < 2 ? 1 : 0;
+        worst = std::max(worst, good ? r.settle : 10.0);
+        least = std::min(least, r.port_energy);
+        row.push_back(good ? format("%.2f", r.settle) : "NOT SETTLED");
+        csv.row(static_cast<double>(k), mass, stiffness, r.last_swing * 1e3, r.settle,
+                r.port_energy);
+        bar.step();
+      }
+      rows.add(row);
+    }
+  }
+  csv.close();
+  out.section("Passive and settled, over decades",
+              "Damped spring + reachable bound on an ideal device: no friction, no hand, exact "
+              "positions. Settled: the last 2 s calmer than 0.5 mm, before 3 s. Settled " +
+                  std::to_string(settled) + " of " + std::to_string(cases) + ", " +
+                  std::to_string(settled_of_48) + " of the 48 of § 9; worst " +
+                  format("%.2f", worst) + " s; least true port energy " + format("%.3g", least) +
+                  " J.");
+  out.show(rows);
+  std::cout << "settled " << settled << " of " << cases << " (" << settled_of_48
+            << " of the 48 of section 9), worst " << format("%.2f", worst)
+            << " s, least port energy " << format("%.3g", least) << " J\n\n";
+  out.member("sweep", json_object({{"cases", std::to_string(cases)},
+                                   {"settled", std::to_string(settled)},
+                                   {"settled_of_48", std::to_string(settled_of_48)},
+                                   {"worst_settle_s", json_number(worst)},
+                                   {"min_port_energy_J", json_number(least)}}));
+}
+
+}  // namespace experiments
