@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The shape of a real application: a slow environment thread and a haptic loop that never waits.
+//
+// One exchange carries the constraint to the loop, a second one carries the device's position back.
+// Both hold the newest value only: whoever is late reads what counts now, and nobody ever blocks.
+
+#include <passive_haptics/passive_haptics.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <thread>
+
+namespace ph = passive_haptics;
+using scene = ph::space<float, 3>;
+using plane = ph::half_space<scene>;
+using position = scene::coordinates;  // scene::vector is Eigen's and stays in its thread
+
+/// Any slow simulation: here a soft plane that gives way to the device, a little more each time.
+void environment(ph::exchange<plane>& to_loop, ph::exchange<position>& from_loop) {
+  float height = 0;
+  for (int updates = 20; updates > 0;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));  // solving …
+    const position* device = from_loop.take();
+    if (device == nullptr) continue;
+    if (scene::vector(*device)(2) < height) height -= 1e-4F;
+    --updates;
+    const float stiffness = updates == 0 ? 1000 : 500;  // marks the last one
+    to_loop.publish({.point = {0, 0, height}, .normal = {0, 0, 1}, .stiffness = stiffness});
+  }
+}
+
+int main() {
+  ph::exchange<plane> to_loop;
+  ph::exchange<position> from_loop;
+  ph::local_model touch{scene{},
+                        ph::following<plane>{},
+                        ph::rotate_limited<scene>{.rate = 4},
+                        ph::spring<scene>{},
+                        ph::reduced_energy<scene>{.damping = 0.5F},
+                        ph::strict_bound<scene>{}};
+  std::thread world(environment, std::ref(to_loop), std::ref(from_loop));
+
+  scene::vector x(0, 0, -0.001F);
+  bool good = true;
+  do {
+    if (const plane* newest = to_loop.take()) touch.retarget(*newest);
+    const auto out = touch.tick(x, 1e-3F);  // a real loop measures dt
+    from_loop.publish(x);
+    good = good && out.force(2) >= 0 && out.energy >= 0;
+    if (x(2) > -0.005F) x(2) -= 1e-4F;                          // a hand that presses on
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // until the next tick is due
+  } while (touch.target().stiffness < 1000);
+  world.join();
+
+  std::printf("last plane received, lowered by %.1f mm\n",
+              -1e3 * static_cast<double>(scene::vector(touch.target().point)(2)));
+  std::printf("force never inwards, energy never below zero: %s\n", good ? "yes" : "no");
+}
