@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Runs `compile` (a command line), which must fail and say `expect` (a regular expression).
+execute_process(COMMAND ${compile} OUTPUT_VARIABLE said ERROR_VARIABLE said RESULT_VARIABLE code)
+if(code STREQUAL "0")
+  message(FATAL_ERROR "this compiles, and should not:\n${compile}")
+endif()
+if(NOT said MATCHES "${expect}")
+  message("${said}")
+  message(FATAL_ERROR "the compiler did not say: ${expect}")
+endif()
