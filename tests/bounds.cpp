@@ -18,6 +18,7 @@ ph::tick_state<d1> quiet(double energy) {
           .longest_tick = 1e-3,
           .held = 0,
           .displacement = 0,
+          .motion_known = true,
           .normal = -1,
           .stiffness = 1e4,
           .depth = 0,
@@ -46,6 +47,7 @@ TEST_CASE("strict_bound keeps the direction and uses the damping along it (2.15,
                                                      .longest_tick = 1e-3,
                                                      .held = d3::zero(),
                                                      .displacement = d3::zero(),
+                                                     .motion_known = true,
                                                      .normal = {0, 0, 1},
                                                      .stiffness = 1,
                                                      .depth = 0,
@@ -109,6 +111,10 @@ TEST_CASE("reachable_bound lets a device press that cannot turn round, and no ot
   }
   SECTION("fast outwards: the strict bound") {
     state.displacement = -2e-3;
+    CHECK_THAT(bound.limit(-4.0, state), WithinRel(-std::sqrt(4 * 30 * 1e-6), 1e-12));
+  }
+  SECTION("after a lost sample it may be moving out at any speed: the strict bound") {
+    state.motion_known = false;
     CHECK_THAT(bound.limit(-4.0, state), WithinRel(-std::sqrt(4 * 30 * 1e-6), 1e-12));
   }
   SECTION("never below the strict bound") {

@@ -248,6 +248,35 @@ TEST_CASE("reachable_bound is passive for every force-limited hand, where thesis
   }
 }
 
+TEST_CASE("reachable_bound and strict_bound stay passive through samples that are lost",
+          "[passivity]") {
+  const auto worst_of = [](auto bound, auto start) {
+    double worst = 0.0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+      auto model = following_half_space<d1>(ph::spring<d1>{}, start, bound);
+      sim::random_source random(seed);
+      const double K = random.uniform(500.0, 20000.0);
+      model.retarget(wall<d1>(K));
+      sim::device<d1, sim::tapping_hand<d1>> device(
+          {.mass = 0.1, .start = -1e-3, .start_velocity = 0.0},
+          {.surface = 0.0, .normal = -1.0, .limit = 5.0});
+      auto sample = device.exchange(0.0);
+      for (int n = 0; n < 2000; ++n) {
+        if (n % 35 == 0) model.retarget({random.uniform(-2e-3, 2e-3), -1.0, K});
+        const bool lost = random.chance(0.05);
+        const auto out = lost ? model.tick(std::nan(""), 1e-3) : model.tick(sample);
+        sample = device.exchange(out.force);
+      }
+      worst = std::min(worst, device.meter().minimum());
+    }
+    return worst;
+  };
+  const auto ledger = thesis_ledger<d1>();
+  CHECK(worst_of(ph::reachable_bound<d1>{.mass = 0.1, .hand_force = 5.0}, ledger) >= -1e-12);
+  CHECK(worst_of(ph::strict_bound<d1>{}, ledger) >= -1e-12);
+  CHECK(worst_of(ph::thesis_bound<d1>{}, ledger) < -1e-6);  // the control
+}
+
 TEST_CASE("reachable_bound loses outside its assumptions, as it says", "[passivity]") {
   const ph::reachable_bound<d1> bound{.mass = 0.1, .hand_force = 5.0};
   double worst = 0.0;  // a hand that no force can stop

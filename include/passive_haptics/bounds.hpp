@@ -132,8 +132,10 @@ struct reachable_bound {
     const scalar outward = Space::dot(state.displacement, desired) / force;
     const scalar damper = scalar(2) * B * Space::norm(state.displacement);
     const scalar reach =
-        kernels::outward_reach(outward, Space::norm(state.held), force, hand_force + damper, mass,
-                               state.dt, state.longest_tick);
+        state.motion_known
+            ? kernels::outward_reach(outward, Space::norm(state.held), force, hand_force + damper,
+                                     mass, state.dt, state.longest_tick)
+            : std::numeric_limits<scalar>::max();  // it may be moving out at any speed
     const scalar most = kernels::reachable_force_bound(state.credit(), B, reach);
     return most < force ? vector(desired * (most / force)) : desired;
   }

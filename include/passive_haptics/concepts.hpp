@@ -33,6 +33,7 @@ struct tick_state {
   scalar longest_tick;     ///< bound on the length of the next
   vector held;             ///< force over the last tick
   vector displacement;     ///< Δx over the last tick
+  bool motion_known;       ///< false: the last sample was lost, Δx is unknown and given as zero
   vector normal;           ///< outward, of the local model, along which the force will act
   scalar stiffness;        ///< K of the target [N/m]
   scalar depth;            ///< in the local model, ≤ 0 outside

@@ -117,6 +117,7 @@ template <class Space>
                            scalar(0.001),
                            random.vector<Space>() * scalar(5),
                            random.vector<Space>() * scalar(0.002),
+                           true,
                            normal,
                            scalar(1000),
                            random.number<scalar>() * scalar(0.005),

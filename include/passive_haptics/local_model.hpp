@@ -203,6 +203,7 @@ class local_model {
                                                                limits_.longest_tick,
                                                                held,
                                                                displacement,
+                                                               known,
                                                                normal,
                                                                target.stiffness,
                                                                depth,
