@@ -108,6 +108,37 @@ TEST_CASE("README's figures are what the programs print", "[documentation]") {
   CHECK(agree("S0 none 64.979", "S0 none 65.0"));
 }
 
+TEST_CASE("thesis_experiments refuses a broken mesh with file, line and remedy, and writes nothing",
+          "[documentation]") {
+  const auto folder = std::filesystem::temp_directory_path() / "passive_haptics_broken_mesh";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const auto complaint = [&folder](const std::string& arguments) {
+    const std::string command = std::string("\"") + PASSIVE_HAPTICS_EXPERIMENTS + "\" --out \"" +
+                                (folder / "out").string() + "\" " + arguments +
+                                " > /dev/null 2> \"" + (folder / "said.txt").string() + "\"";
+    CHECK(std::system(command.c_str()) != 0);
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
+    return text_of(folder / "said.txt");
+  };
+  const auto mesh = [&folder](const std::string& content) {
+    std::ofstream(folder / "mesh.msh") << content;
+    return "--mesh \"" + (folder / "mesh.msh").string() + "\"";
+  };
+  const std::string nodes = "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$ENDNOD\n";
+  CHECK(complaint(mesh(nodes + "$ELM\n1\n1 4 1 1 4 1 2 3 9\n$ENDELM\n")).find("mesh.msh:10") !=
+        std::string::npos);  // a node that is not there
+  CHECK(complaint(mesh(nodes + "$ELM\n2\n1 4 1 1 4 1 2 3 4\n")).find("mesh.msh:") !=
+        std::string::npos);  // cut off
+  CHECK(complaint(mesh("solid ascii\n")).find("mesh.msh:1") != std::string::npos);
+  CHECK(complaint("--mesh \"" + (folder / "nowhere.msh").string() + "\"").find("nowhere.msh") !=
+        std::string::npos);
+  CHECK(complaint("--seeds 0").find("--seeds 0") != std::string::npos);
+  CHECK(complaint("--sedes 5").find("--sedes") != std::string::npos);
+  CHECK(complaint("--seeds").find("usage") != std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("every test that the documents name exists", "[documentation]") {
   std::string tests;
   for (const auto& entry : std::filesystem::directory_iterator(root / "tests")) {
