@@ -86,8 +86,8 @@ void press(Model& model, int ticks) {
 }  // namespace
 
 TEMPLATE_TEST_CASE("a bad sample gives force zero and an event, and costs credit", "[fault]",
-                   ph::half_space<d1>, ph::half_space<f1>, ph::half_space<d2>, ph::segment<d2>,
-                   ph::segment<f2>, ph::half_space<d3>, ph::triangle<d3>, ph::triangle<f3>) {
+                   ph::half_space<d1>, ph::half_space<f1>, ph::segment<d2>, ph::segment<f2>,
+                   ph::triangle<d3>, ph::triangle<f3>) {
   using space = typename TestType::space_type;
   using scalar = typename space::scalar;
   using limits = std::numeric_limits<scalar>;
@@ -135,8 +135,8 @@ TEMPLATE_TEST_CASE("a bad sample gives force zero and an event, and costs credit
 }
 
 TEMPLATE_TEST_CASE("an unusable target is refused with an event and the last good one stays",
-                   "[fault]", ph::half_space<d1>, ph::half_space<f1>, ph::half_space<d2>,
-                   ph::segment<d2>, ph::half_space<f3>, ph::triangle<d3>, ph::triangle<f3>) {
+                   "[fault]", ph::half_space<d1>, ph::half_space<f3>, ph::segment<d2>,
+                   ph::triangle<d3>, ph::triangle<f3>) {
   using space = typename TestType::space_type;
   using scalar = typename space::scalar;
   using limits = std::numeric_limits<scalar>;
