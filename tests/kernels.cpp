@@ -48,7 +48,7 @@ TEST_CASE("strict_scale never lets the rounded force spend more than the ledger"
     const float E = 1e-7F * static_cast<float>(i * i);
     const float outflow = 3.7e-7F * static_cast<float>(i) * static_cast<float>(20000 - i);
     const auto s = static_cast<long double>(k::strict_scale(E, outflow));
-    reduced += s < 1.0 ? 1 : 0;
+    reduced += s < 1.0L ? 1 : 0;
     if (!(s * s * static_cast<long double>(outflow) <= static_cast<long double>(E))) {
       FAIL("E = " << E << ", outflow = " << outflow);
     }

@@ -74,7 +74,8 @@ TEMPLATE_TEST_CASE("rotate_limited reaches any normal from any other, antiparall
     while (now != target && ticks < 2000) {
       const vector next = limit.step(now, target, dt);
       REQUIRE(next.allFinite());
-      REQUIRE_THAT(static_cast<double>(next.norm()), WithinAbs(1.0, 8.0 * double{tiny}));
+      REQUIRE_THAT(static_cast<double>(next.norm()),
+                   WithinAbs(1.0, 8.0 * static_cast<double>(tiny)));
       REQUIRE(angle_between(next, now) <= scalar(4) * dt * (1 + 16 * tiny) + tiny);
       now = next;
       ++ticks;

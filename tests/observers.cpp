@@ -109,16 +109,16 @@ TEST_CASE("a float ledger with a compensated sum follows the double one", "[obse
   static_assert(ph::energy_observer_for<ledger_type, f1>);
   ledger_type kept{.damping = 0.03F, .energy = 1.0F};
   ph::reduced_energy<f1> plain{.damping = 0.03F, .energy = 1.0F};
-  ph::reduced_energy<d1> exact{.damping = double{0.03F}, .energy = 1.0};
+  ph::reduced_energy<d1> exact{.damping = static_cast<double>(0.03F), .energy = 1.0};
   for (int i = 0; i < 200000; ++i) {
     const float dx = 1e-5F * std::sin(0.1F * static_cast<float>(i));
     const float f = 1e-3F * std::cos(0.07F * static_cast<float>(i));
     kept.update(dx, f, 1e-3F);
     plain.update(dx, f, 1e-3F);
-    exact.update(double{dx}, double{f}, double{1e-3F});
+    exact.update(static_cast<double>(dx), static_cast<double>(f), static_cast<double>(1e-3F));
   }
-  CHECK_THAT(double{kept.value()}, WithinAbs(exact.value(), 2e-7));
-  CHECK(std::abs(double{plain.value()} - exact.value()) > 1e-5);  // the control
+  CHECK_THAT(static_cast<double>(kept.value()), WithinAbs(exact.value(), 2e-7));
+  CHECK(std::abs(static_cast<double>(plain.value()) - exact.value()) > 1e-5);  // the control
 }
 
 TEST_CASE("parameters of an observer are refused with their name", "[observer]") {

@@ -11,39 +11,11 @@
 // In a tick: no exception, heap, lock, clock, virtual call, I/O or recursion.
 
 #include <passive_haptics/concepts.hpp>
+#include <passive_haptics/loop.hpp>
 
 #include <array>
 
 namespace passive_haptics::inline v0 {
-
-/// What the loop around the model keeps to. A guarantee holds while it does; a tick that does not
-/// is reported.
-template <class Space>
-struct loop_limits {
-  using scalar = typename Space::scalar;
-  scalar longest_tick = scalar(0.001);  ///< T_max [s]: set it to the worst tick of YOUR loop
-  scalar top_speed = scalar(100);       ///< faster than this is a sensor fault [m/s]
-
-  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
-    if (!(longest_tick > scalar(0)) || !kernels::is_finite(longest_tick)) {
-      return {"longest_tick", longest_tick, "finite and > 0 s"};
-    }
-    if (!(top_speed > scalar(0)) || !kernels::is_finite(top_speed)) {
-      return {"top_speed", top_speed, "finite and > 0 m/s"};
-    }
-    return {};
-  }
-};
-
-/// All that a tick knows. Trivial to log.
-template <class Space>
-struct tick_result {
-  typename Space::vector force;   ///< on the device [N]
-  typename Space::scalar depth;   ///< penetration in the local model [m], 0 outside
-  typename Space::scalar energy;  ///< E1 [J]
-  event what = event::nominal;    ///< the worst that happened
-  bool limited = false;           ///< the bound changed the desired force
-};
 
 /// Compose by value; class template argument deduction finds the type:
 ///     ph::local_model wall{scene{},
@@ -111,7 +83,8 @@ class local_model {
 
   /// Hands over the environment's newest constraint, from the haptic thread. False: it is unusable
   /// and the last good one stays; the next tick says so too.
-  constexpr bool retarget(const constraint_type& next) noexcept requires(Supply::moves) {
+  template <class Owner = Supply>
+  requires(Owner::moves) constexpr bool retarget(const constraint_type& next) noexcept {
     return supply_.retarget(next);
   }
 
@@ -196,20 +169,21 @@ class local_model {
     if constexpr (Bound::needs_local_model) {
       if (in_local) local_force = weight * before.force(depth, outward_speed);
     }
-    const tick_state<Space, decltype(observer_.damping)> state{observer_.damping,
-                                                               observer_.value(),
-                                                               in_flight(),
-                                                               dt,
-                                                               limits_.longest_tick,
-                                                               held,
-                                                               displacement,
-                                                               known,
-                                                               normal,
-                                                               target.stiffness,
-                                                               depth,
-                                                               target_depth,
-                                                               local_force,
-                                                               fresh()};
+    using state_type = tick_state<Space, decltype(observer_.damping)>;
+    const state_type state{.damping = observer_.damping,
+                           .energy = observer_.value(),
+                           .in_flight = in_flight(),
+                           .dt = dt,
+                           .longest_tick = limits_.longest_tick,
+                           .held = held,
+                           .displacement = displacement,
+                           .motion_known = known,
+                           .normal = normal,
+                           .stiffness = target.stiffness,
+                           .depth = depth,
+                           .target_depth = target_depth,
+                           .local_force = local_force,
+                           .target_changed = fresh()};
     vector force = bound_.limit(desired, state);
     if (!Space::is_finite(force)) {
       force = Space::zero();
