@@ -134,6 +134,32 @@ TEMPLATE_TEST_CASE("a bad sample gives force zero and an event, and costs credit
   });
 }
 
+TEMPLATE_TEST_CASE("the very first sample and a reported force may be bad, too", "[fault]", d1, f1,
+                   d3, f3) {
+  using scalar = typename TestType::scalar;
+  using sample = ph::device_sample<TestType>;
+  const scalar T = scalar(0.001);
+  const auto here = inside<TestType>(scalar(0.001));
+  for (const scalar x :
+       {std::numeric_limits<scalar>::quiet_NaN(), std::numeric_limits<scalar>::infinity()}) {
+    const auto bad = all<TestType>(x);
+    ph::local_model model{TestType{},
+                          ph::rigid{good_constraint<ph::half_space<TestType>>()},
+                          ph::snap<TestType>{},
+                          ph::spring<TestType>{},
+                          thesis_ledger<TestType>(),
+                          ph::strict_bound<TestType>{}};
+    CHECK(model.tick(bad, T).what == ph::event::rejected_sample);
+    CHECK(model.tick(here, T).what == ph::event::nominal);
+    const auto lies = model.tick(sample{.position = here, .held = bad, .dt = T, .valid = true});
+    CHECK(lies.what == ph::event::rejected_sample);
+    CHECK(lies.force == TestType::zero());
+    CHECK(model.tick(sample{}).what == ph::event::rejected_sample);
+    CHECK(ph::kernels::is_finite(model.energy()));
+    CHECK(model.tick(here, T).what == ph::event::nominal);
+  }
+}
+
 TEMPLATE_TEST_CASE("an unusable target is refused with an event and the last good one stays",
                    "[fault]", ph::half_space<d1>, ph::half_space<f3>, ph::segment<d2>,
                    ph::triangle<d3>, ph::triangle<f3>) {
