@@ -196,6 +196,38 @@ TEST_CASE("sliding sideways into a deep triangle costs what an update costs (A18
   CHECK_THAT(out.force(2), WithinRel(std::sqrt(4 * 30 * (0.01 + 30 * 4e-8)), 1e-9));
 }
 
+TEST_CASE("a surface that appears over the device costs what an update costs", "[local_model]") {
+  auto ledger = thesis_ledger<d1>();
+  ledger.energy = 0.01;
+  const double f_max = std::sqrt(4 * 30 * 0.01);
+  ph::local_model model{
+      d1{},           ph::following<ph::half_space<d1>>{{.stale_after = 0.01, .fade = 0.01}},
+      ph::snap<d1>{}, ph::spring<d1>{},
+      ledger,         ph::thesis_bound<d1>{}};
+  SECTION("the first one") {
+    CHECK(model.tick(0.002, 1e-3).force == 0.0);
+    model.retarget(wall<d1>(1e4));
+    CHECK_THAT(model.tick(0.002, 1e-3).force, WithinRel(-f_max, 1e-12));
+  }
+  SECTION("the first one, with the first sample") {
+    model.retarget(wall<d1>(1e4));
+    CHECK_THAT(model.tick(0.002, 1e-3).force, WithinRel(-f_max, 1e-12));
+  }
+  SECTION("one that had faded") {
+    model.retarget(wall<d1>(500));
+    CHECK_THAT(model.tick(0.002, 1e-3).force, WithinRel(-1.0, 1e-12));
+    for (int n = 0; n < 30; ++n) (void)model.tick(0.002, 1e-3);
+    CHECK(model.tick(0.002, 1e-3).force == 0.0);
+    model.retarget(wall<d1>(1e4));
+    CHECK_THAT(model.tick(0.002, 1e-3).force, WithinRel(-f_max, 1e-12));
+  }
+  SECTION("the control: entered from outside it is there at once") {
+    model.retarget(wall<d1>(1e4));
+    (void)model.tick(-0.001, 1e-3);
+    CHECK_THAT(model.tick(0.002, 1e-3).force, WithinRel(-20.0, 1e-12));
+  }
+}
+
 TEST_CASE("a silent environment fades out and says so", "[local_model]") {
   ph::local_model model{d1{},
                         ph::following<ph::half_space<d1>>{{.stale_after = 0.1, .fade = 0.05}},

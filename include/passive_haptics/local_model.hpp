@@ -142,6 +142,7 @@ class local_model {
         depth = supply_.local().depth(position);
         in_local = depth > scalar(0) && supply_.local().covers(position);
       }
+      if (!(supply_.last_weight() > scalar(0))) in_local = false;  // so is a surface that appears
       beside_ = behind && !in_target;
     }
 
@@ -167,7 +168,7 @@ class local_model {
     // How much of it does the ledger cover?
     scalar local_force(0);
     if constexpr (Bound::needs_local_model) {
-      if (in_local) local_force = weight * before.force(depth, outward_speed);
+      if (in_local) local_force = supply_.last_weight() * before.force(depth, outward_speed);
     }
     using state_type = tick_state<Space, decltype(observer_.damping)>;
     const state_type state{.damping = observer_.damping,
@@ -222,10 +223,7 @@ class local_model {
   [[nodiscard]] constexpr scalar presence(scalar dt, event& what) noexcept {
     if constexpr (Supply::moves) {
       if (supply_.refused()) what = worse(what, event::rejected_target);
-      if (!supply_.published()) {
-        what = worse(what, event::no_target);
-        return scalar(0);
-      }
+      if (!supply_.published()) what = worse(what, event::no_target);
       if (!supply_.changed()) supply_.grow_older(dt);
       if (supply_.stale()) what = worse(what, event::stale_target);
       return supply_.weight();

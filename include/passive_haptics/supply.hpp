@@ -86,17 +86,18 @@ class following {
 
   [[nodiscard]] constexpr const Constraint& local() const noexcept { return own_; }
   [[nodiscard]] constexpr const Constraint& target() const noexcept { return newest_; }
-  [[nodiscard]] constexpr bool published() const noexcept { return published_; }  ///< ever?
-  [[nodiscard]] constexpr bool changed() const noexcept {
-    return changed_;
-  }  ///< since the last tick
-  [[nodiscard]] constexpr bool refused() const noexcept {
-    return refused_;
-  }  ///< since the last tick
+  /// Has there ever been a target? Has one come, has one been refused since the last tick?
+  [[nodiscard]] constexpr bool published() const noexcept { return published_; }
+  [[nodiscard]] constexpr bool changed() const noexcept { return changed_; }
+  [[nodiscard]] constexpr bool refused() const noexcept { return refused_; }
   /// Is the local model where the environment wants it?
   [[nodiscard]] constexpr bool together() const noexcept { return together_; }
-  [[nodiscard]] constexpr bool stale() const noexcept { return rule_.stale(age_); }
-  [[nodiscard]] constexpr scalar weight() const noexcept { return rule_.weight(age_); }
+  [[nodiscard]] constexpr bool stale() const noexcept { return published_ && rule_.stale(age_); }
+  /// How far the contact counts now, and did in the last tick; 0 before the first target.
+  [[nodiscard]] constexpr scalar weight() const noexcept {
+    return published_ ? rule_.weight(age_) : scalar(0);
+  }
+  [[nodiscard]] constexpr scalar last_weight() const noexcept { return last_weight_; }
   [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept { return rule_.check(); }
 
   /// Takes a new constraint, or refuses it and keeps the last good one.
@@ -128,11 +129,15 @@ class following {
     together_ = false;
   }
   /// The tick has seen what was new.
-  constexpr void seen() noexcept { changed_ = refused_ = false; }
+  constexpr void seen() noexcept {
+    changed_ = refused_ = false;
+    last_weight_ = weight();
+  }
 
  private:
   freshness<scalar> rule_{};
-  scalar age_{};  // since the last good target [s]
+  scalar age_{};          // since the last good target [s]
+  scalar last_weight_{};  // of the last tick
   bool published_ = false;
   bool changed_ = false;
   bool refused_ = false;
