@@ -250,7 +250,7 @@ TEST_CASE("reachable_bound is passive for every force-limited hand, where thesis
 
 TEST_CASE("reachable_bound and strict_bound stay passive through samples that are lost",
           "[passivity]") {
-  const auto worst_of = [](auto bound, auto start) {
+  const auto worst_of = [](auto bound, auto start, int latency = 0) {
     double worst = 0.0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
       auto model = following_half_space<d1>(ph::spring<d1>{}, start, bound);
@@ -258,7 +258,7 @@ TEST_CASE("reachable_bound and strict_bound stay passive through samples that ar
       const double K = random.uniform(500.0, 20000.0);
       model.retarget(wall<d1>(K));
       sim::device<d1, sim::tapping_hand<d1>> device(
-          {.mass = 0.1, .start = -1e-3, .start_velocity = 0.0},
+          {.mass = 0.1, .start = -1e-3, .latency = latency},
           {.surface = 0.0, .normal = -1.0, .limit = 5.0});
       auto sample = device.exchange(0.0);
       for (int n = 0; n < 2000; ++n) {
@@ -274,6 +274,7 @@ TEST_CASE("reachable_bound and strict_bound stay passive through samples that ar
   const auto ledger = thesis_ledger<d1>();
   CHECK(worst_of(ph::reachable_bound<d1>{.mass = 0.1, .hand_force = 5.0}, ledger) >= -1e-12);
   CHECK(worst_of(ph::strict_bound<d1>{}, ledger) >= -1e-12);
+  CHECK(worst_of(ph::strict_bound<d1, 2>{}, ledger, 2) >= -1e-12);
   CHECK(worst_of(ph::thesis_bound<d1>{}, ledger) < -1e-6);  // the control
 }
 
