@@ -20,19 +20,22 @@
 
 namespace passive_haptics::inline v0::laws {
 
-/// A repeatable source of numbers in [−1, 1), also at compile time (SplitMix64).
+/// A repeatable source of numbers in [−1, 1), also at compile time (SplitMix64 of Steele,
+/// Lea and Flood, 2014; not for cryptography).
 class samples {
  public:
   constexpr explicit samples(std::uint64_t seed) noexcept : state_(seed) {}
 
-  template <class Scalar>
-  [[nodiscard]] constexpr Scalar number() noexcept {
+  [[nodiscard]] constexpr std::uint64_t bits() noexcept {
     state_ += 0x9e3779b97f4a7c15U;
     std::uint64_t z = state_;
     z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
     z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    z ^= z >> 31U;
-    return Scalar(static_cast<std::int32_t>(z >> 32U)) / Scalar(2147483648.0);
+    return z ^ (z >> 31U);
+  }
+  template <class Scalar>
+  [[nodiscard]] constexpr Scalar number() noexcept {
+    return Scalar(static_cast<std::int32_t>(bits() >> 32U)) / Scalar(2147483648.0);
   }
   /// Components in [−1, 1).
   template <class Space>

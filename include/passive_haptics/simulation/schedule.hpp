@@ -8,6 +8,7 @@
 //   one_update_late   answers with what it was given one update ago: a pipelined environment
 
 #include <passive_haptics/event.hpp>
+#include <passive_haptics/laws.hpp>
 #include <passive_haptics/simulation/components.hpp>
 
 #include <cstdint>
@@ -15,18 +16,12 @@
 
 namespace passive_haptics::inline v0::simulation {
 
-/// splitmix64 (Steele, Lea and Flood, 2014) and 53 of its bits as a double. Needs no heap and eight
-/// bytes; not for cryptography.
+/// The samples of the laws, and 53 of their bits as a double. Needs no heap and eight bytes.
 class random_source {
  public:
-  constexpr explicit random_source(std::uint64_t seed = 1) noexcept : state_(seed) {}
+  constexpr explicit random_source(std::uint64_t seed = 1) noexcept : source_(seed) {}
 
-  [[nodiscard]] constexpr std::uint64_t bits() noexcept {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31U);
-  }
+  [[nodiscard]] constexpr std::uint64_t bits() noexcept { return source_.bits(); }
   /// In [0, 1), in steps of 2⁻⁵³.
   [[nodiscard]] constexpr double uniform() noexcept {
     return static_cast<double>(bits() >> 11U) * 0x1p-53;
@@ -53,7 +48,7 @@ class random_source {
   }
 
  private:
-  std::uint64_t state_;
+  laws::samples source_;
 };
 
 /// The first update is due at once, the next ones after periods drawn uniformly from
