@@ -123,10 +123,10 @@ struct reachable_bound {
   scalar hand_force{};  ///< largest force of everything but motors and damper [N]
 
   [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) const noexcept {
-    const scalar force = Space::norm(desired);
     const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
-    const bool covered = outflow <= state.credit();  // even by the worst motion of all
-    if (covered || !(force > scalar(0))) return desired;
+    if (outflow <= state.credit()) return desired;  // covered even by the worst motion of all
+    const scalar force = Space::norm(desired);
+    if (!(force > scalar(0))) return desired;
 
     const scalar B = force * force / (scalar(4) * outflow);  // 1/(uᵀB⁻¹u), u along the force
     const scalar outward = Space::dot(state.displacement, desired) / force;
