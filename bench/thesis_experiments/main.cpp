@@ -8,7 +8,6 @@
 #include "mesh.hpp"
 #include "wall.hpp"
 
-#include <cstring>
 #include <exception>
 
 namespace {

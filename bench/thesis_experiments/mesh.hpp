@@ -76,7 +76,7 @@ class stroke_scene {
     }
     vertex_normals_.assign(mesh_.nodes.size(), vector3::Zero());
     for (const auto& t : surface_) {
-      const auto& [a, b, c] = corners(t);
+      const auto [a, b, c] = env::corners(t, mesh_.nodes);
       const vector3 area = volume::cross(b - a, c - a);
       for (const int node : t.nodes) vertex_normals_[static_cast<std::size_t>(node)] += area;
     }
@@ -122,11 +122,6 @@ class stroke_scene {
     const double x = std::clamp(s, 0.0, 1.0);
     return x * x * (3.0 - 2.0 * x);
   }
-  [[nodiscard]] std::array<vector3, 3> corners(const env::surface_triangle& t) const {
-    return {mesh_.nodes[static_cast<std::size_t>(t.nodes[0])],
-            mesh_.nodes[static_cast<std::size_t>(t.nodes[1])],
-            mesh_.nodes[static_cast<std::size_t>(t.nodes[2])]};
-  }
 
   /// The highest point of the surface above or below `foot`, with the normal interpolated from its
   /// vertices, so that the path has no kinks of its own.
@@ -135,7 +130,7 @@ class stroke_scene {
     double best = -std::numeric_limits<double>::infinity();
     point_on_surface found;
     for (const auto& t : surface_) {
-      const auto [a, b, c] = corners(t);
+      const auto [a, b, c] = env::corners(t, mesh_.nodes);
       const double area = (b(u) - a(u)) * (c(v) - a(v)) - (b(v) - a(v)) * (c(u) - a(u));
       if (std::abs(area) < 1e-18) continue;
       const double wb =
