@@ -76,6 +76,22 @@ TEST_CASE("damped spring + reachable bound settles in all cases of the sweep and
   }
 }
 
+TEST_CASE("a stiffness fraction of 0.3 is passive but does not settle the sweep", "[experiments]") {
+  int unsettled = 0;
+  for (const double mass : {0.05, 0.1, 0.15, 0.5}) {
+    for (const double stiffness : {1e2, 1e3, 1e4, 1e5, 1e6, 1e9}) {
+      const auto model =
+          wall_model(ph::damped_spring<line>{.mass = mass, .stiffness_fraction = 0.3},
+                     ph::reduced_energy<line>{.damping = 0.03},
+                     ph::reachable_bound<line>{.mass = mass, .hand_force = 5.0});
+      const wall_result r = drop(model, {.name = "sweep", .mass = mass, .stiffness = stiffness}, 7);
+      unsettled += r.last_swing < 0.5e-3 && r.settle < 3.0 ? 0 : 1;
+      CHECK(r.port_energy >= -1e-12);
+    }
+  }
+  CHECK(unsettled > 0);  // damped_spring's header says so
+}
+
 TEST_CASE("rotate-limited normals keep their rate and end the jumps of the ball", "[experiments]") {
   std::filesystem::create_directories(scratch());
   csv_file csv(scratch() / "ball.csv", "discarded");
