@@ -18,10 +18,7 @@ struct dead_zone {
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
   static constexpr ph::guarantee passivity = ph::guarantee::none;  // alone it promises nothing
-  static constexpr bool only_reduces = true;
-  static constexpr bool needs_ledger = false;
-  static constexpr bool needs_local_model = false;
-  static constexpr int latency = 0;
+  static constexpr ph::bound_traits traits{.only_reduces = true};
 
   scalar least{};  ///< [N]
 

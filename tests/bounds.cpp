@@ -151,7 +151,7 @@ TEST_CASE("force_rate_limit passes the hand's motion and slows the surface's", "
 
 TEST_CASE("strict_bound with latency counts what is in flight (§ 3)", "[bound]") {
   ph::strict_bound<d1, 2> bound;
-  static_assert(ph::strict_bound<d1, 2>::latency == 2);
+  static_assert(ph::strict_bound<d1, 2>::traits.latency == 2);
   auto state = quiet(0.01);
   state.in_flight = 0.006;
   CHECK_THAT(bound.limit(-50.0, state), WithinRel(-std::sqrt(4 * 30 * 0.004), 1e-14));
@@ -170,9 +170,9 @@ TEST_CASE("bound_chain applies its bounds in order and promises what survives", 
   static_assert(ph::bound_chain<strict, rate>::passivity == ph::guarantee::none);
   static_assert(ph::bound_chain<thesis, strict>::passivity == ph::guarantee::strict);
   static_assert(ph::bound_chain<thesis, motors>::passivity == ph::guarantee::none);
-  static_assert(ph::bound_chain<motors, ph::strict_bound<d1, 3>>::latency == 3);
-  static_assert(ph::bound_chain<rate, motors>::needs_local_model);
-  static_assert(!ph::bound_chain<motors, motors>::needs_ledger);
+  static_assert(ph::bound_chain<motors, ph::strict_bound<d1, 3>>::traits.latency == 3);
+  static_assert(ph::bound_chain<rate, motors>::traits.needs_local_model);
+  static_assert(!ph::bound_chain<motors, motors>::traits.needs_ledger);
   static_assert(sizeof(ph::bound_chain<strict, strict>) <= 2);
 
   ph::bound_chain chain{rate{.rate = 100.0}, strict{}, motors{.most = 0.5}};

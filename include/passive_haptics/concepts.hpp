@@ -72,19 +72,30 @@ concept energy_observer_for = policy<O> &&
   requires noexcept(c.value());
 };
 
-/// limit() takes the desired force and returns the one to apply. `only_reduces`: the result is the
-/// desired force scaled by a factor in [0, 1]. `needs_ledger`: it spends energy an observer must
-/// have counted. `needs_local_model`: it compares with the local model's depth. `latency`: ticks
-/// between a command and the first instant it is held.
+/// What a force bound is like. State what differs:
+///     static constexpr bound_traits traits{.only_reduces = true, .needs_ledger = true};
+struct bound_traits {
+  bool only_reduces = false;       ///< the result is the desired force times a factor in [0, 1]
+  bool needs_ledger = false;       ///< it spends what an observer must have counted
+  bool needs_local_model = false;  ///< it compares with a local model that can move
+  int latency = 0;                 ///< ticks from a command to the first instant it is held
+
+  /// Of one bound after the other.
+  [[nodiscard]] friend constexpr bound_traits operator+(bound_traits a, bound_traits b) noexcept {
+    return {a.only_reduces && b.only_reduces, a.needs_ledger || b.needs_ledger,
+            a.needs_local_model || b.needs_local_model,
+            a.latency < b.latency ? b.latency : a.latency};
+  }
+};
+
+/// limit() takes the desired force and returns the one to apply; `traits` says how it goes about
+/// it.
 template <class B, class Space>
 concept force_bound_for = policy<B> &&
     requires(B b, const B c, const typename Space::vector v, tick_state<Space> s) {
   { b.limit(v, s) } -> std::same_as<typename Space::vector>;
   { c.check() } -> std::same_as<parameter_fault<typename Space::scalar>>;
-  { B::only_reduces } -> std::convertible_to<bool>;
-  { B::needs_ledger } -> std::convertible_to<bool>;
-  { B::needs_local_model } -> std::convertible_to<bool>;
-  { B::latency } -> std::convertible_to<int>;
+  { B::traits } -> std::convertible_to<bound_traits>;
   requires noexcept(b.limit(v, s));
 };
 

@@ -148,7 +148,7 @@ template <class Space, class Bound>
 /// Nothing desired, nothing returned.
 template <class Space, class Bound>
 [[nodiscard]] constexpr bool adds_nothing_to_zero(Bound bound, int ticks = 200) noexcept {
-  static_assert(Bound::only_reduces, "passive_haptics: a law for bounds that only reduce");
+  static_assert(Bound::traits.only_reduces, "passive_haptics: a law for bounds that only reduce");
   return holds_in_random_states<Space>(
       bound,
       [&bound](const auto&, const auto&, const auto& state) {
@@ -162,7 +162,7 @@ template <class Space, class Bound>
 /// The result is s·f* with 0 ≤ s ≤ 1: same direction, no longer.
 template <class Space, class Bound>
 [[nodiscard]] constexpr bool scales_down(Bound bound, int ticks = 200) noexcept {
-  static_assert(Bound::only_reduces, "passive_haptics: a law for bounds that only reduce");
+  static_assert(Bound::traits.only_reduces, "passive_haptics: a law for bounds that only reduce");
   using scalar = typename Space::scalar;
   return holds_in_random_states<Space>(
       bound,

@@ -46,10 +46,10 @@ class local_model {
                 "see concepts.hpp");
   static_assert(force_bound_for<Bound, Space>,
                 "passive_haptics: the bound does not model force_bound_for: see concepts.hpp");
-  static_assert(Observer::counts || !Bound::needs_ledger,
+  static_assert(Observer::counts || !Bound::traits.needs_ledger,
                 "passive_haptics: this bound spends energy that no_observer does not count: "
                 "use reduced_energy");
-  static_assert(Supply::moves || !Bound::needs_local_model,
+  static_assert(Supply::moves || !Bound::traits.needs_local_model,
                 "passive_haptics: this bound compares with a local model that can move: "
                 "use following instead of rigid");
 
@@ -107,7 +107,7 @@ class local_model {
   [[nodiscard]] constexpr const Contact& contact() const noexcept { return contact_; }
 
  private:
-  static constexpr std::size_t latency = static_cast<std::size_t>(Bound::latency);
+  static constexpr std::size_t latency = static_cast<std::size_t>(Bound::traits.latency);
 
   [[nodiscard]] constexpr tick_result<Space> tick(const vector& position, scalar dt,
                                                   const vector& held) noexcept {
@@ -167,7 +167,7 @@ class local_model {
 
     // How much of it does the ledger cover?
     scalar local_force(0);
-    if constexpr (Bound::needs_local_model) {
+    if constexpr (Bound::traits.needs_local_model) {
       if (in_local) local_force = supply_.last_weight() * before.force(depth, outward_speed);
     }
     using state_type = tick_state<Space, decltype(observer_.damping)>;

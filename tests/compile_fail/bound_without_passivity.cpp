@@ -19,8 +19,7 @@ struct mine {
 #ifdef POSITIVE_CONTROL
   static constexpr ph::guarantee passivity = ph::guarantee::none;
 #endif
-  static constexpr bool only_reduces = true, needs_ledger = false, needs_local_model = false;
-  static constexpr int latency = 0;
+  static constexpr ph::bound_traits traits{.only_reduces = true};
   constexpr float limit(float desired, const auto& /*state*/) const noexcept {
     return desired;
   }
