@@ -277,7 +277,8 @@ TEMPLATE_TEST_CASE("a force beyond all numbers is no force", "[fault]", ph::half
   });
 }
 
-TEST_CASE("a tick longer than the longest is reported, and booked as it was", "[fault]") {
+TEST_CASE("a late tick is reported, and costs what it may have cost with or without a watchdog",
+          "[fault]") {
   auto model = following_half_space<d1>(ph::spring<d1>{}, thesis_ledger<d1>(),
                                         ph::strict_bound<d1>{}, {.longest_tick = 1.2e-3});
   model.retarget(wall<d1>(500));
@@ -286,7 +287,15 @@ TEST_CASE("a tick longer than the longest is reported, and booked as it was", "[
   const double before = model.energy();
   const auto late = model.tick(1.5e-3, 3e-3);
   CHECK(late.what == ph::event::late_tick);
-  CHECK(late.energy > before);
+  CHECK(before > 0.0);
+  CHECK_THAT(late.energy, Catch::Matchers::WithinAbs(0.0, 1e-15));  // the bound had spent it all
+
+  auto bare = following_half_space<d1>(ph::spring<d1>{}, thesis_ledger<d1>(), ph::no_bound<d1>{},
+                                       {.longest_tick = 1.2e-3});
+  bare.retarget(wall<d1>(500));
+  (void)bare.tick(0.0, 1e-3);
+  CHECK(bare.tick(1e-3, 1e-3).energy > 0.0);
+  CHECK(bare.tick(-0.019, 3e-3).energy < -5e-3);  // no watchdog: 0.5 N have worked for 20 mm
 }
 
 TEST_CASE("a debt is an event, and events say what they are", "[fault]") {

@@ -40,8 +40,8 @@ template class ph::local_model<f3, ph::following<ph::triangle<f3>>, ph::rotate_l
 TEST_CASE("the ledger pairs a displacement with the force held while it happened (A27)",
           "[local_model]") {
   ph::reduced_energy<d1> ledger{.damping = 0.03, .energy = 0.1};
-  ph::local_model model{d1{},   ph::rigid{wall<d1>(1000)}, ph::snap<d1>{}, ph::spring<d1>{},
-                        ledger, ph::strict_bound<d1>{}};
+  ph::local_model model{d1{},   ph::rigid{wall<d1>(1000)}, ph::snap<d1>{},        ph::spring<d1>{},
+                        ledger, ph::strict_bound<d1>{},    {.longest_tick = 2e-3}};
   const double x0 = 1e-3, x1 = 1.5e-3, x2 = 1.2e-3;
   const auto first = model.tick(x0, 1e-3);
   CHECK_THAT(first.force, WithinRel(-1.0, 1e-12));

@@ -56,6 +56,14 @@ requires(Dof >= 2) struct space<Scalar, Dof> {
   [[nodiscard]] static Scalar inversely_weighted_square(const vector& w, const vector& a) noexcept {
     return a.cwiseAbs2().cwiseQuotient(w).sum();
   }
+  [[nodiscard]] static Scalar component(const vector& a, int i) noexcept { return a(i); }
+  [[nodiscard]] static Scalar& component(vector& a, int i) noexcept { return a(i); }
+  [[nodiscard]] static Scalar component(const coordinates& a, int i) noexcept {
+    return a.values[static_cast<std::size_t>(i)];
+  }
+  [[nodiscard]] static Scalar& component(coordinates& a, int i) noexcept {
+    return a.values[static_cast<std::size_t>(i)];
+  }
   [[nodiscard]] static Scalar smallest(const vector& a) noexcept { return a.minCoeff(); }
 
   /// A unit vector orthogonal to the unit vector n; the choice is fixed, so it is repeatable (A19).

@@ -120,7 +120,7 @@ class local_model {
     const bool known = seen_ && !(blind_ > scalar(0));
     const vector displacement = known ? travel : Space::zero();
     if (known) {
-      observer_.update(displacement, held, dt);
+      book(displacement, held, dt);
     } else {
       observer_.forfeit(held, limits_.longest_tick);
     }
@@ -206,6 +206,16 @@ class local_model {
     }
     hold(force);
     return {force, felt, observer_.value(), what, limited};
+  }
+
+  /// One tick into the ledger. A late tick may have let a watchdog drop the force part of the way,
+  /// or not: it counts as the worse of the two.
+  constexpr void book(const vector& displacement, const vector& held, scalar dt) noexcept {
+    if (dt <= limits_.longest_tick) return observer_.update(displacement, held, dt);
+    Observer dropped = observer_;
+    dropped.forfeit(held, limits_.longest_tick);
+    observer_.update(displacement, held, dt);
+    if (dropped.value() < observer_.value()) observer_ = dropped;
   }
 
   /// A finite sample, no farther from the last good one than the device can have gone since.

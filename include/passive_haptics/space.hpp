@@ -48,6 +48,9 @@ struct space<Scalar, 1> {
   [[nodiscard]] static constexpr Scalar inversely_weighted_square(Scalar w, Scalar a) noexcept {
     return a * a / w;
   }
+  /// Component i, to read and to write.
+  [[nodiscard]] static constexpr Scalar component(const Scalar& a, int /*i*/) noexcept { return a; }
+  [[nodiscard]] static constexpr Scalar& component(Scalar& a, int /*i*/) noexcept { return a; }
   /// The smallest component.
   [[nodiscard]] static constexpr Scalar smallest(Scalar a) noexcept { return a; }
 };

@@ -30,8 +30,7 @@ struct strict_bound {
       .only_reduces = true, .needs_ledger = true, .latency = Latency};
 
   [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) const noexcept {
-    const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
-    return desired * kernels::strict_scale(state.credit(), outflow);
+    return desired * state.damping.affordable(desired, state.credit(), state.longest_tick);
   }
   [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept { return {}; }
 };

@@ -33,7 +33,7 @@ struct reachable_bound {
     const scalar force = Space::norm(desired);
     if (!(force > scalar(0))) return desired;
 
-    const scalar B = force * force / (scalar(4) * outflow);  // 1/(uᵀB⁻¹u), u along the force
+    const scalar B = state.damping.per_tick(desired, state.longest_tick);
     const scalar outward = Space::dot(state.displacement, desired) / force;
     const scalar damper = scalar(2) * B * Space::norm(state.displacement);
     const scalar reach =
@@ -41,7 +41,8 @@ struct reachable_bound {
             ? kernels::outward_reach(outward, Space::norm(state.held), force, hand_force + damper,
                                      mass, state.dt, state.longest_tick)
             : std::numeric_limits<scalar>::max();  // it may be moving out at any speed
-    const scalar most = kernels::reachable_force_bound(state.credit(), B, reach);
+    const scalar most =
+        state.damping.friction() + kernels::reachable_force_bound(state.credit(), B, reach);
     return most < force ? vector(desired * (most / force)) : desired;
   }
   [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {

@@ -25,8 +25,7 @@ struct thesis_bound {
       .only_reduces = true, .needs_ledger = true, .needs_local_model = true};
 
   [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) const noexcept {
-    const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
-    scalar scale = kernels::strict_scale(state.credit(), outflow);
+    scalar scale = state.damping.affordable(desired, state.credit(), state.longest_tick);
     if (scale < scalar(1) && !state.leaving()) {
       const scalar asked = Space::dot(desired, state.normal);
       if (asked > scalar(0)) {
