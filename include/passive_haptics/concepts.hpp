@@ -7,6 +7,7 @@
 //   normal interpolation  how fast the contact normal may turn     normals.hpp
 //   constraint            a piece of the world: plane, triangle    geometry.hpp
 //   supply                who owns the constraint, who moves it    supply.hpp
+//   motion estimator      where the device is and how fast         motion.hpp
 //   contact law           depth and speed to desired force         contact.hpp
 //   haptic device         position out, force in                   simulation/, falcon_hid.hpp
 //
@@ -33,13 +34,14 @@ struct tick_state {
   scalar longest_tick;     ///< bound on the length of the next
   vector held;             ///< force over the last tick
   vector displacement;     ///< Δx over the last tick
-  bool motion_known;       ///< false: the last sample was lost, Δx is unknown and given as zero
-  vector normal;           ///< outward, of the local model, along which the force will act
-  scalar stiffness;        ///< K of the target [N/m]
-  scalar depth;            ///< in the local model, ≤ 0 outside
-  scalar target_depth;     ///< in the environment's newest constraint, ≤ 0 outside
-  scalar local_force;      ///< what the contact law gives at `depth`, along `normal`
-  bool target_changed;     ///< a new constraint arrived since the last tick
+  scalar displacement_error = scalar(0);  ///< the true Δx is no farther from it than this [m]
+  bool motion_known;    ///< false: the last sample was lost, Δx is unknown and given as zero
+  vector normal;        ///< outward, of the local model, along which the force will act
+  scalar stiffness;     ///< K of the target [N/m]
+  scalar depth;         ///< in the local model, ≤ 0 outside
+  scalar target_depth;  ///< in the environment's newest constraint, ≤ 0 outside
+  scalar local_force;   ///< what the contact law gives at `depth`, along `normal`
+  bool target_changed;  ///< a new constraint arrived since the last tick
 
   /// The credit a new force may spend: E1 less what is already on its way.
   [[nodiscard]] constexpr scalar credit() const noexcept { return energy - in_flight; }
@@ -106,6 +108,18 @@ concept normal_interpolation_for = policy<N> &&
   { n.step(v, v, s) } -> std::same_as<typename Space::vector>;
   { c.check() } -> std::same_as<parameter_fault<typename Space::scalar>>;
   requires noexcept(n.step(v, v, s));
+};
+
+/// estimate() takes the position shown [m], Δx [m], the force held meanwhile [N], its length [s],
+/// and whether Δx is known at all; it returns `position` [m] and along(n), the speed along a unit
+/// vector [m/s].
+template <class M, class Space>
+concept motion_estimator_for = policy<M> &&
+    requires(M m, const M c, const typename Space::vector v, typename Space::scalar s) {
+  { m.estimate(v, v, v, s, true).position } -> std::convertible_to<typename Space::vector>;
+  { m.estimate(v, v, v, s, true).along(v) } -> std::same_as<typename Space::scalar>;
+  { c.check() } -> std::same_as<parameter_fault<typename Space::scalar>>;
+  requires noexcept(m.estimate(v, v, v, s, true));
 };
 
 /// adopt() takes a new stiffness [N/m] and the longest tick [s]; force() gives the desired force

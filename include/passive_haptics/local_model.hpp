@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The passive local model: five parts, one tick.
+// The passive local model: its parts, one tick.
 //
-//  x, dt ─▶ guard ─▶ observer ─▶ probe ─▶ normal ─▶ contact law ─▶ bound ─▶ follow ─▶ force
-//           finite?   E1 += …    depth in  n_LM →    f* = K d …     |f| ≤    own plane
-//           dt > 0?              both      n_VE                     f(E1)    at depth f/K
+//  x, dt ─▶ guard ─▶ observer ─▶ motion ─▶ probe ─▶ normal ─▶ contact ─▶ bound ─▶ follow ─▶ force
+//           finite?   E1 += …    x, v     depth in  n_LM →   f* = K d…   |f| ≤    own plane
+//           dt > 0?                       both      n_VE                 f(E1)    at depth f/K
 //
 // The order is the thesis's (Fig. 2.7, A27). Only this class holds the last position and the forces
 // held, so the ledger always pairs a displacement with the force that was there while it happened.
@@ -12,6 +12,7 @@
 
 #include <passive_haptics/concepts.hpp>
 #include <passive_haptics/loop.hpp>
+#include <passive_haptics/motion.hpp>
 
 #include <array>
 
@@ -25,7 +26,9 @@ namespace passive_haptics::inline v0 {
 ///                          ph::reduced_energy<scene>{.damping = 0.03},
 ///                          ph::strict_bound<scene>{}};
 ///     device.command(wall.tick(position, dt).force);
-template <class Space, class Supply, class Normals, class Contact, class Observer, class Bound>
+/// After the bound come, where the defaults do not fit, loop_limits and a motion estimator.
+template <class Space, class Supply, class Normals, class Contact, class Observer, class Bound,
+          class Motion = last_difference<Space>>
 class local_model {
  public:
   using space_type = Space;
@@ -46,6 +49,9 @@ class local_model {
                 "see concepts.hpp");
   static_assert(force_bound_for<Bound, Space>,
                 "passive_haptics: the bound does not model force_bound_for: see concepts.hpp");
+  static_assert(motion_estimator_for<Motion, Space>,
+                "passive_haptics: the motion estimator does not model motion_estimator_for: "
+                "see concepts.hpp");
   static_assert(Observer::counts || !Bound::traits.needs_ledger,
                 "passive_haptics: this bound spends energy that no_observer does not count: "
                 "use reduced_energy");
@@ -55,17 +61,19 @@ class local_model {
 
   /// The weakest promise among the parts.
   static constexpr guarantee passivity =
-      std::min({Normals::passivity, Contact::passivity, Observer::passivity, Bound::passivity});
+      std::min({Normals::passivity, Contact::passivity, Observer::passivity, Bound::passivity,
+                Motion::passivity});
 
   constexpr local_model(Space /*scene*/, const Supply& supply, const Normals& normals,
                         const Contact& contact, const Observer& observer, const Bound& bound,
-                        const loop_limits<Space>& limits = {}) noexcept
+                        const loop_limits<Space>& limits = {}, const Motion& motion = {}) noexcept
       : supply_(supply),
         normals_(normals),
         contact_(contact),
         observer_(observer),
         bound_(bound),
-        limits_(limits) {
+        limits_(limits),
+        motion_(motion) {
     held_.fill(Space::zero());
     sound_ = !check();
     if constexpr (!Supply::moves) contact_.adopt(supply_.target().stiffness, limits_.longest_tick);
@@ -78,6 +86,7 @@ class local_model {
     if (const auto fault = contact_.check()) return fault;
     if (const auto fault = observer_.check()) return fault;
     if (const auto fault = bound_.check()) return fault;
+    if (const auto fault = motion_.check()) return fault;
     return supply_.check();
   }
 
@@ -130,17 +139,19 @@ class local_model {
     if (observer_.value() < scalar(0)) what = worse(what, event::debt);
 
     // Where are we, in the newest target and in our own constraint?
+    const auto motion = motion_.estimate(position, displacement, held, dt, known);
+    const vector& here = motion.position;
     const constraint_type& target = supply_.target();
     const scalar weight = presence(dt, what);
-    const scalar target_depth = target.depth(position);
+    const scalar target_depth = target.depth(here);
     const bool behind = weight > scalar(0) && target_depth > scalar(0);
-    const bool in_target = behind && target.covers(position);
+    const bool in_target = behind && target.covers(here);
     scalar depth = target_depth;
     bool in_local = in_target && !beside_;  // coming in sideways is an update, not a contact (A18)
     if constexpr (Supply::moves) {
       if (!supply_.together()) {
-        depth = supply_.local().depth(position);
-        in_local = depth > scalar(0) && supply_.local().covers(position);
+        depth = supply_.local().depth(here);
+        in_local = depth > scalar(0) && supply_.local().covers(here);
       }
       if (!(supply_.last_weight() > scalar(0))) in_local = false;  // so is a surface that appears
       beside_ = behind && !in_target;
@@ -156,7 +167,7 @@ class local_model {
         normal = normals_.step(supply_.local().outward(), goal, dt);
       }
     }
-    const scalar outward_speed = Space::dot(displacement, normal) / dt;
+    const scalar outward_speed = motion.along(normal);
     scalar felt = in_target ? target_depth : scalar(0);
     scalar asked = in_target ? weight * contact_.force(target_depth, outward_speed) : scalar(0);
     if (!kernels::is_finite(asked) || !kernels::is_finite(felt)) {
@@ -178,6 +189,7 @@ class local_model {
                            .longest_tick = limits_.longest_tick,
                            .held = held,
                            .displacement = displacement,
+                           .displacement_error = displacement_error(),
                            .motion_known = known,
                            .normal = normal,
                            .stiffness = target.stiffness,
@@ -196,9 +208,9 @@ class local_model {
     if constexpr (Supply::moves) {
       if (limited) {
         felt = contact_.depth(Space::dot(force, normal), outward_speed);
-        supply_.approach(in_local, position, normal, felt);
+        supply_.approach(in_local, here, normal, felt);
       } else if (in_target && !(normal == goal)) {
-        supply_.approach(in_local, position, normal, felt);
+        supply_.approach(in_local, here, normal, felt);
       } else {
         supply_.sync();
       }
@@ -247,6 +259,14 @@ class local_model {
     return false;
   }
 
+  [[nodiscard]] constexpr scalar displacement_error() const noexcept {
+    if constexpr (requires { observer_.displacement_error(); }) {
+      return observer_.displacement_error();
+    } else {
+      return scalar(0);
+    }
+  }
+
   /// ¼ Σ fᵀB⁻¹f over the commands that are still on their way to the motors (§ 3).
   [[nodiscard]] constexpr scalar in_flight() const noexcept {
     scalar promised(0);
@@ -277,6 +297,7 @@ class local_model {
   [[no_unique_address]] Observer observer_;
   [[no_unique_address]] Bound bound_;
   loop_limits<Space> limits_;
+  [[no_unique_address]] Motion motion_;
   std::array<typename Space::coordinates, latency + 1> held_{};  ///< newest first; the last is held
   typename Space::coordinates position_{};                       ///< of the last good sample
   scalar blind_{};       ///< time since then that bad samples took [s]

@@ -9,6 +9,7 @@
 #include <passive_haptics/exchange.hpp>
 #include <passive_haptics/geometry.hpp>
 #include <passive_haptics/local_model.hpp>
+#include <passive_haptics/motion.hpp>
 #include <passive_haptics/normals.hpp>
 #include <passive_haptics/observers.hpp>
 #include <passive_haptics/supply.hpp>

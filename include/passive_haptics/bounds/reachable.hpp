@@ -34,8 +34,9 @@ struct reachable_bound {
     if (!(force > scalar(0))) return desired;
 
     const scalar B = state.damping.per_tick(desired, state.longest_tick);
-    const scalar outward = Space::dot(state.displacement, desired) / force;
-    const scalar damper = scalar(2) * B * Space::norm(state.displacement);
+    const scalar error = state.displacement_error;
+    const scalar outward = Space::dot(state.displacement, desired) / force + error;
+    const scalar damper = scalar(2) * B * (Space::norm(state.displacement) + error);
     const scalar reach =
         state.motion_known
             ? kernels::outward_reach(outward, Space::norm(state.held), force, hand_force + damper,
