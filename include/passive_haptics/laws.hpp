@@ -120,6 +120,7 @@ template <class Space>
                            scalar(0.001),
                            random.vector<Space>() * scalar(5),
                            random.vector<Space>() * scalar(0.002),
+                           scalar(0),
                            true,
                            normal,
                            scalar(1000),

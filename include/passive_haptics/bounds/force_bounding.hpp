@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The force bounding approach (FBA): ¼ fᵀB⁻¹f ≤ what the ledger holds, at every tick.
+// The force bounding approach (FBA): the worst motion of the next tick, ¼ fᵀB⁻¹f, is paid for before
+// the force is commanded. What pays is the difference:
 //
-//   strict_bound      |f| ≤ √(4 B E1)         all that was ever saved may be spent
+//   strict_bound      |f| ≤ √(4 B E1)         all that was ever saved: fewest cuts, late bursts
+//                     |f| ≤ f_c + √(4 B E1)   with damping_and_friction, where f_c is sure
+//   memoryless_bound  |f| ≤ |f_held − 2B Δx|  the last force and the last tick only: no bank, so no
+//                                             bursts and no drift; feels like a spring of 2b/T
+//   per_axis_bound    |fᵢ| ≤ √(4 Bᵢ Eᵢ)       one ledger per axis: one axis cannot spend what
+//                                             another saved; turns the force
 //
 // B = b/T per tick. T is always the LONGEST tick the loop can produce, the credit uses the measured
 // one: that pair survives jitter (docs/design/mathematics.md § 3).
 
 #include <passive_haptics/concepts.hpp>
+
+#include <limits>
 
 namespace passive_haptics::inline v0 {
 
@@ -17,8 +25,8 @@ namespace passive_haptics::inline v0 {
 /// With Latency k > 0 the force commanded at n is held during [n+k, n+k+1) and what is in flight is
 /// promised already: ¼ fᵀB⁻¹f ≤ E1 − ¼ Σ_{j=1..k} f(n−j)ᵀB⁻¹f(n−j). (§ 3)
 ///
-/// Assumes: b is a lower bound, every tick ≤ limits::longest_tick, positions exact, the held force
-/// known. The price (lemma L4): pressed slowly from an empty ledger it shows at most 2b/T N/m.
+/// Assumes: b is a lower bound, every tick ≤ limits::longest_tick, positions exact (or the ledger a
+/// quantised_energy), the held force known. The price (lemma L4): pressed slowly from an empty ledger it shows at most 2b/T N/m.
 template <class Space, int Latency = 0>
 struct strict_bound {
   static_assert(Latency >= 0,
@@ -35,6 +43,108 @@ struct strict_bound {
   [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept { return {}; }
 };
 
+/// ¼ fᵀB⁻¹f ≤ ¼ hᵀB⁻¹h + Δxᵀ(b/dt)Δx − h·Δx, h the force held over the last tick: what h had been
+/// promised, and what the tick brought. For ticks of one length the right side is a square, and
+///     fᵀB⁻¹f ≤ wᵀB⁻¹w,   w = h − 2B Δx                                  (§ 2(a), C1)
+/// The conservative of the two variants that the thesis mentions without a formula is this one or
+/// per_axis_bound; the form and the proof are ours. It reads no ledger, only the damping.
+///
+/// Proof: S(h) = ¼ hᵀB⁻¹h with B = b/T, T the longest tick, is the most that h can cost (L3), and
+/// the tick of measured length dt ≤ T brought ΔE ≥ Δxᵀ(b/dt)Δx − h·Δx (L1). The law says
+/// S(f) ≤ S(h) + ΔE, tick after tick, so E ≥ S ≥ 0 for ever; its right side is never negative,
+/// because b/dt ≥ B. With friction f_c the same holds with S = (|h| − f_c)₊²/(4B) and f_c|Δx| more in
+/// ΔE. With Latency k > 0 the force that the last tick paid for is held k + 1 ticks after it: the
+/// ticks fall into k + 1 chains, each with a storage of its own, and nothing else changes.
+///
+/// Assumes what strict_bound does, and exact positions: it reads Δx itself, so quantised_energy does
+/// not make it safe on encoder steps. The force really held may be smaller than the command: shorter
+/// in the same direction, or, with isotropic damping, shorter in any. A force held that is LARGER
+/// than commanded costs more than was promised and, with no ledger, is not remembered as a debt.
+/// The price: no bank at all, so a spring of 2b/T N/m at any speed, of 2b/T/(k + 1) with latency;
+/// and after a lost sample or a late tick the force starts again from zero.
+template <class Space, int Latency = 0>
+struct memoryless_bound {
+  static_assert(Latency >= 0,
+                "passive_haptics: memoryless_bound: Latency counts ticks and cannot be negative");
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bound_traits traits{
+      .only_reduces = true, .needs_ledger = true, .latency = Latency};
+
+  [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) const noexcept {
+    const scalar T = state.longest_tick;
+    scalar credit(0);
+    if (state.motion_known && state.dt <= T) {
+      credit = state.damping.worst_outflow(state.held, T) +
+               state.damping.dissipated(state.displacement, state.dt) -
+               Space::dot(state.held, state.displacement);
+    }
+    return desired * state.damping.affordable(desired, credit, T);
+  }
+  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept { return {}; }
+};
+
+/// |fᵢ| ≤ √(4 Bᵢ Eᵢ) for each axis i of the frame that the damping is given in, each with a ledger
+/// of its own:  Eᵢ += (bᵢ/dt) Δxᵢ² − hᵢ Δxᵢ.  strict_bound on every axis (§ 2(a), C2; the form and
+/// the proof are ours), so every Eᵢ ≥ 0, and so is their sum, the energy at the port.
+///
+/// The direction of the force is not kept, so it is not `only_reduces`: in a chain, nothing in front
+/// of it keeps its promise because of it; it keeps its own, wherever it stands, when what follows
+/// only reduces.
+///
+/// Assumes what memoryless_bound does, and that no component of the force really held is larger than
+/// commanded; one that is puts its axis into a debt that is kept and repaid. Dry friction is not
+/// credited: a bound on its total says nothing about one axis. The price: a bank on one axis is of
+/// no use to another; a lost sample voids all credit, and there is no loan to start with.
+template <class Space>
+struct per_axis_bound {
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bound_traits traits{.needs_ledger = true};
+
+  scalar cap = std::numeric_limits<scalar>::max();  ///< most credit to keep on an axis [J] (L7)
+  typename Space::coordinates energy{};             ///< Eᵢ [J]
+
+  [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) noexcept {
+    constexpr scalar inwards = scalar(1) - scalar(4) * std::numeric_limits<scalar>::epsilon();
+    vector force = desired;
+    for (int i = 0; i < Space::dof; ++i) {
+      scalar& saved = Space::component(energy, i);
+      saved = booked(saved, i, state);
+      const scalar B = state.damping.along_axis(i) / state.longest_tick;
+      const scalar most = kernels::strict_force_bound(saved, B) * inwards;
+      scalar& along = Space::component(force, i);
+      along = kernels::smaller(kernels::larger(along, -most), most);
+    }
+    return force;
+  }
+  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
+    if (!(cap >= scalar(0))) return {"cap", cap, "≥ 0 J"};
+    return {};
+  }
+
+ private:
+  /// Eᵢ after the last tick. A tick that was late counts as the worse of held to its end and
+  /// dropped at the worst moment; one that nobody saw leaves nothing but debts.
+  [[nodiscard]] constexpr scalar booked(scalar before, int i, const auto& state) const noexcept {
+    const scalar debt = kernels::smaller(before, scalar(0));
+    if (!state.motion_known) return debt;
+    const scalar b = state.damping.along_axis(i);
+    const scalar held = Space::component(state.held, i);
+    const scalar travel = Space::component(state.displacement, i);
+    scalar after = before + (b * travel / state.dt - held) * travel;
+    if (state.dt > state.longest_tick) {
+      const scalar worst = kernels::worst_outflow(held, b / state.longest_tick);
+      after = kernels::smaller(after, kernels::larger(before - worst, debt));
+    }
+    return kernels::smaller(after, cap);
+  }
+};
+
 static_assert(force_bound_for<strict_bound<space<float, 1>>, space<float, 1>>);
+static_assert(force_bound_for<memoryless_bound<space<float, 1>>, space<float, 1>>);
+static_assert(force_bound_for<per_axis_bound<space<float, 1>>, space<float, 1>>);
 
 }  // namespace passive_haptics::inline v0

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The bound on the slope: the force moves only as the hand moves, and falls steeper than it rose.
+//
+//   sector_bound   0 ≤ df/dx ≤ β pressing, β ≤ df/dx ≤ 2b/T releasing   one degree of freedom; no
+//                                                                       jumps at all, soft
+
+#include <passive_haptics/concepts.hpp>
+
+#include <limits>
+
+namespace passive_haptics::inline v0 {
+
+/// With F ≥ 0 the size of the force and s the travel of the last tick against it [m]:
+///     pressing  (s ≥ 0):   F_held             ≤ F ≤ F_held + β s
+///     releasing (s < 0):   F_held − (2b/T)|s| ≤ F ≤ F_held − β |s|         never below zero
+/// so the path in the plane of position and force turns clockwise, and |ΔF| ≤ (2b/T)|Δx|: no update
+/// of the environment is ever felt as a jump. Inspired by the input-to-state-stable approach
+/// (Jafari, Ryu), whose own law is not confirmed; law and proof are ours (§ 2(f)).
+///
+/// Proof, with F = F_held + σ s:  (b/dt)s² + F_held s = ½(F_held + F)s + (b/dt − σ/2)s². As σ ≤ 2b/T
+/// ≤ 2b/dt the last term is not negative, and the one before is at least (F² − F_held²)/(2β) on both
+/// branches. So E ≥ F²/(2β), and as β ≤ 2b/T that covers the worst the next tick can do: less than
+/// the window, down to zero, is safe as well. The lower edges are for the feel alone.
+///
+/// Assumes what memoryless_bound does. Not offered with latency. The price: at most 2b/T N/m; NOT `only_reduces`: a contact that is lost, or fades because the environment is
+/// silent, goes on pushing until the hand yields. A lost sample or a late tick ends it at once.
+/// One degree of freedom: the proof needs the motion to be along the force.
+template <class Space>
+struct sector_bound {
+  static_assert(Space::dof == 1,
+                "passive_haptics: sector_bound: its proof is for one degree of freedom");
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bound_traits traits{.needs_ledger = true};
+
+  scalar slope = std::numeric_limits<scalar>::max();  ///< β [N/m], > 0; more than 2b/T is 2b/T
+
+  [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) const noexcept {
+    if (!state.motion_known || state.dt > state.longest_tick) return Space::zero();
+    const scalar steepest = scalar(2) * state.damping.along_axis(0) / state.longest_tick;
+    const scalar gentlest = kernels::smaller(slope, steepest);
+    const bool backwards =
+        state.held < scalar(0) || (state.held == scalar(0) && desired < scalar(0));
+    const scalar side = backwards ? scalar(-1) : scalar(1);
+
+    const scalar held = state.held * side;
+    const scalar against = -state.displacement * side;
+    const scalar most = kernels::larger(held + gentlest * against, scalar(0));
+    const scalar least =
+        against < scalar(0) ? kernels::larger(held + steepest * against, scalar(0)) : held;
+    return side * kernels::smaller(kernels::larger(desired * side, least), most);
+  }
+  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
+    if (slope > scalar(0) && kernels::is_finite(slope)) return {};
+    return {"slope", slope, "finite and > 0 N/m"};
+  }
+};
+
+static_assert(force_bound_for<sector_bound<space<float, 1>>, space<float, 1>>);
+
+}  // namespace passive_haptics::inline v0
