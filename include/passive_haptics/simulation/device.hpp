@@ -7,8 +7,9 @@
 //              sample delay       load, hand┘   friction, end stops, exactly              quantum
 //                                              └─▶ meter: E = ∫ b v² dt − Σ f·Δx, true positions
 //
-// The force is a zero-order hold over T and the hand one over T/substeps; between those instants
-// nothing is approximated, so energy books close to rounding. With no_hand the period is one step.
+// The force is a zero-order hold over T, or until the watchdog drops it, and the hand one over
+// 1/substeps of each of the two parts; between those instants nothing is approximated, so energy
+// books close to rounding. With no_hand each part is one step.
 
 #include <passive_haptics/concepts.hpp>
 #include <passive_haptics/simulation/axis.hpp>
@@ -54,12 +55,9 @@ class device {
     const vector held = driver_.next(force);
     const state actuator = to_physical<Space>(held);
     const state load = parameters_.load;
-    const double now = time();
-    for (int i = 0; i < pieces(); ++i) {
-      const double t = now + i * step_.duration();
-      const state asked = hand_.force(t, position_, velocity_);
-      const state push = physical<Space>::is_finite(asked) ? asked : physical<Space>::zero();
-      meter_.book(move(actuator, push, load));
+    hold(time(), driven_, actuator, load);
+    if (coasting_.duration() > 0.0) {
+      hold(time() + driven_.duration() * pieces(), coasting_, physical<Space>::zero(), load);
     }
     time_ += static_cast<double>(period_);
     return {measured<Space>(position_, parameters_.quantum), held, period_, true};
@@ -70,8 +68,12 @@ class device {
   bool set_period(double T) noexcept {
     const scalar rounded = static_cast<scalar>(T);
     if (!(rounded > scalar(0)) || !kernels::is_finite(rounded)) return false;
-    const double h = static_cast<double>(rounded) / pieces();
-    if (!(rounded == period_)) step_ = flow{parameters_.damping / moving_mass_, h};
+    if (!(rounded == period_)) {
+      const double rate = parameters_.damping / moving_mass_;
+      const double driven = driven_time<Space>(rounded, parameters_.watchdog);
+      driven_ = flow{rate, driven / pieces()};
+      coasting_ = flow{rate, (static_cast<double>(rounded) - driven) / pieces()};
+    }
     period_ = rounded;
     return true;
   }
@@ -102,8 +104,19 @@ class device {
     return parameters_.substeps > 1 ? parameters_.substeps : 1;
   }
 
+  /// One force of the actuators for `pieces()` holds of the hand.
+  void hold(double from, const flow& step, const state& actuator, const state& load) noexcept {
+    for (int i = 0; i < pieces(); ++i) {
+      const double t = from + i * step.duration();
+      const state asked = hand_.force(t, position_, velocity_);
+      const state push = physical<Space>::is_finite(asked) ? asked : physical<Space>::zero();
+      meter_.book(move(step, actuator, push, load));
+    }
+  }
+
   /// All axes through one hold of the hand's force.
-  energy_flows move(const state& actuator, const state& push, const state& load) noexcept {
+  energy_flows move(const flow& step, const state& actuator, const state& push,
+                    const state& load) noexcept {
     energy_flows flows;
     for (int i = 0; i < Space::dof; ++i) {
       const axis along{moving_mass_, parameters_.damping, parameters_.friction,
@@ -112,7 +125,7 @@ class device {
       const double pushed = component(push, i);
       const double weight = component(load, i);
       axis_state here{component(position_, i), component(velocity_, i)};
-      const axis_motion moved = along.advance(here, f + pushed + weight, step_);
+      const axis_motion moved = along.advance(here, f + pushed + weight, step);
       component(position_, i) = here.position;
       component(velocity_, i) = here.velocity;
       flows.damping += moved.damping;
@@ -131,7 +144,8 @@ class device {
   state position_, velocity_;
   double moving_mass_;
   port_energy_meter meter_;
-  flow step_;
+  flow driven_;    ///< one hold of the hand while the force lasts
+  flow coasting_;  ///< and after the watchdog has dropped it
   scalar period_{};
   compensated_sum<double> time_;
   bool sound_ = false;  ///< are the parameters good?

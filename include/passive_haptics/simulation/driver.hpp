@@ -4,6 +4,7 @@
 //
 //   device_parameters   every number of the device, with its unit and default
 //   driver              refuses what is no number, saturates, delays: returns the force REALLY held
+//   driven_time         how much of a period the force lasts before the watchdog drops it
 
 #include <passive_haptics/event.hpp>
 #include <passive_haptics/simulation/components.hpp>
@@ -35,6 +36,7 @@ struct device_parameters {
   coordinates start_velocity{};                      ///< [m/s]
   int substeps = 20;                                 ///< times per period the hand is asked
   int latency = 0;                                   ///< periods from a command to its holding
+  double watchdog = infinity;                        ///< a force is held no longer than this [s]
 
   [[nodiscard]] parameter_fault<double> check() const noexcept {
     const auto finite = [](double x) { return kernels::is_finite(x); };
@@ -57,6 +59,7 @@ struct device_parameters {
     if (!(period > 0.0) || !finite(period)) return {"period", period, "finite and > 0 s"};
     if (substeps < 1 || substeps > 10000) return {"substeps", double(substeps), "1 to 10000"};
     if (latency < 0 || latency > max_latency) return {"latency", double(latency), "0 to 8 periods"};
+    if (!(watchdog > 0.0)) return {"watchdog", watchdog, "> 0 s"};
     return {};
   }
 };
@@ -80,6 +83,10 @@ class driver {
     queue_[0] = Space::is_finite(command) ? saturated(command) : Space::zero();
     return queue_[last];
   }
+  /// What next(command) would return.
+  [[nodiscard]] vector upcoming(const vector& command) const noexcept {
+    return driver(*this).next(command);
+  }
 
  private:
   [[nodiscard]] vector saturated(const vector& command) const noexcept {
@@ -90,6 +97,14 @@ class driver {
   int latency_;
   std::array<typename Space::coordinates, parameters::max_latency + 1> queue_{};
 };
+
+/// For how long of a period [s] the force is held: all of it, or until the watchdog drops it. It is
+/// compared in the scalar of the port, so that a period equal to it does not trip it.
+template <class Space>
+[[nodiscard]] double driven_time(typename Space::scalar period, double watchdog) noexcept {
+  const auto limit = static_cast<typename Space::scalar>(watchdog);
+  return static_cast<double>(period > limit ? limit : period);
+}
 
 /// What the encoders show [m]: the true position floored to a multiple of `quantum`, in the Space's
 /// own scalar.

@@ -12,9 +12,13 @@ namespace passive_haptics::inline v0::simulation {
 /// Models haptic_device_for<Space>: each exchange travels from one position to the next at constant
 /// velocity while the force is held. The meter books exactly
 ///     E += b ‖Δx‖²/T − f·Δx
-/// the equality of lemma L1. Of the parameters it takes damping, force_limit, latency, quantum,
-/// period and start; the rest means nothing to it. In float, the sample's position is rounded and
-/// the true one is not: next positions that are exact in float keep observer and meter comparable.
+/// the equality of lemma L1. In a period T longer than the watchdog w the force is zero after w, so
+/// it works over w/T of the way; move_via() chooses where the device is at that instant. Dry
+/// friction f_c Σ|Δxᵢ| is booked beside E, as in device.
+///
+/// Of the parameters it takes damping, friction, force_limit, latency, quantum, period, watchdog and
+/// start; the rest means nothing to it. In float, the sample's position is rounded and the true one
+/// is not: next positions that are exact in float keep observer and meter comparable.
 template <class Space>
 class prescribed_motion {
  public:
@@ -28,23 +32,38 @@ class prescribed_motion {
         driver_(parameters),
         position_(parameters.start),
         next_(parameters.start),
+        dropped_at_(parameters.start),
         sound_(!parameters.check()),
         period_(static_cast<scalar>(parameters.period)) {}
 
   /// Where to be at the end of the next exchange [m]. One that is not finite is ignored.
   void move_to(const state& next) noexcept {
-    if (physical<Space>::is_finite(next)) next_ = next;
+    if (!physical<Space>::is_finite(next)) return;
+    next_ = next;
+    straight_ = true;
+  }
+  /// The same, and where to be when the watchdog drops the force, in a period that it cuts short;
+  /// in any other, `dropped_at` means nothing.
+  void move_via(const state& dropped_at, const state& next) noexcept {
+    if (!physical<Space>::is_finite(dropped_at) || !physical<Space>::is_finite(next)) return;
+    dropped_at_ = dropped_at;
+    next_ = next;
+    straight_ = false;
   }
 
   device_sample<Space> exchange(const vector& force) noexcept {
     if (!sound_) return {};
     const vector held = driver_.next(force);
-    const state step = next_ - position_;
     const double T = static_cast<double>(period_);
-    const double damped = parameters_.damping * physical<Space>::dot(step, step) / T;
-    const double work = physical<Space>::dot(to_physical<Space>(held), step);
-    meter_.book({.damping = damped, .actuator = work, .hand = damped - work});
-    position_ = next_;
+    const double driven = driven_time<Space>(period_, parameters_.watchdog);
+    if (!(driven < T)) {
+      travel(next_, T, to_physical<Space>(held));
+    } else {
+      if (straight_) dropped_at_ = state(position_ + (next_ - position_) * (driven / T));
+      travel(dropped_at_, driven, to_physical<Space>(held));
+      travel(next_, T - driven, physical<Space>::zero());
+    }
+    straight_ = true;  // unless told again
     time_ += T;
     return {measured<Space>(position_, parameters_.quantum), held, period_, true};
   }
@@ -59,15 +78,33 @@ class prescribed_motion {
   }
 
   [[nodiscard]] parameter_fault<double> check() const noexcept { return parameters_.check(); }
+  /// The force that exchange(command) would hold [N].
+  [[nodiscard]] vector upcoming(const vector& command) const noexcept {
+    return driver_.upcoming(command);
+  }
   [[nodiscard]] const state& position() const noexcept { return position_; }  ///< true [m]
   [[nodiscard]] double time() const noexcept { return time_; }                ///< virtual [s]
   [[nodiscard]] const port_energy_meter& meter() const noexcept { return meter_; }
   [[nodiscard]] const parameters_type& parameters() const noexcept { return parameters_; }
 
  private:
+  /// To `there` at constant velocity in `time` [s], against a constant force [N].
+  void travel(const state& there, double time, const state& force) noexcept {
+    const state step = there - position_;
+    const double damped = parameters_.damping * physical<Space>::dot(step, step) / time;
+    const double work = physical<Space>::dot(force, step);
+    double way = 0.0;
+    for (int i = 0; i < Space::dof; ++i) way += std::abs(component(step, i));
+    const double rubbed = parameters_.friction * way;
+    meter_.book(
+        {.damping = damped, .friction = rubbed, .actuator = work, .hand = damped + rubbed - work});
+    position_ = there;
+  }
+
   parameters_type parameters_;
   driver<Space> driver_;
-  state position_, next_;
+  state position_, next_, dropped_at_;
+  bool straight_ = true;
   bool sound_;
   scalar period_;
   port_energy_meter meter_;

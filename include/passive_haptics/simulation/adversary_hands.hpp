@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A hand that tries to draw energy out of a controller with a force it cannot exceed, on the exact
+// device; the menu is in adversary.hpp.
+
+#include <passive_haptics/simulation/hand.hpp>
+
+namespace passive_haptics::inline v0::simulation {
+
+/// Either tapping_hand, which reverses at the surface and between two ticks if need be, or a push
+/// that the caller changes whenever it likes; never more than `limit`.
+template <class Space>
+struct striking_hand {
+  using vector = typename physical<Space>::vector;
+  using coordinates = typename physical<Space>::coordinates;
+
+  tapping_hand<Space> taps{};  ///< its limit, surface and normal; used while `tapping`
+  coordinates push{};          ///< otherwise [N]
+  bool tapping = true;
+
+  [[nodiscard]] constexpr vector force(double t, const vector& x, const vector& v) const noexcept {
+    return tapping ? taps.force(t, x, v) : clamp_norm<Space>(push, taps.limit);
+  }
+  [[nodiscard]] constexpr double mass() const noexcept { return taps.mass(); }
+  [[nodiscard]] constexpr parameter_fault<double> check() const noexcept { return taps.check(); }
+};
+
+static_assert(hand_for<striking_hand<space<float, 1>>, space<float, 1>>);
+
+}  // namespace passive_haptics::inline v0::simulation

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// One call that throws any composed model at any adversary, and says what the hand got out of it:
+//
+//     for (const auto& v : sim::challenge_all(model)) {
+//       std::printf("%-16s %s\n", to_string(v.by), passes(v) ? "passive" : "loses");
+//     }
+//     double E = sim::replay(model, v.by, {}, v.worst_seed, [](const auto& now) { ... });
+//
+// The judge is the exact port energy of the simulation, dry friction included, and never the model's
+// own observer. Seeds make every run repeatable. A model that survives has survived these runs: that
+// is a test, the proof is in its bound. Two adversaries are hands whose force is limited; to the
+// others no force is a hindrance, which is more than a `conditional` bound has promised to survive.
+
+#include <passive_haptics/simulation/attack.hpp>
+
+#include <array>
+
+namespace passive_haptics::inline v0::simulation {
+
+/// What `runs` runs have shown. Energies at the port [J], each the least of its run; NaN if the
+/// circumstances are impossible or a force was commanded that is no number.
+struct verdict {
+  adversary by{};
+  int runs = 0;
+  double least_energy = 0.0;     ///< of all runs
+  double mean_energy = 0.0;      ///< over the runs
+  double largest_force = 0.0;    ///< commanded [N]: a model that never pushes is no proof
+  std::uint64_t worst_seed = 0;  ///< replay() it
+};
+
+/// Not a joule lost, to rounding in double. In float a ledger of 1 mJ already rounds by 1e-10 J a
+/// tick: say what you accept.
+[[nodiscard]] constexpr bool passes(const verdict& v, double accepted_loss = 1e-12) noexcept {
+  return v.runs > 0 && v.least_energy >= -accepted_loss;
+}
+
+namespace detail {
+
+template <class Space>
+verdict judge(const subject<Space>& model, adversary by, const circumstances& world, int runs,
+              std::uint64_t first_seed) noexcept {
+  verdict result{.by = by, .runs = runs, .worst_seed = first_seed};
+  for (int run = 0; run < runs; ++run) {
+    const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(run);
+    const run_result now = attack(model, by, world, seed);
+    result.mean_energy += now.least_energy / runs;
+    result.largest_force = std::fmax(result.largest_force, now.largest_force);
+    if (!(now.least_energy >= result.least_energy) &&
+        result.least_energy == result.least_energy) {  // the first NaN stays
+      result.least_energy = now.least_energy;
+      result.worst_seed = seed;
+    }
+  }
+  return result;
+}
+
+}  // namespace detail
+
+/// `runs` runs of one adversary, with seeds first_seed, first_seed + 1, ... The model is as
+/// local_model: space_type, constraint_type, tick(sample).force, and retarget(constraint), or
+/// target() if its surface never moves; each run works on a fresh copy. `make(point, normal, K)`
+/// lays the constraint of a surface.
+template <class Model, class Make = usual_constraint<Model>>
+[[nodiscard]] verdict challenge(const Model& model, adversary by, const circumstances& world = {},
+                                int runs = 1000, std::uint64_t first_seed = 1,
+                                const Make& make = {}) noexcept {
+  under_test<Model, Make> tested{model, model, make};
+  return detail::judge(subject<typename Model::space_type>(tested), by, world, runs, first_seed);
+}
+
+/// Every adversary in turn, `runs` runs each.
+template <class Model, class Make = usual_constraint<Model>>
+[[nodiscard]] std::array<verdict, all_adversaries.size()> challenge_all(
+    const Model& model, const circumstances& world = {}, int runs = 1000,
+    std::uint64_t first_seed = 1, const Make& make = {}) noexcept {
+  std::array<verdict, all_adversaries.size()> verdicts{};
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    verdicts[i] = challenge(model, all_adversaries[i], world, runs, first_seed, make);
+  }
+  return verdicts;
+}
+
+/// One run again: the least port energy [J] of that seed, to the last bit on the same machine and
+/// build. `watch(moment)` is called every tick.
+template <class Model, class Watch, class Make = usual_constraint<Model>>
+double replay(const Model& model, adversary by, const circumstances& world, std::uint64_t seed,
+              Watch watch, const Make& make = {}) noexcept {
+  using Space = typename Model::space_type;
+  under_test<Model, Make> tested{model, model, make};
+  const detail::spectator<Space> spectator{
+      &watch, [](void* who, const moment<Space>& now) { (*static_cast<Watch*>(who))(now); }};
+  return detail::attack(subject<Space>(tested), by, world, seed, spectator).least_energy;
+}
+template <class Model>
+[[nodiscard]] double replay(const Model& model, adversary by, const circumstances& world,
+                            std::uint64_t seed) noexcept {
+  return replay(model, by, world, seed, [](const auto& /*now*/) {});
+}
+
+}  // namespace passive_haptics::inline v0::simulation

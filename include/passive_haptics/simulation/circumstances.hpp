@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Who attacks in a challenge, and what is true there.
+//
+//   adversary       one of twelve; all_adversaries, to_string, is_force_limited
+//   circumstances   the device, its clock and its encoders as they are, and how wild the world is
+
+#include <passive_haptics/simulation/driver.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace passive_haptics::inline v0::simulation {
+
+enum class adversary : std::uint8_t {
+  nyquist,          ///< in by δ, out by δ
+  random_walk,      ///< anywhere, near the surface
+  greedy,           ///< presses, leaves by the worst Δx
+  jumping_surface,  ///< a slow hand on a surface that jumps and changes its stiffness
+  flipping_normal,  ///< the surface turns anywhere, often to the opposite side of the device
+  jitter,           ///< periods of 0.5 to 1 longest ticks
+  overruns,         ///< now and then a period of 2 to 20 longest ticks
+  rocking,          ///< across an encoder step and back: false credit, if there is a quantum
+  dropouts,         ///< samples that never arrive
+  tapping,          ///< a force-limited hand that reverses exactly at the surface
+  random_tapping,   ///< the same hand, anywhere and at any moment
+  kitchen_sink,     ///< everything but the two hands, at once
+};
+
+inline constexpr std::array all_adversaries{
+    adversary::nyquist,         adversary::random_walk,     adversary::greedy,
+    adversary::jumping_surface, adversary::flipping_normal, adversary::jitter,
+    adversary::overruns,        adversary::rocking,         adversary::dropouts,
+    adversary::tapping,         adversary::random_tapping,  adversary::kitchen_sink};
+
+[[nodiscard]] constexpr const char* to_string(adversary by) noexcept {
+  switch (by) {
+    case adversary::nyquist:
+      return "nyquist";
+    case adversary::random_walk:
+      return "random walk";
+    case adversary::greedy:
+      return "greedy";
+    case adversary::jumping_surface:
+      return "jumping surface";
+    case adversary::flipping_normal:
+      return "flipping normal";
+    case adversary::jitter:
+      return "jitter";
+    case adversary::overruns:
+      return "overruns";
+    case adversary::rocking:
+      return "rocking";
+    case adversary::dropouts:
+      return "dropouts";
+    case adversary::tapping:
+      return "tapping";
+    case adversary::random_tapping:
+      return "random tapping";
+    case adversary::kitchen_sink:
+      return "kitchen sink";
+  }
+  return "unknown adversary";
+}
+
+/// Is it a hand of at most circumstances::hand_force on a device of circumstances::mass, with
+/// periods that do not vary and no sample lost?
+[[nodiscard]] constexpr bool is_force_limited(adversary by) noexcept {
+  return by == adversary::tapping || by == adversary::random_tapping;
+}
+
+/// The truth about the device, and how wild the world is. The model must have been told no more
+/// damping, mass and friction, no less hand force, latency and longest tick.
+struct circumstances {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  double damping = 0.03;          ///< b [N·s/m]
+  double mass = 0.1;              ///< apparent, hand included [kg]; for the two hands
+  double friction = 0.0;          ///< f_c, per axis [N]
+  double hand_force = 5.0;        ///< most of the two hands [N]
+  double quantum = 0.0;           ///< positions are floored to multiples [m]
+  double force_limit = infinity;  ///< of the actuators [N]
+  double longest_tick = 1e-3;     ///< the period, unless the adversary varies it [s]
+  int latency = 0;                ///< ticks from a command to its holding
+  bool watchdog = true;           ///< the driver drops a force after longest_tick
+  double softest = 2e3;           ///< surface [N/m]
+  double stiffest = 22e3;         ///< surface [N/m]
+  double jump = 2e-3;             ///< farthest the surface jumps, either way [m]
+  int ticks = 600;                ///< of a run
+
+  [[nodiscard]] parameter_fault<double> check() const noexcept {
+    if (!(softest > 0.0)) return {"softest", softest, "> 0 N/m"};
+    if (!(stiffest >= softest) || !kernels::is_finite(stiffest)) {
+      return {"stiffest", stiffest, "finite and ≥ softest"};
+    }
+    if (!(hand_force >= 0.0) || !kernels::is_finite(hand_force)) {
+      return {"hand_force", hand_force, "finite and ≥ 0 N"};
+    }
+    if (!(jump >= 0.0) || !kernels::is_finite(jump)) return {"jump", jump, "finite and ≥ 0 m"};
+    if (!(damping > 0.0)) return {"damping", damping, "> 0 N·s/m"};
+    if (ticks < 1) return {"ticks", double(ticks), "≥ 1"};
+    return device_of<space<double, 1>>().check();
+  }
+  template <class Space>
+  [[nodiscard]] device_parameters<Space> device_of() const noexcept {
+    device_parameters<Space> p;
+    p.mass = mass;
+    p.damping = damping;
+    p.friction = friction;
+    p.force_limit = force_limit;
+    p.quantum = quantum;
+    p.period = longest_tick;
+    p.latency = latency;
+    if (watchdog) p.watchdog = longest_tick;
+    return p;
+  }
+};
+
+}  // namespace passive_haptics::inline v0::simulation

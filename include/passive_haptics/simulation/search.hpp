@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// An adversary that is tuned until it draws the most energy it can from one model:
+//
+//     const auto found = sim::worst_motion(model, world, 2000);     // no force can stop it
+//     const auto pushed = sim::worst_push(model, world, 2000);      // hand_force, mass: exact device
+//     std::printf("%g J, by pressing %g m deep in %d ticks\n", found.energy,
+//                 found.parameters.depth, found.parameters.press_ticks);
+//
+// Both go round the cycle of tuned_motion.hpp, on time and with every sample, and an evolution
+// strategy looks for its worst numbers. What it finds is a counterexample; that it finds nothing
+// proves nothing.
+
+#include <passive_haptics/simulation/attack.hpp>
+#include <passive_haptics/simulation/tuned_motion.hpp>
+
+namespace passive_haptics::inline v0::simulation {
+
+/// What a search has found. energy < 0: energy drawn from the port [J], by these parameters; −∞ if
+/// they led to a force that is no number, NaN if the circumstances are impossible.
+struct search_result {
+  cycle_parameters parameters{};
+  double energy = 0.0;
+  int evaluations = 0;
+};
+
+namespace detail {
+
+/// How bad a run was: the energy lost [J], or while nothing is lost, the smallest share of the
+/// damper's energy that was left, in [0, 1], so that a search has something to descend.
+struct damage {
+  double least = 0.0;
+  double share_left = 1.0;
+  [[nodiscard]] bool worse_than(const damage& other) const noexcept {
+    constexpr double nothing = -1e-13;  // rounding
+    if (least < nothing || other.least < nothing) return least < other.least;
+    return share_left < other.share_left;
+  }
+};
+
+/// One run through the cycle of `where`; act(device, surface, command) is the hand.
+template <class Space, class Device>
+damage go_round(const subject<Space>& model, Device& device, surface_state<Space> surface,
+                bool moves, const cycle& where, int ticks, auto act) noexcept {
+  const auto first = surface.point;
+  damage result;
+  auto sample = device.exchange(Space::zero());
+  for (int tick = 0; tick < ticks; ++tick) {
+    const bool jumped = moves && where.jumped();
+    const double K = jumped ? where.p.after_jump : where.p.stiffness;
+    const typename physical<Space>::vector point =
+        first + surface.normal * (jumped ? where.p.jump : 0.0);
+    if (moves && (tick == 0 || !(point == surface.point) || K != surface.stiffness)) {
+      surface.point = point;
+      surface.stiffness = K;
+      model.retarget(surface);
+    }
+    const typename Space::vector command = model.tick(sample);
+    if (!Space::is_finite(command)) return {-std::numeric_limits<double>::infinity(), 0.0};
+    act(device, surface, command);
+    sample = device.exchange(command);
+    const energy_flows total = device.meter().total();
+    const double energy = device.meter().value() + total.friction;
+    const double least = total.friction > 0.0 ? energy : device.meter().minimum();
+    if (!(least >= result.least)) result.least = least;
+    const double paid = total.damping + total.friction;
+    if (paid > 1e-9) result.share_left = kernels::smaller(result.share_left, energy / paid);
+  }
+  return result;
+}
+
+/// (1+1) evolution strategy on the unit cube: half of the numbers mutate at a time, the step grows
+/// with success and shrinks with failure (one-fifth rule), and starts anew from the best of eight
+/// random points when it has become small. Looks for the largest damage(point).
+template <class Point>
+std::pair<Point, damage> most_damage(auto damage_of, int evaluations, std::uint64_t seed) noexcept {
+  random_source random(seed);
+  Point best{};
+  damage most = damage_of(best);
+  Point here{};
+  damage now;
+  double step = 0.0;
+  int fresh = 0;
+  for (int used = 1; used < evaluations; ++used) {
+    const bool exploring = step < 2e-3;
+    Point trial = here;
+    for (double& t : trial) {
+      if (exploring) {
+        t = random.uniform();
+      } else if (random.chance(0.5)) {
+        const double bell = random.uniform() + random.uniform() + random.uniform() - 1.5;
+        t = std::abs(t + 2.0 * step * bell);  // reflected at both ends
+        if (t > 1.0) t = kernels::larger(2.0 - t, 0.0);
+      }
+    }
+    const damage tried = damage_of(trial);
+    const bool better = tried.worse_than(now);
+    if (better || (exploring && fresh == 0)) {
+      here = trial;
+      now = tried;
+    }
+    if (now.worse_than(most)) {
+      best = here;
+      most = now;
+    }
+    if (exploring) {
+      if (++fresh == 8) step = 0.3;
+    } else {
+      step *= better ? 1.5 : 0.92;
+      if (step < 2e-3) fresh = 0;
+    }
+  }
+  return {best, most};
+}
+
+/// Velocity source or limited force, against any model.
+template <class Space>
+search_result look_for_worst(const subject<Space>& model, const circumstances& world,
+                             int evaluations, std::uint64_t seed, bool limited) noexcept {
+  using state = typename physical<Space>::vector;
+  if (world.check()) return {{}, nothing_known, 0};
+  auto parameters = world.device_of<Space>();
+  const auto run = [&](const cycle_parameters& p) -> damage {
+    random_source random(seed);
+    model.restart();
+    surface_state<Space> surface{physical<Space>::zero(), random.direction<Space>(), p.stiffness};
+    const bool moves = !model.brings_its_own(surface);
+    const double height = kernels::larger(p.rest, 0.0) * p.depth;
+    parameters.start = state(surface.point + surface.normal * height);
+    tuned_motion<Space> motion{{p}};
+    if (!limited) {
+      prescribed_motion<Space> device(parameters);
+      const auto act = [&](auto& d, const surface_state<Space>& s,
+                           const typename Space::vector& command) {
+        const state force = to_physical<Space>(d.upcoming(command));
+        const state next = motion.next({d.position(), s.normal, s.depth(d.position()), force,
+                                        world.longest_tick, world.damping},
+                                       random);
+        d.move_to(to_physical<Space>(to_port<Space>(next)));
+      };
+      return go_round<Space>(model, device, surface, moves, motion.where, world.ticks, act);
+    }
+    striking_hand<Space> hand;
+    hand.tapping = false;
+    hand.taps = {surface.point, surface.normal, world.hand_force};
+    simulation::device<Space, striking_hand<Space>> device(parameters, hand);
+    const auto act = [&](auto& d, const surface_state<Space>& s,
+                         const typename Space::vector& /*command*/) {
+      motion.where.advance(s.depth(d.position()));
+      motion.where.count();
+      const bool in =
+          motion.where.stage == cycle_stage::press || motion.where.stage == cycle_stage::hold;
+      const double share = in ? -1.0 / p.press_ticks : kernels::smaller(p.retreat, 1.0);
+      const bool resting = motion.where.stage == cycle_stage::rest;
+      d.hand().push = state(s.normal * (resting ? 0.0 : share * world.hand_force));
+    };
+    return go_round<Space>(model, device, surface, moves, motion.where, world.ticks, act);
+  };
+  const auto [point, most] = most_damage<cycle_parameters::unit_cube>(
+      [&](const cycle_parameters::unit_cube& u) { return run(cycle_parameters::at(u, world)); },
+      evaluations, seed);
+  return {cycle_parameters::at(point, world), most.least, evaluations};
+}
+
+}  // namespace detail
+
+/// The worst cycle of a velocity source that so many runs of circumstances::ticks have found.
+template <class Model, class Make = usual_constraint<Model>>
+[[nodiscard]] search_result worst_motion(const Model& model, const circumstances& world = {},
+                                         int evaluations = 2000, std::uint64_t seed = 1,
+                                         const Make& make = {}) noexcept {
+  under_test<Model, Make> tested{model, model, make};
+  return detail::look_for_worst(subject<typename Model::space_type>(tested), world, evaluations,
+                                seed, false);
+}
+
+/// The worst one found of a hand of at most circumstances::hand_force on a device of
+/// circumstances::mass: it stays inside what reachable_bound and its like assume.
+template <class Model, class Make = usual_constraint<Model>>
+[[nodiscard]] search_result worst_push(const Model& model, const circumstances& world = {},
+                                       int evaluations = 2000, std::uint64_t seed = 1,
+                                       const Make& make = {}) noexcept {
+  under_test<Model, Make> tested{model, model, make};
+  return detail::look_for_worst(subject<typename Model::space_type>(tested), world, evaluations,
+                                seed, true);
+}
+
+}  // namespace passive_haptics::inline v0::simulation
