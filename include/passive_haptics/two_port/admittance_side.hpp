@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The admittance side of a two-port: motion out to the tool in the environment, force back.
+
+#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/two_port/packet.hpp>
+
+#include <limits>
+
+namespace passive_haptics::inline v0 {
+
+/// Parameters of the admittance side.
+template <class Space>
+struct admittance_parameters {
+  using scalar = typename Space::scalar;
+
+  scalar stiffness{};  ///< K [N/m]: f changes by at most K ‖Δp‖ on a step; 0: f is held over it
+  scalar drift_rate{};  ///< share of the position drift to make up for [1/s]; 0: none
+  scalar top_speed = std::numeric_limits<scalar>::max();  ///< of the tool [m/s]
+  scalar energy{};                                        ///< loan to start with [J]
+  scalar cap = std::numeric_limits<scalar>::max();        ///< most credit to keep [J] (L7)
+
+  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
+    if (!(stiffness >= scalar(0)) || !kernels::is_finite(stiffness)) {
+      return {"stiffness", stiffness, "finite and ≥ 0 N/m"};
+    }
+    if (!(drift_rate >= scalar(0)) || !kernels::is_finite(drift_rate)) {
+      return {"drift_rate", drift_rate, "finite and ≥ 0 1/s"};
+    }
+    if (!(top_speed > scalar(0))) return {"top_speed", top_speed, "> 0 m/s"};
+    if (!(energy >= scalar(0)) || !kernels::is_finite(energy)) {
+      return {"energy", energy, "finite and ≥ 0 J"};
+    }
+    if (!(cap >= scalar(0))) return {"cap", cap, "≥ 0 J"};
+    return {};
+  }
+};
+
+/// What a step of the admittance side knows.
+template <class Space>
+struct admittance_result {
+  typename Space::vector displacement;  ///< Δp', what the environment is to move the tool by [m]
+  typename Space::vector drift;         ///< where the hand is less where the tool is [m]
+  typename Space::scalar energy;        ///< E1 = E_in_rx − E_out [J]
+  event what = event::nominal;
+  bool limited = false;  ///< the controller changed the desired motion
+};
+
+/// The passivity controller β and its observer, in discrete time. Step k of the environment takes
+/// the force f(k) of the environment on the tool [N], known BEFORE the tool moves, and moves the
+/// tool by Δp'(k). The energy that goes into the environment is then no prediction but a number:
+///     w = −f(k)·Δp'(k) + K ‖Δp'‖²/2  ≤  E1 = E_in_rx − E_out                    at every step
+///     w > 0: E_out += w      w < 0: E_in += −w
+/// Of the motion Δp wanted, only the part along f is cut:  Δp' = Δp + β f,  β ≥ 0 the least that
+/// does it (v' = v − β f of § 2(d), where f is the force INTO the environment). So E_out ≤ E_in_rx
+/// exactly, with nothing carried over and no threshold on f.
+///
+/// Strict, K = 0: for every environment that consumes (Δp', f) in discrete time, i.e. whose port
+/// energy is Σ f(k)·Δp'(k), however active it is.
+/// Strict, K > 0: for every environment in continuous time whose force on the straight way changes
+/// by at most K per metre, and that moves by itself between steps only. The price is Colgate's: a
+/// motion costs K ‖Δp‖²/2 a step, in free space too, and someone must have paid it in: `energy`, or
+/// a hand that works against a force. settle() gives back what was not used.
+/// An environment with K > 0 that is told K = 0 receives up to K ‖Δp'‖²/2 a step unseen.
+///
+/// Drift: motion that was cut, or lost to top_speed, is missing for good, unless drift_rate > 0
+/// adds drift_rate·dt of it to each step. It is part of Δp, so it spends only surplus. (Purpose as
+/// in Chawda and O'Malley's drift compensators, from memory; the law is derived here.)
+///
+/// Assumes: the tool moves as told, and f is the force of that step.
+template <class Space, class Ledger = typename Space::scalar>
+class admittance_side {
+ public:
+  using space_type = Space;
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  using parameters_type = admittance_parameters<Space>;
+  using packet_type = port_packet<scalar, typename Space::coordinates>;
+  static constexpr guarantee passivity = guarantee::strict;
+
+  /// `start` [m] is where tool and hand both are at first.
+  constexpr explicit admittance_side(const parameters_type& parameters = {},
+                                     const vector& start = Space::zero()) noexcept
+      : parameters_(parameters),
+        energy_(parameters.energy),
+        target_(start),
+        followed_(start),
+        position_(start),
+        sound_(!parameters.check()) {}
+
+  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
+    return parameters_.check();
+  }
+
+  /// A packet {E_in, position} from the other side. A position that is not finite is not taken
+  /// over.
+  constexpr void receive(const packet_type& packet) noexcept {
+    energy_ += received_.gain(packet.energy);
+    cut();
+    if (packet.number <= newest_ || !Space::is_finite(packet.payload)) return;
+    newest_ = packet.number;
+    target_ = packet.payload;
+  }
+
+  /// One step of the environment, of length dt [s], that begins under `force` [N] on the tool. A
+  /// force that is not finite, or dt ≤ 0, moves nothing and is made up for in the next step.
+  [[nodiscard]] constexpr admittance_result<Space> step(const vector& force, scalar dt) noexcept {
+    reserved_ = scalar(0);
+    if (!sound_) return result(Space::zero(), event::rejected_parameters, false);
+    if (!Space::is_finite(force) || !(dt > scalar(0)) || !kernels::is_finite(dt)) {
+      return result(Space::zero(), event::rejected_sample, false);
+    }
+    const vector wanted = desired_motion(dt);
+    const vector moved = affordable(wanted, force);
+    book(Space::dot(force, moved) - leak(moved));
+    followed_ = target_;
+    const vector at = position_;
+    position_ = vector(at + moved);
+    event what = newest_ == 0 ? event::no_target : event::nominal;
+    if (value() < scalar(0)) what = worse(what, event::debt);
+    return result(moved, what, !(moved == wanted));
+  }
+
+  /// After a step, the work [J] the environment did on the tool in it, ∫ f·dp', exact or a lower
+  /// bound: what the step had set aside and did not need is credit again. For K > 0.
+  constexpr void settle(scalar work) noexcept {
+    if (!kernels::is_finite(work)) return;
+    energy_ += work - reserved_;
+    reserved_ = work;
+    cut();
+  }
+
+  /// {E_in, force} for the other side, to send after each step; `force` is the new one [N].
+  [[nodiscard]] constexpr packet_type packet(const vector& force) noexcept {
+    return {static_cast<scalar>(promised_), ++number_, force};
+  }
+  [[nodiscard]] constexpr vector position() const noexcept { return position_; }  ///< tool [m]
+  [[nodiscard]] constexpr scalar energy() const noexcept { return value(); }      ///< E1 [J]
+
+ private:
+  [[nodiscard]] constexpr scalar value() const noexcept { return static_cast<scalar>(energy_); }
+  constexpr void cut() noexcept {
+    if (value() > parameters_.cap) energy_ = parameters_.cap;
+  }
+
+  /// What the hand did since the last step, and some of the drift.
+  [[nodiscard]] constexpr vector desired_motion(scalar dt) const noexcept {
+    const vector goal = target_;
+    const vector followed = followed_;
+    const vector here = position_;
+    const scalar some = kernels::smaller(parameters_.drift_rate * dt, scalar(1));
+    const vector wanted = goal - followed + (followed - here) * some;
+    const scalar length = Space::norm(wanted);
+    const scalar most = parameters_.top_speed * dt;
+    return length > most ? vector(wanted * (most / length)) : wanted;
+  }
+
+  /// K ‖Δp‖²/2 [J], the most that a force of that slope can add to −f·Δp on the way.
+  [[nodiscard]] constexpr scalar leak(const vector& motion) const noexcept {
+    return parameters_.stiffness * Space::dot(motion, motion) / scalar(2);
+  }
+
+  /// The motion nearest to `wanted` with −f·Δp ≤ E1; if there is a leak, then shortened to what
+  /// E1 covers. Rounding errors are on the safe side.
+  [[nodiscard]] constexpr vector affordable(const vector& wanted,
+                                            const vector& force) const noexcept {
+    constexpr scalar rounding = scalar(8) * std::numeric_limits<scalar>::epsilon();
+    const scalar credit = kernels::larger(value(), scalar(0));
+    const scalar asked = -Space::dot(force, wanted);
+    vector moved = wanted;
+    if (asked > credit) {
+      const scalar square = Space::dot(force, force);
+      if (!(square > scalar(0))) return Space::zero();
+      const scalar margin = rounding * Space::norm(force) * Space::norm(wanted);
+      moved = vector(wanted + force * ((asked - credit + margin) / square));
+    }
+    const scalar cost = leak(moved);
+    const scalar outflow = -Space::dot(force, moved);
+    if (!(cost > scalar(0)) || outflow + cost <= credit) return moved;
+    // cost s² + outflow s = credit
+    const scalar root = kernels::square_root(outflow * outflow + scalar(4) * cost * credit);
+    const scalar s = outflow > scalar(0) ? scalar(2) * credit / (outflow + root)
+                                         : (root - outflow) / (scalar(2) * cost);
+    return moved * (s * (scalar(1) - rounding));
+  }
+
+  /// Work of the environment on the tool [J]: > 0 is promised to the other side, < 0 is spent.
+  constexpr void book(scalar work) noexcept {
+    reserved_ = work;
+    (work > scalar(0) ? promised_ : energy_) += work;
+  }
+
+  [[nodiscard]] constexpr admittance_result<Space> result(const vector& moved, event what,
+                                                          bool limited) const noexcept {
+    const vector goal = target_;
+    const vector here = position_;
+    return {moved, vector(goal - here), value(), what, limited};
+  }
+
+  parameters_type parameters_;
+  Ledger energy_{};                     ///< E1 [J]
+  Ledger promised_{};                   ///< E_in [J], never falls
+  received_energy<scalar> received_{};  ///< E_in_rx [J]
+  scalar reserved_{};                   ///< work booked for the last step [J]
+  typename Space::coordinates target_{}, followed_{}, position_{};
+  std::uint64_t newest_ = 0, number_ = 0;
+  bool sound_ = true;
+};
+
+}  // namespace passive_haptics::inline v0

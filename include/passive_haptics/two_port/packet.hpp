@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What crosses the channel of a two-port, and how the newest of it is kept.
+
+#include <passive_haptics/kernels.hpp>
+
+#include <cstdint>
+
+namespace passive_haptics::inline v0 {
+
+/// One packet, either way. Trivially copyable if the payload is.
+template <class Scalar, class Payload>
+struct port_packet {
+  Scalar energy{};         ///< E_in, all that was ever promised to the receiver [J]; never falls
+  std::uint64_t number{};  ///< 1, 2, 3 … in the order of sending
+  Payload payload{};       ///< towards the environment a position [m], towards the hand a force [N]
+};
+
+/// The largest promise that has arrived. A packet that is lost, late or there twice needs no
+/// treatment: the next one carries the whole sum.
+template <class Scalar>
+struct received_energy {
+  Scalar newest{};  ///< E_in_rx [J]
+
+  /// What a packet adds to it [J], ≥ 0. One that is not finite adds nothing.
+  constexpr Scalar gain(Scalar promised) noexcept {
+    if (!kernels::is_finite(promised) || !(promised > newest)) return Scalar(0);
+    const Scalar gained = promised - newest;
+    newest = promised;
+    return gained;
+  }
+};
+
+}  // namespace passive_haptics::inline v0
