@@ -4,7 +4,7 @@
 // the device along z towards its centre; the environment answers every 0.5 s or at 30 Hz. Each
 // answer turns the contact normal by degrees: taken at once (snap) it throws the device sideways.
 
-#include "report.hpp"
+#include "../common/report.hpp"
 #include <passive_haptics/environment/ball.hpp>
 #include <passive_haptics/environment/deformable_body.hpp>
 #include <passive_haptics/passive_haptics.hpp>

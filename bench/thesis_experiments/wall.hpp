@@ -1,113 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The wall of thesis section 3.2: a device is dropped from −61 mm onto a stiff spring and left
-// alone.
-//
-//   S0   ideal device, static wall            S1   the wall gives way: surface = F/K, updates at
-//   S2   9 N saturation, 0.2 N dry friction        20-50 Hz, one haptic tick late
-//
-// docs/design/mathematics.md § 5 has the definitions: peak to peak after 2 s; settled within 0.5 mm
-// of the final mean, the last 2 s calmer than 1 mm; minimum of the TRUE port energy.
+// Thesis section 3.2: every controller of the thesis's time on the wall of common/wall.hpp, and the
+// settling composition over decades of mass and stiffness (docs/design/mathematics.md § 9).
 
-#include "report.hpp"
-#include <passive_haptics/environment/spring_wall.hpp>
+#include "../common/wall.hpp"
 #include <passive_haptics/passive_haptics.hpp>
-#include <passive_haptics/simulation/device.hpp>
-#include <passive_haptics/simulation/schedule.hpp>
 
-#include <algorithm>
 #include <functional>
-#include <numeric>
 
 namespace experiments {
-
-namespace ph = passive_haptics;
-namespace sim = passive_haptics::simulation;
-
-using line = ph::space<double, 1>;
-
-struct wall_scene {
-  std::string name;
-  double mass = 0.1;       ///< [kg]
-  double stiffness = 1e4;  ///< of the wall [N/m]
-  bool yields = false;     ///< S1
-  bool lags = false;       ///< the environment answers one update late
-  double force_limit = sim::device_parameters<line>::infinity;
-  double friction = 0.0;  ///< [N]
-};
-
-struct wall_result {
-  double peak_to_peak = 0;       ///< after 2 s [m]
-  double settle = std::nan("");  ///< [s]; none: never
-  double last_swing = 0;         ///< peak to peak of the last 2 s [m]
-  double rest = 0;               ///< mean position of the last 2 s [m]
-  double port_energy = 0;        ///< least [J]
-  double force_error = 0;        ///< mean |f − K d| in contact [N]
-};
-
-inline wall_result judge(const std::vector<double>& x, double period) {
-  const auto swing = [&x](std::size_t from) {
-    const auto [low, high] = std::minmax_element(x.begin() + static_cast<long>(from), x.end());
-    return *high - *low;
-  };
-  const std::size_t two_seconds = static_cast<std::size_t>(2.0 / period + 0.5);
-  wall_result result;
-  result.peak_to_peak = swing(two_seconds);
-  const std::size_t tail = x.size() - two_seconds;
-  result.last_swing = swing(tail);
-  result.rest = std::accumulate(x.begin() + static_cast<long>(tail), x.end(), 0.0) /
-                static_cast<double>(two_seconds);
-  if (result.last_swing < 1e-3) {
-    std::size_t first = x.size();
-    while (first > 0 && std::abs(x[first - 1] - result.rest) < 0.5e-3) --first;
-    result.settle = static_cast<double>(first) * period;
-  }
-  return result;
-}
-
-/// Drops the device onto the wall for 10 s of virtual time.
-template <class Model>
-wall_result drop(Model model, const wall_scene& scene, std::uint64_t seed,
-                 csv_file* csv = nullptr) {
-  const ph::environment::spring_wall springs({2 * scene.stiffness, 2 * scene.stiffness});
-  sim::device<line> device({.mass = scene.mass,
-                            .damping = 0.03,
-                            .friction = scene.friction,
-                            .force_limit = scene.force_limit,
-                            .lower = -0.061,
-                            .load = 9.81 * scene.mass,
-                            .start = -0.061});
-  sim::update_schedule schedule(seed);
-  sim::one_update_late<double> late(0.0);
-  double surface = 0.0;
-  std::vector<double> positions;
-  double error = 0.0;
-  int in_contact = 0;
-  ph::device_sample<line> sample = device.exchange(0.0);
-  for (int n = 0; n < 10000; ++n) {
-    if (schedule.due(device.time()) && (scene.yields || n == 0)) {
-      const double now = scene.yields ? springs.surface(std::abs(sample.held)) : 0.0;
-      surface = scene.lags ? late(now) : now;
-      model.retarget({surface, -1.0, scene.stiffness});
-    }
-    const auto out = model.tick(sample);
-    const double x = device.position();
-    sample = device.exchange(out.force);
-    if (x > surface) {
-      error += std::abs(-sample.held - scene.stiffness * (x - surface));
-      ++in_contact;
-    }
-    if (csv != nullptr) {
-      csv->row(device.time(), x, model.local().point, surface, -sample.held, out.energy,
-               device.meter().value());
-    }
-    positions.push_back(device.position());
-  }
-  wall_result result = judge(positions, 1e-3);
-  result.port_energy = device.meter().minimum();
-  result.force_error = in_contact > 0 ? error / in_contact : 0.0;
-  return result;
-}
 
 struct wall_controller {
   std::string name;

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The wall of thesis section 3.2: a device is dropped from −61 mm onto a stiff spring and left
+// alone.
+//
+//   S0   ideal device, static wall            S1   the wall gives way: surface = F/K, updates at
+//   S2   9 N saturation, 0.2 N dry friction        20-50 Hz, one haptic tick late
+//   S5   S1 with a hand that damps, 2 N·s/m
+//
+// docs/design/mathematics.md § 5 has the definitions: peak to peak after 2 s; settled within 0.5 mm
+// of the final mean, the last 2 s calmer than 1 mm; minimum of the TRUE port energy.
+
+#include "report.hpp"
+#include <passive_haptics/environment/spring_wall.hpp>
+#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/schedule.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace experiments {
+
+namespace ph = passive_haptics;
+namespace sim = passive_haptics::simulation;
+
+using line = ph::space<double, 1>;
+
+struct wall_scene {
+  std::string name;
+  double mass = 0.1;       ///< [kg]
+  double stiffness = 1e4;  ///< of the wall [N/m]
+  bool yields = false;     ///< S1
+  bool lags = false;       ///< the environment answers one update late
+  double force_limit = sim::device_parameters<line>::infinity;
+  double friction = 0.0;      ///< [N]
+  double quantum = 0.0;       ///< of the encoders [m]
+  double hand_damping = 0.0;  ///< S5: of a hand at rest that holds the device loosely [N·s/m]
+};
+
+struct wall_result {
+  double peak_to_peak = 0;       ///< after 2 s [m]
+  double settle = std::nan("");  ///< [s]; none: never
+  double last_swing = 0;         ///< peak to peak of the last 2 s [m]
+  double rest = 0;               ///< mean position of the last 2 s [m]
+  double port_energy = 0;        ///< least [J]
+  double rubbed_energy = 0;      ///< the same with what dry friction has taken [J]
+  double ledger = 0;             ///< of the model, at the end [J]
+  double force_error = 0;        ///< mean |f − K d| in contact [N]
+};
+
+inline wall_result judge(const std::vector<double>& x, double period) {
+  const auto swing = [&x](std::size_t from) {
+    const auto [low, high] = std::minmax_element(x.begin() + static_cast<long>(from), x.end());
+    return *high - *low;
+  };
+  const std::size_t two_seconds = static_cast<std::size_t>(2.0 / period + 0.5);
+  wall_result result;
+  result.peak_to_peak = swing(two_seconds);
+  const std::size_t tail = x.size() - two_seconds;
+  result.last_swing = swing(tail);
+  result.rest = std::accumulate(x.begin() + static_cast<long>(tail), x.end(), 0.0) /
+                static_cast<double>(two_seconds);
+  if (result.last_swing < 1e-3) {
+    std::size_t first = x.size();
+    while (first > 0 && std::abs(x[first - 1] - result.rest) < 0.5e-3) --first;
+    result.settle = static_cast<double>(first) * period;
+  }
+  return result;
+}
+
+/// Lets the device fall onto the wall for 10 s of virtual time.
+template <class Model, class Device>
+wall_result drop(Model model, Device device, const wall_scene& scene, std::uint64_t seed,
+                 csv_file* csv) {
+  const ph::environment::spring_wall springs({2 * scene.stiffness, 2 * scene.stiffness});
+  sim::update_schedule schedule(seed);
+  sim::one_update_late<double> late(0.0);
+  double surface = 0.0;
+  std::vector<double> positions;
+  double error = 0.0, rubbed = 0.0;
+  int in_contact = 0;
+  ph::device_sample<line> sample = device.exchange(0.0);
+  for (int n = 0; n < 10000; ++n) {
+    if (schedule.due(device.time()) && (scene.yields || n == 0)) {
+      const double now = scene.yields ? springs.surface(std::abs(sample.held)) : 0.0;
+      surface = scene.lags ? late(now) : now;
+      model.retarget({surface, -1.0, scene.stiffness});
+    }
+    const auto out = model.tick(sample);
+    const double x = device.position();
+    sample = device.exchange(out.force);
+    if (x > surface) {
+      error += std::abs(-sample.held - scene.stiffness * (x - surface));
+      ++in_contact;
+    }
+    if (csv != nullptr) {
+      csv->row(device.time(), x, model.local().point, surface, -sample.held, out.energy,
+               device.meter().value());
+    }
+    positions.push_back(device.position());
+    const auto& meter = device.meter();
+    rubbed = std::min(rubbed, meter.value() + meter.total().friction);
+  }
+  wall_result result = judge(positions, 1e-3);
+  result.port_energy = device.meter().minimum();
+  result.rubbed_energy = rubbed;
+  result.ledger = model.energy();
+  result.force_error = in_contact > 0 ? error / in_contact : 0.0;
+  return result;
+}
+
+template <class Model>
+wall_result drop(const Model& model, const wall_scene& scene, std::uint64_t seed,
+                 csv_file* csv = nullptr) {
+  const sim::device_parameters<line> device{.mass = scene.mass,
+                                            .damping = 0.03,
+                                            .friction = scene.friction,
+                                            .force_limit = scene.force_limit,
+                                            .quantum = scene.quantum,
+                                            .lower = -0.061,
+                                            .load = 9.81 * scene.mass,
+                                            .start = -0.061};
+  if (!(scene.hand_damping > 0.0)) return drop(model, sim::device<line>(device), scene, seed, csv);
+  const sim::impedance_hand<line> hand{.stiffness = 0.0, .damping = scene.hand_damping};
+  return drop(model, sim::device<line, sim::impedance_hand<line>>(device, hand), scene, seed, csv);
+}
+
+}  // namespace experiments
