@@ -905,6 +905,53 @@ TEST_CASE("the gate covers what comes in over an edge and what fades out", "[tim
   }
 }
 
+TEST_CASE("the gate gives no spring for a way in that was not paid", "[time domain]") {
+  // 4 mm in without a force, then into a full contact at once, then slowly out again
+  const double step = 0.25e-3;
+  const auto beside_then_under = [step](auto bound) {
+    auto model = ph::local_model{d2{},
+                                 ph::following<ph::segment<d2>>{},
+                                 ph::snap<d2>{},
+                                 ph::spring<d2>{},
+                                 thesis_ledger<d2>(),
+                                 bound};
+    model.retarget({.a = {1e-3, 0}, .b = {-1e-3, 0}, .stiffness = 2 * B});
+    sim::prescribed_motion<d2> device({.damping = 0.03, .start = {1.5e-3, 0}});
+    auto sample = device.exchange(d2::zero());
+    for (int n = 0; n < 60; ++n) {
+      const d2::vector force = model.tick(sample).force;
+      const d2::vector way = n < 16   ? d2::vector(0, -step)
+                             : n < 20 ? d2::vector(-step, 0)
+                                      : d2::vector(0, step / 2);
+      device.move_to(device.position() + way);
+      sample = device.exchange(force);
+    }
+    return device.meter().value();
+  };
+  const auto faded_then_back = [step](auto bound) {
+    auto model =
+        ph::local_model{d1{},
+                        ph::following<ph::half_space<d1>>{{.stale_after = 2e-3, .fade = T}},
+                        ph::snap<d1>{},
+                        ph::spring<d1>{},
+                        thesis_ledger<d1>(),
+                        bound};
+    sim::prescribed_motion<d1> device;
+    auto sample = device.exchange(0.0);
+    for (int n = 0; n < 60; ++n) {
+      if (n == 0 || n >= 20) model.retarget(wall<d1>(2 * B));
+      const double force = model.tick(sample).force;
+      device.move_to(device.position() + (n < 4 ? 0.0 : n < 20 ? step : -step / 2));
+      sample = device.exchange(force);
+    }
+    return device.meter().value();
+  };
+  CHECK(beside_then_under(ph::set_position_modulation<d2>{}) >= -1e-12);
+  CHECK(beside_then_under(ph::no_bound<d2>{}) < -1e-4);
+  CHECK(faded_then_back(gate{}) >= -1e-12);
+  CHECK(faded_then_back(ph::no_bound<d1>{}) < -1e-4);
+}
+
 TEST_CASE("the gate in front of strict_bound is strict at any stiffness", "[time domain]") {
   const ph::bound_chain chain{gate{}, ph::strict_bound<d1>{}};
   static_assert(decltype(chain)::passivity == ph::guarantee::strict);

@@ -23,13 +23,7 @@ auto thesis_safe(const premises& p, double times) {
   return touch<Space>(p, capped, ph::bound_chain{ph::thesis_bound<Space>{}, reachable<Space>(p)});
 }
 
-template <class Space>
-ph::quantised_energy<Space> sure_ledger(const premises& p) {
-  return {.damping = p.damping, .quantum = p.quantum};
-}
-
 constexpr coverage mass_known{.any_motion = false, .any_clock = false};
-constexpr coverage mass_known_and_steps{.any_motion = false, .any_clock = false, .rounding = true};
 
 }  // namespace
 
@@ -112,25 +106,6 @@ std::vector<controller> bounding_controllers() {
                []<class Space>(Space, const premises& p) {
                  return touch<Space>(p, ph::damped_spring<Space>{.mass = p.mass}, ledger<Space>(p),
                                      reachable<Space>(p));
-               }),
-      entry<3>({"strict FBA, encoder steps",
-                "spring, quantised_energy, strict_bound",
-                {.rounding = true}},
-               []<class Space>(Space, const premises& p) {
-                 return touch<Space>(p, sure_ledger<Space>(p), ph::strict_bound<Space>{});
-               }),
-      entry<3>({"recommended", "damped_spring, quantised_energy, reachable_bound, mass_observer",
-                mass_known_and_steps, false},
-               []<class Space>(Space, const premises& p) {
-                 return ph::local_model{
-                     Space{},
-                     ph::following<ph::half_space<Space>>{},
-                     ph::snap<Space>{},
-                     ph::damped_spring<Space>{.mass = p.mass},
-                     sure_ledger<Space>(p),
-                     reachable<Space>(p),
-                     limits<Space>(p),
-                     ph::mass_observer<Space>{.mass = p.mass, .quantum = p.quantum}};
                }),
   };
 }

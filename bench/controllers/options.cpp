@@ -67,10 +67,12 @@ std::vector<std::string> some_sections(const std::string& text) {
 
 settings parse(const std::vector<std::string>& arguments) {
   settings chosen;
+  bool sharded = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& name = arguments[i];
     const auto value = [&]() -> const std::string& {
-      if (i + 1 == arguments.size()) complain(name + ": its value is missing");
+      const bool missing = i + 1 == arguments.size() || arguments[i + 1].rfind("--", 0) == 0;
+      if (missing) complain(name + ": its value is missing");
       return arguments[++i];
     };
     if (name == "--quick") {
@@ -87,7 +89,7 @@ settings parse(const std::vector<std::string>& arguments) {
       chosen.threads = number(name, value(), 1);
     } else if (name == "--shard") {
       chosen.part = part(value());
-      chosen.only = {"z_width"};
+      sharded = true;
     } else if (name == "--merge") {
       chosen.merge.push_back(value());
       while (i + 1 < arguments.size() && arguments[i + 1].rfind("--", 0) != 0) {
@@ -96,6 +98,11 @@ settings parse(const std::vector<std::string>& arguments) {
     } else {
       complain(name + ": no such option");
     }
+  }
+  if (sharded && !chosen.merge.empty()) complain("--merge joins what --shard wrote: give one");
+  if (sharded && chosen.only.empty()) chosen.only = {"z_width"};
+  if (sharded && chosen.only != std::vector<std::string>{"z_width"}) {
+    complain("--shard splits z_width alone: leave --only out");
   }
   if (chosen.seeds == 0) chosen.seeds = chosen.quick ? 3 : 10;
   if (chosen.runs == 0) chosen.runs = chosen.quick ? 30 : 1000;

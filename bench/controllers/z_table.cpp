@@ -63,13 +63,6 @@ std::map<std::string, z_row> read_parts(const std::vector<std::string>& files) {
   return rows;
 }
 
-std::string file_name(std::string text) {
-  for (char& c : text) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  }
-  return "z_" + text;
-}
-
 /// Squares coloured by passivity, crosses where it is not stable, the two lines.
 std::string plot_of(const std::string& controller) {
   const std::string rows = "'z_width.csv' using (stringcolumn(1) eq '" + controller + "' && ";
@@ -91,6 +84,13 @@ std::string plot_of(const std::string& controller) {
 }
 
 }  // namespace
+
+std::string z_plot_name(std::string controller) {
+  for (char& c : controller) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return "z_" + controller;
+}
 
 std::vector<z_cell> z_cells(const std::vector<controller>& judged, const z_grid& grid) {
   std::vector<z_cell> cells;
@@ -157,7 +157,7 @@ void show_z_width(const session& s, const std::vector<z_row>& rows) {
   s.out.member("z_width", ex::json_array(json));
   for (const auto& c : s.judged) {
     if (!sums.contains(c.name)) continue;
-    s.out.plot(file_name(c.name), "Z-width: " + c.name + " (" + to_string(c.tag) + ")",
+    s.out.plot(z_plot_name(c.name), "Z-width: " + c.name + " (" + to_string(c.tag) + ")",
                plot_of(c.name));
   }
 }

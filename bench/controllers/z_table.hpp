@@ -19,6 +19,9 @@ inline const std::string z_heading =
     "controller,damping N s/m,stiffness N/m,motion J,hand J,growth,passive for,stable";
 [[nodiscard]] std::string z_line(const z_row& r);
 
+/// The name of its plot, without .svg.
+[[nodiscard]] std::string z_plot_name(std::string controller);
+
 /// Tables and plots of a complete sweep, from z_width.csv in the folder of the report.
 void show_z_width(const session& s, const std::vector<z_row>& rows);
 

@@ -28,13 +28,16 @@ template <class Space>
 }
 
 /// The largest multiple, at most 1, of `force` that a spring of stiffness c2 [N/m] can put aside
-/// when the last tick brought what it did:  f²/(2 c2) ≤ h²/(2 c2) + Δxᵀ(b/dt)Δx − h·Δx.
+/// when the last tick brought what it did:  f²/(2 c2) ≤ h²/(2 c2) + Δxᵀ(b/dt)Δx − h·Δx,  with h² at
+/// most `promised` [N²] where it was put aside.
 template <class Space>
 [[nodiscard]] constexpr typename Space::vector put_aside(const typename Space::vector& force,
                                                          typename Space::scalar c2,
+                                                         typename Space::scalar promised,
                                                          const auto& state) noexcept {
   using scalar = typename Space::scalar;
-  const scalar credit = Space::dot(state.held, state.held) / (scalar(2) * c2) +
+  const scalar before = kernels::smaller(Space::dot(state.held, state.held), promised);
+  const scalar credit = before / (scalar(2) * c2) +
                         state.damping.dissipated(state.displacement, state.dt) -
                         Space::dot(state.held, state.displacement);
   return force * kernels::strict_scale(credit, Space::dot(force, force) / (scalar(2) * c2));
@@ -54,14 +57,16 @@ template <class Space>
 /// Proof: −h·Δx = (f − h)·Δx − f·Δx. The half-space says that the damper, over the MEASURED dt, pays
 /// for the first term; the ball is −f·Δx ≥ (‖f‖² − ‖h‖²)/(2 c2). So E ≥ ‖f‖²/(2 c2) for ever. The
 /// window is not empty for c2 ≤ c1 and c2 ≤ b/T (f = h − c2 Δx is in it), and as c2 ≤ b/T the
-/// energy put aside is at least twice what f can cost in the next tick: zero is always safe, too.
+/// energy put aside is twice what f can cost in the next tick: zero is always safe, too, and a tick
+/// of up to twice longest_tick, or a force held of up to √2 times the command, costs nothing. What
+/// is held beyond the command lends nothing: a motor a little too strong cannot wind the force up.
 ///
-/// Assumes what memoryless_bound does (but a tick of up to twice longest_tick costs nothing here),
-/// and that the force held, whatever its direction, is no longer than commanded. The price: at most b/T N/m, half of what the others
-/// show; and NOT `only_reduces`: while the device moves out, a force falls by no more than c1 per
-/// metre, so it goes on pushing after the contact is lost, the way it pushed before. It starts none:
-/// from zero, nothing desired is nothing returned; and it ends at once where the device stops or
-/// turns back, and after a lost sample or a late tick.
+/// Assumes, those two apart, what memoryless_bound does; the direction of the force held is free.
+/// The price: at most b/T N/m, half of what the others show; and NOT `only_reduces`: while the
+/// device moves out, a force falls by no more than c1 per metre, so it goes on pushing after the
+/// contact is lost, the way it pushed before. It starts none: from zero, nothing desired is nothing
+/// returned; and it ends at once where the device stops or turns back, and after a lost sample or a
+/// late tick.
 template <class Space>
 struct energy_bounding {
   using scalar = typename Space::scalar;
@@ -71,12 +76,17 @@ struct energy_bounding {
 
   scalar slope = std::numeric_limits<scalar>::max();    ///< c1 [N/m], > 0; more than b/dt is b/dt
   scalar storage = std::numeric_limits<scalar>::max();  ///< c2 [N/m], > 0; at most c1 and b/T
+  scalar last_squared = std::numeric_limits<scalar>::max();  ///< |f|² of the last command [N²]
 
-  [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) const noexcept {
-    if (!state.motion_known || state.dt > state.longest_tick) return Space::zero();
-    const scalar B = detail::least_damping<Space>(state.damping) / state.longest_tick;
-    const scalar c2 = kernels::smaller(storage, kernels::smaller(slope, B));
-    return detail::put_aside<Space>(nearest(desired, c2, state), c2, state);  // rounding, no more
+  [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) noexcept {
+    vector force = Space::zero();
+    if (state.motion_known && state.dt <= state.longest_tick) {
+      const scalar B = detail::least_damping<Space>(state.damping) / state.longest_tick;
+      const scalar c2 = kernels::smaller(storage, kernels::smaller(slope, B));
+      force = detail::put_aside<Space>(nearest(desired, c2, state), c2, last_squared, state);
+    }
+    last_squared = Space::dot(force, force);
+    return force;
   }
   [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
     if (!(slope > scalar(0)) || !kernels::is_finite(slope)) {
@@ -129,8 +139,7 @@ struct energy_bounding {
 /// Proof: the right side is 2 c2 (S(n) + ΔE) with S = ‖h‖²/(2 c2), so E ≥ S for ever; it is never
 /// negative for c2 ≤ 2b/T, as S then covers the worst the held force can cost (L3).
 ///
-/// Assumes what memoryless_bound does, and that the force held, whatever its direction, is no longer
-/// than commanded.
+/// Assumes what memoryless_bound does; the direction of the force held is free.
 template <class Space>
 struct tight_energy_bounding {
   using scalar = typename Space::scalar;
@@ -143,7 +152,8 @@ struct tight_energy_bounding {
   [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) const noexcept {
     if (!state.motion_known || state.dt > state.longest_tick) return Space::zero();
     const scalar B = detail::least_damping<Space>(state.damping) / state.longest_tick;
-    return detail::put_aside<Space>(desired, kernels::smaller(storage, scalar(2) * B), state);
+    return detail::put_aside<Space>(desired, kernels::smaller(storage, scalar(2) * B),
+                                    std::numeric_limits<scalar>::max(), state);
   }
   [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
     if (storage > scalar(0) && kernels::is_finite(storage)) return {};

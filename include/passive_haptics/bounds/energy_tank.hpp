@@ -27,7 +27,7 @@ enum class tank_outflow : std::uint8_t {
 /// et al. 2015 in the discrete form of docs/design/mathematics.md § 2(h).
 ///
 /// Worst case: exactly strict_bound on a smaller ledger, so E1 ≥ 0 for every motion under the
-/// assumptions of strict_bound (no latency), and no force at all while E1 ≤ ε. Predicted: pushes
+/// assumptions of strict_bound (no latency), and no force at all while E1 < ε. Predicted: pushes
 /// back with all of f* until it has seen the device turn round; NOT passive.
 template <class Space, tank_outflow Outflow = tank_outflow::worst_case>
 struct energy_tank {

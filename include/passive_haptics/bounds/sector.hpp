@@ -23,9 +23,11 @@ namespace passive_haptics::inline v0 {
 /// branches. So E ≥ F²/(2β), and as β ≤ 2b/T that covers the worst the next tick can do: less than
 /// the window, down to zero, is safe as well. The lower edges are for the feel alone.
 ///
-/// Assumes what memoryless_bound does. Not offered with latency. The price: at most 2b/T N/m; NOT `only_reduces`: a contact that is lost, or fades because the environment is
-/// silent, goes on pushing until the hand yields. A lost sample or a late tick ends it at once.
-/// One degree of freedom: the proof needs the motion to be along the force.
+/// Assumes what memoryless_bound does. What is held beyond the last command lends nothing: a motor a
+/// little too strong cannot wind the force up. Not offered with latency. The price: at most 2b/T N/m;
+/// NOT `only_reduces`: a contact that is lost, or fades because the environment is silent, goes on
+/// pushing until the hand yields. A lost sample or a late tick ends it at once. One degree of
+/// freedom: the proof needs the motion to be along the force.
 template <class Space>
 struct sector_bound {
   static_assert(Space::dof == 1,
@@ -36,21 +38,23 @@ struct sector_bound {
   static constexpr bound_traits traits{.needs_ledger = true};
 
   scalar slope = std::numeric_limits<scalar>::max();  ///< β [N/m], > 0; more than 2b/T is 2b/T
+  scalar last = std::numeric_limits<scalar>::max();   ///< F of the last command [N]
 
-  [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) const noexcept {
-    if (!state.motion_known || state.dt > state.longest_tick) return Space::zero();
+  [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) noexcept {
+    if (!state.motion_known || state.dt > state.longest_tick) return last = scalar(0);
     const scalar steepest = scalar(2) * state.damping.along_axis(0) / state.longest_tick;
     const scalar gentlest = kernels::smaller(slope, steepest);
     const bool backwards =
         state.held < scalar(0) || (state.held == scalar(0) && desired < scalar(0));
     const scalar side = backwards ? scalar(-1) : scalar(1);
 
-    const scalar held = state.held * side;
+    const scalar held = kernels::smaller(state.held * side, last);
     const scalar against = -state.displacement * side;
     const scalar most = kernels::larger(held + gentlest * against, scalar(0));
     const scalar least =
         against < scalar(0) ? kernels::larger(held + steepest * against, scalar(0)) : held;
-    return side * kernels::smaller(kernels::larger(desired * side, least), most);
+    last = kernels::smaller(kernels::larger(desired * side, least), most);
+    return side * last;
   }
   [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
     if (slope > scalar(0) && kernels::is_finite(slope)) return {};
