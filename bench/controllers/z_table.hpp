@@ -15,7 +15,7 @@ struct z_cell {
 [[nodiscard]] std::vector<z_cell> z_cells(const std::vector<controller>& judged,
                                           const z_grid& grid);
 
-inline const std::string z_heading =
+inline constexpr const char* z_heading =
     "controller,damping N s/m,stiffness N/m,motion J,hand J,growth,passive for,stable";
 [[nodiscard]] std::string z_line(const z_row& r);
 
