@@ -248,6 +248,11 @@ TEST_CASE("without a bound the Z-width is Colgate's region, and stability Gil an
   }
   CHECK(passive > 0);
   CHECK(unstable > 0);
+  for (const double B : {0.001, 0.01, 0.02}) {  // sharply
+    const double line = 2 * (b - B) / T;
+    CHECK(passive_for(judge_z(named("none"), B, 0.99 * line)) == 2);
+    CHECK(passive_for(judge_z(named("none"), B, 1.01 * line)) < 2);
+  }
 }
 
 TEST_CASE("parts of a Z-width sweep join to the run that was not split", "[controllers]") {
