@@ -7,8 +7,8 @@
 //   bare        30 Hz, normals snapped, no bound
 //   passive     30 Hz, normals turned at a rate, force-rate limit and energy bound in a chain
 
-#include "ball.hpp"
 #include "../common/report.hpp"
+#include "ball.hpp"
 #include <passive_haptics/environment/msh_reader.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 
