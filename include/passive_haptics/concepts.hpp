@@ -51,9 +51,16 @@ struct tick_state {
   }
 };
 
+/// A value: trivially copyable where the scalar is, so that it can be logged, sent and snapshotted;
+/// otherwise (a multiprecision scalar) one that copies without throwing.
+template <class V, class Space>
+concept plain_value = std::is_trivially_copyable_v<V> ||
+    (!std::is_trivially_copyable_v<typename Space::scalar> &&
+     std::is_nothrow_copy_constructible_v<V>);
+
 /// What a policy of any role must be.
-template <class P>
-concept policy = std::is_trivially_copyable_v<P> && requires {
+template <class P, class Space>
+concept policy = plain_value<P, Space> && requires {
   { P::passivity } -> std::convertible_to<guarantee>;
 };
 
@@ -61,7 +68,7 @@ concept policy = std::is_trivially_copyable_v<P> && requires {
 /// [s]. forfeit() writes off a tick whose motion is unknown and never raises the ledger. value() is
 /// E1 [J]. `counts` is false for the one that counts nothing.
 template <class O, class Space>
-concept energy_observer_for = policy<O> &&
+concept energy_observer_for = policy<O, Space> &&
     requires(O o, const O c, const typename Space::vector v, typename Space::scalar s) {
   { o.update(v, v, s) } -> std::same_as<void>;
   { o.forfeit(v, s) } -> std::same_as<void>;
@@ -93,7 +100,7 @@ struct bound_traits {
 /// limit() takes the desired force and returns the one to apply; `traits` says how it goes about
 /// it.
 template <class B, class Space>
-concept force_bound_for = policy<B> &&
+concept force_bound_for = policy<B, Space> &&
     requires(B b, const B c, const typename Space::vector v, tick_state<Space> s) {
   { b.limit(v, s) } -> std::same_as<typename Space::vector>;
   { c.check() } -> std::same_as<parameter_fault<typename Space::scalar>>;
@@ -103,7 +110,7 @@ concept force_bound_for = policy<B> &&
 
 /// step() returns the unit normal to use after dt [s] on the way from one unit normal to another.
 template <class N, class Space>
-concept normal_interpolation_for = policy<N> &&
+concept normal_interpolation_for = policy<N, Space> &&
     requires(N n, const N c, const typename Space::vector v, typename Space::scalar s) {
   { n.step(v, v, s) } -> std::same_as<typename Space::vector>;
   { c.check() } -> std::same_as<parameter_fault<typename Space::scalar>>;
@@ -114,7 +121,7 @@ concept normal_interpolation_for = policy<N> &&
 /// and whether Δx is known at all; it returns `position` [m] and along(n), the speed along a unit
 /// vector [m/s].
 template <class M, class Space>
-concept motion_estimator_for = policy<M> &&
+concept motion_estimator_for = policy<M, Space> &&
     requires(M m, const M c, const typename Space::vector v, typename Space::scalar s) {
   { m.estimate(v, v, v, s, true).position } -> std::convertible_to<typename Space::vector>;
   { m.estimate(v, v, v, s, true).along(v) } -> std::same_as<typename Space::scalar>;
@@ -125,7 +132,7 @@ concept motion_estimator_for = policy<M> &&
 /// adopt() takes a new stiffness [N/m] and the longest tick [s]; force() gives the desired force
 /// [N] ≥ 0 from a depth [m] and the outward speed [m/s]; depth() is its inverse.
 template <class L, class Space>
-concept contact_law_for = policy<L> && requires(L l, const L c, typename Space::scalar s) {
+concept contact_law_for = policy<L, Space> && requires(L l, const L c, typename Space::scalar s) {
   { l.adopt(s, s) } -> std::same_as<void>;
   { c.force(s, s) } -> std::same_as<typename Space::scalar>;
   { c.depth(s, s) } -> std::same_as<typename Space::scalar>;
@@ -139,7 +146,7 @@ concept contact_law_for = policy<L> && requires(L l, const L c, typename Space::
 /// normalises it and is false when it is unusable; depth() is (p − x)·n; covers() is the edge test;
 /// toward(target, x, n, d) is the same piece moved so that x lies d [m] deep under the normal n.
 template <class G, class Space>
-concept constraint_for = std::is_trivially_copyable_v<G> && std::default_initializable<G> &&
+concept constraint_for = plain_value<G, Space> && std::default_initializable<G> &&
     requires(G g, const G c, const typename Space::vector v, typename Space::scalar s) {
   { c.stiffness } -> std::convertible_to<typename Space::scalar>;
   { g.prepare() } -> std::same_as<bool>;

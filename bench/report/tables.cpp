@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tables.hpp"
+
+#include "../controllers/work.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace experiments {
+namespace {
+
+std::string quoted(const std::string& text) {
+  return '"' + text + '"';
+}
+std::string power_of_ten(long ticks) {
+  return format("%.0e", static_cast<double>(ticks));
+}
+
+const std::atomic<bool> never = false;  // nothing stops a report but the end of the program
+
+std::string gnuplot_points(const std::string& part, int column, const std::string& value, int style,
+                           int colour) {
+  return "'error_vs_runtime.csv' using (stringcolumn(1) eq '" + part + "' && stringcolumn(" +
+         std::to_string(column) + ") eq '" + value + "' ? column(3) : NaN):4 with points pt " +
+         std::to_string(style) + " ps 0.7 lc " + std::to_string(colour) + " title '" + value +
+         "', ";
+}
+
+std::string front_of(const std::string& part) {
+  return "'front_" + part + ".csv' using 1:2 with steps lw 2 lc rgb '#555555' title 'Pareto front'";
+}
+
+}  // namespace
+
+figures::figures(const report& out)
+    : csv_(out.path("error_vs_runtime.csv"),
+           "part,configuration,ns a tick,error,variant,tick ns p50,tick ns p99.9,tick ns max,"
+           "instructions a tick,state bytes") {}
+
+void figures::add(const figure& f) {
+  csv_.line(quoted(f.part) + "," + quoted(f.configuration) + "," + json_number(f.ns) + "," +
+            json_number(f.error) + "," + quoted(f.variant) + "," + json_number(f.cost.time.median) +
+            "," + json_number(f.cost.time.p999) + "," + json_number(f.cost.time.worst) + "," +
+            json_number(f.cost.instructions) + "," + std::to_string(f.bytes));
+  points_[f.part].emplace_back(f.ns, f.error);
+}
+
+void figures::write_front(const report& out, const std::string& part) const {
+  const auto& points = points_.at(part);
+  csv_file csv(out.path("front_" + part + ".csv"), "ns a tick,error");
+  for (const std::size_t i : pareto_front(points)) csv.row(points[i].first, points[i].second);
+  csv.close();
+}
+
+measured_cost measure(const candidate& c, const settings& chosen) {
+  measured_cost cost{c.time(), std::nan("")};
+  if (chosen.counts) cost.instructions = instructions_per_tick(chosen.program, c.name);
+  return cost;
+}
+
+std::vector<std::size_t> pareto_front(const std::vector<std::pair<double, double>>& points) {
+  std::vector<std::size_t> order(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });
+  std::vector<std::size_t> front;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : order) {
+    if (!(points[i].second < least)) continue;
+    least = points[i].second;
+    front.push_back(i);
+  }
+  return front;
+}
+
+bool report_arithmetic(report& out, const settings& chosen, figures& all) {
+  const auto& names = arithmetic_compositions();
+  std::vector<arithmetic_row> rows;
+  progress bar("arithmetic", static_cast<int>(names.size()));
+  controllers::work_through(
+      static_cast<int>(names.size()), 2, never,
+      [&](int i) { return compare(names[static_cast<std::size_t>(i)], chosen.ticks); },
+      [&](int, const std::vector<arithmetic_row>& some) {
+        rows.insert(rows.end(), some.begin(), some.end());
+        bar.step();
+      });
+
+  std::map<std::string, measured_cost> costs;
+  std::map<std::string, std::size_t> bytes;
+  progress timing("arithmetic, cost", static_cast<int>(arithmetic_candidates().size()));
+  for (const auto& c : arithmetic_candidates()) {
+    costs[c.name] = measure(c, chosen);
+    bytes[c.name] = c.bytes;
+    timing.step();
+  }
+
+  out.section(
+      "Arithmetic",
+      "Each scalar against the same composition in 113 bits (Boost cpp_bin_float), fed with "
+      "the same motion, written in float so that none has to round it. Errors are the "
+      "largest of the run so far as a share of the largest value of the 113-bit run; in "
+      "ulp, as a multiple of the scalar's epsilon. Times: blocks of 16 ticks of a replay; "
+      "on a busy machine the worst is the machine's. Instructions: callgrind, the loop of "
+      "the replay included.");
+  table shown({"configuration", "scalar", "ticks", "force", "force ulp", "energy", "energy ulp",
+               "plane", "normal", "ns p50", "p99.9", "max", "instructions", "bytes"});
+  std::vector<std::string> json;
+  bool sound = true;
+  for (const auto& r : rows) {
+    const std::string name = r.composition + ", " + r.scalar;
+    const measured_cost& cost = costs[name];
+    shown.add({r.composition, r.scalar, power_of_ten(r.ticks), format("%.1e", r.error.force),
+               format("%.0f", r.error.force / r.epsilon), format("%.1e", r.error.energy),
+               format("%.0f", r.error.energy / r.epsilon), format("%.1e", r.error.plane),
+               format("%.1e", r.error.normal), format("%.1f", cost.time.median),
+               format("%.1f", cost.time.p999), format("%.0f", cost.time.worst),
+               format("%.1f", cost.instructions), std::to_string(bytes[name])});
+    if (r.ticks == chosen.ticks) {
+      all.add({"arithmetic", r.composition, r.scalar, r.error.force, cost.time.median, cost,
+               bytes[name]});
+    }
+    json.push_back(json_object({{"configuration", json_string(r.composition)},
+                                {"scalar", json_string(r.scalar)},
+                                {"ticks", std::to_string(r.ticks)},
+                                {"epsilon", json_number(r.epsilon)},
+                                {"force", json_number(r.error.force)},
+                                {"energy", json_number(r.error.energy)},
+                                {"plane", json_number(r.error.plane)},
+                                {"normal", json_number(r.error.normal)},
+                                {"ns_p50", json_number(cost.time.median)},
+                                {"ns_p999", json_number(cost.time.p999)},
+                                {"ns_max", json_number(cost.time.worst)},
+                                {"instructions", json_number(cost.instructions)},
+                                {"state_bytes", std::to_string(bytes[name])}}));
+    // Rounding alone: a plain ledger that has run long may stall, all else stays within this.
+    const bool plain_float = r.scalar == "float";
+    if (!plain_float && !(r.error.force < 1e5 * r.epsilon)) {
+      std::cout << "BROKEN: " << name << ": force off by " << r.error.force << " after " << r.ticks
+                << " ticks, more than rounding can do\n";
+      sound = false;
+    }
+  }
+  out.show(shown);
+  out.member("arithmetic", json_array(json));
+  all.write_front(out, "arithmetic");
+  std::string plot =
+      "set logscale xy\nset format y '10^{%L}'\nset xlabel 'run time [ns a tick]'\n"
+      "set ylabel 'largest force error / largest force'\nplot ";
+  int series = 0;
+  for (const auto& name : names) {
+    ++series;
+    plot += gnuplot_points("arithmetic", 2, name, 4 + series, series);
+  }
+  out.plot("arithmetic",
+           "Arithmetic error of the force after " + power_of_ten(chosen.ticks) +
+               " ticks against run time",
+           plot + front_of("arithmetic"));
+  return sound;
+}
+
+bool report_models(report& out, const settings& chosen, figures& figured) {
+  const std::vector<touch_scene> scenes{yielding_wall(), soft_ball(), stroked_cushion()};
+  const std::vector<double> rates = chosen.quick
+                                        ? std::vector<double>{30, 1000}
+                                        : std::vector<double>{1, 3, 10, 30, 100, 300, 1000};
+  const auto& all = all_compositions();
+  std::vector<measured_cost> costs;
+  progress timing("models, cost", static_cast<int>(all.size()));
+  for (const auto& c : all) {
+    costs.push_back(measure(c.cost, chosen));
+    timing.step();
+  }
+
+  table parts({"configuration", "tag", "ns p50", "p99.9", "max", "instructions", "bytes"});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    parts.add({all[i].cost.name, ph::to_string(all[i].tag), format("%.1f", costs[i].time.median),
+               format("%.1f", costs[i].time.p999), format("%.0f", costs[i].time.worst),
+               format("%.1f", costs[i].instructions), std::to_string(all[i].cost.bytes)});
+  }
+  out.section("What a tick costs",
+              "Every composition below, in double, on one recorded motion with an update each 33 "
+              "ticks. Instructions include the loop of the replay and the update.");
+  out.show(parts);
+
+  std::vector<std::string> json;
+  bool sound = true;
+  for (const auto& scene : scenes) {
+    const felt truth = truth_of(scene);
+    const model_error smooth = error_of(scene, truth, truth);
+    double strongest = 0.0;
+    for (const auto& f : truth.force) strongest = std::max(strongest, f.norm());
+    out.section("Model error: " + scene.name,
+                "Against the environment solved at 10 kHz and no bound: forces up to " +
+                    format("%.2f", strongest) + " N, largest step in a millisecond " +
+                    format("%.3f", smooth.largest_step) + " N; one solution takes " +
+                    format("%.1f", truth.update_ns / 1e3) +
+                    " µs. Run time: a tick, and its share of the environment's work.");
+    table shown({"configuration", "tag", "environment Hz", "rms force N", "largest force N",
+                 "rms depth mm", "largest step N", "ns a tick"});
+    std::vector<std::size_t> fitting;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].dof == scene.dof) fitting.push_back(i);
+    }
+    const int cells = static_cast<int>(fitting.size() * rates.size());
+    progress bar(scene.name, cells);
+    controllers::work_through(
+        cells, 2, never,
+        [&](int cell) {
+          const auto& c = all[fitting[static_cast<std::size_t>(cell) / rates.size()]];
+          return c.touch(scene, rates[static_cast<std::size_t>(cell) % rates.size()]);
+        },
+        [&](int cell, const felt& run) {
+          const std::size_t i = fitting[static_cast<std::size_t>(cell) / rates.size()];
+          const double rate = rates[static_cast<std::size_t>(cell) % rates.size()];
+          const auto& c = all[i];
+          const model_error e = error_of(scene, run, truth);
+          const double ns = costs[i].time.median + run.update_ns * rate / 1000.0;
+          figured.add({scene.name, c.cost.name, format("%g Hz", rate), e.rms_force, ns, costs[i],
+                       c.cost.bytes});
+          shown.add({c.cost.name, ph::to_string(c.tag), format("%g", rate),
+                     format("%.4f", e.rms_force), format("%.4f", e.largest_force),
+                     format("%.3f", e.rms_depth * 1e3), format("%.4f", e.largest_step),
+                     format("%.1f", ns)});
+          json.push_back(json_object({{"scene", json_string(scene.name)},
+                                      {"configuration", json_string(c.cost.name)},
+                                      {"tag", json_string(ph::to_string(c.tag))},
+                                      {"environment_Hz", json_number(rate)},
+                                      {"rms_force_N", json_number(e.rms_force)},
+                                      {"max_force_N", json_number(e.largest_force)},
+                                      {"rms_depth_m", json_number(e.rms_depth)},
+                                      {"max_step_N", json_number(e.largest_step)},
+                                      {"ns_per_tick", json_number(ns)},
+                                      {"tick_ns_p50", json_number(costs[i].time.median)},
+                                      {"tick_instructions", json_number(costs[i].instructions)},
+                                      {"state_bytes", std::to_string(c.cost.bytes)}}));
+          if (!std::isfinite(e.rms_force)) {
+            std::cout << "BROKEN: " << scene.name << ", " << c.cost.name << ": no number\n";
+            sound = false;
+          }
+          bar.step();
+        });
+    out.show(shown);
+    figured.write_front(out, scene.name);
+    std::string plot =
+        "set logscale xy\nset xlabel 'run time [ns a tick, environment included]'\nset ylabel "
+        "'rms force error [N]'\nplot ";
+    int colour = 0;
+    for (const double rate : rates) {
+      plot += gnuplot_points(scene.name, 5, format("%g Hz", rate), 7, ++colour);
+    }
+    out.plot("model_" + scene.name, "Model error against run time: " + scene.name,
+             plot + front_of(scene.name));
+  }
+  out.member("models", json_array(json));
+  return sound;
+}
+
+}  // namespace experiments

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The two parts of the report, as tables, CSV, JSON and plots.
+
+#include "../common/report.hpp"
+#include "arithmetic.hpp"
+#include "touch.hpp"
+
+#include <map>
+#include <string>
+
+namespace experiments {
+
+struct settings {
+  std::string out = "report";
+  std::string program;      ///< this program's own path, to be counted by callgrind
+  long ticks = 10'000'000;  ///< of the arithmetic comparison
+  bool quick = false;       ///< fewer ticks, rates and compositions; no counts
+  bool counts = true;       ///< instructions by callgrind
+};
+
+/// What one candidate costs, measured now.
+struct measured_cost {
+  tick_time time;
+  double instructions = std::nan("");
+};
+measured_cost measure(const candidate& c, const settings& chosen);
+
+/// One point of a work-precision plot.
+struct figure {
+  std::string part, configuration, variant;
+  double error = 0, ns = 0;  ///< ns: of a tick and what comes with it
+  measured_cost cost;        ///< of the tick alone
+  std::size_t bytes = 0;
+};
+
+/// All points: error_vs_runtime.csv, and for each part the front that no point beats.
+class figures {
+ public:
+  explicit figures(const report& out);
+  void add(const figure& f);
+  void write_front(const report& out, const std::string& part) const;
+  void close() { csv_.close(); }
+
+ private:
+  csv_file csv_;
+  std::map<std::string, std::vector<std::pair<double, double>>> points_;
+};
+
+/// The points (cost, error) that no other beats in both, by cost. [indices]
+std::vector<std::size_t> pareto_front(const std::vector<std::pair<double, double>>& points);
+
+/// False: an error is far beyond what rounding can do, so something is broken.
+bool report_arithmetic(report& out, const settings& chosen, figures& all);
+bool report_models(report& out, const settings& chosen, figures& figured);
+
+}  // namespace experiments
