@@ -5,7 +5,17 @@
 
 #include "workload.hpp"
 
+#include <cstdio>
+
 namespace cost {
+
+#if defined(__clang__)
+constexpr const char* compiler = "clang++";
+constexpr int version[] = {__clang_major__, __clang_minor__, __clang_patchlevel__};
+#else
+constexpr const char* compiler = "g++";
+constexpr int version[] = {__GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__};
+#endif
 
 template <class Scene, class State, class Position>
 [[gnu::flatten]] auto probe(State& state, const Position& x, typename Scene::scalar dt) noexcept {
@@ -66,6 +76,8 @@ void run_both() {
 }  // namespace cost
 
 int main() {
+  std::printf("%s %d.%d.%d\n", cost::compiler, cost::version[0], cost::version[1],
+              cost::version[2]);
   cost::run_both<cost::wall<float>>();
   cost::run_both<cost::wall<double>>();
   cost::run_both<cost::half_space<float>>();
