@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The yardsticks of bench/cost measure what they say: a tick written by hand returns the same bits
 // as the composed one.
-#include "../bench/cost/scenes.hpp"
+#include "../bench/cost/counts.hpp"
+#include "../bench/cost/workload.hpp"
 #include "support/catch.hpp"
 
 #include <cstring>
+#include <fstream>
 #include <random>
+#include <sstream>
 
 namespace {
 
@@ -158,4 +161,108 @@ TEMPLATE_TEST_CASE("a tick written by hand returns the bits of the composed one"
   CHECK(found.late > 1000);
   CHECK(found.refused > 1000);
   CHECK(found.others > 100);
+}
+
+TEST_CASE("the workload takes every path of every scene", "[cost]") {
+  const auto ticks = [](const std::vector<cost::step>& steps, cost::path p) {
+    return std::count_if(steps.begin(), steps.end(), [p](const auto& s) { return s.taken == p; });
+  };
+  const auto wall = cost::workload<cost::wall<double>>();
+  const auto half_space = cost::workload<cost::half_space<double>>();
+  const auto triangle = cost::workload<cost::triangle<double>>();
+  for (const auto path : cost::all_paths) {
+    INFO(cost::to_string(path));
+    CHECK(ticks(triangle, path) > 0);
+    if (path == cost::path::following) continue;  // these two do not move
+    CHECK(ticks(wall, path) > 0);
+    CHECK(ticks(half_space, path) > 0);
+  }
+}
+
+namespace {
+
+/// As callgrind writes it, cut down to what is read.
+const std::string callgrind_file =
+    "# callgrind format\n"
+    "fn=void cost::along<(cost::path)3, cost::wall<float>, X>(X)\n"
+    "0 12\n"
+    "cfn=auto cost::probe<cost::wall<float>, passive_haptics::v0::local_model<A>, float>(A&)\n"
+    "calls=10 0\n"
+    "0 1290\n"
+    "cfn=something else\n"
+    "calls=4 0\n"
+    "0 77\n"
+    "fn=void cost::along<(cost::path)3, cost::wall<float>, Y>(Y)\n"
+    "cfn=auto cost::probe<cost::wall<float>, by_hand::in_float::wall, float>(W&)\n"
+    "calls=10 0\n"
+    "0 1200\n"
+    "fn=main\n"
+    "cfn=auto cost::probe<cost::wall<float>, by_hand::in_float::wall, float>(W&)\n"
+    "calls=3 0\n"
+    "0 9999\n";
+
+cost::counts counted_once() {
+  std::istringstream file(callgrind_file);
+  return {"g++ 12.2.0", cost::read_callgrind(file)};
+}
+
+}  // namespace
+
+TEST_CASE("the counts of a tick are those of its calls, by path", "[cost]") {
+  const cost::counts now = counted_once();
+  REQUIRE(now.rows.size() == 2);
+  const auto* composed = now.find("wall, float, composed, limited");
+  REQUIRE(composed != nullptr);
+  CHECK(composed->ticks == 10);
+  CHECK(composed->instructions == 1290);
+  const auto* by_hand = now.find("wall, float, by hand, limited");
+  REQUIRE(by_hand != nullptr);
+  CHECK(by_hand->instructions == 1200);  // what main calls is not a tick of the workload
+  CHECK(now.ratio("wall", "float") == 1290. / 1200.);
+}
+
+TEST_CASE("growth of more than 1 % over the baseline fails, by name; less does not", "[cost]") {
+  const cost::counts now = counted_once();
+  std::ostringstream text;
+  cost::write_baseline(text, {now});
+  std::istringstream written(text.str());
+  auto committed = cost::read_baseline(written);
+  REQUIRE(committed["g++ 12.2.0"].size() == 2);
+
+  const auto same = cost::compare(committed, now);
+  CHECK(same.known);
+  CHECK(same.sentences.empty());
+
+  double& before = committed["g++ 12.2.0"]["wall, float, composed, limited"];
+  before = 129 / 1.009;
+  CHECK(cost::compare(committed, now).sentences.empty());
+  before = 129 / 1.011;
+  const auto grown = cost::compare(committed, now);
+  REQUIRE(grown.sentences.size() == 1);
+  CHECK(grown.sentences[0].find("wall, float, composed, limited grew by 1.1 %") !=
+        std::string::npos);
+  before = 129 * 2;  // less is no complaint
+  CHECK(cost::compare(committed, now).sentences.empty());
+
+  committed["g++ 12.2.0"]["wall, float, composed, air"] = 80;
+  const auto gone = cost::compare(committed, now);
+  REQUIRE(gone.sentences.size() == 1);
+  CHECK(gone.sentences[0].find("was not counted") != std::string::npos);
+
+  cost::counts newer = now;
+  newer.compiler = "g++ 99.0.0";
+  CHECK_FALSE(cost::compare(committed, newer).known);
+}
+
+TEST_CASE("the committed baseline is readable and has all scenes of both compilers", "[cost]") {
+  std::ifstream file(PASSIVE_HAPTICS_COST_BASELINE);
+  REQUIRE(file.good());
+  const auto committed = cost::read_baseline(file);
+  CHECK(committed.size() >= 2);
+  for (const auto& [compiler, rows] : committed) {
+    INFO(compiler);
+    CHECK(rows.size() == 64);  // 2 scenes x 5 paths + 1 x 6, float and double, two sides
+  }
+  std::istringstream broken("heading\ng++,wall,float,composed,air,many\n");
+  CHECK_THROWS_AS(cost::read_baseline(broken), std::runtime_error);
 }
