@@ -21,6 +21,15 @@
 #include <limits>
 #include <type_traits>
 
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0
+#error passive_haptics: -ffast-math takes out the checks for NaN and infinity that every promise \
+rests on: compile without it
+#endif
+#if defined(__ASSOCIATIVE_MATH__)  // clang++ does not tell
+#error passive_haptics: -fassociative-math, a part of -ffast-math, sums in any order, so bounds are no \
+longer rounded towards zero force: compile without it
+#endif
+
 namespace passive_haptics::inline v0 {
 
 /// A real number type: float, double, long double, or anything that does arithmetic, compares, and

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program that callgrind counts: every scene through its workload, composed and by hand. Each tick
+// is one call of probe<Scene, State> from along<path>, so the counts of a tick are those of that call:
+// the tick, its frame and its return.
+
+#include "workload.hpp"
+
+#include <cstdio>
+
+namespace cost {
+
+#if defined(__clang__)
+constexpr const char* compiler = "clang++";
+constexpr int version[] = {__clang_major__, __clang_minor__, __clang_patchlevel__};
+#else
+constexpr const char* compiler = "g++";
+constexpr int version[] = {__GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__};
+#endif
+
+template <class Scene, class State, class Position>
+[[gnu::flatten]] auto probe(State& state, const Position& x, typename Scene::scalar dt) noexcept {
+  return advance(state, x, dt);
+}
+
+volatile int going = 0;
+
+/// Calls `ticker` and leaves its path in the call graph.
+template <path Path, class Scene, class State, class Position, class Ticker>
+[[gnu::noinline]] void along(Ticker ticker, State& state, const Position& x,
+                             typename Scene::scalar dt) {
+  going = static_cast<int>(Path);  // no two of these are alike, so none are merged
+  [[maybe_unused]] const auto result = ticker(state, x, dt);
+}
+
+template <class Scene, class State>
+void run(State state, const std::vector<step>& steps) {
+  using S = typename Scene::scalar;
+  using position = decltype(position_for<Scene, State>({}));
+  auto* volatile ticker = &probe<Scene, State, position>;  // not to be inlined
+  using pointer = decltype(&probe<Scene, State, position>);
+  for (const step& s : steps) {
+    if (s.news) retarget_any(state, s.target);
+    const position x = position_for<Scene, State>(s.position);
+    const S dt = in<S>(s.dt);
+    const pointer call = ticker;
+    switch (s.taken) {
+      case path::air:
+        along<path::air, Scene>(call, state, x, dt);
+        break;
+      case path::contact:
+        along<path::contact, Scene>(call, state, x, dt);
+        break;
+      case path::following:
+        along<path::following, Scene>(call, state, x, dt);
+        break;
+      case path::limited:
+        along<path::limited, Scene>(call, state, x, dt);
+        break;
+      case path::late:
+        along<path::late, Scene>(call, state, x, dt);
+        break;
+      case path::bad:
+        along<path::bad, Scene>(call, state, x, dt);
+        break;
+    }
+  }
+}
+
+template <class Scene>
+void run_both() {
+  const auto steps = workload<Scene>();
+  run<Scene>(Scene::composed(ordinary), steps);
+  run<Scene>(Scene::by_hand(ordinary), steps);
+}
+
+}  // namespace cost
+
+int main() {
+  std::printf("%s %d.%d.%d\n", cost::compiler, cost::version[0], cost::version[1],
+              cost::version[2]);
+  cost::run_both<cost::wall<float>>();
+  cost::run_both<cost::wall<double>>();
+  cost::run_both<cost::half_space<float>>();
+  cost::run_both<cost::half_space<double>>();
+  cost::run_both<cost::triangle<float>>();
+  cost::run_both<cost::triangle<double>>();
+}

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "counts.hpp"
+
+#include "workload.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace cost {
+
+namespace {
+
+/// What stands between `before` and the next of `ends` in text; empty if there is no such thing.
+std::string after(const std::string& text, const std::string& before, const char* ends) {
+  const auto at = text.find(before);
+  if (at == std::string::npos) return "";
+  const auto start = at + before.size();
+  return text.substr(start, text.find_first_of(ends, start) - start);
+}
+
+/// The path of a caller "…along<(cost::path)3, …", or "".
+std::string path_in(const std::string& caller) {
+  const std::string number = after(caller, "along<(cost::path)", ",");
+  if (number.size() != 1 || number[0] < '0' || number[0] > '5') return "";
+  return to_string(static_cast<path>(number[0] - '0'));
+}
+
+void add(std::vector<counted>& rows, const std::string& caller, const std::string& callee,
+         long calls, long instructions) {
+  const std::string way = path_in(caller);
+  const std::string scene = after(callee, "probe<cost::", "<");
+  if (way.empty() || scene.empty()) return;
+  const std::string scalar = after(callee, "probe<cost::" + scene + "<", ">");
+  const std::string state = after(callee, "probe<cost::" + scene + "<" + scalar + ">, ", "<,(");
+  const counted row{scene, scalar, state.rfind("by_hand", 0) == 0 ? "by hand" : "composed",
+                    way,   calls,  instructions};
+  for (auto& known : rows) {
+    if (known.name() != row.name()) continue;
+    known.ticks += calls;
+    known.instructions += instructions;
+    return;
+  }
+  rows.push_back(row);
+}
+
+std::string first_line(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+}  // namespace
+
+const counted* counts::find(const std::string& name) const {
+  for (const auto& row : rows) {
+    if (row.name() == name) return &row;
+  }
+  return nullptr;
+}
+
+double counts::ratio(const std::string& scene, const std::string& scalar) const {
+  double composed = 0, by_hand = 0;
+  for (const auto& row : rows) {
+    if (row.scene != scene || row.scalar != scalar) continue;
+    (row.side == "composed" ? composed : by_hand) += static_cast<double>(row.instructions);
+  }
+  return composed / by_hand;
+}
+
+std::vector<counted> read_callgrind(std::istream& in) {
+  std::vector<counted> rows;
+  std::string caller, callee;
+  long calls = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("fn=", 0) == 0) {
+      caller = line.substr(3);
+    } else if (line.rfind("cfn=", 0) == 0) {
+      callee = line.substr(4);
+    } else if (line.rfind("calls=", 0) == 0) {
+      calls = std::atol(line.c_str() + 6);
+    } else if (calls > 0) {  // the line after calls=: position, inclusive instructions
+      add(rows, caller, callee, calls, std::atol(line.c_str() + line.rfind(' ')));
+      calls = 0;
+    }
+  }
+  return rows;
+}
+
+bool valgrind_is_here() {
+  return std::system("valgrind --version > /dev/null 2>&1") == 0;
+}
+
+counts count(const std::filesystem::path& program, const std::filesystem::path& scratch) {
+  const std::string out = (scratch / (program.filename().string() + ".callgrind")).string();
+  const std::string said = out + ".txt";
+  const std::string command =
+      "LD_BIND_NOW=1 valgrind --tool=callgrind --compress-strings=no --compress-pos=no "
+      "--callgrind-out-file='" +
+      out + "' '" + program.string() + "' > '" + said + "' 2> '" + out + ".log'";
+  if (std::system(command.c_str()) != 0) {
+    throw std::runtime_error("valgrind failed on " + program.string() + ": see " + out + ".log");
+  }
+  std::ifstream in(out);
+  counts result{first_line(said), read_callgrind(in)};
+  if (result.compiler.empty() || result.rows.empty()) {
+    throw std::runtime_error(out + ": no ticks in it, of a program that said \"" + result.compiler +
+                             "\"");
+  }
+  return result;
+}
+
+baseline read_baseline(std::istream& in) {
+  baseline committed;
+  std::string line;
+  std::getline(in, line);  // the heading
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    std::string compiler, scene, scalar, side, way, number;
+    std::getline(cells, compiler, ',');
+    std::getline(cells, scene, ',');
+    std::getline(cells, scalar, ',');
+    std::getline(cells, side, ',');
+    std::getline(cells, way, ',');
+    std::getline(cells, number, ',');
+    char* end = nullptr;
+    const double value = std::strtod(number.c_str(), &end);
+    if (number.empty() || *end != '\0' || !(value > 0)) {
+      throw std::runtime_error("baseline: \"" + line +
+                               "\" is not compiler,scene,scalar,side,path,"
+                               "instructions: write it anew with --rewrite");
+    }
+    committed[compiler][counted{scene, scalar, side, way}.name()] = value;
+  }
+  return committed;
+}
+
+void write_baseline(std::ostream& out, const std::vector<counts>& all) {
+  out << "compiler,scene,scalar,side,path,instructions per tick\n";
+  for (const auto& build : all) {
+    for (const auto& row : build.rows) {
+      out << build.compiler << ',' << row.scene << ',' << row.scalar << ',' << row.side << ','
+          << row.path << ',' << experiments::format("%.2f", row.per_tick()) << '\n';
+    }
+  }
+}
+
+growth compare(const baseline& committed, const counts& now, double tolerance) {
+  growth found;
+  const auto build = committed.find(now.compiler);
+  if (build == committed.end()) return found;
+  found.known = true;
+  for (const auto& [name, before] : build->second) {
+    const counted* row = now.find(name);
+    if (row == nullptr) {
+      found.sentences.push_back(now.compiler + ": " + name + " was not counted");
+      continue;
+    }
+    const double grown = row->per_tick() / before - 1;
+    if (!(grown > tolerance)) continue;
+    found.sentences.push_back(now.compiler + ": " + name + " grew by " +
+                              experiments::format("%.1f %%", 100 * grown) + ", from " +
+                              experiments::format("%.2f", before) + " to " +
+                              experiments::format("%.2f instructions per tick", row->per_tick()));
+  }
+  return found;
+}
+
+}  // namespace cost

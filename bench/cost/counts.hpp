@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Instructions per tick: what callgrind wrote, as rows; the rows that are committed; and what has
+// grown.
+
+#include "../common/text.hpp"
+
+#include <filesystem>
+#include <istream>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cost {
+
+/// All ticks of one path of one scene on one side.
+struct counted {
+  std::string scene, scalar, side, path;
+  long ticks = 0;
+  long instructions = 0;
+
+  [[nodiscard]] double per_tick() const {
+    return static_cast<double>(instructions) / static_cast<double>(ticks);
+  }
+  [[nodiscard]] std::string name() const {
+    return scene + ", " + scalar + ", " + side + ", " + path;
+  }
+};
+
+/// The counts of one build.
+struct counts {
+  std::string compiler;  ///< with its version: another compiler makes other instructions
+  std::vector<counted> rows;
+
+  /// The row of that name, or null.
+  [[nodiscard]] const counted* find(const std::string& name) const;
+  /// Composed over by hand, all paths of a scene together.
+  [[nodiscard]] double ratio(const std::string& scene, const std::string& scalar) const;
+};
+
+/// Reads what callgrind wrote with --compress-strings=no: the calls from along<path> to
+/// probe<scene, state>.
+[[nodiscard]] std::vector<counted> read_callgrind(std::istream& in);
+
+/// Runs `program`, one of the count programs, under valgrind. Throws std::runtime_error if that fails.
+[[nodiscard]] counts count(const std::filesystem::path& program,
+                           const std::filesystem::path& scratch);
+[[nodiscard]] bool valgrind_is_here();
+
+/// The committed counts by compiler, as CSV: compiler,scene,scalar,side,path,instructions per tick.
+using baseline = std::map<std::string, std::map<std::string, double>>;
+[[nodiscard]] baseline read_baseline(std::istream& in);
+void write_baseline(std::ostream& out, const std::vector<counts>& all);
+
+/// What grew by more than `tolerance`, or is gone, a sentence each. Empty and `known` false: there is
+/// no baseline for that compiler.
+struct growth {
+  bool known = false;
+  std::vector<std::string> sentences;
+};
+[[nodiscard]] growth compare(const baseline& committed, const counts& now, double tolerance = 0.01);
+
+}  // namespace cost
