@@ -46,8 +46,15 @@ requires(Dof >= 2) struct space<Scalar, Dof> {
   static constexpr int dof = Dof;
 
   [[nodiscard]] static vector zero() noexcept { return vector::Zero(); }
-  [[nodiscard]] static Scalar dot(const vector& a, const vector& b) noexcept { return a.dot(b); }
-  [[nodiscard]] static Scalar norm(const vector& a) noexcept { return a.norm(); }
+  /// Summed from the first to the last: Eigen's own order depends on the scalar and on the target.
+  [[nodiscard]] static Scalar dot(const vector& a, const vector& b) noexcept {
+    Scalar sum = a(0) * b(0);
+    for (int i = 1; i < Dof; ++i) sum += a(i) * b(i);
+    return sum;
+  }
+  [[nodiscard]] static Scalar norm(const vector& a) noexcept {
+    return kernels::square_root(dot(a, a));
+  }
   [[nodiscard]] static bool is_finite(const vector& a) noexcept { return a.allFinite(); }
 
   [[nodiscard]] static Scalar weighted_square(const vector& w, const vector& a) noexcept {
@@ -72,7 +79,7 @@ requires(Dof >= 2) struct space<Scalar, Dof> {
     n.cwiseAbs().minCoeff(&least);
     vector u = -n(least) * n;
     u(least) += Scalar(1);
-    return u / u.norm();
+    return u / norm(u);
   }
 
   [[nodiscard]] static vector cross(const vector& a, const vector& b) noexcept requires(Dof == 3) {
