@@ -118,6 +118,12 @@ class local_model {
  private:
   static constexpr std::size_t latency = static_cast<std::size_t>(Bound::traits.latency);
 
+  using state_type = tick_state<Space, decltype(Observer::damping)>;
+  /// A bound that only reduces, and remembers nothing, has no say where nothing is asked.
+  static constexpr bool zero_stays_zero =
+      Bound::traits.only_reduces &&
+      requires(const Bound& b, const vector& v, const state_type& s) { b.limit(v, s); };
+
   [[nodiscard]] constexpr tick_result<Space> tick(const vector& position, scalar dt,
                                                   const vector& held) noexcept {
     if (!sound_) return refuse(event::rejected_parameters, dt);
@@ -160,6 +166,9 @@ class local_model {
     // Which way, and how hard, if nothing held us back?
     [[maybe_unused]] const Contact before = contact_;  // with the stiffness up to now
     if (fresh()) contact_.adopt(target.stiffness, limits_.longest_tick);
+    if constexpr (zero_stays_zero) {
+      if (!in_target) return let_go(what);
+    }
     const vector goal = target.outward();
     vector normal = goal;
     if constexpr (Supply::moves) {
@@ -181,7 +190,6 @@ class local_model {
     if constexpr (Bound::traits.needs_local_model) {
       if (in_local) local_force = supply_.last_weight() * before.force(depth, outward_speed);
     }
-    using state_type = tick_state<Space, decltype(observer_.damping)>;
     const state_type state{.damping = observer_.damping,
                            .energy = observer_.value(),
                            .in_flight = in_flight(),
@@ -218,6 +226,16 @@ class local_model {
     }
     hold(force);
     return {force, felt, observer_.value(), what, limited};
+  }
+
+  /// Nothing is asked, so there is nothing to bound.
+  constexpr tick_result<Space> let_go(event what) noexcept {
+    if constexpr (Supply::moves) {
+      supply_.sync();
+      supply_.seen();
+    }
+    hold(Space::zero());
+    return {Space::zero(), scalar(0), observer_.value(), what, false};
   }
 
   /// One tick into the ledger. A late tick may have let a watchdog drop the force part of the way,
