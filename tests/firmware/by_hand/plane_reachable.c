@@ -99,20 +99,26 @@ struct answer3 by_hand_plane_reachable_tick(struct plane_reachable* w, const vec
   const vec3 goal = w->newest.normal;
   const real target_depth = dot3(sub3(w->newest.point, x), goal);
   const bool in_target = weight > 0 && target_depth > 0;
+  if (n->changed) adopt_stiffness(&w->spring, w->newest.stiffness, T);
+  if (!in_target) { /* nothing is asked, nothing is given */
+    if (!n->together) w->own = w->newest;
+    n->together = true;
+    n->changed = n->refused = false;
+    n->last_weight = weight;
+    d->held = (vec3){0};
+    return (struct answer3){{0}, 0, l->energy, what, false};
+  }
+
   vec3 normal = goal;
   if (!n->together && n->last_weight > 0 && dot3(sub3(w->own.point, x), w->own.normal) > 0) {
     normal = turned3(w->own.normal, goal, w->rate * dt);
   }
-  real depth = 0, asked = 0;
-  if (n->changed) adopt_stiffness(&w->spring, w->newest.stiffness, T);
   const real speed = dot3(travel, normal) / dt;
-  if (in_target) {
-    depth = target_depth;
-    asked = weight * damped_force(&w->spring, target_depth, speed);
-    if (!finite_number(asked) || !finite_number(depth)) {
-      depth = asked = 0;
-      what = worse(what, rejected_target);
-    }
+  real depth = target_depth;
+  real asked = weight * damped_force(&w->spring, depth, speed);
+  if (!finite_number(asked) || !finite_number(depth)) {
+    depth = asked = 0;
+    what = worse(what, rejected_target);
   }
   const vec3 desired = mul3(normal, asked);
   vec3 force = limited(w, desired, travel, known, dt);
@@ -122,7 +128,7 @@ struct answer3 by_hand_plane_reachable_tick(struct plane_reachable* w, const vec
   }
   const bool cut = !same3(force, desired);
   if (cut) depth = damped_depth(&w->spring, dot3(force, normal), speed);
-  if (cut || (in_target && !same3(normal, goal))) {
+  if (cut || !same3(normal, goal)) {
     w->own = (struct plane3){add3(x, mul3(normal, depth)), normal, w->newest.stiffness};
     n->together = false;
   } else if (!n->together) {

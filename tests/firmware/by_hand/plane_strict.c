@@ -81,18 +81,24 @@ struct answer2 by_hand_plane_strict_tick(struct plane_strict* w, const vec2* at,
   const vec2 goal = w->newest.normal;
   const real target_depth = dot2(sub2(w->newest.point, x), goal);
   const bool in_target = weight > 0 && target_depth > 0;
+  if (!in_target) { /* nothing is asked, nothing is given */
+    if (!n->together) w->own = w->newest;
+    n->together = true;
+    n->changed = n->refused = false;
+    n->last_weight = weight;
+    d->held = (vec2){0};
+    return (struct answer2){{0}, 0, l->energy, what, false};
+  }
+
   vec2 normal = goal;
   if (!n->together && n->last_weight > 0 && dot2(sub2(w->own.point, x), w->own.normal) > 0) {
     normal = turned2(w->own.normal, goal, w->rate * dt);
   }
-  real depth = 0, asked = 0;
-  if (in_target) {
-    depth = target_depth;
-    asked = weight * (w->newest.stiffness * target_depth);
-    if (!finite_number(asked) || !finite_number(depth)) {
-      depth = asked = 0;
-      what = worse(what, rejected_target);
-    }
+  real depth = target_depth;
+  real asked = weight * (w->newest.stiffness * depth);
+  if (!finite_number(asked) || !finite_number(depth)) {
+    depth = asked = 0;
+    what = worse(what, rejected_target);
   }
   const vec2 desired = mul2(normal, asked);
   vec2 force = mul2(desired, affordable(l->energy, outflow(l, dot2(desired, desired), T)));
@@ -104,7 +110,7 @@ struct answer2 by_hand_plane_strict_tick(struct plane_strict* w, const vec2* at,
   if (cut) {
     depth = w->newest.stiffness > 0 ? dot2(force, normal) / w->newest.stiffness : 0;
   }
-  if (cut || (in_target && !same2(normal, goal))) {
+  if (cut || !same2(normal, goal)) {
     w->own = (struct plane2){add2(x, mul2(normal, depth)), normal, w->newest.stiffness};
     n->together = false;
   } else if (!n->together) {

@@ -152,17 +152,23 @@ struct answer3 by_hand_triangle_thesis_tick(struct triangle_thesis* w, const vec
 
   const real stiffness_before = w->stiffness;
   if (n->changed) w->stiffness = w->newest.stiffness;
+  if (!in_target) { /* nothing is asked, nothing is given */
+    if (!n->together) w->own = w->newest;
+    n->together = true;
+    n->changed = n->refused = false;
+    n->last_weight = weight;
+    d->held = (vec3){0};
+    return (struct answer3){{0}, 0, l->energy, what, false};
+  }
+
   const vec3 goal = w->newest.normal;
   vec3 normal = goal;
   if (in_local && !n->together) normal = turned3(w->own.normal, goal, w->rate * dt);
-  real depth = 0, asked = 0;
-  if (in_target) {
-    depth = target_depth;
-    asked = weight * (w->stiffness * target_depth);
-    if (!finite_number(asked) || !finite_number(depth)) {
-      depth = asked = 0;
-      what = worse(what, rejected_target);
-    }
+  real depth = target_depth;
+  real asked = weight * (w->stiffness * depth);
+  if (!finite_number(asked) || !finite_number(depth)) {
+    depth = asked = 0;
+    what = worse(what, rejected_target);
   }
   const vec3 desired = mul3(normal, asked);
   const real local_force =
@@ -174,7 +180,7 @@ struct answer3 by_hand_triangle_thesis_tick(struct triangle_thesis* w, const vec
   }
   const bool cut = !same3(force, desired);
   if (cut) depth = w->stiffness > 0 ? dot3(force, normal) / w->stiffness : 0;
-  if (cut || (in_target && !same3(normal, goal))) {
+  if (cut || !same3(normal, goal)) {
     approach(w, in_local, x, normal, depth);
   } else if (!n->together) {
     w->own = w->newest;

@@ -40,7 +40,7 @@ static inline vec3 div3(vec3 a, real s) {
   return (vec3){a.x / s, a.y / s, a.z / s};
 }
 static inline real dot3(vec3 a, vec3 b) {
-  return a.x * b.x + (a.y * b.y + a.z * b.z);
+  return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 static inline bool same3(vec3 a, vec3 b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;

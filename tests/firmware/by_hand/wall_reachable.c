@@ -95,16 +95,22 @@ struct answer1 by_hand_wall_reachable_tick(struct wall_reachable* w, real x, rea
   const real normal = w->newest.normal;
   const real target_depth = (w->newest.point - x) * normal;
   const bool in_target = weight > 0 && target_depth > 0;
-  real depth = 0, asked = 0;
   if (n->changed) adopt_stiffness(&w->spring, w->newest.stiffness, T);
+  if (!in_target) { /* nothing is asked, nothing is given */
+    if (!n->together) w->own = w->newest;
+    n->together = true;
+    n->changed = n->refused = false;
+    n->last_weight = weight;
+    d->held = 0;
+    return (struct answer1){0, 0, l->energy, what, false};
+  }
+
   const real speed = travel * normal / dt;
-  if (in_target) {
-    depth = target_depth;
-    asked = weight * damped_force(&w->spring, target_depth, speed);
-    if (!finite_number(asked) || !finite_number(depth)) {
-      depth = asked = 0;
-      what = worse(what, rejected_target);
-    }
+  real depth = target_depth;
+  real asked = weight * damped_force(&w->spring, depth, speed);
+  if (!finite_number(asked) || !finite_number(depth)) {
+    depth = asked = 0;
+    what = worse(what, rejected_target);
   }
   const real desired = normal * asked;
   real force = limited(w, desired, travel, known, dt);

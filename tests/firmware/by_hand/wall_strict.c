@@ -49,8 +49,11 @@ struct answer1 by_hand_wall_strict_tick(struct wall_strict* w, real x, real dt) 
   if (l->energy < 0) what = worse(what, debt);
 
   real depth = (w->wall.point - x) * w->wall.normal;
+  if (!(depth > 0)) { /* nothing is asked, nothing is given */
+    d->held = 0;
+    return (struct answer1){0, 0, l->energy, what, false};
+  }
   real asked = w->wall.stiffness * depth;
-  if (!(depth > 0)) depth = asked = 0;
   if (!finite_number(asked) || !finite_number(depth)) {
     depth = asked = 0;
     what = worse(what, rejected_target);
