@@ -11,11 +11,14 @@
 #include <type_traits>
 
 extern "C" {
-// Where the counting plugin begins and ends.
+// Where the counting plugin begins, ends, and starts a new series.
 [[gnu::noinline]] void count_begin() {
   asm volatile("" ::: "memory");
 }
 [[gnu::noinline]] void count_end() {
+  asm volatile("" ::: "memory");
+}
+[[gnu::noinline]] void count_series() {
   asm volatile("" ::: "memory");
 }
 void nothing();
@@ -67,6 +70,7 @@ void play(const recording& r) {
   text_line line;
   line.words("state", r.scene, Subject::author).number(sizeof subject.model).print();
 
+  count_series();
   std::uint32_t empty = 0;
   auto idle = subject.model;
   const auto doing_nothing = reinterpret_cast<decltype(Subject::call)>(&nothing);
@@ -102,7 +106,7 @@ asm(".text\n.p2align 2\n.global nothing\n.type nothing, %function\n"
 #endif
 );
 
-int main() {
+int program() {
   namespace recorded = replay::recorded;
   play<replay::composed_wall_strict>(recorded::wall_strict);
   play<replay::by_hand_wall_strict>(recorded::wall_strict);

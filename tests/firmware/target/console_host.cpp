@@ -12,3 +12,7 @@ std::uint32_t platform::clock() {
 std::uint32_t platform::instructions(std::uint32_t, std::uint32_t) {
   return 0;
 }
+
+int main() {
+  return program();
+}

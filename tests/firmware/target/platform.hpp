@@ -5,6 +5,9 @@
 
 #include <cstdint>
 
+/// What a test program does; its result is the exit code.
+int program();
+
 namespace platform {
 
 void print(const char* text);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Start-up for the test programs: FPU on, data copied, bss cleared, main(), its result to the
+// Start-up for the test programs: FPU on, data copied, bss cleared, program(), its result to the
 // debugger. A fault prints FAULT and ends with 99.
 #include "cortex_m.hpp"
+#include "platform.hpp"
 
 #include <cstdint>
-
-int main();
 
 extern "C" {
 
@@ -25,7 +24,7 @@ void Reset_Handler() {
   const std::uint32_t* from = &_sidata;
   for (std::uint32_t* to = &_sdata; to < &_edata;) *to++ = *from++;
   for (std::uint32_t* to = &_sbss; to < &_ebss;) *to++ = 0;
-  cortex_m::leave(main());
+  cortex_m::leave(program());
 }
 
 void Fault_Handler() {
