@@ -28,6 +28,9 @@ class exceptions {
 #endif
   }
   static void print(const char* scene, const char* what, std::uint32_t raised) {
+#ifndef __ARM_FP
+    return;  // no FPU, no exceptions
+#endif
     text_line line;
     line.words(scene, what, "raised");
     if (raised & invalid) line.words("invalid");
