@@ -28,13 +28,16 @@ struct stored_vector {
 
   template <class Expression>
   stored_vector(const Eigen::MatrixBase<Expression>& v) noexcept {  // NOLINT: a view of the same
-    Eigen::Map<Eigen::Matrix<Scalar, Dof, 1>>(values.data()) = v;
+    const Eigen::Matrix<Scalar, Dof, 1> all = v;
+    for (int i = 0; i < Dof; ++i) values[static_cast<std::size_t>(i)] = all(i);
   }
 
   [[nodiscard]] constexpr Scalar operator[](std::size_t i) const noexcept { return values[i]; }
 
   operator Eigen::Matrix<Scalar, Dof, 1>() const noexcept {  // NOLINT: a view of the same thing
-    return Eigen::Map<const Eigen::Matrix<Scalar, Dof, 1>>(values.data());
+    Eigen::Matrix<Scalar, Dof, 1> all;
+    for (int i = 0; i < Dof; ++i) all(i) = values[static_cast<std::size_t>(i)];
+    return all;
   }
 };
 
@@ -45,17 +48,25 @@ requires(Dof >= 2) struct space<Scalar, Dof> {
   using coordinates = stored_vector<Scalar, Dof>;
   static constexpr int dof = Dof;
 
-  [[nodiscard]] static vector zero() noexcept { return vector::Zero(); }
+  [[nodiscard]] static vector zero() noexcept {
+    vector all;
+    for (int i = 0; i < Dof; ++i) all(i) = Scalar(0);
+    return all;
+  }
   /// Summed from the first to the last: Eigen's own order depends on the scalar and on the target.
-  [[nodiscard]] static Scalar dot(const vector& a, const vector& b) noexcept {
+  [[nodiscard, gnu::always_inline]] static Scalar dot(const vector& a, const vector& b) noexcept {
     Scalar sum = a(0) * b(0);
     for (int i = 1; i < Dof; ++i) sum += a(i) * b(i);
     return sum;
   }
-  [[nodiscard]] static Scalar norm(const vector& a) noexcept {
+  [[nodiscard, gnu::always_inline]] static Scalar norm(const vector& a) noexcept {
     return kernels::square_root(dot(a, a));
   }
-  [[nodiscard]] static bool is_finite(const vector& a) noexcept { return a.allFinite(); }
+  [[nodiscard, gnu::always_inline]] static bool is_finite(const vector& a) noexcept {
+    bool all = kernels::is_finite(a(0));
+    for (int i = 1; i < Dof; ++i) all = all && kernels::is_finite(a(i));
+    return all;
+  }
 
   [[nodiscard]] static Scalar weighted_square(const vector& w, const vector& a) noexcept {
     return a.cwiseAbs2().dot(w);
@@ -82,7 +93,8 @@ requires(Dof >= 2) struct space<Scalar, Dof> {
     return u / norm(u);
   }
 
-  [[nodiscard]] static vector cross(const vector& a, const vector& b) noexcept requires(Dof == 3) {
+  [[nodiscard, gnu::always_inline]] static vector cross(const vector& a, const vector& b) noexcept
+      requires(Dof == 3) {
     return {a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0)};
   }
 };

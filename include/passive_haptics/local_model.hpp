@@ -8,6 +8,7 @@
 //
 // The order is the thesis's (Fig. 2.7, A27). Only this class holds the last position and the forces
 // held, so the ledger always pairs a displacement with the force that was there while it happened.
+// What is rare is kept out of line, so that the compiler sees the ordinary tick as one piece.
 // In a tick: no exception, heap, lock, clock, virtual call, I/O or recursion.
 
 #include <passive_haptics/concepts.hpp>
@@ -99,12 +100,16 @@ class local_model {
 
   /// One tick: the device is at `position` [m], `dt` [s] after the last one. The force of the last
   /// tick is taken to have been held exactly.
-  [[nodiscard]] constexpr tick_result<Space> tick(const vector& position, scalar dt) noexcept {
+  [[nodiscard, gnu::flatten]] constexpr tick_result<Space> tick(const vector& position,
+                                                                scalar dt) noexcept {
     return tick(position, dt, held_.back());
   }
   /// The same for a device that reports the force it really held.
-  [[nodiscard]] constexpr tick_result<Space> tick(const device_sample<Space>& sample) noexcept {
-    if (!sample.valid) return refuse(event::rejected_sample, sample.dt);
+  [[nodiscard, gnu::flatten]] constexpr tick_result<Space> tick(
+      const device_sample<Space>& sample) noexcept {
+    if (!sample.valid || !Space::is_finite(sample.held)) {
+      return refuse(event::rejected_sample, sample.dt);
+    }
     return tick(sample.position, sample.dt, sample.held);
   }
 
@@ -120,29 +125,33 @@ class local_model {
 
   using state_type = tick_state<Space, decltype(Observer::damping)>;
   /// A bound that only reduces, and remembers nothing, has no say where nothing is asked.
-  static constexpr bool zero_stays_zero =
-      Bound::traits.only_reduces &&
-      requires(const Bound& b, const vector& v, const state_type& s) { b.limit(v, s); };
+  static constexpr bool zero_stays_zero = requires(const Bound& b, vector v, state_type s) {
+    requires Bound::traits.only_reduces;
+    b.limit(v, s);
+  };
 
-  [[nodiscard]] constexpr tick_result<Space> tick(const vector& position, scalar dt,
-                                                  const vector& held) noexcept {
-    if (!sound_) return refuse(event::rejected_parameters, dt);
-    const vector last = position_;
-    const vector travel = seen_ ? vector(position - last) : Space::zero();
-    if (!trusted(position, travel, held, dt)) return refuse(event::rejected_sample, dt);
+  [[nodiscard, gnu::always_inline, gnu::flatten]] constexpr tick_result<Space> tick(
+      const vector& position, scalar dt, const vector& held) noexcept {
+    if (!sound_) [[unlikely]] {
+      return refuse(event::rejected_parameters, dt);
+    }
+    vector displacement = position - vector(position_);
+    if (!trusted(position, displacement, dt)) [[unlikely]] {
+      return refuse(event::rejected_sample, dt);
+    }
 
-    event what = dt > limits_.longest_tick ? event::late_tick : event::nominal;
     const bool known = seen_ && !(blind_ > scalar(0));
-    const vector displacement = known ? travel : Space::zero();
-    if (known) {
+    if (known) [[likely]] {
       book(displacement, held, dt);
     } else {
+      displacement = Space::zero();
       observer_.forfeit(held, limits_.longest_tick);
+      seen_ = true;
+      blind_ = scalar(0);
     }
     position_ = position;
-    seen_ = true;
-    blind_ = scalar(0);
-    if (observer_.value() < scalar(0)) what = worse(what, event::debt);
+    event what = observer_.value() < scalar(0) ? event::debt : event::nominal;
+    if (dt > limits_.longest_tick) what = event::late_tick;
 
     // Where are we, in the newest target and in our own constraint?
     const auto motion = motion_.estimate(position, displacement, held, dt, known);
@@ -179,7 +188,8 @@ class local_model {
     const scalar outward_speed = motion.along(normal);
     scalar felt = in_target ? target_depth : scalar(0);
     scalar asked = in_target ? weight * contact_.force(target_depth, outward_speed) : scalar(0);
-    if (!kernels::is_finite(asked) || !kernels::is_finite(felt)) {
+    const scalar twice = scalar(2) * asked;  // a unit normal may be an ulp too long
+    if (!kernels::is_finite(twice) || !kernels::is_finite(felt)) [[unlikely]] {
       asked = felt = scalar(0);
       what = worse(what, event::rejected_target);
     }
@@ -206,11 +216,11 @@ class local_model {
                            .local_force = local_force,
                            .target_changed = fresh()};
     vector force = bound_.limit(desired, state);
-    if (!Space::is_finite(force)) {
+    const bool limited = !(force == desired);
+    if (limited && !Space::is_finite(force)) [[unlikely]] {
       force = Space::zero();
       what = worse(what, event::rejected_sample);
     }
-    const bool limited = !(force == desired);
 
     // Put our own constraint where that force says it is.
     if constexpr (Supply::moves) {
@@ -238,10 +248,16 @@ class local_model {
     return {Space::zero(), scalar(0), observer_.value(), what, false};
   }
 
-  /// One tick into the ledger. A late tick may have let a watchdog drop the force part of the way,
-  /// or not: it counts as the worse of the two.
-  constexpr void book(const vector& displacement, const vector& held, scalar dt) noexcept {
-    if (dt <= limits_.longest_tick) return observer_.update(displacement, held, dt);
+  /// One tick into the ledger.
+  [[gnu::always_inline]] constexpr void book(const vector& displacement, const vector& held,
+                                             scalar dt) noexcept {
+    if (dt > limits_.longest_tick) return book_late(displacement, held, dt);
+    observer_.update(displacement, held, dt);
+  }
+  /// A late tick may have let a watchdog drop the force part of the way, or not: it counts as the
+  /// worse of the two.
+  [[gnu::cold, gnu::noinline]] constexpr void book_late(const vector& displacement,
+                                                        const vector& held, scalar dt) noexcept {
     Observer dropped = observer_;
     dropped.forfeit(held, limits_.longest_tick);
     observer_.update(displacement, held, dt);
@@ -250,9 +266,9 @@ class local_model {
 
   /// A finite sample, no farther from the last good one than the device can have gone since.
   [[nodiscard]] constexpr bool trusted(const vector& position, const vector& travel,
-                                       const vector& held, scalar dt) const noexcept {
+                                       scalar dt) const noexcept {
     if (!(dt > scalar(0)) || !kernels::is_finite(dt)) return false;
-    if (!Space::is_finite(position) || !Space::is_finite(held)) return false;
+    if (!seen_) return Space::is_finite(position);  // there is no travel yet
     const scalar farthest = limits_.top_speed * (blind_ + dt);
     const scalar square = Space::dot(travel, travel);
     return kernels::is_finite(square) && square <= farthest * farthest;
@@ -300,7 +316,7 @@ class local_model {
   }
 
   /// Force zero; the motion since the last good sample is unknown and written off.
-  constexpr tick_result<Space> refuse(event why, scalar dt) noexcept {
+  [[gnu::cold, gnu::noinline]] constexpr tick_result<Space> refuse(event why, scalar dt) noexcept {
     if (sound_) observer_.forfeit(held_.back(), limits_.longest_tick);
     const scalar passed = dt > scalar(0) && kernels::is_finite(dt) ? dt : limits_.longest_tick;
     blind_ += passed;

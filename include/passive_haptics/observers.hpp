@@ -58,7 +58,8 @@ struct reduced_energy {
   Ledger energy{};                         ///< E1 [J]; its first value is the loan
   scalar idle{};                           ///< force-free time so far [s]
 
-  constexpr void update(const vector& displacement, const vector& held, scalar dt) noexcept {
+  [[gnu::always_inline]] constexpr void update(const vector& displacement, const vector& held,
+                                               scalar dt) noexcept {
     energy += damping.dissipated(displacement, dt) - Space::dot(held, displacement);
     idle = Space::dot(held, held) > scalar(0) ? scalar(0) : idle + dt;
     const scalar most = idle >= reset_after ? scalar(0) : cap;

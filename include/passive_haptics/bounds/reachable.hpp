@@ -34,9 +34,13 @@ struct reachable_bound {
     if (!(force > scalar(0))) return desired;
 
     const scalar B = state.damping.per_tick(desired, state.longest_tick);
-    const scalar error = state.displacement_error;
-    const scalar outward = Space::dot(state.displacement, desired) / force + error;
-    const scalar damper = scalar(2) * B * (Space::norm(state.displacement) + error);
+    scalar outward = Space::dot(state.displacement, desired) / force;
+    scalar moved = Space::norm(state.displacement);
+    if (state.displacement_error > scalar(0)) {
+      outward += state.displacement_error;
+      moved += state.displacement_error;
+    }
+    const scalar damper = scalar(2) * B * moved;
     const scalar reach =
         state.motion_known
             ? kernels::outward_reach(outward, Space::norm(state.held), force, hand_force + damper,
