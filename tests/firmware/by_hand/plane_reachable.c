@@ -69,14 +69,13 @@ struct answer3 by_hand_plane_reachable_tick(struct plane_reachable* w, const vec
   struct news* n = &w->news;
   const real T = w->loop.longest_tick;
   const vec3 x = *at;
-  vec3 travel = d->seen ? sub3(x, d->position) : (vec3){0};
+  vec3 travel = sub3(x, d->position);
   const real square = dot3(travel, travel);
   const real farthest = w->loop.top_speed * (d->blind + dt);
-  if (!d->sound || !(dt > 0) || !finite_number(dt) || !finite3(x) || !finite_number(square) ||
-      !(square <= farthest * farthest)) {
+  if (!d->sound || !(dt > 0) || !finite_number(dt) ||
+      !(d->seen ? finite_number(square) && square <= farthest * farthest : finite3(x))) {
     return refuse(w, dt);
   }
-  uint8_t what = dt > T ? late_tick : nominal;
   const bool known = d->seen && !(d->blind > 0);
   const real held_squared = dot3(d->held, d->held);
   if (known) {
@@ -84,11 +83,11 @@ struct answer3 by_hand_plane_reachable_tick(struct plane_reachable* w, const vec
   } else {
     travel = (vec3){0};
     l->energy = written_off(l, held_squared, T);
+    d->seen = true;
+    d->blind = 0;
   }
   d->position = x;
-  d->seen = true;
-  d->blind = 0;
-  if (l->energy < 0) what = worse(what, debt);
+  uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   if (n->refused) what = worse(what, rejected_target);
   if (!n->published) what = worse(what, no_target);
@@ -116,17 +115,17 @@ struct answer3 by_hand_plane_reachable_tick(struct plane_reachable* w, const vec
   const real speed = dot3(travel, normal) / dt;
   real depth = target_depth;
   real asked = weight * damped_force(&w->spring, depth, speed);
-  if (!finite_number(asked) || !finite_number(depth)) {
+  if (!finite_number(2 * asked) || !finite_number(depth)) {
     depth = asked = 0;
     what = worse(what, rejected_target);
   }
   const vec3 desired = mul3(normal, asked);
   vec3 force = limited(w, desired, travel, known, dt);
-  if (!finite3(force)) {
+  const bool cut = !same3(force, desired);
+  if (cut && !finite3(force)) {
     force = (vec3){0};
     what = worse(what, rejected_sample);
   }
-  const bool cut = !same3(force, desired);
   if (cut) depth = damped_depth(&w->spring, dot3(force, normal), speed);
   if (cut || !same3(normal, goal)) {
     w->own = (struct plane3){add3(x, mul3(normal, depth)), normal, w->newest.stiffness};

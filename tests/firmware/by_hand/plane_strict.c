@@ -51,14 +51,13 @@ struct answer2 by_hand_plane_strict_tick(struct plane_strict* w, const vec2* at,
   struct news* n = &w->news;
   const real T = w->loop.longest_tick;
   const vec2 x = *at;
-  vec2 travel = d->seen ? sub2(x, d->position) : (vec2){0};
+  vec2 travel = sub2(x, d->position);
   const real square = dot2(travel, travel);
   const real farthest = w->loop.top_speed * (d->blind + dt);
-  if (!d->sound || !(dt > 0) || !finite_number(dt) || !finite2(x) || !finite_number(square) ||
-      !(square <= farthest * farthest)) {
+  if (!d->sound || !(dt > 0) || !finite_number(dt) ||
+      !(d->seen ? finite_number(square) && square <= farthest * farthest : finite2(x))) {
     return refuse(w, dt);
   }
-  uint8_t what = dt > T ? late_tick : nominal;
   const bool known = d->seen && !(d->blind > 0);
   const real held_squared = dot2(d->held, d->held);
   if (known) {
@@ -66,11 +65,11 @@ struct answer2 by_hand_plane_strict_tick(struct plane_strict* w, const vec2* at,
   } else {
     travel = (vec2){0};
     l->energy = written_off(l, held_squared, T);
+    d->seen = true;
+    d->blind = 0;
   }
   d->position = x;
-  d->seen = true;
-  d->blind = 0;
-  if (l->energy < 0) what = worse(what, debt);
+  uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   if (n->refused) what = worse(what, rejected_target);
   if (!n->published) what = worse(what, no_target);
@@ -96,17 +95,17 @@ struct answer2 by_hand_plane_strict_tick(struct plane_strict* w, const vec2* at,
   }
   real depth = target_depth;
   real asked = weight * (w->newest.stiffness * depth);
-  if (!finite_number(asked) || !finite_number(depth)) {
+  if (!finite_number(2 * asked) || !finite_number(depth)) {
     depth = asked = 0;
     what = worse(what, rejected_target);
   }
   const vec2 desired = mul2(normal, asked);
   vec2 force = mul2(desired, affordable(l->energy, outflow(l, dot2(desired, desired), T)));
-  if (!finite2(force)) {
+  const bool cut = !same2(force, desired);
+  if (cut && !finite2(force)) {
     force = (vec2){0};
     what = worse(what, rejected_sample);
   }
-  const bool cut = !same2(force, desired);
   if (cut) {
     depth = w->newest.stiffness > 0 ? dot2(force, normal) / w->newest.stiffness : 0;
   }

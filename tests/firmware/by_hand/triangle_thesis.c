@@ -113,24 +113,23 @@ struct answer3 by_hand_triangle_thesis_tick(struct triangle_thesis* w, const vec
   struct news* n = &w->news;
   const real T = w->loop.longest_tick;
   const vec3 x = *at;
-  vec3 travel = d->seen ? sub3(x, d->position) : (vec3){0};
+  vec3 travel = sub3(x, d->position);
   const real square = square3(travel);
   const real farthest = w->loop.top_speed * (d->blind + dt);
-  if (!d->sound || !(dt > 0) || !finite_number(dt) || !finite3(x) || !finite_number(square) ||
-      !(square <= farthest * farthest)) {
+  if (!d->sound || !(dt > 0) || !finite_number(dt) ||
+      !(d->seen ? finite_number(square) && square <= farthest * farthest : finite3(x))) {
     return refuse(w, dt);
   }
-  uint8_t what = dt > T ? late_tick : nominal;
   if (d->seen && !(d->blind > 0)) {
     book(l, square, dot3(d->held, travel), square3(d->held), dt, T);
   } else {
     travel = (vec3){0};
     l->energy = written_off(l, square3(d->held), T);
+    d->seen = true;
+    d->blind = 0;
   }
   d->position = x;
-  d->seen = true;
-  d->blind = 0;
-  if (l->energy < 0) what = worse(what, debt);
+  uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   if (n->refused) what = worse(what, rejected_target);
   if (!n->published) what = worse(what, no_target);
@@ -166,7 +165,7 @@ struct answer3 by_hand_triangle_thesis_tick(struct triangle_thesis* w, const vec
   if (in_local && !n->together) normal = turned3(w->own.normal, goal, w->rate * dt);
   real depth = target_depth;
   real asked = weight * (w->stiffness * depth);
-  if (!finite_number(asked) || !finite_number(depth)) {
+  if (!finite_number(2 * asked) || !finite_number(depth)) {
     depth = asked = 0;
     what = worse(what, rejected_target);
   }
@@ -174,11 +173,11 @@ struct answer3 by_hand_triangle_thesis_tick(struct triangle_thesis* w, const vec
   const real local_force =
       in_local && local_depth > 0 ? n->last_weight * (stiffness_before * local_depth) : 0;
   vec3 force = limited(l, desired, normal, travel, local_force, T);
-  if (!finite3(force)) {
+  const bool cut = !same3(force, desired);
+  if (cut && !finite3(force)) {
     force = (vec3){0};
     what = worse(what, rejected_sample);
   }
-  const bool cut = !same3(force, desired);
   if (cut) depth = w->stiffness > 0 ? dot3(force, normal) / w->stiffness : 0;
   if (cut || !same3(normal, goal)) {
     approach(w, in_local, x, normal, depth);

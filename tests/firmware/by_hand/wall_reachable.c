@@ -66,25 +66,24 @@ struct answer1 by_hand_wall_reachable_tick(struct wall_reachable* w, real x, rea
   struct device1* d = &w->device;
   struct news* n = &w->news;
   const real T = w->loop.longest_tick;
-  real travel = d->seen ? x - d->position : 0;
+  real travel = x - d->position;
   const real square = travel * travel;
   const real farthest = w->loop.top_speed * (d->blind + dt);
-  if (!d->sound || !(dt > 0) || !finite_number(dt) || !finite_number(x) || !finite_number(square) ||
-      !(square <= farthest * farthest)) {
+  if (!d->sound || !(dt > 0) || !finite_number(dt) ||
+      !(d->seen ? finite_number(square) && square <= farthest * farthest : finite_number(x))) {
     return refuse(w, dt);
   }
-  uint8_t what = dt > T ? late_tick : nominal;
   const bool known = d->seen && !(d->blind > 0);
   if (known) {
     book(l, square, d->held * travel, d->held * d->held, dt, T);
   } else {
     travel = 0;
     l->energy = written_off(l, d->held * d->held, T);
+    d->seen = true;
+    d->blind = 0;
   }
   d->position = x;
-  d->seen = true;
-  d->blind = 0;
-  if (l->energy < 0) what = worse(what, debt);
+  uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   if (n->refused) what = worse(what, rejected_target);
   if (!n->published) what = worse(what, no_target);
@@ -108,17 +107,17 @@ struct answer1 by_hand_wall_reachable_tick(struct wall_reachable* w, real x, rea
   const real speed = travel * normal / dt;
   real depth = target_depth;
   real asked = weight * damped_force(&w->spring, depth, speed);
-  if (!finite_number(asked) || !finite_number(depth)) {
+  if (!finite_number(2 * asked) || !finite_number(depth)) {
     depth = asked = 0;
     what = worse(what, rejected_target);
   }
   const real desired = normal * asked;
   real force = limited(w, desired, travel, known, dt);
-  if (!finite_number(force)) {
+  const bool cut = !(force == desired);
+  if (cut && !finite_number(force)) {
     force = 0;
     what = worse(what, rejected_sample);
   }
-  const bool cut = !(force == desired);
   if (cut) {
     depth = damped_depth(&w->spring, force * normal, speed);
     w->own = (struct plane1){x + normal * depth, normal, w->newest.stiffness};

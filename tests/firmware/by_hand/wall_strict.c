@@ -29,24 +29,23 @@ struct answer1 by_hand_wall_strict_tick(struct wall_strict* w, real x, real dt) 
   struct ledger* l = &w->ledger;
   struct device1* d = &w->device;
   const real T = w->loop.longest_tick;
-  const real travel = d->seen ? x - d->position : 0;
+  const real travel = x - d->position;
   const real square = travel * travel;
   const real farthest = w->loop.top_speed * (d->blind + dt);
-  if (!d->sound || !(dt > 0) || !finite_number(dt) || !finite_number(x) || !finite_number(square) ||
-      !(square <= farthest * farthest)) {
+  if (!d->sound || !(dt > 0) || !finite_number(dt) ||
+      !(d->seen ? finite_number(square) && square <= farthest * farthest : finite_number(x))) {
     return refuse(w, dt);
   }
-  uint8_t what = dt > T ? late_tick : nominal;
   const real held_squared = d->held * d->held;
   if (d->seen && !(d->blind > 0)) {
     book(l, square, d->held * travel, held_squared, dt, T);
   } else {
     l->energy = written_off(l, held_squared, T);
+    d->seen = true;
+    d->blind = 0;
   }
   d->position = x;
-  d->seen = true;
-  d->blind = 0;
-  if (l->energy < 0) what = worse(what, debt);
+  uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   real depth = (w->wall.point - x) * w->wall.normal;
   if (!(depth > 0)) { /* nothing is asked, nothing is given */
@@ -54,16 +53,17 @@ struct answer1 by_hand_wall_strict_tick(struct wall_strict* w, real x, real dt) 
     return (struct answer1){0, 0, l->energy, what, false};
   }
   real asked = w->wall.stiffness * depth;
-  if (!finite_number(asked) || !finite_number(depth)) {
+  if (!finite_number(2 * asked) || !finite_number(depth)) {
     depth = asked = 0;
     what = worse(what, rejected_target);
   }
   const real desired = w->wall.normal * asked;
   real force = desired * affordable(l->energy, outflow(l, desired * desired, T));
-  if (!finite_number(force)) {
+  const bool cut = !(force == desired);
+  if (cut && !finite_number(force)) {
     force = 0;
     what = worse(what, rejected_sample);
   }
   d->held = force;
-  return (struct answer1){force, depth, l->energy, what, !(force == desired)};
+  return (struct answer1){force, depth, l->energy, what, cut};
 }
