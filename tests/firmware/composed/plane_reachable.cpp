@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes_with_vectors.hpp"
 
-composed::ph::tick_result<composed::solid> composed::plane_reachable_tick(plane_reachable& model,
-                                                                          const solid::vector& x,
-                                                                          real dt) {
+[[gnu::flatten]] composed::ph::tick_result<composed::solid> composed::plane_reachable_tick(
+    plane_reachable& model, const solid::vector& x, real dt) {
   return model.tick(x, dt);
 }

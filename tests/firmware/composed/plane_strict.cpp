@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes_with_vectors.hpp"
 
-composed::ph::tick_result<composed::flat> composed::plane_strict_tick(plane_strict& model,
-                                                                      const flat::vector& x,
-                                                                      real dt) {
+[[gnu::flatten]] composed::ph::tick_result<composed::flat> composed::plane_strict_tick(
+    plane_strict& model, const flat::vector& x, real dt) {
   return model.tick(x, dt);
 }
