@@ -28,7 +28,7 @@ struct stored_vector {
 
   template <class Expression>
   stored_vector(const Eigen::MatrixBase<Expression>& v) noexcept {  // NOLINT: a view of the same
-    const Eigen::Matrix<Scalar, Dof, 1> all = v;
+    const auto& all = v.eval();  // no copy of what is a vector already
     for (int i = 0; i < Dof; ++i) values[static_cast<std::size_t>(i)] = all(i);
   }
 

@@ -26,22 +26,24 @@ template <class Scalar>
 
 /// Where a node goes when its constraint's plane is to pass through p with unit normal n: where the
 /// line from→to meets the plane, no further than its ends, then straight onto the plane. (Fig. 2.5)
+/// Coordinates, because a call hands them over in registers: there are three nodes, and one of this.
 template <class Space>
-[[nodiscard]] constexpr typename Space::vector follow_node(
-    const typename Space::vector& from, const typename Space::vector& to,
-    const typename Space::vector& p, const typename Space::vector& n) noexcept {
+[[nodiscard, gnu::noinline]] constexpr typename Space::coordinates follow_node(
+    typename Space::coordinates from, typename Space::coordinates to,
+    typename Space::coordinates through, typename Space::coordinates normal) noexcept {
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
-  const vector line = to - from;
+  const vector start = from, end = to, p = through, n = normal;
+  const vector line = end - start;
   const scalar across = Space::dot(line, n);
   const scalar smallest = std::numeric_limits<scalar>::epsilon() * Space::norm(line);
   scalar t(0);
   if (across > smallest || across < -smallest) {
-    t = Space::dot(vector(p - from), n) / across;
+    t = Space::dot(vector(p - start), n) / across;
     t = kernels::smaller(kernels::larger(t, scalar(0)), scalar(1));
   }
-  const vector node = from + line * t;
-  return node + n * Space::dot(vector(p - node), n);
+  const vector node = start + line * t;
+  return vector(node + n * Space::dot(vector(p - node), n));
 }
 
 }  // namespace detail
@@ -108,7 +110,7 @@ requires(Space::dof == 3) struct triangle {
     const vector A = a;
     return Space::dot(vector(A - x), normal);
   }
-  [[nodiscard]] constexpr bool covers(const vector& x) const noexcept {
+  [[nodiscard, gnu::noinline]] constexpr bool covers(const vector& x) const noexcept {
     return inside(a, b, x) && inside(b, c, x) && inside(c, a, x) && depth(x) <= thickness;
   }
 
@@ -128,9 +130,11 @@ requires(Space::dof == 3) struct triangle {
     return Space::dot(v, v);
   }
   /// ((to − from) × (x − from))·n ≥ 0; the height of x above the plane drops out (A15).
-  [[nodiscard]] constexpr bool inside(const vector& from, const vector& to,
-                                      const vector& x) const noexcept {
-    return Space::dot(Space::cross(vector(to - from), vector(x - from)), normal) >= scalar(0);
+  [[nodiscard, gnu::always_inline]] constexpr bool inside(const typename Space::coordinates& from,
+                                                          const typename Space::coordinates& to,
+                                                          const vector& x) const noexcept {
+    const vector start = from, end = to;
+    return Space::dot(Space::cross(vector(end - start), vector(x - start)), normal) >= scalar(0);
   }
 };
 

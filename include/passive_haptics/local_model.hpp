@@ -145,7 +145,7 @@ class local_model {
       book(displacement, held, dt);
     } else {
       displacement = Space::zero();
-      observer_.forfeit(held, limits_.longest_tick);
+      write_off(held);
       seen_ = true;
       blind_ = scalar(0);
     }
@@ -176,7 +176,7 @@ class local_model {
     [[maybe_unused]] const Contact before = contact_;  // with the stiffness up to now
     if (fresh()) contact_.adopt(target.stiffness, limits_.longest_tick);
     if constexpr (zero_stays_zero) {
-      if (!in_target) return let_go(what);
+      if (!in_target) return let_go(what, weight);
     }
     const vector goal = target.outward();
     vector normal = goal;
@@ -224,25 +224,23 @@ class local_model {
 
     // Put our own constraint where that force says it is.
     if constexpr (Supply::moves) {
-      if (limited) {
-        felt = contact_.depth(Space::dot(force, normal), outward_speed);
-        supply_.approach(in_local, here, normal, felt);
-      } else if (in_target && !(normal == goal)) {
+      if (limited) felt = contact_.depth(Space::dot(force, normal), outward_speed);
+      if (limited || (in_target && !(normal == goal))) {
         supply_.approach(in_local, here, normal, felt);
       } else {
         supply_.sync();
       }
-      supply_.seen();
+      supply_.seen(weight);
     }
     hold(force);
     return {force, felt, observer_.value(), what, limited};
   }
 
   /// Nothing is asked, so there is nothing to bound.
-  constexpr tick_result<Space> let_go(event what) noexcept {
+  constexpr tick_result<Space> let_go(event what, [[maybe_unused]] scalar weight) noexcept {
     if constexpr (Supply::moves) {
       supply_.sync();
-      supply_.seen();
+      supply_.seen(weight);
     }
     hold(Space::zero());
     return {Space::zero(), scalar(0), observer_.value(), what, false};
@@ -255,13 +253,18 @@ class local_model {
     observer_.update(displacement, held, dt);
   }
   /// A late tick may have let a watchdog drop the force part of the way, or not: it counts as the
-  /// worse of the two.
-  [[gnu::cold, gnu::noinline]] constexpr void book_late(const vector& displacement,
-                                                        const vector& held, scalar dt) noexcept {
+  /// worse of the two. Vectors by value, so that the ordinary tick keeps its own in registers.
+  [[gnu::cold, gnu::noinline]] constexpr void book_late(vector displacement, vector held,
+                                                        scalar dt) noexcept {
     Observer dropped = observer_;
     dropped.forfeit(held, limits_.longest_tick);
     observer_.update(displacement, held, dt);
     if (dropped.value() < observer_.value()) observer_ = dropped;
+  }
+
+  /// A tick whose motion nobody saw.
+  [[gnu::cold, gnu::noinline]] constexpr void write_off(vector held) noexcept {
+    observer_.forfeit(held, limits_.longest_tick);
   }
 
   /// A finite sample, no farther from the last good one than the device can have gone since.

@@ -128,10 +128,10 @@ class following {
     own_ = (from_own ? own_ : newest_).toward(newest_, x, n, d);
     together_ = false;
   }
-  /// The tick has seen what was new.
-  constexpr void seen() noexcept {
+  /// The tick has seen what was new, and let the contact count for that weight.
+  constexpr void seen(scalar weight) noexcept {
     changed_ = refused_ = false;
-    last_weight_ = weight();
+    last_weight_ = weight;
   }
 
  private:

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// For firmware: the core without Eigen in one include, and a space that insists on its FPU.
+//
+//   hardware_space<float, 1>   space<float, 1>, if the FPU computes floats and NaN is still NaN
+//   space<float, 1>            the same without that question: for cores that compute in software
+//
+// Two and three degrees of freedom need vectors: include eigen_space.hpp, too. The flags to use, how
+// to tick from an interrupt, PlatformIO, Arduino, Zephyr and FreeRTOS: docs/firmware.md.
+
+#include <passive_haptics/bounds.hpp>
+#include <passive_haptics/contact.hpp>
+#include <passive_haptics/exchange.hpp>
+#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/local_model.hpp>
+#include <passive_haptics/motion.hpp>
+#include <passive_haptics/normals.hpp>
+#include <passive_haptics/observers.hpp>
+#include <passive_haptics/supply.hpp>
+#include <passive_haptics/version.hpp>
+
+namespace passive_haptics::inline v0 {
+
+/// What the compiler says about the machine it compiles for. 32-bit ARM says it (ACLE: __ARM_FP, bit
+/// 2 single, bit 3 double); every other target is taken to have an FPU for every scalar.
+namespace target {
+
+#if defined(__arm__) && !defined(__ARM_FP)
+inline constexpr unsigned fpu = 0;
+#elif defined(__arm__)
+inline constexpr unsigned fpu = __ARM_FP;
+#else
+inline constexpr unsigned fpu = ~0U;
+#endif
+
+inline constexpr bool has_fpu = fpu != 0;
+
+/// Does the FPU compute Scalar? The bit of a scalar is its size.
+template <class Scalar>
+inline constexpr bool computes = (fpu & sizeof(Scalar)) != 0;
+
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0
+inline constexpr bool knows_nan = false;
+#else
+inline constexpr bool knows_nan = true;
+#endif
+
+/// Asserts, sentence by sentence.
+template <real Scalar, int Dof>
+struct checked {
+  static_assert(has_fpu,
+                "passive_haptics: firmware: this build uses no FPU: set -mfpu and "
+                "-mfloat-abi=hard, or write space instead of hardware_space for soft float");
+  static_assert(!has_fpu || computes<Scalar>,
+                "passive_haptics: firmware: the FPU of this core does not compute this scalar: use "
+                "float, or write space instead of hardware_space for soft float");
+  static_assert(knows_nan,
+                "passive_haptics: firmware: -ffast-math and -ffinite-math-only delete the guard "
+                "against NaN: build without them");
+  using type = space<Scalar, Dof>;
+};
+
+}  // namespace target
+
+/// space<Scalar, Dof>, computed in hardware or not at all.
+template <real Scalar, int Dof>
+using hardware_space = typename target::checked<Scalar, Dof>::type;
+
+}  // namespace passive_haptics::inline v0

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks that the figures of a page are those of the baseline: docs.py BASELINE PAGE [--rewrite]."""
+
+import re
+import sys
+
+import baseline
+
+MARK = re.compile(r"<!-- figures: (\S+) (\S+) (\S+) -->\n(?:\|.*\n)*")
+COLUMNS = ["text", "state", "stack", "best", "median", "worst"]
+
+
+def figures(known, core, scalar, optimisation):
+    flags = optimisation + ", contraction off"
+    text = "| scene | " + " | ".join(COLUMNS) + " | by hand: " + " | ".join(
+        ["text", "median", "worst"]) + " |\n|" + "---|" * 10 + "\n"
+    for (scene, author, *where), row in known.items():
+        if author == "composed" and where == [core, scalar, flags]:
+            twin = known[(scene, "by_hand", *where)]
+            numbers = [row[c] for c in COLUMNS] + [twin[c] for c in ("text", "median", "worst")]
+            text += f"| {scene} | " + " | ".join(map(str, numbers)) + " |\n"
+    return text
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    _, known = baseline.read(sys.argv[1])
+    with open(sys.argv[2], encoding="utf-8") as stream:
+        page = stream.read()
+    if not MARK.search(page):
+        sys.exit(f"{sys.argv[2]}: no figures")
+    wanted = MARK.sub(lambda m: f"<!-- figures: {m[1]} {m[2]} {m[3]} -->\n"
+                      + figures(known, m[1], m[2], m[3]), page)
+    if "--rewrite" in sys.argv:
+        with open(sys.argv[2], "w", encoding="utf-8") as stream:
+            stream.write(wanted)
+    elif page != wanted:
+        sys.exit(f"{sys.argv[2]}: its figures are not those of {sys.argv[1]}: docs.py --rewrite")
+    else:
+        print("the figures are those of the baseline")
+
+
+if __name__ == "__main__":
+    main()
