@@ -21,13 +21,10 @@
 namespace passive_haptics::inline v0::falcon {
 
 using byte = std::uint8_t;
-using words = std::array<std::int16_t, 3>;  ///< one per leg
+using leg_words = std::array<std::int16_t, 3>;
 
 inline constexpr std::size_t packet_size = 16;
 using packet_bytes = std::array<byte, packet_size>;
-
-/// The largest motor word we send: 4096 is said to saturate, what is beyond is not known.
-inline constexpr std::int16_t largest_motor_word = 4095;
 
 /// The lamps in the logo; they combine. Which bit is which colour is not confirmed.
 enum class lamps : byte { none = 0, green = 2, blue = 4, red = 8 };
@@ -40,7 +37,7 @@ enum class button : byte { plus = 1, forward = 2, centre = 4, minus = 8 };
 
 /// What the host sends.
 struct to_device {
-  words motor{};       ///< DAC counts; positive pulls the arm in
+  leg_words motor{};   ///< DAC counts; positive pulls the arm in
   bool homing = true;  ///< homed bits are reported, and stay, only while this is set
   lamps light = lamps::none;
 
@@ -49,9 +46,9 @@ struct to_device {
 
 /// What the Falcon answers.
 struct from_device {
-  words encoder{};   ///< counts
-  byte buttons = 0;  ///< see pressed()
-  byte homed = 0;    ///< bit i: leg i knows where it is
+  leg_words encoder{};  ///< counts
+  byte buttons = 0;     ///< see pressed()
+  byte homed = 0;       ///< bit i: leg i knows where it is
 
   static constexpr byte all_legs = 7;
   [[nodiscard]] constexpr bool is_homed() const noexcept { return homed == all_legs; }
@@ -80,16 +77,16 @@ constexpr void take_flags(from_device& p, byte flags) noexcept {
   p.buttons = static_cast<byte>(flags & 0x0F);
   p.homed = static_cast<byte>(flags >> 4 & 7);
 }
-[[nodiscard]] constexpr const words& words_of(const to_device& p) noexcept {
+[[nodiscard]] constexpr const leg_words& words_of(const to_device& p) noexcept {
   return p.motor;
 }
-[[nodiscard]] constexpr const words& words_of(const from_device& p) noexcept {
+[[nodiscard]] constexpr const leg_words& words_of(const from_device& p) noexcept {
   return p.encoder;
 }
-[[nodiscard]] constexpr words& words_of(to_device& p) noexcept {
+[[nodiscard]] constexpr leg_words& words_of(to_device& p) noexcept {
   return p.motor;
 }
-[[nodiscard]] constexpr words& words_of(from_device& p) noexcept {
+[[nodiscard]] constexpr leg_words& words_of(from_device& p) noexcept {
   return p.encoder;
 }
 

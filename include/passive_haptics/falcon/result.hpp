@@ -3,9 +3,13 @@
 // How a call to the Falcon ended. Nothing here throws: every call returns one of these codes, and
 // each has a text that says what happened and a remedy that says what to do.
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <span>
+#include <string_view>
 
 namespace passive_haptics::inline v0::falcon {
 
@@ -31,6 +35,10 @@ enum class code : std::uint8_t {
   no_program,        ///< the program does not answer
   cancelled,         ///< the progress callback said so
   homing_timeout,    ///< the grip was not pulled out and pushed in
+  not_homed,         ///< legs do not know where they are: no position, no force
+  settling,          ///< homed, but not for long enough yet
+  encoder_jump,      ///< a count moved farther than an arm can
+  pose_refused,      ///< these angles fit no position, or one near a singular pose
   force_not_finite,  ///< a NaN or an infinity was commanded
   too_many_misses,   ///< `value` replies in a row did not come
   bad_setting,       ///< a setting is out of its range: check() names it
@@ -83,6 +91,14 @@ enum class code : std::uint8_t {
       return "cancelled";
     case code::homing_timeout:
       return "not homed in time";
+    case code::not_homed:
+      return "not homed";
+    case code::settling:
+      return "homed, waiting for the encoders to settle";
+    case code::encoder_jump:
+      return "an encoder jumped";
+    case code::pose_refused:
+      return "the encoders show no usable position";
     case code::force_not_finite:
       return "a force that is not finite was commanded";
     case code::too_many_misses:
@@ -126,6 +142,8 @@ enum class code : std::uint8_t {
     case code::echo_mismatch:
     case code::no_program:
       return "power the device off and on; try another port or a powered hub";
+    case code::not_homed:
+      return "pull the grip fully out, then push it fully in";
     case code::homing_timeout:
       return "check the wall power, pull the grip fully out, then push it fully in";
     case code::force_not_finite:
@@ -138,6 +156,9 @@ enum class code : std::uint8_t {
       return "give the recorder more rows";
     case code::ok:
     case code::timeout:
+    case code::settling:
+    case code::encoder_jump:
+    case code::pose_refused:
     case code::cancelled:
     case code::log_unreadable:
       return "";
@@ -157,10 +178,25 @@ struct [[nodiscard]] result {
 /// The whole sentence, what, value and remedy, into `text`; cut off where it is too long.
 inline const char* describe(const result& r, std::span<char> text) noexcept {
   if (text.empty()) return "";
-  const char* help = remedy(r.what);
-  std::snprintf(text.data(), text.size(), r.value != 0 ? "%s (%lld)%s%s" : "%s%.0lld%s%s",
-                to_string(r.what), static_cast<long long>(r.value), help[0] != '\0' ? ": " : "",
-                help);
+  std::size_t length = 0;
+  const auto append = [&](std::string_view part) {
+    const std::size_t n = std::min(part.size(), text.size() - 1 - length);
+    std::copy_n(part.begin(), n, text.begin() + static_cast<std::ptrdiff_t>(length));
+    length += n;
+  };
+  append(to_string(r.what));
+  if (r.value != 0) {
+    std::array<char, 24> digits{};
+    const auto end = std::to_chars(digits.begin(), digits.end(), r.value).ptr;
+    append(" (");
+    append({digits.data(), static_cast<std::size_t>(end - digits.data())});
+    append(")");
+  }
+  if (const std::string_view help = remedy(r.what); !help.empty()) {
+    append(": ");
+    append(help);
+  }
+  text[length] = '\0';
   return text.data();
 }
 
