@@ -61,12 +61,9 @@ concept far_side = requires(F f, const F c, request r, std::uint16_t value,
 
 /// The cable to a simulated far side. Its clock advances only while somebody waits in read(), in
 /// steps of one USB microframe.
-template <class FarSide>
+template <far_side FarSide>
 class in_memory_transport {
  public:
-  static_assert(far_side<FarSide>,
-                "passive_haptics: the far side does not model far_side: see falcon/transport.hpp");
-
   static constexpr nanoseconds step = std::chrono::microseconds(125);
 
   template <class... Arguments>
@@ -97,9 +94,8 @@ class in_memory_transport {
   transfer read(std::span<byte> into, nanoseconds deadline) noexcept {
     for (;;) {
       if (const result fault = reachable(); !fault) return {fault, 0, now_};
-      while (first_ == end_) {
+      if (first_ == end_) {
         const std::size_t received = far_.transmit(received_);
-        if (received == 0) break;
         first_ = 0;
         end_ = ftdi::strip_status(std::span(received_).first(received), lines_);
       }
