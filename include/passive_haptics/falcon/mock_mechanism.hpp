@@ -101,14 +101,14 @@ class mock_mechanism {
     return {f[0], f[1], f[2]};
   }
 
-  /// One step: a trial with the force of the pose, two with that of the way found.
+  /// One step: trials find the way and the force that does the work of it.
   void move() noexcept {
     const point<double> from = position_of(body_);
     const angles<double> before = theta_;
     force<double> push{};
     if (words_ != leg_words{}) {
       push = force_from(rates(from, before), torque_);
-      for (int trial = 0; trial < 2; ++trial) {
+      for (int trial = 0; trial < 3; ++trial) {
         body_type ahead = body_;
         (void)ahead.exchange(vector_of(push));
         push = force_along(from, position_of(ahead), before);
