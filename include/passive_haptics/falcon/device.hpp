@@ -108,7 +108,8 @@ requires(Space::dof == 3) class device {
     const dac_words held = now_.sent.motor;
     now_.sent = {.motor = words_for(now_.commanded), .light = light_.value_or(lamp())};
     const link_answer answer = link_.exchange(now_.sent, setup_.reply);
-    const scalar dt = seconds(answer.stamp - now_.stamp);
+    const scalar dt = seconds(answer.asked - now_.asked);
+    now_.asked = answer.asked;
     now_.stamp = answer.stamp;
     now_.counts = link_.counts();
     now_.lines = line_.lines();
@@ -175,15 +176,16 @@ requires(Space::dof == 3) class device {
   /// As after power-up: nothing is known.
   void start() noexcept {
     link_.reset();
-    now_ = reading_type{.where = now_.where, .stamp = line_.now()};
+    now_ = reading_type{.where = now_.where, .asked = line_.now(), .stamp = line_.now()};
     pose_ = {};
     settled_ = 0;
     heard_.reset();
   }
 
   [[nodiscard]] device_sample<Space> nothing() noexcept {
-    const nanoseconds then = std::exchange(now_.stamp, line_.now());
-    return {.dt = seconds(now_.stamp - then)};
+    const nanoseconds then = std::exchange(now_.asked, line_.now());
+    now_.stamp = now_.asked;
+    return {.dt = seconds(now_.asked - then)};
   }
 
   [[nodiscard]] lamps lamp() const noexcept {

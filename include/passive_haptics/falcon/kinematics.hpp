@@ -165,7 +165,7 @@ template <real S>
 
 /// The position at angles θ. Newton's steps p −= G⁻¹ gap, at most 20 mm each, from `start`, best
 /// the last position: 2 or 3 steps then, 6 to 8 from the middle of the workspace. An iterate out of
-/// reach goes half-way to that middle.
+/// reach goes half-way to that middle, a start out of reach to it.
 template <real S>
 [[nodiscard]] constexpr pose_result<S> forward(
     const angles<S>& theta, const point<S>& start = workspace<S>.centre) noexcept {
@@ -208,7 +208,8 @@ template <real S>
       return pose;
     }
     if (!reachable) {
-      p = p + S(0.5) * (workspace<S>.centre - p);
+      const auto& middle = workspace<S>.centre;
+      p = pose.steps == 1 ? middle : p + S(0.5) * (middle - p);
       continue;
     }
     const auto step = multiply<point<S>>(inverse(G), gap);

@@ -22,6 +22,7 @@ struct link_counts {
 struct [[nodiscard]] link_answer {
   result how{};
   from_device packet{};  ///< when ok
+  nanoseconds asked{};   ///< when the question was out: the encoders are read, the words held
   nanoseconds stamp{};   ///< when it was there, or was given up
 };
 
@@ -37,16 +38,16 @@ class packet_link {
   link_answer exchange(const to_device& packet, nanoseconds most) noexcept {
     if (const result clear = unsettled_ ? await_silence() : drain(); !clear) return miss(clear);
     if (const result sent = send(packet, most); !sent) return miss(sent);
-    const nanoseconds deadline = line_.now() + most;
+    const nanoseconds asked = line_.now();
     for (;;) {
-      const arrival came = take(deadline);
-      if (!came.how) return miss(came.how);
+      const arrival came = take(asked + most);
+      if (!came.how) return miss(came.how, asked);
       if (came.packets == 0) continue;
       unsettled_ = false;
       counts_.stale += came.packets - 1;
       counts_.misses_in_row = 0;
       ++counts_.replies;
-      return {{}, came.last, came.stamp};
+      return {{}, came.last, asked, came.stamp};
     }
   }
 
@@ -116,11 +117,12 @@ class packet_link {
     return {};
   }
 
-  [[nodiscard]] link_answer miss(const result& how) noexcept {
+  [[nodiscard]] link_answer miss(const result& how, nanoseconds asked) noexcept {
     ++counts_.misses;
     ++counts_.misses_in_row;
-    return {how, {}, line_.now()};
+    return {how, {}, asked, line_.now()};
   }
+  [[nodiscard]] link_answer miss(const result& how) noexcept { return miss(how, line_.now()); }
 
   Transport& line_;
   packet_parser<from_device> parser_;

@@ -75,6 +75,7 @@ struct reading {
   force<S> commanded{};    ///< [N]
   force<S> held{};         ///< up to this reply [N]
   S strength{};            ///< of the ramp, 0 … 1
+  nanoseconds asked{};     ///< when the question was out: a sample's dt is from there to there
   nanoseconds stamp{};     ///< when the reply was there
   link_counts counts{};
   ftdi::line_status lines{};
