@@ -8,6 +8,8 @@
 #include <cmath>
 #include <iostream>
 
+extern "C" bool falcon_tick(unsigned char b, const float force[3], unsigned char out[16]);
+
 namespace {
 
 using sim::random_source;
@@ -244,6 +246,35 @@ TEST_CASE("the mock repeats itself to the last bit", "[falcon][mock]") {
     return std::pair(d3::vector(body_of(device).position()), body_of(device).meter().value());
   };
   CHECK(run() == run());
+}
+
+TEST_CASE("the tick for microcontrollers commands what the driver does", "[falcon][mock]") {
+  random_source random(23);
+  int compared = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const d3::vector p = d3::vector(0, 0, 0.125) + random.direction<d3>() * 0.03;
+    const d3::vector f = random.direction<d3>() * 5.0;
+    const auto counts =
+        falcon::to_counts(falcon::inverse(falcon::point<double>{{p[0], p[1], p[2]}}).value);
+    falcon::from_device reply{.homed = n % 10 == 0 ? falcon::byte(3) : falcon::byte(7)};
+    for (std::size_t i = 0; i < 3; ++i) reply.encoder[i] = static_cast<std::int16_t>(counts[i]);
+    const float wanted[3] = {float(f[0]), float(f[1]), float(f[2])};
+    falcon::packet_bytes out{};
+    for (const auto b : falcon::encode(reply)) {
+      if (!falcon_tick(b, wanted, out.data())) continue;
+      const auto answer = falcon::decode<falcon::to_device>(out);
+      REQUIRE(answer);
+      falcon::dac_words words{};
+      if (reply.is_homed()) {
+        const auto pose = falcon::forward(falcon::to_angles<double>(counts));
+        const auto tau = falcon::torques_for(pose.rates, falcon::force<double>{{f[0], f[1], f[2]}});
+        words = falcon::encode(tau, 3500.0);
+      }
+      for (std::size_t i = 0; i < 3; ++i) REQUIRE(std::abs(answer->motor[i] - words[i]) <= 1);
+      ++compared;
+    }
+  }
+  CHECK(compared == 2000);
 }
 
 TEST_CASE("a bad parameter of the mock is named", "[falcon][mock]") {
