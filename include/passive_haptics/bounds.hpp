@@ -15,6 +15,8 @@
 //   bounds/reachable.hpp
 //     reachable_bound   the next tick's work ≤ E1             stiff and passive, where the mass and
 //                                                             the largest hand force are known
+//   bounds/late_reachable.hpp
+//     late_reachable_bound  the same, commands a tick late    devices that talk in packets
 //   bounds/energy_tank.hpp
 //     energy_tank, two_layer_tank                             strict by the worst outflow, not by the
 //                                                             predicted one
@@ -38,6 +40,7 @@
 #include <passive_haptics/bounds/energy_bounding.hpp>
 #include <passive_haptics/bounds/energy_tank.hpp>
 #include <passive_haptics/bounds/force_bounding.hpp>
+#include <passive_haptics/bounds/late_reachable.hpp>
 #include <passive_haptics/bounds/limits.hpp>
 #include <passive_haptics/bounds/passivity_controller.hpp>
 #include <passive_haptics/bounds/reachable.hpp>

@@ -9,6 +9,7 @@
 //   2.27   depth_bound               f/K
 //   L6     outward_reach             how far the device can come out in the next tick
 //   § 9    reachable_force_bound     largest force whose work over that reach the ledger covers
+//   § 9    reachable_outflow         most energy a force can hand over within that reach
 //   § 9    sampled_stiffness, sampled_damping          what a sampled mass can take
 //   2.30   half_angle_turn           cos φ and sin φ of a small turn, without cos and sin
 //
@@ -143,6 +144,15 @@ template <real S>
     return (credit / reach + B * reach) * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
   }
   return strict_force_bound(credit, B) * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
+}
+
+/// max of f s − B s² over 0 ≤ s ≤ δ [J]: the most energy that force f [N] can hand to the user over
+/// an outward travel of at most δ [m]; f²/(4B) from δ = f/(2B) on. (L3 with a reach)
+template <real S>
+[[nodiscard]] constexpr S reachable_outflow(S f, S B, S reach) noexcept {
+  if (!(reach > S(0)) || !(f > S(0))) return S(0);
+  if (S(2) * B * reach >= f) return worst_outflow(f, B);
+  return f * reach - B * reach * reach;
 }
 
 /// K_s = min(K, κ m/T²) [N/m]: the stiffness that a mass sampled every T can be held with. (§ 9)

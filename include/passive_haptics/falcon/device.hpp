@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The Falcon as a haptic device: a force in, where the grip is back, once per packet.
+//
+//   force ─▶ finite? ─▶ ‖F‖ ≤ limit ─▶ × ramp ─▶ τ = A⁻ᵀF ─▶ words, |word| ≤ 4095 ─▶ packet ─▶
+//                                                                                      Falcon
+//   sample ◀─ held force ◀─ position ◀─ forward ◀─ angles ◀─ jump? homed? ◀─ packet ◀─
+//
+// A is that of the last reply. The answer to a packet shows where the grip was when its force BEGAN
+// to be held, so a force computed from it is a tick late: compose bounds with latency 1. `held` in a
+// sample is the force of the packet before, from the words really sent.
+// Whenever an exchange ends without a usable position, the motors are sent zero at once.
+
+#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/eigen_space.hpp>
+#include <passive_haptics/falcon/boot.hpp>
+#include <passive_haptics/falcon/settings.hpp>
+
+#include <optional>
+#include <utility>
+
+namespace passive_haptics::inline v0::falcon {
+
+/// Models haptic_device_for<Space>. One thread owns it. Nothing is allocated after open().
+///     falcon::device<falcon::libusb_transport> grip{falcon::cautious_gain<double>};
+///     if (const auto done = grip.open(); !done) return complain(done);
+///     if (const auto done = grip.boot(image.bytes()).how; !done) return complain(done);
+///     sample = grip.exchange(force);
+template <transport Transport, class Space = space<double, 3>>
+requires(Space::dof == 3) class device {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  using settings_type = settings<scalar>;
+  using reading_type = reading<scalar>;
+
+  /// `gain` [DAC counts per N·m] is not published: see docs/falcon.md, and cautious_gain. What is
+  /// left goes to the transport.
+  template <class... Arguments>
+  explicit device(scalar gain, const settings_type& setup = {}, Arguments&&... arguments)
+      : line_(std::forward<Arguments>(arguments)...), gain_(gain), setup_(setup) {}
+  device(const device&) = delete;
+  device& operator=(const device&) = delete;
+  ~device() { (void)close(); }
+
+  /// The first setting that is out of its range, if any. Such a device does not open.
+  [[nodiscard]] parameter_fault<scalar> check() const noexcept {
+    if (!(gain_ > scalar(0)) || !kernels::is_finite(gain_)) {
+      return {"gain", gain_, "finite and > 0 counts per N·m"};
+    }
+    return setup_.check();
+  }
+
+  /// closed → open. The arguments say which one: see the transport.
+  template <class... Which>
+  result open(const Which&... which) noexcept {
+    (void)close();
+    if (check()) return fail({code::bad_setting});
+    const result done = line_.open(which...);
+    enter(done ? state::open : state::closed, done ? code::not_open : done.what);
+    return done;
+  }
+
+  /// open → booting → unhomed, or back to open. May take seconds.
+  template <class Progress = no_progress>
+  boot_report boot(std::span<const byte> image, const boot_options& options = {},
+                   const Progress& progress = {}) noexcept {
+    boot_report report;
+    if (now_.where == state::closed) {
+      report.how = {code::not_open};
+      return report;
+    }
+    (void)silence_motors();
+    enter(state::booting, code::not_open);
+    report = bootloader<Transport, Progress>{line_, image, options, progress}.run();
+    start();
+    if (report.how) {
+      enter(state::unhomed, code::not_homed);
+    } else {
+      enter(state::open, report.how.what);
+    }
+    return report;
+  }
+
+  /// unhomed → homed: waits until the grip was pulled out and pushed in. `progress` is called with
+  /// every reading; false cancels.
+  template <class Progress>
+  result home(nanoseconds most, const Progress& progress) noexcept {
+    const nanoseconds deadline = line_.now() + most;
+    while (now_.where == state::unhomed) {
+      if (line_.now() >= deadline) return {code::homing_timeout};
+      (void)exchange(Space::zero());
+      if (!progress(now_)) return {code::cancelled};
+    }
+    if (now_.where == state::homed) return {};
+    return {now_.where == state::fault ? now_.what : code::not_open};
+  }
+  result home(nanoseconds most) noexcept {
+    return home(most, [](const reading_type&) { return true; });
+  }
+
+  /// Commands a force [N] and returns what the Falcon answers. Not valid: no usable position, and
+  /// latest().what says why.
+  device_sample<Space> exchange(const vector& wanted) noexcept {
+    if (!talks()) return nothing();
+    if (!Space::is_finite(wanted)) (void)fail({code::force_not_finite});
+    now_.commanded = {{wanted(0), wanted(1), wanted(2)}};
+    const dac_words held = now_.sent.motor;
+    now_.sent = {.motor = words_for(now_.commanded), .light = light_.value_or(lamp())};
+    const link_answer answer = link_.exchange(now_.sent, setup_.reply);
+    const scalar dt = seconds(answer.asked - now_.asked);
+    now_.asked = answer.asked;
+    now_.stamp = answer.stamp;
+    now_.counts = link_.counts();
+    now_.lines = line_.lines();
+    const code why = answer.how ? look(answer.packet) : miss(answer.how);
+    if (now_.where != state::fault) now_.what = why;
+    if (why != code::ok) {
+      lose_position();
+      return {.dt = dt};
+    }
+    return locate(held, dt);
+  }
+
+  /// fault → unhomed, and homed from there if the device still is. Forces ramp up again.
+  result recover() noexcept {
+    if (now_.where != state::fault) return {};
+    if (!talks()) return {now_.what};
+    link_.forgive();
+    enter(state::unhomed, code::not_homed);
+    return {};
+  }
+
+  /// Any state → closed, motors at zero. Not ok: nothing confirms that the zero arrived.
+  result close() noexcept {
+    result done{};
+    if (line_.is_open()) {
+      if (talks()) done = silence_motors();
+      line_.close();
+    }
+    start();
+    enter(state::closed, code::not_open);
+    return done;
+  }
+
+  /// Lamps of your own; nullopt brings back the usual: red without a position, green with one.
+  void light(std::optional<lamps> own) noexcept { light_ = own; }
+
+  [[nodiscard]] state where() const noexcept { return now_.where; }
+  [[nodiscard]] const reading_type& latest() const noexcept { return now_; }
+  [[nodiscard]] scalar gain() const noexcept { return gain_; }
+  [[nodiscard]] const settings_type& setup() const noexcept { return setup_; }
+  [[nodiscard]] Transport& line() noexcept { return line_; }
+  [[nodiscard]] const Transport& line() const noexcept { return line_; }
+
+ private:
+  [[nodiscard]] static constexpr scalar seconds(nanoseconds t) noexcept {
+    return std::chrono::duration<scalar>(t).count();
+  }
+
+  [[nodiscard]] bool talks() const noexcept {
+    return now_.where >= state::unhomed && now_.what != code::unplugged;
+  }
+
+  void enter(state next, code why) noexcept {
+    now_.where = next;
+    now_.what = why;
+    now_.strength = scalar(0);
+  }
+
+  result fail(const result& why) noexcept {
+    enter(now_.where == state::closed ? state::closed : state::fault, why.what);
+    return why;
+  }
+
+  /// As after power-up: nothing is known.
+  void start() noexcept {
+    link_.reset();
+    now_ = reading_type{.where = now_.where, .asked = line_.now(), .stamp = line_.now()};
+    pose_ = {};
+    settled_ = 0;
+    heard_.reset();
+  }
+
+  [[nodiscard]] device_sample<Space> nothing() noexcept {
+    const nanoseconds then = std::exchange(now_.asked, line_.now());
+    now_.stamp = now_.asked;
+    return {.dt = seconds(now_.asked - then)};
+  }
+
+  [[nodiscard]] lamps lamp() const noexcept {
+    return now_.where == state::homed ? lamps::green : lamps::red;
+  }
+
+  [[nodiscard]] dac_words words_for(const force<scalar>& f) const noexcept {
+    if (now_.where != state::homed || !pose_) return {};
+    const auto allowed = now_.strength * limited(f, setup_.force_limit);
+    return encode(torques_for(pose_.rates, allowed), gain_);
+  }
+
+  /// Zero words, confirmed by an answer if there is one.
+  result silence_motors() noexcept {
+    if (!talks()) return {};
+    result done{};
+    for (int tries = 0; tries < 3; ++tries) {
+      now_.sent = {.light = lamps::red};
+      done = link_.exchange(now_.sent, setup_.reply).how;
+      if (done || done.what == code::unplugged) break;
+    }
+    return done;
+  }
+
+  [[nodiscard]] code miss(const result& how) noexcept {
+    if (how.what == code::unplugged) {
+      (void)fail(how);
+    } else if (now_.counts.misses_in_row >= static_cast<std::uint32_t>(setup_.most_misses)) {
+      (void)fail({code::too_many_misses});
+    }
+    return how.what;
+  }
+
+  /// May this reply be believed?
+  [[nodiscard]] code look(const from_device& reply) noexcept {
+    const bool jumped = heard_ && jump(reply.encoder, seconds(now_.stamp - *heard_));
+    now_.received = reply;
+    heard_ = now_.stamp;
+    if (jumped) return distrust(code::encoder_jump);
+    if (!reply.is_homed()) return distrust(code::not_homed);
+    if (settled_ < setup_.settle && ++settled_ < setup_.settle) return code::settling;
+    if (now_.where == state::unhomed) enter(state::homed, code::ok);
+    const auto theta = to_angles<scalar>({reply.encoder[0], reply.encoder[1], reply.encoder[2]});
+    turned_ = theta;
+    next_ = forward(theta, last_);
+    if (!next_) next_ = forward(theta);
+    return next_ ? code::ok : code::pose_refused;
+  }
+
+  [[nodiscard]] bool jump(const leg_words& encoder, scalar since) const noexcept {
+    const scalar ticks = kernels::larger(scalar(1), since / setup_.tick);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int step = encoder[i] - now_.received.encoder[i];
+      if (scalar(step < 0 ? -step : step) > ticks * scalar(setup_.largest_step)) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] code distrust(code why) noexcept {
+    settled_ = 0;
+    if (now_.where == state::homed) enter(state::unhomed, why);
+    return why;
+  }
+
+  void lose_position() noexcept {
+    now_.strength = scalar(0);
+    now_.held = {};
+    pose_ = {};
+    if (now_.sent.motor != dac_words{} && talks()) {
+      now_.sent.motor = {};
+      (void)link_.send(now_.sent, setup_.reply);
+    }
+  }
+
+  /// The sample of a reply that is believed; `held` are the words of the packet before.
+  [[nodiscard]] device_sample<Space> locate(const dac_words& held, scalar dt) noexcept {
+    const auto torque = decode(held, gain_);
+    now_.held = force_from(next_.rates, torque);
+    if (pose_) {
+      now_.held = force_over(now_.held, torque, turned_ - angles_, next_.position - last_);
+      const scalar climb = kernels::smaller(dt, setup_.tick) / setup_.ramp;
+      now_.strength = kernels::smaller(scalar(1), now_.strength + climb);
+    }
+    pose_ = next_;
+    last_ = next_.position;
+    angles_ = turned_;
+    now_.position = last_ - setup_.origin;
+    return {.position = {now_.position[0], now_.position[1], now_.position[2]},
+            .held = {now_.held[0], now_.held[1], now_.held[2]},
+            .dt = dt,
+            .valid = true};
+  }
+
+  Transport line_;
+  packet_link<Transport> link_{line_};
+  scalar gain_;
+  settings_type setup_;
+  reading_type now_{};
+  pose_result<scalar> next_{};                     ///< of this reply
+  angles<scalar> turned_{};                        ///< of this reply
+  pose_result<scalar> pose_{};                     ///< of the reply before, if it was usable
+  point<scalar> last_ = workspace<scalar>.centre;  ///< the last usable position, origin not off
+  angles<scalar> angles_{};                        ///< there
+  int settled_ = 0;                                ///< good replies since homing or a jump
+  std::optional<nanoseconds> heard_;               ///< the last reply
+  std::optional<lamps> light_;
+};
+
+}  // namespace passive_haptics::inline v0::falcon

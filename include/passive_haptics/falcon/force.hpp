@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// From a force at the grip to the three words the motors get, and back.
+//
+//     τ = A⁻ᵀ F          torques_for       so that F·v = τ·θ̇ for every v
+//     F = Aᵀ τ           force_from
+//     word = −round(k τ) encode            ONE factor for all three when one is beyond ±4095:
+//     τ = −word/k        decode            the direction of the force is kept, no word ever wraps
+//
+// The gain k [DAC counts per N·m] has never been published. Hints lie between 2500 and 4000; the
+// 10 000 found in other drivers makes forces about three times too strong. Calibrate it.
+
+#include <passive_haptics/falcon/kinematics.hpp>
+
+#include <cstdint>
+
+namespace passive_haptics::inline v0::falcon {
+
+/// What the motors are sent, legs 0, 1, 2. Positive pulls the arm in.
+using dac_words = std::array<std::int16_t, 3>;
+
+inline constexpr int largest_word = 4095;  ///< either sign; beyond it motors saturate
+
+/// Errs to weak: what is commanded in newtons is not exceeded if the true gain is ≥ this.
+template <real S>
+inline constexpr S cautious_gain = S(3500);
+
+/// τ = A⁻ᵀ F [N·m]. All zero when A is singular or anything is not finite.
+template <real S>
+[[nodiscard]] constexpr torques<S> torques_for(const matrix<S>& A, const force<S>& f) noexcept {
+  const auto tau = multiply_transposed<torques<S>>(inverse(A), f);
+  return is_finite(tau) ? tau : torques<S>{};
+}
+
+/// F = Aᵀ τ [N].
+template <real S>
+[[nodiscard]] constexpr force<S> force_from(const matrix<S>& A, const torques<S>& tau) noexcept {
+  return multiply_transposed<force<S>>(A, tau);
+}
+
+/// ‖F‖ ≤ most [N], direction kept; zero when a component is not finite.
+template <real S>
+[[nodiscard]] constexpr force<S> limited(const force<S>& f, S most) noexcept {
+  S largest(0);  // first, so that no square overflows
+  for (const S component : f.value)
+    largest = kernels::larger(largest, kernels::magnitude(component));
+  if (!is_finite(f) || !(most > S(0))) return {};
+  if (!(largest > S(0))) return f;
+  const force<S> direction = S(1) / largest * f;
+  const S length = norm(direction) * largest;
+  return length > most ? most / norm(direction) * direction : f;
+}
+
+/// Words for torques [N·m] at a gain [1/(N·m)]. All zero when a torque is not finite or the gain is
+/// not a number > 0.
+template <real S>
+[[nodiscard]] constexpr dac_words encode(const torques<S>& tau, S gain) noexcept {
+  if (!is_finite(tau) || !(gain > S(0)) || !kernels::is_finite(gain)) return {};
+  S largest(0);
+  for (const S t : tau.value) largest = kernels::larger(largest, kernels::magnitude(t));
+  const S most = S(largest_word) / gain;
+  const S scale = largest > most ? most / largest : S(1);
+  dac_words words{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const S exact = -gain * (scale * tau[i]);
+    const int word = static_cast<int>(exact < S(0) ? exact - S(0.5) : exact + S(0.5));
+    words[i] = static_cast<std::int16_t>(word);
+  }
+  return words;
+}
+
+/// The torques [N·m] that words stand for.
+template <real S>
+[[nodiscard]] constexpr torques<S> decode(const dac_words& words, S gain) noexcept {
+  torques<S> tau;
+  for (std::size_t i = 0; i < 3; ++i) tau[i] = -S(words[i]) / gain;
+  return tau;
+}
+
+/// The constant force [N] that does the work of constant torques over one tick, Σ τ Δθ = F·Δp: the
+/// motors hold torques while the pose, and so the force, changes. It is F, here that of the new
+/// pose, corrected along Δp; unchanged where Δp is too short to tell.
+template <real S>
+[[nodiscard]] constexpr force<S> force_over(const force<S>& f, const torques<S>& tau,
+                                            const angles<S>& turned,
+                                            const point<S>& moved) noexcept {
+  constexpr S shortest = S(1e-6);  // [m], a twentieth of the finest count
+  const S square = dot(moved, moved);
+  if (!(square > shortest * shortest)) return f;
+  const S missing = (dot(tau, turned) - dot(f, moved)) / square;
+  return f + missing * force<S>{moved.value};
+}
+
+}  // namespace passive_haptics::inline v0::falcon

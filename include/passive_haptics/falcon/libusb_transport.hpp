@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The real Falcon, over libusb-1.0: asynchronous transfers, driven by the thread that calls. Link
+// usb-1.0. Where libusb's header is not installed this header declares nothing (Debian:
+// libusb-1.0-0-dev).
+//
+// Two IN transfers are always in flight, so that no reply waits for us; a write does not wait for
+// the bus either, a fault of it is reported by the next call. libusb itself may allocate when a
+// transfer is submitted; we do not.
+
+#include <passive_haptics/falcon/libusb_bus.hpp>
+#include <passive_haptics/falcon/transport.hpp>
+
+#if __has_include(<libusb-1.0/libusb.h>)
+#include <libusb-1.0/libusb.h>
+#include <memory>
+
+namespace passive_haptics::inline v0::falcon {
+
+class libusb_transport {
+ public:
+  libusb_transport() noexcept = default;
+  libusb_transport(const libusb_transport&) = delete;
+  libusb_transport& operator=(const libusb_transport&) = delete;
+  ~libusb_transport() { close(); }
+
+  result open(const which& wanted = {}) noexcept {
+    close();
+    if (const int failed = libusb_init(&context_); failed != 0) {
+      context_ = nullptr;
+      return detail::code_of(failed, code::no_device);
+    }
+    result done = find(wanted);
+    if (done) done = detail::code_of(libusb_claim_interface(handle_, 0), code::no_device);
+    if (done) done = start();
+    if (!done) close();
+    return done;
+  }
+
+  /// Lets what was written go out, then lets go of the device.
+  void close() noexcept {
+    closing_ = true;
+    if (handle_ != nullptr) {
+      const nanoseconds flushed = now() + std::chrono::milliseconds(100);
+      while (out_.busy && !lost_ && now() < flushed) pump(flushed);
+      for (slot* s : slots()) {
+        if (s->busy) libusb_cancel_transfer(s->transfer);
+      }
+      const nanoseconds cancelled = now() + std::chrono::seconds(1);
+      while (busy() && now() < cancelled) pump(cancelled);
+      libusb_release_interface(handle_, 0);
+      libusb_close(handle_);
+    }
+    for (slot* s : slots()) {
+      if (!s->busy) libusb_free_transfer(s->transfer);  // one that libusb still holds stays its own
+      s->transfer = nullptr;
+      s->busy = false;
+    }
+    if (context_ != nullptr) libusb_exit(context_);
+    handle_ = nullptr;
+    context_ = nullptr;
+    fault_ = {};
+    lost_ = closing_ = false;
+    first_ = count_ = 0;
+  }
+
+  [[nodiscard]] bool is_open() const noexcept { return handle_ != nullptr; }
+  [[nodiscard]] ftdi::line_status lines() const noexcept { return lines_; }
+  [[nodiscard]] nanoseconds now() const noexcept {
+    return std::chrono::steady_clock::now().time_since_epoch();
+  }
+
+  result control(request r, std::uint16_t value) noexcept {
+    if (const result bad = trouble(); !bad) return bad;
+    constexpr byte vendor_out = 0x40;
+    constexpr unsigned most = 1000;  // ms
+    const int done = libusb_control_transfer(handle_, vendor_out, static_cast<byte>(r), value, 0,
+                                             nullptr, 0, most);
+    if (r == request::reset && value != ftdi::purge_transmit) {
+      pump(now());
+      count_ = 0;
+    }
+    return detail::code_of(done, code::unplugged);
+  }
+
+  result write(std::span<const byte> bytes, nanoseconds deadline) noexcept {
+    while (!bytes.empty()) {
+      while (out_.busy && !lost_ && now() < deadline) pump(deadline);
+      if (const result bad = trouble(); !bad) return bad;
+      if (out_.busy) return {code::timeout};
+      const auto part = bytes.first(std::min(bytes.size(), out_.buffer.size()));
+      std::copy(part.begin(), part.end(), out_.buffer.begin());
+      out_.transfer->length = static_cast<int>(part.size());
+      if (const result done = submit(out_); !done) return done;
+      bytes = bytes.subspan(part.size());
+    }
+    return {};
+  }
+
+  transfer read(std::span<byte> into, nanoseconds deadline) noexcept {
+    for (bool looked = false; count_ == 0; looked = true) {
+      if (const result bad = trouble(); !bad) return {bad, 0, now()};
+      if (looked && now() >= deadline) return {{code::timeout}, 0, now()};
+      for (slot& s : in_) {
+        if (s.busy) continue;
+        if (const result done = submit(s); !done) return {done, 0, now()};
+      }
+      pump(deadline);
+    }
+    const std::size_t n = std::min(into.size(), count_);
+    for (std::size_t i = 0; i < n; ++i) into[i] = received_[(first_ + i) % received_.size()];
+    first_ = (first_ + n) % received_.size();
+    count_ -= n;
+    return {{}, n, stamp_};
+  }
+
+ private:
+  struct slot {
+    libusb_transfer* transfer = nullptr;
+    std::array<byte, 8 * ftdi::usb_packet> buffer{};
+    bool busy = false;
+    libusb_transport* owner = nullptr;
+  };
+
+  [[nodiscard]] result find(const which& wanted) noexcept {
+    result last{code::no_device};
+    int index = 0;
+    detail::each_falcon(
+        context_, [&](libusb_device* device, const libusb_device_descriptor& about) {
+          if (wanted.serial.empty() && index++ != wanted.index) return false;
+          const result opened = detail::code_of(libusb_open(device, &handle_), code::no_device);
+          if (!opened) {
+            handle_ = nullptr;
+            last = opened;
+            return false;
+          }
+          std::array<char, 32> text{};
+          if (wanted.serial.empty() || detail::serial_of(handle_, about, text) == wanted.serial)
+            return true;
+          libusb_close(handle_);
+          handle_ = nullptr;
+          return false;
+        });
+    return handle_ != nullptr ? result{} : last;
+  }
+
+  [[nodiscard]] result start() noexcept {
+    for (slot* s : slots()) {
+      s->owner = this;
+      s->transfer = libusb_alloc_transfer(0);
+      if (s->transfer == nullptr) return {code::transfer_failed, LIBUSB_ERROR_NO_MEM};
+      const bool out = s == &out_;
+      libusb_fill_bulk_transfer(s->transfer, handle_, out ? ftdi::bulk_out : ftdi::bulk_in,
+                                s->buffer.data(), static_cast<int>(s->buffer.size()),
+                                out ? &sent : &arrived, s, 0);
+    }
+    return {};
+  }
+
+  [[nodiscard]] result submit(slot& s) noexcept {
+    const int failed = libusb_submit_transfer(s.transfer);
+    s.busy = failed == 0;
+    lost_ = lost_ || failed == LIBUSB_ERROR_NO_DEVICE;
+    return detail::code_of(failed, code::unplugged);
+  }
+
+  /// A fault that a transfer reported is told once.
+  [[nodiscard]] result trouble() noexcept {
+    if (handle_ == nullptr) return {code::not_open};
+    if (lost_) return {code::unplugged};
+    return std::exchange(fault_, result{});
+  }
+
+  /// Lets libusb work until something happens, or until then.
+  void pump(nanoseconds until) noexcept {
+    const auto left = std::chrono::duration_cast<std::chrono::microseconds>(until - now());
+    const auto wait = std::max(left, std::chrono::microseconds(0));
+    timeval limit{};
+    limit.tv_sec = static_cast<decltype(limit.tv_sec)>(wait.count() / 1'000'000);
+    limit.tv_usec = static_cast<decltype(limit.tv_usec)>(wait.count() % 1'000'000);
+    if (libusb_handle_events_timeout_completed(context_, &limit, nullptr) ==
+        LIBUSB_ERROR_NO_DEVICE) {
+      lost_ = true;
+    }
+  }
+
+  void finish(const libusb_transfer& t) noexcept {
+    switch (t.status) {
+      case LIBUSB_TRANSFER_COMPLETED:
+      case LIBUSB_TRANSFER_CANCELLED:
+        return;
+      case LIBUSB_TRANSFER_NO_DEVICE:
+        lost_ = true;
+        return;
+      default:
+        fault_ = {code::transfer_failed, t.status};
+    }
+  }
+
+  void take(std::span<byte> bytes) noexcept {
+    const std::size_t n = ftdi::strip_status(bytes, lines_);
+    for (std::size_t i = 0; i < n && count_ < received_.size(); ++i) {
+      received_[(first_ + count_++) % received_.size()] = bytes[i];
+    }
+    if (n > 0) stamp_ = now();
+  }
+
+  static void LIBUSB_CALL arrived(libusb_transfer* t) noexcept {
+    slot& s = *static_cast<slot*>(t->user_data);
+    libusb_transport& self = *s.owner;
+    s.busy = false;
+    self.finish(*t);
+    self.take(std::span(s.buffer).first(static_cast<std::size_t>(std::max(t->actual_length, 0))));
+    if (t->status == LIBUSB_TRANSFER_COMPLETED && !self.closing_) (void)self.submit(s);
+  }
+
+  static void LIBUSB_CALL sent(libusb_transfer* t) noexcept {
+    slot& s = *static_cast<slot*>(t->user_data);
+    s.busy = false;
+    s.owner->finish(*t);
+  }
+
+  [[nodiscard]] std::array<slot*, 3> slots() noexcept { return {&in_[0], &in_[1], &out_}; }
+  [[nodiscard]] bool busy() const noexcept { return in_[0].busy || in_[1].busy || out_.busy; }
+
+  libusb_context* context_ = nullptr;
+  libusb_device_handle* handle_ = nullptr;
+  std::array<slot, 2> in_{};
+  slot out_{};
+  std::array<byte, 4096> received_{};
+  std::size_t first_ = 0, count_ = 0;  ///< of what waits in it
+  nanoseconds stamp_{};                ///< when the newest of it came
+  ftdi::line_status lines_{};
+  result fault_{};        ///< of a transfer, not told yet
+  bool lost_ = false;     ///< the device is gone
+  bool closing_ = false;  ///< no transfer is submitted again
+};
+
+static_assert(transport<libusb_transport>);
+
+}  // namespace passive_haptics::inline v0::falcon
+
+#endif

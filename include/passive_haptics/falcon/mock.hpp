@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A Falcon that is not there: the far side of in_memory_transport.
+//
+//   host ─▶ bytes ─▶ mock_processor ─▶ motor words ─▶ mock_mechanism ◀─ hand
+//   host ◀─ bytes ◀─ FTDI bridge    ◀─ counts     ◀─┘
+//
+// The whole driver runs on it unchanged, in virtual time. It says what falcon/'s notes believe a
+// Falcon does: it proves the driver consistent with them, not that they are right.
+
+#include <passive_haptics/falcon/mock_mechanism.hpp>
+#include <passive_haptics/falcon/mock_processor.hpp>
+#include <passive_haptics/falcon/transport.hpp>
+
+namespace passive_haptics::inline v0::falcon {
+
+///     in_memory_transport<mock<>> cable{mock_parameters{.runs = true, .homed = true}};
+template <class Hand = simulation::no_hand<space<double, 3>>>
+class mock {
+ public:
+  using mechanism_type = mock_mechanism<Hand>;
+  using processor_type = mock_processor<mechanism_type>;
+
+  explicit mock(const mock_parameters& parameters = {}, const Hand& hand = {}) noexcept
+      : mechanism_(parameters, hand), processor_(parameters.runs) {}
+
+  void control(request r, std::uint16_t value) noexcept {
+    processor_.control(r, value, mechanism_);
+  }
+  void receive(std::span<const byte> bytes) noexcept { processor_.receive(bytes, mechanism_); }
+  [[nodiscard]] std::size_t transmit(std::span<byte> into) noexcept {
+    return processor_.transmit(into);
+  }
+  void elapse(nanoseconds passed) noexcept {
+    mechanism_.elapse(std::chrono::duration<double>(passed).count());
+    processor_.elapse(passed);
+  }
+  [[nodiscard]] bool attached() const noexcept { return attached_; }
+
+  /// The cable only: the motors go on holding their last words, the worst that may happen.
+  void unplug() noexcept { attached_ = false; }
+  void plug_in() noexcept { attached_ = true; }
+
+  [[nodiscard]] mechanism_type& mechanism() noexcept { return mechanism_; }
+  [[nodiscard]] const mechanism_type& mechanism() const noexcept { return mechanism_; }
+  [[nodiscard]] processor_type& processor() noexcept { return processor_; }
+  [[nodiscard]] const processor_type& processor() const noexcept { return processor_; }
+
+ private:
+  mechanism_type mechanism_;
+  processor_type processor_;
+  bool attached_ = true;
+};
+
+static_assert(far_side<mock<>>);
+
+}  // namespace passive_haptics::inline v0::falcon

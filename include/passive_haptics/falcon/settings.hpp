@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What a Falcon is told before it starts, and what it tells afterwards.
+
+#include <passive_haptics/event.hpp>
+#include <passive_haptics/falcon/force.hpp>
+#include <passive_haptics/falcon/packet_link.hpp>
+
+namespace passive_haptics::inline v0::falcon {
+
+/// closed ─open()─▶ open ─boot()─▶ booting ─▶ unhomed ◀──▶ homed       any of the last two ─▶ fault
+/// Forces are zero in every state but `homed`.
+enum class state : byte {
+  closed,   ///< nothing is connected
+  open,     ///< the cable is ours; boot() comes next
+  booting,  ///< loading the program
+  unhomed,  ///< packets flow; the legs do not know where they are, or not for long enough
+  homed,    ///< positions and forces
+  fault,    ///< packets flow if they can, forces are zero until recover(): see reading::what
+};
+
+[[nodiscard]] constexpr const char* to_string(state s) noexcept {
+  switch (s) {
+    case state::closed:
+      return "closed";
+    case state::open:
+      return "open";
+    case state::booting:
+      return "booting";
+    case state::unhomed:
+      return "unhomed";
+    case state::homed:
+      return "homed";
+    case state::fault:
+      return "fault";
+  }
+  return "unknown state";
+}
+
+template <real S>
+struct settings {
+  S force_limit = S(8);    ///< most ‖F‖ [N]; CHAI3D's figure for this device
+  S ramp = S(0.5);         ///< time from no force to all of it, after homing and misses [s]
+  S tick = S(1e-3);        ///< between replies, nominally [s]; the ramp never climbs faster
+  int largest_step = 300;  ///< counts per tick; more (about 10 m/s) is a fault of an encoder
+  int settle = 50;         ///< good replies between homing, or a jump, and the first force
+  int most_misses = 20;    ///< in a row, then it is a fault
+  nanoseconds reply = std::chrono::milliseconds(5);  ///< to wait for an answer
+  point<S> origin{};  ///< taken off positions [m], in the frame of falcon/geometry.hpp
+
+  [[nodiscard]] constexpr parameter_fault<S> check() const noexcept {
+    const auto positive = [](S x) { return x > S(0) && kernels::is_finite(x); };
+    if (!positive(force_limit)) return {"force_limit", force_limit, "finite and > 0 N"};
+    if (!positive(ramp)) return {"ramp", ramp, "finite and > 0 s"};
+    if (!positive(tick)) return {"tick", tick, "finite and > 0 s"};
+    if (largest_step < 1) return {"largest_step", S(largest_step), "≥ 1 count"};
+    if (settle < 1) return {"settle", S(settle), "≥ 1 reply"};
+    if (most_misses < 1) return {"most_misses", S(most_misses), "≥ 1"};
+    if (reply <= nanoseconds(0)) return {"reply", S(reply.count()), "> 0 ns"};
+    for (const S x : origin.value) {
+      if (!kernels::is_finite(x)) return {"origin", x, "finite"};
+    }
+    return {};
+  }
+};
+
+/// All that an exchange knows. Trivially copyable: log it, or send it to another thread.
+template <real S>
+struct reading {
+  code what = code::not_open;  ///< ok, or why there is no position, or no force
+  state where = state::closed;
+  to_device sent{};
+  from_device received{};  ///< the last one
+  point<S> position{};     ///< of the last usable reply [m], origin taken off
+  force<S> commanded{};    ///< [N]
+  force<S> held{};         ///< up to this reply [N]
+  S strength{};            ///< of the ramp, 0 … 1
+  nanoseconds asked{};     ///< when the question was out: a sample's dt is from there to there
+  nanoseconds stamp{};     ///< when the reply was there
+  link_counts counts{};
+  ftdi::line_status lines{};
+};
+
+}  // namespace passive_haptics::inline v0::falcon

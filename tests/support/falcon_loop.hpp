@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A local model in a loop with the mock Falcon: driver, packets, arms and hand, in virtual time.
+#include "scenes.hpp"
+#include <passive_haptics/falcon/device.hpp>
+#include <passive_haptics/falcon/mock.hpp>
+
+namespace falcon = passive_haptics::falcon;
+namespace sim = passive_haptics::simulation;
+
+/// One count on every leg, at its worst in the workspace, along one axis [m].
+inline constexpr double falcon_quantum = 1.03e-4;
+
+template <class Hand>
+using falcon_cable = falcon::in_memory_transport<falcon::mock<Hand>>;
+template <class Hand>
+using falcon_device = falcon::device<falcon_cable<Hand>, d3>;
+
+/// Opened, with a program, homed, forces at full strength; false: it did not work.
+template <class Hand>
+bool make_ready(falcon_device<Hand>& device) {
+  if (!device.open() || !device.boot({}).how) return false;
+  if (!device.home(std::chrono::seconds(1))) return false;
+  for (int n = 0; n < 2000 && device.latest().strength < 1.0; ++n) {
+    (void)device.exchange(d3::zero());
+  }
+  return device.where() == falcon::state::homed && device.latest().strength == 1.0;
+}
+
+/// The body of the mock Falcon: where it truly is, what its motors did.
+template <class Hand>
+const auto& body_of(const falcon_device<Hand>& device) {
+  return device.line().far().mechanism().body();
+}
