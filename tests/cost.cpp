@@ -261,7 +261,8 @@ TEST_CASE("the committed baseline is readable and has all scenes of both compile
   CHECK(committed.size() >= 2);
   for (const auto& [compiler, rows] : committed) {
     INFO(compiler);
-    CHECK(rows.size() == 64);  // 2 scenes x 5 paths + 1 x 6, float and double, two sides
+    CHECK(rows.size() ==
+          124);  // 64 of the scenes, two sides of 2 x 5 + 6 paths, and 60 of the parts
   }
   std::istringstream broken("heading\ng++,wall,float,composed,air,many\n");
   CHECK_THROWS_AS(cost::read_baseline(broken), std::runtime_error);

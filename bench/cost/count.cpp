@@ -3,6 +3,7 @@
 // is one call of probe<Scene, State> from along<path>, so the counts of a tick are those of that call:
 // the tick, its frame and its return.
 
+#include "parts.hpp"
 #include "workload.hpp"
 
 #include <cstdio>
@@ -73,6 +74,12 @@ void run_both() {
   run<Scene>(Scene::by_hand(ordinary), steps);
 }
 
+template <template <class, int> class Part>
+void run_part() {
+  run<Part<float, 1>>(Part<float, 1>::composed(ordinary), workload<wall<float>>());
+  run<Part<double, 3>>(Part<double, 3>::composed(ordinary), workload<half_space<double>>());
+}
+
 }  // namespace cost
 
 int main() {
@@ -84,4 +91,10 @@ int main() {
   cost::run_both<cost::half_space<double>>();
   cost::run_both<cost::triangle<float>>();
   cost::run_both<cost::triangle<double>>();
+  cost::run_part<cost::part_bare>();
+  cost::run_part<cost::part_turning>();
+  cost::run_part<cost::part_counting>();
+  cost::run_part<cost::part_strict>();
+  cost::run_part<cost::part_limited>();
+  cost::run_part<cost::part_following>();
 }

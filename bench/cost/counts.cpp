@@ -32,8 +32,9 @@ void add(std::vector<counted>& rows, const std::string& caller, const std::strin
   const std::string way = path_in(caller);
   const std::string scene = after(callee, "probe<cost::", "<");
   if (way.empty() || scene.empty()) return;
-  const std::string scalar = after(callee, "probe<cost::" + scene + "<", ">");
-  const std::string state = after(callee, "probe<cost::" + scene + "<" + scalar + ">, ", "<,(");
+  const std::string arguments = after(callee, "probe<cost::" + scene + "<", ">");
+  const std::string scalar = arguments.substr(0, arguments.find(','));  // a part has a Dof, too
+  const std::string state = after(callee, "probe<cost::" + scene + "<" + arguments + ">, ", "<,(");
   const counted row{scene, scalar, state.rfind("by_hand", 0) == 0 ? "by hand" : "composed",
                     way,   calls,  instructions};
   for (auto& known : rows) {
@@ -59,6 +60,16 @@ const counted* counts::find(const std::string& name) const {
     if (row.name() == name) return &row;
   }
   return nullptr;
+}
+
+double counts::per_tick(const std::string& scene, const std::string& scalar) const {
+  counted all;
+  for (const auto& row : rows) {
+    if (row.scene != scene || row.scalar != scalar || row.side != "composed") continue;
+    all.ticks += row.ticks;
+    all.instructions += row.instructions;
+  }
+  return all.per_tick();
 }
 
 double counts::ratio(const std::string& scene, const std::string& scalar) const {

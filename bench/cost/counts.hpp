@@ -34,6 +34,8 @@ struct counts {
 
   /// The row of that name, or null.
   [[nodiscard]] const counted* find(const std::string& name) const;
+  /// Composed, all paths of a scene together.
+  [[nodiscard]] double per_tick(const std::string& scene, const std::string& scalar) const;
   /// Composed over by hand, all paths of a scene together.
   [[nodiscard]] double ratio(const std::string& scene, const std::string& scalar) const;
 };

@@ -11,6 +11,7 @@
 #include "../common/report.hpp"
 #include "counts.hpp"
 #include "paired.hpp"
+#include "parts.hpp"
 
 #include <iostream>
 
@@ -103,6 +104,53 @@ void show_counts(ex::report& out, ex::csv_file& csv, const std::vector<cost::cou
   out.member("instructions", ex::json_array(json));
 }
 
+/// One row for a part: instructions per tick of each build, state in bytes.
+template <template <class, int> class Part>
+void show_part(ex::table& table, const std::vector<cost::counts>& all, const std::string& scene) {
+  const auto row = [&](auto part, const char* port, const char* scalar) {
+    using chosen = decltype(part);
+    std::vector<std::string> cells{chosen::name, port};
+    for (const auto& build : all) {
+      cells.push_back(ex::format("%.1f", build.per_tick(scene, scalar)));
+    }
+    cells.push_back(std::to_string(sizeof(chosen::composed({}))));
+    table.add(cells);
+  };
+  row(Part<float, 1>{}, "1-DOF float", "float");
+  row(Part<double, 3>{}, "3-DOF double", "double");
+}
+
+/// What each part costs; returns which parts that a scene has no use for cost instructions.
+std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::counts>& all) {
+  std::vector<std::string> heading{"scene", "port"};
+  for (const auto& build : all) heading.push_back(build.compiler);
+  heading.emplace_back("state bytes");
+  ex::table table(heading);
+  show_part<cost::part_bare>(table, all, "part_bare");
+  show_part<cost::part_turning>(table, all, "part_turning");
+  show_part<cost::part_counting>(table, all, "part_counting");
+  show_part<cost::part_strict>(table, all, "part_strict");
+  show_part<cost::part_limited>(table, all, "part_limited");
+  show_part<cost::part_following>(table, all, "part_following");
+  out.section("What each part costs",
+              "Instructions per tick, composed, of the same rigid wall with one part more each "
+              "time. A part that a scene has no use for must cost none.");
+  out.show(table);
+
+  std::vector<std::string> found;
+  for (const auto& build : all) {
+    for (const auto& scalar : scalars) {
+      const double without = build.per_tick("part_bare", scalar);
+      const double with = build.per_tick("part_turning", scalar);
+      if (with > without) {
+        found.push_back(build.compiler + ": rotate_limited on a rigid wall costs " +
+                        ex::format("%.2f instructions per tick, ", with - without) + scalar);
+      }
+    }
+  }
+  return found;
+}
+
 /// Compares with the committed counts; returns what grew.
 std::vector<std::string> judge(const cost::baseline& committed,
                                const std::vector<cost::counts>& all) {
@@ -177,6 +225,7 @@ int run(const settings& chosen) {
                      "compiler,scene,scalar,side,path,instructions per tick,ticks");
     show_counts(out, csv, all);
     csv.close();
+    found = show_parts(out, all);
     if (chosen.rewrite) {
       ex::output_file file(chosen.baseline);
       cost::write_baseline(file.stream(), all);
@@ -185,7 +234,7 @@ int run(const settings& chosen) {
     } else if (!chosen.baseline.empty()) {
       std::ifstream file(chosen.baseline);
       if (!file) throw std::runtime_error(chosen.baseline.string() + ": cannot be read");
-      found = judge(cost::read_baseline(file), all);
+      for (auto& grown : judge(cost::read_baseline(file), all)) found.push_back(std::move(grown));
     }
   }
   if (!chosen.quick) show_times(out);

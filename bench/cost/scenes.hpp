@@ -221,7 +221,7 @@ template <class State, class Position, class Scalar>
 /// A new target for either side; a rigid scene has no use for it.
 template <class State>
 bool retarget_any(State& state, const surface& s) {
-  if constexpr (requires { state.retarget(state.target()); }) {
+  if constexpr (requires { state.retarget(state.target()), state.target().c; }) {
     using S = typename State::scalar;
     return state.retarget({.a = vector<S>(s.a),
                            .b = vector<S>(s.b),

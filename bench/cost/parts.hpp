@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What each part of a scene costs, and what one that the scene has no use for does not: the same wall
+// with one part more each time, in one dimension (float) and in three (double), through the same
+// workload. Everything else about these scenes is as in scenes.hpp.
+
+#include "scenes.hpp"
+
+namespace cost {
+
+/// A wall of Dof dimensions for good, or (Moves) one that the environment could move and does not.
+template <class Scalar, int Dof, bool Moves = false>
+struct part_base {
+  using scalar = Scalar;
+  using space = ph::space<Scalar, Dof>;
+
+  [[nodiscard]] static auto supply(const settings& s) {
+    const auto wall = [&s] {
+      const Scalar K = in<Scalar>(s.stiffness);
+      if constexpr (Dof == 1) {
+        return ph::half_space<space>{Scalar(0), Scalar(1), K};
+      } else {
+        return ph::half_space<space>{vector<Scalar>({}), vector<Scalar>({0, 0, 1}), K};
+      }
+    }();
+    if constexpr (Moves) {
+      return ph::following{wall};
+    } else {
+      return ph::rigid{wall};
+    }
+  }
+  template <class Normals, class Observer, class Bound>
+  [[nodiscard]] static auto model(const settings& s, const Normals& normals, const Observer& o,
+                                  const Bound& bound) {
+    return ph::local_model{space{}, supply(s), normals,         ph::spring<space>{},
+                           o,       bound,     limits<space>(s)};
+  }
+};
+
+template <class Scalar, int Dof>
+struct part_bare : part_base<Scalar, Dof> {
+  using space = ph::space<Scalar, Dof>;
+  static constexpr const char* name = "rigid, snap, spring, no_observer, no_bound";
+  [[nodiscard]] static auto composed(const settings& s) {
+    return part_bare::model(s, ph::snap<space>{}, ph::no_observer<space>{}, ph::no_bound<space>{});
+  }
+};
+
+template <class Scalar, int Dof>
+struct part_turning : part_base<Scalar, Dof> {
+  using space = ph::space<Scalar, Dof>;
+  static constexpr const char* name = "... rotate_limited for snap: nothing turns here";
+  [[nodiscard]] static auto composed(const settings& s) {
+    return part_turning::model(s, ph::rotate_limited<space>{.rate = in<Scalar>(s.rate)},
+                               ph::no_observer<space>{}, ph::no_bound<space>{});
+  }
+};
+
+template <class Scalar, int Dof>
+struct part_counting : part_base<Scalar, Dof> {
+  using space = ph::space<Scalar, Dof>;
+  static constexpr const char* name = "... + reduced_energy";
+  [[nodiscard]] static auto composed(const settings& s) {
+    return part_counting::model(s, ph::snap<space>{}, observer<space>(s), ph::no_bound<space>{});
+  }
+};
+
+template <class Scalar, int Dof>
+struct part_strict : part_base<Scalar, Dof> {
+  using space = ph::space<Scalar, Dof>;
+  static constexpr const char* name = "... + reduced_energy, strict_bound";
+  [[nodiscard]] static auto composed(const settings& s) {
+    return part_strict::model(s, ph::snap<space>{}, observer<space>(s), ph::strict_bound<space>{});
+  }
+};
+
+template <class Scalar, int Dof>
+struct part_limited : part_base<Scalar, Dof> {
+  using space = ph::space<Scalar, Dof>;
+  static constexpr const char* name = "... + reduced_energy, strict_bound, actuator_limit";
+  [[nodiscard]] static auto composed(const settings& s) {
+    return part_limited::model(
+        s, ph::snap<space>{}, observer<space>(s),
+        ph::bound_chain{ph::strict_bound<space>{},
+                        ph::actuator_limit<space>{.most = in<Scalar>(s.force_limit)}});
+  }
+};
+
+template <class Scalar, int Dof>
+struct part_following : part_base<Scalar, Dof, true> {
+  using space = ph::space<Scalar, Dof>;
+  static constexpr const char* name = "... + reduced_energy, strict_bound, following for rigid";
+  [[nodiscard]] static auto composed(const settings& s) {
+    return part_following::model(s, ph::snap<space>{}, observer<space>(s),
+                                 ph::strict_bound<space>{});
+  }
+};
+
+}  // namespace cost
