@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that the figures of a page are those of the baseline: docs.py BASELINE PAGE [--rewrite]."""
+"""Checks that a page has the figures of the baseline: docs.py BASELINE PAGE [--rewrite]."""
 
 import re
 import sys
