@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The board: a timer, an encoder, a motor, a way to say something. On QEMU's mps2-an386 the timer is
-// real, knob and hand are simulated in angle(), and the debugger listens. Replace it with yours.
+// The board: a timer, an encoder, a motor, a way to say something. On QEMU's mps2-an386 the timer
+// is real, knob and hand are simulated in angle(), and the debugger listens. Replace it with yours.
 #include <cstdint>
 #include <limits>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A haptic knob on a bare Cortex-M4F, whole: an end stop that the main loop moves 30 times a second,
-// felt 10 000 times a second in a timer interrupt. Angles in rad, torques in N·m, so the library's
-// newtons per metre are N·m per rad and its kilograms kg·m².
+// A haptic knob on a bare Cortex-M4F, whole: an end stop that the main loop moves 30 times a
+// second, felt 10 000 times a second in a timer interrupt. Angles in rad, torques in N·m, so the
+// library's newtons per metre are N·m per rad and its kilograms kg·m².
 
 #include "board.hpp"
 #include <passive_haptics/firmware.hpp>
@@ -13,7 +13,7 @@ using stop = ph::half_space<scene>;
 constexpr float inertia = 1e-5F, damping = 1e-4F;  // of the knob, lower bounds
 constexpr float period = 1e-4F;                    // s
 
-// A constant expression: no code runs before main(), the checks of the parameters are the compiler's.
+// A constant expression: no code runs before run(), and the compiler checks the parameters.
 constexpr ph::local_model at_rest{
     scene{},
     ph::following<stop>{{.stale_after = 0.1F, .fade = 0.05F}},  // main loop dead: fade out

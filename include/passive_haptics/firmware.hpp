@@ -5,8 +5,8 @@
 //   hardware_space<float, 1>   space<float, 1>, if the FPU computes floats and NaN is still NaN
 //   space<float, 1>            the same without that question: for cores that compute in software
 //
-// Two and three degrees of freedom need vectors: include eigen_space.hpp, too. The flags to use, how
-// to tick from an interrupt, PlatformIO, Arduino, Zephyr and FreeRTOS: docs/firmware.md.
+// Two and three degrees of freedom need vectors: include eigen_space.hpp, too. The flags to use,
+// how to tick from an interrupt, PlatformIO, Arduino, Zephyr and FreeRTOS: docs/firmware.md.
 
 #include <passive_haptics/bounds.hpp>
 #include <passive_haptics/contact.hpp>
@@ -21,8 +21,8 @@
 
 namespace passive_haptics::inline v0 {
 
-/// What the compiler says about the machine it compiles for. 32-bit ARM says it (ACLE: __ARM_FP, bit
-/// 2 single, bit 3 double); every other target is taken to have an FPU for every scalar.
+/// What the compiler says about the machine it compiles for. 32-bit ARM says it (ACLE: __ARM_FP,
+/// bit 2 single, bit 3 double); every other target is taken to have an FPU for every scalar.
 namespace target {
 
 #if defined(__arm__) && !defined(__ARM_FP)

@@ -87,10 +87,11 @@ def main():
     licence = (repository / "LICENSE").read_text(encoding="utf-8").strip()
     head = ["// SPDX-License-Identifier: BSD-3-Clause",
             f"// passive_haptics {version(include)}, commit {commit(repository)}",
-            "// The core in one file, made by tests/single_header/amalgamate.py: change the headers it",
-            "// comes from, not this.", "//"]
+            "// The core in one file, made by tests/single_header/amalgamate.py: change the headers",
+            "// that it comes from, not this.", "//"]
     head += [("// " + line).rstrip() for line in licence.splitlines()]
-    head += ["#pragma once", "", "#if __has_include(<Eigen/Core>)", "#include <Eigen/Core>", "#endif", ""]
+    head += ["#pragma once", "", "#if __has_include(<Eigen/Core>)", "#include <Eigen/Core>",
+             "#endif", ""]
     head += [f"#include <{name}>" for name in sorted(standard)]
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text("\n".join(head) + "\n\n" + "\n".join(parts), encoding="utf-8")

@@ -75,8 +75,8 @@ def main():
         print(f"{count} ticks: forces, depths, energies and events agree bit for bit")
         return
     bound = float(sys.argv[3])
-    print(f"{count} ticks: events agree, numbers within {worst:.3g} of the largest (bound {bound:g}), "
-          f"`limited` differs in {decided}")
+    print(f"{count} ticks: events agree, numbers within {worst:.3g} of the largest "
+          f"(bound {bound:g}), `limited` differs in {decided}")
     if worst > bound or decided * 1000 > count:
         sys.exit("that is too far")
 

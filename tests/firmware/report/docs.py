@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that the figures of a page are those of the baseline: docs.py BASELINE PAGE [--rewrite]."""
+"""Checks that a page has the figures of the baseline, and that its code stands in the files that it
+names: docs.py BASELINE PAGE [--rewrite]."""
 
+import pathlib
 import re
 import sys
 
 import baseline
 
 MARK = re.compile(r"<!-- figures: (\S+) (\S+) (\S+) -->\n(?:\|.*\n)*")
+CODE = re.compile(r"<!-- from: (\S+) -->\n```cpp\n(.*?)```", re.S)
 COLUMNS = ["text", "state", "stack", "best", "median", "worst"]
 
 
@@ -30,6 +33,13 @@ def main():
         page = stream.read()
     if not MARK.search(page):
         sys.exit(f"{sys.argv[2]}: no figures")
+    root = pathlib.Path(sys.argv[2]).resolve().parent.parent
+    blocks = CODE.findall(page)
+    if len(blocks) != page.count("```cpp"):
+        sys.exit(f"{sys.argv[2]}: code that says not where it is from")
+    for source, code in blocks:
+        if code not in (root / source).read_text(encoding="utf-8"):
+            sys.exit(f"{sys.argv[2]}: not in {source}:\n{code}")
     wanted = MARK.sub(lambda m: f"<!-- figures: {m[1]} {m[2]} {m[3]} -->\n"
                       + figures(known, m[1], m[2], m[3]), page)
     if "--rewrite" in sys.argv:

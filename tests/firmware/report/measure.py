@@ -80,8 +80,8 @@ def cross_check(folder, counts):
         by_plugin = [call - empty + 1 for call in calls]
         if by_plugin != by_systick:
             wrong = [n for n, pair in enumerate(zip(by_plugin, by_systick)) if pair[0] != pair[1]]
-            sys.exit(f"{folder.name}: {' '.join(key)}: SysTick and plugin disagree in ticks {wrong[:5]}"
-                     f" ({len(by_plugin)} and {len(by_systick)} ticks)")
+            sys.exit(f"{folder.name}: {' '.join(key)}: SysTick and plugin disagree in ticks "
+                     f"{wrong[:5]} ({len(by_plugin)} and {len(by_systick)} ticks)")
     return {key: operations[number] for number, key in enumerate(counts)}
 
 

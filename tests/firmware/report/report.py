@@ -68,8 +68,9 @@ def wanted_table(rows):
 
 def kinds(row):
     """Instructions per tick by what they do."""
-    groups = {"FPU arithmetic": 0, "√ and ÷": 0, "FPU compare, flags": 0, "FPU load, store, move": 0,
-              "integer load, store": 0, "branch, call, condition": 0, "integer": 0}
+    groups = dict.fromkeys(["FPU arithmetic", "√ and ÷", "FPU compare, flags",
+                            "FPU load, store, move", "integer load, store",
+                            "branch, call, condition", "integer"], 0)
     for name, count in row["operations"].items():
         if name.startswith(("vdiv", "vsqrt")):
             group = "√ and ÷"
@@ -112,7 +113,7 @@ def main():
                 "cross_checked": all(image["cross_checked"] for image in images), "rows": rows}
     (out / "firmware.json").write_text(json.dumps(document, indent=1) + "\n")
     ticks = rows[0]["ticks"]
-    checked = "by SysTick and by a plugin, which agree" if document["cross_checked"] else "by SysTick"
+    checked = "by SysTick" + (" and by a plugin, which agree" if document["cross_checked"] else "")
     (out / "firmware.md").write_text(
         "# The tick on Cortex-M\n\n"
         f"{images[0]['compiler']}. Text is the tick and all it calls, constants included; data and "

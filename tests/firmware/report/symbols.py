@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Says what the ticks in object files need from outside: symbols.py CROSS ALLOWED OBJECT...
 
-ALLOWED is a comma-separated list. Fails when one needs something else, or when none needs any of it:
-then the list tests nothing."""
+ALLOWED is a comma-separated list. Fails when one needs something else, and when nothing needs all
+of it: then the list tests nothing."""
 
 import subprocess
 import sys
@@ -13,8 +13,9 @@ def main():
         sys.exit(__doc__)
     cross, allowed, used = sys.argv[1], set(sys.argv[2].split(",")), set()
     for path in sys.argv[3:]:
-        listed = subprocess.run([cross + "nm", "-u", path], check=True, capture_output=True, text=True)
-        undefined = {line.split()[-1] for line in listed.stdout.splitlines()}
+        listed = subprocess.run([cross + "nm", "-u", path], check=True, capture_output=True,
+                                text=True).stdout
+        undefined = {line.split()[-1] for line in listed.splitlines()}
         print(f"{path}: {' '.join(sorted(undefined)) or 'nothing'}")
         if undefined - allowed:
             sys.exit(f"needs {' '.join(sorted(undefined - allowed))} from outside")
