@@ -11,3 +11,5 @@
 
 #include <passive_haptics/falcon/device.hpp>
 #include <passive_haptics/falcon/libusb_transport.hpp>
+#include <passive_haptics/falcon/recording_file.hpp>
+#include <passive_haptics/falcon/runner.hpp>

@@ -43,6 +43,8 @@ enum class code : std::uint8_t {
   too_many_misses,   ///< `value` replies in a row did not come
   bad_setting,       ///< a setting is out of its range: check() names it
   log_unreadable,    ///< line `value` of a recording is not one
+  log_unwritable,    ///< the file of a recording cannot be written
+  no_thread,         ///< the system gave none
   log_full,          ///< the recorder's memory is full, the rest was not recorded
 };
 
@@ -107,6 +109,10 @@ enum class code : std::uint8_t {
       return "a setting is out of its range";
     case code::log_unreadable:
       return "the recording cannot be read";
+    case code::log_unwritable:
+      return "the recording cannot be written";
+    case code::no_thread:
+      return "the system gave no thread";
     case code::log_full:
       return "the recording is full";
   }
@@ -161,6 +167,8 @@ enum class code : std::uint8_t {
     case code::pose_refused:
     case code::cancelled:
     case code::log_unreadable:
+    case code::log_unwritable:
+    case code::no_thread:
       return "";
   }
   return "";
