@@ -472,6 +472,15 @@ TEST_CASE("closing and destroying leave the motors at zero", "[falcon][device]")
     CHECK(b.far.last.motor == nothing);
     CHECK_FALSE(b.exchange().valid);
   }
+  SECTION("close says when the cable is out") {
+    bench b;
+    b.warm_up();
+    b.far.plugged = false;
+    (void)b.exchange();
+    CHECK(b.device.close().what == code::unplugged);
+    CHECK(b.device.where() == state::closed);
+    CHECK(b.device.close());  // there is nothing left to close
+  }
   SECTION("close says when nobody confirms it") {
     bench b;
     b.warm_up();

@@ -134,10 +134,10 @@ requires(Space::dof == 3) class device {
   /// Any state → closed, motors at zero. Not ok: nothing confirms that the zero arrived.
   result close() noexcept {
     result done{};
-    if (line_.is_open()) {
-      if (talks()) done = silence_motors();
-      line_.close();
+    if (now_.where >= state::unhomed) {
+      done = talks() ? silence_motors() : result{code::unplugged};
     }
+    line_.close();
     start();
     enter(state::closed, code::not_open);
     return done;
