@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is a ledger that counts steps of x, y, z right about encoders that step in three angles? The grip
-// is moved by somebody no motor can stop, who looks for the ledger's errors; motors hold whole words.
-// True energy: E = Σ b‖Δp‖²/T − τ·Δθ.
+// is moved by somebody no motor can stop, who looks for the ledger's errors; the motors hold whole
+// words. True energy: E = Σ b‖Δp‖²/T − τ·Δθ.
 #include "support/catch.hpp"
 #include "support/falcon_loop.hpp"
 #include <passive_haptics/simulation/schedule.hpp>
