@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A wall for the Falcon, 800 N/m at z = 0.12 m, for ten seconds: push the grip in until you feel it.
+//     13_falcon_touch [firmware.bin]
+//     13_falcon_touch --simulate         a simulated Falcon, and a hand that pushes with 2.9 N
+//
+// A packet device holds a command one tick late: late_reachable_bound, or strict_bound<scene, 1>.
+// reduced_energy takes the encoders' steps for exact positions. quantised_energy does not, and keeps
+// its promise on them; a hand slower than about 50 mm/s then sinks into this wall.
+
+#include "falcon_ready.hpp"
+#include <passive_haptics/passive_haptics.hpp>
+
+template <class Device>
+int touch(Device& grip) {
+  // What nobody has published of a Falcon: identify your own, and state less damping than it has.
+  constexpr double mass = 0.1;          // kg
+  constexpr double damping = 0.2;       // N·s/m
+  constexpr double quantum = 1.03e-4;   // m, a count of every leg
+  constexpr double strongest_hand = 5;  // N
+  ph::local_model wall{scene{},
+                       ph::rigid{ph::half_space<scene>{{0, 0, 0.12}, {0, 0, 1}, 800.0}},
+                       ph::snap<scene>{},
+                       ph::damped_spring<scene>{.mass = mass, .force_limit = 8.0},
+                       ph::reduced_energy<scene>{.damping = damping},
+                       ph::late_reachable_bound<scene>{.mass = mass, .hand_force = strongest_hand},
+                       ph::loop_limits<scene>{.longest_tick = 2e-3},
+                       ph::mass_observer<scene>{.mass = mass, .quantum = quantum}};
+
+  scene::vector force = scene::zero();
+  double least_energy = 0;
+  for (int n = 1; n <= 10'000 && grip.where() != falcon::state::fault; ++n) {
+    const auto out = wall.tick(grip.exchange(force));
+    force = out.force;
+    least_energy = std::min(least_energy, out.energy);
+    if (n % 2000 == 0) {
+      std::printf("%2d s: %.1f mm deep, %.1f N, %s\n", n / 1000, out.depth * 1e3, force(2),
+                  ph::to_string(out.what));
+    }
+  }
+  std::printf("the ledger was never below %.0f J\n", least_energy);
+  return 0;
+}
+
+int main(int argc, char** argv) {
+  falcon::mock_parameters simulated{.runs = true, .homed = true};
+  simulated.body.damping = 0.4;
+  const ph::simulation::impedance_hand<scene> hand{// comes slowly, then pushes on
+                                                   .stiffness = 300,
+                                                   .limit = 2.9,
+                                                   .target = {0, 0, 0.16},
+                                                   .target_velocity = {0, 0, -0.05}};
+  return with_falcon(argc, argv, falcon::cautious_gain<double>, simulated, hand,
+                     [](auto& grip) { return touch(grip); });
+}

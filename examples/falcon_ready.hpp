@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What the Falcon's examples have in common: the real device, or with --simulate one that is not
+// there; a program loaded, homed, and then the example's own work.
+
+#include <passive_haptics/falcon/mock.hpp>
+#include <passive_haptics/falcon_hid.hpp>
+
+#include <cstdio>
+#include <string_view>
+
+namespace ph = passive_haptics;
+namespace falcon = passive_haptics::falcon;
+using scene = ph::space<double, 3>;
+
+inline int complain(const falcon::result& fault) {
+  std::array<char, 160> text{};
+  std::puts(falcon::describe(fault, text));
+  return 1;
+}
+
+/// closed → homed, forces at full strength. The image is used only if the device holds no program.
+template <class Device>
+falcon::result make_ready(Device& grip, const char* image_path) {
+  static falcon::firmware image;
+  if (image_path != nullptr) {
+    if (const auto done = image.load(image_path); !done) return done;
+  }
+  if (const auto done = grip.open(); !done) return done;
+  const auto report = grip.boot(image.bytes());
+  if (!report.how) return report.how;
+  std::puts(report.attempts > 0 ? "program loaded" : "a program is running");
+  std::puts("pull the grip fully out, then push it fully in");
+  if (const auto done = grip.home(std::chrono::minutes(1)); !done) return done;
+  while (grip.where() == falcon::state::homed && grip.latest().strength < 1) {
+    (void)grip.exchange(scene::zero());
+  }
+  return {};
+}
+
+/// `use` gets the homed device and returns what main() returns.
+///     program [firmware.bin]        program --simulate
+template <class Hand, class Use>
+int with_falcon(int argc, char** argv, double gain, const falcon::mock_parameters& simulated,
+                const Hand& hand, const Use& use) {
+  const auto run = [&use](auto& grip, const char* image_path) {
+    if (const auto done = make_ready(grip, image_path); !done) return complain(done);
+    const int code = use(grip);
+    const auto closed = grip.close();
+    return closed ? code : complain(closed);
+  };
+  const char* argument = argc > 1 ? argv[1] : nullptr;
+  if (argument != nullptr && std::string_view(argument) == "--simulate") {
+    falcon::device<falcon::in_memory_transport<falcon::mock<Hand>>> grip{gain, {}, simulated, hand};
+    return run(grip, nullptr);
+  }
+#if __has_include(<libusb-1.0/libusb.h>)
+  falcon::device<falcon::libusb_transport> grip{gain};
+  return run(grip, argument);
+#else
+  return std::puts("built without libusb: try --simulate"), 1;
+#endif
+}
