@@ -34,17 +34,24 @@ constexpr bool bounds_obey(int ticks) {
   const ph::actuator_limit<S> motors{.most = scalar(5)};
   const ph::force_rate_limit<S> rate{.rate = scalar(100)};
   using strict = ph::strict_bound<S>;
+  using tank = ph::energy_tank<S>;
+  using foreseen = ph::energy_tank<S, ph::tank_outflow::predicted>;
+  using gate = ph::set_position_modulation<S>;
   return reduces(ph::no_bound<S>{}) && reduces(strict{}) && reduces(ph::thesis_bound<S>{}) &&
          reduces(reachable) && reduces(motors) && reduces(ph::bound_chain{strict{}, motors}) &&
+         reduces(tank{}) && reduces(foreseen{}) && reduces(gate{}) &&
          laws::spends_at_most_the_ledger<S>(strict{}, ticks) &&
          laws::spends_at_most_the_ledger<S>(ph::strict_bound<S, 2>{}, ticks) &&
          laws::spends_at_most_the_ledger<S>(ph::bound_chain{rate, strict{}, motors}, ticks) &&
          laws::spends_at_most_the_ledger<S>(ph::bound_chain{ph::thesis_bound<S>{}, strict{}},
                                             ticks) &&
+         laws::spends_at_most_the_ledger<S>(tank{}, ticks) &&
+         laws::spends_at_most_the_ledger<S>(ph::bound_chain{gate{}, strict{}}, ticks) &&
          // the controls: what is not tagged strict does spend more
          !laws::spends_at_most_the_ledger<S>(ph::no_bound<S>{}, ticks) &&
          !laws::spends_at_most_the_ledger<S>(ph::thesis_bound<S>{}, ticks) &&
          !laws::spends_at_most_the_ledger<S>(reachable, ticks) &&
+         !laws::spends_at_most_the_ledger<S>(foreseen{}, ticks) &&
          !laws::spends_at_most_the_ledger<S>(ph::bound_chain{strict{}, rate}, ticks);
 }
 
@@ -58,7 +65,9 @@ constexpr bool normals_obey() {
 template <class S>
 constexpr bool contacts_obey() {
   return laws::presses_outwards<S>(ph::spring<S>{}) &&
-         laws::presses_outwards<S>(ph::damped_spring<S>{.mass = typename S::scalar(0.1)});
+         laws::presses_outwards<S>(ph::damped_spring<S>{.mass = typename S::scalar(0.1)}) &&
+         laws::presses_outwards<S>(ph::virtual_coupling<S>{.stiffness = typename S::scalar(2000),
+                                                           .damping = typename S::scalar(0.02)});
 }
 
 static_assert(observers_obey<d1>() && observers_obey<f1>());

@@ -62,8 +62,8 @@ sim::device_parameters<d1> parameters(const settling_device& d, const settling_c
           .start = -0.061};
 }
 
-/// One more press after the fall, 2 mm deep and twenty times the dry friction at least: the slope of the force held over the true depth, both
-/// means of a second.
+/// One more press after the fall, 2 mm deep and twenty times the dry friction at least: the slope
+/// of the force held over the true depth, both means of a second.
 double stiffness_error(const settling_way& way, const settling_device& d, const settling_case& c) {
   const double more = std::max(displayed(c) * 2e-3, 20.0 * d.friction);
   model<d1> wall = composed(way, d, c, 9.81 * c.mass + d.friction + more);

@@ -21,7 +21,8 @@
 //     energy_tank, two_layer_tank                             strict by the worst outflow, not by the
 //                                                             predicted one
 //   bounds/set_position.hpp
-//     set_position_modulation  the jump of the surface        PSPM: for what moves, on soft walls
+//     set_position_modulation  the jump of the surface        PSPM: for what moves; passive for
+//                                                             K ≤ 2b/T, conditional
 //   bounds/passivity_controller.hpp
 //     series_passivity_controller, parallel_…                 PO/PC: transparent; NOT passive
 //   bounds/augmentation.hpp

@@ -35,13 +35,13 @@ struct tick_state {
   vector held;             ///< force over the last tick
   vector displacement;     ///< Δx over the last tick
   scalar displacement_error = scalar(0);  ///< the true Δx is no farther from it than this [m]
-  bool motion_known;    ///< false: the last sample was lost, Δx is unknown and given as zero
-  vector normal;        ///< outward, of the local model, along which the force will act
-  scalar stiffness;     ///< K of the target [N/m]
-  scalar depth;         ///< in the local model, ≤ 0 outside
-  scalar target_depth;  ///< in the environment's newest constraint, ≤ 0 outside
-  scalar local_force;   ///< what the contact law gives at `depth`, along `normal`
-  bool target_changed;  ///< a new constraint arrived since the last tick
+  bool motion_known = false;  ///< false: the last sample was lost, Δx is unknown and given as zero
+  vector normal;              ///< outward, of the local model, along which the force will act
+  scalar stiffness;           ///< K of the target [N/m]
+  scalar depth;               ///< in the local model, ≤ 0 outside
+  scalar target_depth;        ///< in the environment's newest constraint, ≤ 0 outside
+  scalar local_force;         ///< what the contact law gives at `depth`, along `normal`
+  bool target_changed = false;  ///< a new constraint arrived since the last tick
 
   /// The credit a new force may spend: E1 less what is already on its way.
   [[nodiscard]] constexpr scalar credit() const noexcept { return energy - in_flight; }

@@ -26,7 +26,8 @@ namespace passive_haptics::inline v0 {
 /// promised already: ¼ fᵀB⁻¹f ≤ E1 − ¼ Σ_{j=1..k} f(n−j)ᵀB⁻¹f(n−j). (§ 3)
 ///
 /// Assumes: b is a lower bound, every tick ≤ limits::longest_tick, positions exact (or the ledger a
-/// quantised_energy), the held force known. The price (lemma L4): pressed slowly from an empty ledger it shows at most 2b/T N/m.
+/// quantised_energy), the held force known. The price (lemma L4): pressed slowly from an empty
+/// ledger it shows at most 2b/T N/m.
 template <class Space, int Latency = 0>
 struct strict_bound {
   static_assert(Latency >= 0,

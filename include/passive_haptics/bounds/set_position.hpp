@@ -36,8 +36,8 @@ enum class hold_leak : std::uint8_t {
 ///
 /// Assumes, where the leak is paid: every K the environment sends is ≤ 2b/T; b is a lower bound;
 /// every tick ≤ longest_tick; positions exact; no latency; the contact law asks at most K d; the
-/// force held is known and at most the one asked for. Stiffer, or with the leak ignored, it promises nothing: with
-/// a static wall it is the same as no bound at all. E at the start is a loan.
+/// force held is known and at most the one asked for. Stiffer, or with the leak ignored, it promises
+/// nothing: with a static wall it is the same as no bound at all. E at the start is a loan.
 template <class Space, hold_leak Leak = hold_leak::paid>
 struct set_position_modulation {
   using scalar = typename Space::scalar;
