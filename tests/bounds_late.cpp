@@ -82,10 +82,8 @@ TEST_CASE("reachable_outflow is the most that a force can hand over within its r
   }
 }
 
-TEMPLATE_TEST_CASE(
-    "late_reachable_bound survives force-limited hands a tick late, reachable_bound "
-    "does not",
-    "[bound][law]", d1, d2, d3) {
+TEMPLATE_TEST_CASE("late_reachable_bound survives hands a tick late, reachable_bound does not",
+                   "[bound][law]", d1, d2, d3) {
   for (const by adversary : {by::tapping, by::random_tapping}) {
     CAPTURE(to_string(adversary));
     const auto v = sim::challenge(model_of<TestType>(told<TestType>()), adversary, late, 200);

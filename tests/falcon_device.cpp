@@ -472,6 +472,15 @@ TEST_CASE("closing and destroying leave the motors at zero", "[falcon][device]")
     CHECK(b.far.last.motor == nothing);
     CHECK_FALSE(b.exchange().valid);
   }
+  SECTION("close says when the cable is out") {
+    bench b;
+    b.warm_up();
+    b.far.plugged = false;
+    (void)b.exchange();
+    CHECK(b.device.close().what == code::unplugged);
+    CHECK(b.device.where() == state::closed);
+    CHECK(b.device.close());  // there is nothing left to close
+  }
   SECTION("close says when nobody confirms it") {
     bench b;
     b.warm_up();
@@ -523,6 +532,50 @@ TEST_CASE("bad settings name themselves and open nothing", "[falcon][device]") {
   refused(k, {.reply = falcon::nanoseconds(0)}, "reply");
   refused(k, {.origin = {{0, std::nan(""), 0}}}, "origin");
   CHECK_FALSE(grip{k}.check());
+}
+
+TEST_CASE("homing can be watched and cancelled, lamps can be your own", "[falcon][device]") {
+  bench b(0);
+  int seen = 0;
+  CHECK(b.device
+            .home(std::chrono::seconds(1),
+                  [&seen](const auto& now) {
+                    CHECK(now.what == code::not_homed);
+                    return ++seen < 5;
+                  })
+            .what == code::cancelled);
+  CHECK(seen == 5);
+  b.device.light(falcon::lamps::blue | falcon::lamps::red);
+  (void)b.exchange();
+  CHECK(b.far.last.light == (falcon::lamps::blue | falcon::lamps::red));
+  b.device.light(std::nullopt);
+  (void)b.exchange();
+  CHECK(b.far.last.light == falcon::lamps::red);
+}
+
+TEST_CASE("in single precision the Falcon commands the same, within a count", "[falcon][device]") {
+  bench b;
+  single_grip single{falcon::cautious_gain<float>};
+  auto& far = single.line().far();
+  far.now = scripted_falcon::mode::running;
+  far.homed = 7;
+  REQUIRE(single.open());
+  REQUIRE(single.boot({}).how);
+  double apart = 0.0;
+  for (int n = 0; n < 1500; ++n) {
+    far.encoder =
+        b.far.encoder = {static_cast<std::int16_t>(n / 5), 30, static_cast<std::int16_t>(-n / 9)};
+    const auto fine = b.exchange();
+    const auto coarse = single.exchange(push.cast<float>());
+    REQUIRE(fine.valid == coarse.valid);
+    for (std::size_t i = 0; i < 3; ++i) {
+      apart = std::max(apart, std::abs(fine.position[i] - double(coarse.position[i])));
+      if (std::abs(far.last.motor[i] - b.far.last.motor[i]) > 1) FAIL(n);
+    }
+  }
+  CHECK(far.last.motor != nothing);
+  CHECK(apart < 1e-6);  // m
+  CHECK(apart > 0.0);
 }
 
 TEST_CASE("a local model takes the Falcon as it is", "[falcon][device]") {

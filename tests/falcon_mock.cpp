@@ -245,7 +245,7 @@ TEST_CASE("the mock repeats itself to the last bit", "[falcon][mock]") {
     for (int n = 0; n < 300; ++n) (void)device.exchange(d3::vector(0.5, 0.1, n % 5));
     return std::pair(d3::vector(body_of(device).position()), body_of(device).meter().value());
   };
-  CHECK(run() == run());
+  CHECK((run() == run()));
 }
 
 TEST_CASE("the tick for microcontrollers commands what the driver does", "[falcon][mock]") {

@@ -12,7 +12,7 @@ namespace passive_haptics::inline v0 {
 ///     δ₁ = outward_reach                 of the tick that begins now (L6)
 ///     δ₂ = δ₁ + T²(a_now + a_next)/2     of the one after it, a = (force + F_other)/m
 ///
-/// Proof: by L3 with a reach, E1(n+1) ≥ E1(n) − W(h, δ₁), and E1(n+2) ≥ E1(n+1) − W(f, δ₂) ≥ 0. Seen
+/// Proof: by L3 with a reach, E1(n+1) ≥ E1(n) − W(h, δ₁) and E1(n+2) ≥ E1(n+1) − W(f, δ₂) ≥ 0. Seen
 /// from n+1 the reach of f is at most δ₂, so what was promised at n still holds.
 /// Source: § 3 (latency) put together with § 9; the form and the proof are ours.
 ///

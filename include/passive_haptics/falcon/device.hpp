@@ -14,7 +14,7 @@
 #include <passive_haptics/concepts.hpp>
 #include <passive_haptics/eigen_space.hpp>
 #include <passive_haptics/falcon/boot.hpp>
-#include <passive_haptics/falcon/settings.hpp>
+#include <passive_haptics/falcon/reply_guard.hpp>
 
 #include <optional>
 #include <utility>
@@ -134,10 +134,10 @@ requires(Space::dof == 3) class device {
   /// Any state → closed, motors at zero. Not ok: nothing confirms that the zero arrived.
   result close() noexcept {
     result done{};
-    if (line_.is_open()) {
-      if (talks()) done = silence_motors();
-      line_.close();
+    if (now_.where >= state::unhomed) {
+      done = talks() ? silence_motors() : result{code::unplugged};
     }
+    line_.close();
     start();
     enter(state::closed, code::not_open);
     return done;
@@ -178,8 +178,7 @@ requires(Space::dof == 3) class device {
     link_.reset();
     now_ = reading_type{.where = now_.where, .asked = line_.now(), .stamp = line_.now()};
     pose_ = {};
-    settled_ = 0;
-    heard_.reset();
+    guard_ = {};
   }
 
   [[nodiscard]] device_sample<Space> nothing() noexcept {
@@ -219,35 +218,20 @@ requires(Space::dof == 3) class device {
     return how.what;
   }
 
-  /// May this reply be believed?
+  /// May this reply be believed, and where is the grip then?
   [[nodiscard]] code look(const from_device& reply) noexcept {
-    const bool jumped = heard_ && jump(reply.encoder, seconds(now_.stamp - *heard_));
     now_.received = reply;
-    heard_ = now_.stamp;
-    if (jumped) return distrust(code::encoder_jump);
-    if (!reply.is_homed()) return distrust(code::not_homed);
-    if (settled_ < setup_.settle && ++settled_ < setup_.settle) return code::settling;
-    if (now_.where == state::unhomed) enter(state::homed, code::ok);
-    const auto theta = to_angles<scalar>({reply.encoder[0], reply.encoder[1], reply.encoder[2]});
-    turned_ = theta;
-    next_ = forward(theta, last_);
-    if (!next_) next_ = forward(theta);
-    return next_ ? code::ok : code::pose_refused;
-  }
-
-  [[nodiscard]] bool jump(const leg_words& encoder, scalar since) const noexcept {
-    const scalar ticks = kernels::larger(scalar(1), since / setup_.tick);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const int step = encoder[i] - now_.received.encoder[i];
-      if (scalar(step < 0 ? -step : step) > ticks * scalar(setup_.largest_step)) return true;
+    if (const code doubt = guard_.judge(reply, now_.stamp, setup_); doubt != code::ok) {
+      const bool lost = doubt != code::settling;
+      if (lost && now_.where == state::homed) enter(state::unhomed, doubt);
+      return doubt;
     }
-    return false;
-  }
-
-  [[nodiscard]] code distrust(code why) noexcept {
-    settled_ = 0;
-    if (now_.where == state::homed) enter(state::unhomed, why);
-    return why;
+    if (now_.where == state::unhomed) enter(state::homed, code::ok);
+    const leg_words& n = reply.encoder;
+    turned_ = to_angles<scalar>({n[0], n[1], n[2]});
+    next_ = forward(turned_, last_);
+    if (!next_) next_ = forward(turned_);
+    return next_ ? code::ok : code::pose_refused;
   }
 
   void lose_position() noexcept {
@@ -260,14 +244,18 @@ requires(Space::dof == 3) class device {
     }
   }
 
+  void climb(scalar dt) noexcept {
+    const scalar step = kernels::smaller(dt, setup_.tick) / setup_.ramp;
+    now_.strength = kernels::smaller(scalar(1), now_.strength + step);
+  }
+
   /// The sample of a reply that is believed; `held` are the words of the packet before.
   [[nodiscard]] device_sample<Space> locate(const dac_words& held, scalar dt) noexcept {
     const auto torque = decode(held, gain_);
     now_.held = force_from(next_.rates, torque);
     if (pose_) {
       now_.held = force_over(now_.held, torque, turned_ - angles_, next_.position - last_);
-      const scalar climb = kernels::smaller(dt, setup_.tick) / setup_.ramp;
-      now_.strength = kernels::smaller(scalar(1), now_.strength + climb);
+      if (now_.where == state::homed) climb(dt);
     }
     pose_ = next_;
     last_ = next_.position;
@@ -281,6 +269,7 @@ requires(Space::dof == 3) class device {
 
   Transport line_;
   packet_link<Transport> link_{line_};
+  reply_guard<scalar> guard_{};
   scalar gain_;
   settings_type setup_;
   reading_type now_{};
@@ -289,8 +278,6 @@ requires(Space::dof == 3) class device {
   pose_result<scalar> pose_{};                     ///< of the reply before, if it was usable
   point<scalar> last_ = workspace<scalar>.centre;  ///< the last usable position, origin not off
   angles<scalar> angles_{};                        ///< there
-  int settled_ = 0;                                ///< good replies since homing or a jump
-  std::optional<nanoseconds> heard_;               ///< the last reply
   std::optional<lamps> light_;
 };
 

@@ -56,7 +56,7 @@ struct angles_result {
 
 template <real S>
 struct pose_result {
-  point<S> position{};  ///< [m]; the start, where it is not known
+  point<S> position{};  ///< [m]; where Newton gave up, if there is a fault
   matrix<S> rates{};    ///< A there [1/m]
   S condition{};  ///< ‖A‖ ‖A⁻¹‖, Frobenius: 3 at best, between cond₂(A) and 3 cond₂(A)
   int steps = 0;  ///< that Newton took
@@ -119,6 +119,40 @@ template <real S>
   return {sine_cosine_of(theta[0]), sine_cosine_of(theta[1]), sine_cosine_of(theta[2])};
 }
 
+/// The three legs together.
+template <real S>
+struct legs_state {
+  matrix<S> gradient;
+  triple<S, struct gap_kind> gap, swing;
+  bool reachable = true;
+
+  /// Is every leg bent the way a Falcon's is?
+  [[nodiscard]] constexpr bool bent_rightly() const noexcept {
+    return reachable && swing[0] > S(0) && swing[1] > S(0) && swing[2] > S(0);
+  }
+  [[nodiscard]] constexpr matrix<S> rates() const noexcept {
+    matrix<S> A = gradient;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (S& entry : A.row[i]) entry = entry / swing[i];
+    }
+    return A;
+  }
+};
+
+template <real S>
+[[nodiscard]] constexpr legs_state<S> legs_at(const point<S>& p,
+                                              const std::array<sine_cosine<S>, 3>& thigh) noexcept {
+  legs_state<S> legs;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto leg = leg_at(p, thigh[i], i);
+    legs.gradient.row[i] = leg.gradient;
+    legs.gap[i] = leg.gap;
+    legs.swing[i] = leg.swing;
+    legs.reachable = legs.reachable && leg.reachable;
+  }
+  return legs;
+}
+
 }  // namespace detail
 
 /// θ1 = atan2(z, U) − acos(K/(2a√(U² + z²))),   K = U² + z² + a² − L²      for each leg
@@ -148,13 +182,7 @@ template <real S>
 ///           / (a sinθ3 sin(θ2 − θ1))
 template <real S>
 [[nodiscard]] constexpr matrix<S> rates(const point<S>& p, const angles<S>& theta) noexcept {
-  const auto thigh = detail::thighs(theta);
-  matrix<S> A;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto leg = detail::leg_at(p, thigh[i], i);
-    for (std::size_t j = 0; j < 3; ++j) A.row[i][j] = leg.gradient[j] / leg.swing;
-  }
-  return A;
+  return detail::legs_at(p, detail::thighs(theta)).rates();
 }
 
 /// J = A⁻¹ [m]: v = J θ̇.
@@ -177,50 +205,31 @@ template <real S>
   pose_result<S> pose{.position = is_finite(start) ? start : workspace<S>.centre};
   if (!is_finite(theta)) return pose;
   const auto thigh = detail::thighs(theta);
+  const auto& middle = workspace<S>.centre;
   point<S>& p = pose.position;
-  bool settled = false;
-  while (true) {
-    matrix<S> G;
-    triple<S, struct gap_kind> gap, swing;
-    bool reachable = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto leg = detail::leg_at(p, thigh[i], i);
-      G.row[i] = leg.gradient;
-      gap[i] = leg.gap;
-      swing[i] = leg.swing;
-      reachable = reachable && leg.reachable;
-    }
-    if (settled) {
-      if (!reachable || !(swing[0] > S(0) && swing[1] > S(0) && swing[2] > S(0))) {
-        pose.fault = pose_fault::out_of_reach;
-        return pose;
-      }
-      for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) pose.rates.row[i][j] = G(i, j) / swing[i];
-      }
-      pose.condition = frobenius_norm(pose.rates) * frobenius_norm(inverse(pose.rates));
-      const bool sound = pose.condition <= largest_condition<S>;
-      pose.fault = sound ? pose_fault::none : pose_fault::near_singular;
-      return pose;
-    }
-    if (++pose.steps > most_steps) {
-      pose.fault = pose_fault::no_convergence;
-      return pose;
-    }
-    if (!reachable) {
-      const auto& middle = workspace<S>.centre;
+  const auto refuse = [&pose](pose_fault why) {
+    pose.fault = why;
+    return pose;
+  };
+  auto legs = detail::legs_at(p, thigh);
+  for (bool settled = false; !settled; legs = detail::legs_at(p, thigh)) {
+    if (++pose.steps > most_steps) return refuse(pose_fault::no_convergence);
+    if (!legs.reachable) {
       p = pose.steps == 1 ? middle : p + S(0.5) * (middle - p);
       continue;
     }
-    const auto step = multiply<point<S>>(inverse(G), gap);
+    const auto step = multiply<point<S>>(inverse(legs.gradient), legs.gap);
     const S length = norm(step);
-    if (!kernels::is_finite(length)) {
-      pose.fault = pose_fault::near_singular;
-      return pose;
-    }
+    if (!kernels::is_finite(length)) return refuse(pose_fault::near_singular);
     p = p - (length > longest_step ? longest_step / length : S(1)) * step;
     settled = length <= last_step;
   }
+  if (!legs.bent_rightly()) return refuse(pose_fault::out_of_reach);
+  pose.rates = legs.rates();
+  pose.condition = frobenius_norm(pose.rates) * frobenius_norm(inverse(pose.rates));
+  if (!(pose.condition <= largest_condition<S>)) return refuse(pose_fault::near_singular);
+  pose.fault = pose_fault::none;
+  return pose;
 }
 
 }  // namespace passive_haptics::inline v0::falcon

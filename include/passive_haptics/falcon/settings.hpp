@@ -45,7 +45,9 @@ struct settings {
   int largest_step = 300;  ///< counts per tick; more (about 10 m/s) is a fault of an encoder
   int settle = 50;         ///< good replies between homing, or a jump, and the first force
   int most_misses = 20;    ///< in a row, then it is a fault
-  nanoseconds reply = std::chrono::milliseconds(5);  ///< to wait for an answer
+  /// To wait for an answer, while the last words are held: loop_limits::longest_tick covers it, or
+  /// an answer that is lost may cost energy.
+  nanoseconds reply = std::chrono::milliseconds(5);
   point<S> origin{};  ///< taken off positions [m], in the frame of falcon/geometry.hpp
 
   [[nodiscard]] constexpr parameter_fault<S> check() const noexcept {
