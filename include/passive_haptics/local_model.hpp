@@ -145,7 +145,7 @@ class local_model {
       book(displacement, held, dt);
     } else {
       displacement = Space::zero();
-      write_off(held);
+      observer_.forfeit(held, limits_.longest_tick);
       seen_ = true;
       blind_ = scalar(0);
     }
@@ -260,11 +260,6 @@ class local_model {
     dropped.forfeit(held, limits_.longest_tick);
     observer_.update(displacement, held, dt);
     if (dropped.value() < observer_.value()) observer_ = dropped;
-  }
-
-  /// A tick whose motion nobody saw.
-  [[gnu::cold, gnu::noinline]] constexpr void write_off(vector held) noexcept {
-    observer_.forfeit(held, limits_.longest_tick);
   }
 
   /// A finite sample, no farther from the last good one than the device can have gone since.
