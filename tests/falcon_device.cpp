@@ -311,6 +311,11 @@ TEST_CASE("every fault of the cable ends with zero force, and recovers where it 
     CHECK(b.device.where() == state::fault);
     CHECK(b.device.latest().what == code::too_many_misses);
     CHECK(far.last.motor == nothing);
+    CHECK(b.device.recover());
+    (void)b.exchange();  // the old misses are forgiven: one more is no fault
+    CHECK(b.device.where() == state::unhomed);
+    for (int n = 0; n < 20; ++n) (void)b.exchange();
+    CHECK(b.device.where() == state::fault);
     far.on_reply = nullptr;
     for (int n = 0; n < 100; ++n) (void)b.exchange();
     CHECK(b.device.where() == state::fault);  // it does not come back by itself
@@ -429,6 +434,51 @@ TEST_CASE("a late answer is never taken for the next one", "[falcon][device]") {
   }
   CHECK(b.device.latest().counts.misses == 1);
   CHECK(b.device.latest().counts.stale >= 1);
+}
+
+TEST_CASE("the second half of a late answer is noise, not an answer", "[falcon][device]") {
+  bench b;
+  b.warm_up();
+  std::vector<falcon::byte> rest;
+  int n = 0;
+  b.far.on_reply = [&](scripted_falcon&, std::vector<falcon::byte>& bytes) {
+    ++n;
+    if (n == 50) {
+      rest.assign(bytes.begin() + 8, bytes.end());
+      bytes.resize(8);
+    } else if (n == 51) {  // answers the zero packet
+      bytes.clear();
+    } else if (n == 52) {
+      bytes.insert(bytes.begin(), rest.begin(), rest.end());
+    }
+  };
+  int invalid = 0;
+  for (int i = 0; i < 100; ++i) invalid += b.exchange().valid ? 0 : 1;
+  CHECK(invalid == 1);
+  CHECK(b.device.latest().counts.stale == 0);
+}
+
+TEST_CASE("what comes unasked is thrown away, before a question and after a miss",
+          "[falcon][device]") {
+  bench b;
+  b.warm_up();
+  const auto bytes = falcon::encode(falcon::from_device{.encoder = {77, 77, 77}, .homed = 7});
+  std::string flood;  // as much as fits a transfer, so that the true answer is in the next
+  for (int n = 0; n < 31; ++n) flood.append(bytes.begin(), bytes.end());
+  SECTION("before a question") {
+    b.far.emit(flood);
+    CHECK(b.exchange().valid);
+    CHECK(b.device.latest().received.encoder[0] == 0);
+    CHECK(b.device.latest().counts.stale == 31);
+  }
+  SECTION("after a miss") {
+    spoil_once(b.far, [](auto& reply) { reply.clear(); });
+    CHECK_FALSE(b.exchange().valid);
+    b.far.late = flood;
+    b.far.late_at = b.far.clock + std::chrono::milliseconds(1);
+    CHECK(b.exchange().valid);
+    CHECK(b.device.latest().received.encoder[0] == 0);
+  }
 }
 
 TEST_CASE("unplugging in each state ends in a documented one", "[falcon][device]") {

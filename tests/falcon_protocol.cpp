@@ -42,6 +42,8 @@ TEST_CASE("packets are the published ones, byte for byte", "[falcon][packet]") {
   CHECK(text_of(falcon::encode(falcon::to_device{.homing = false})) == "<AAAAAAAAAAAAAA>");
   CHECK(text_of(falcon::encode(falcon::to_device{
             .motor = {-1, 4096, 1}, .light = falcon::lamps::green})) == "<PPPPAAABBAAADA>");
+  CHECK(text_of(falcon::encode(falcon::to_device{.light = falcon::lamps::red})) ==
+        "<AAAAAAAAAAAAJA>");
   CHECK(text_of(falcon::encode(falcon::from_device{.encoder = {-1447, 1447, 0}})) ==
         "<JFKPHKFAAAAAAA>");
   const auto captured = falcon::decode<falcon::to_device>(packet_of("<AAAAAAAAAAAAEA>"));
@@ -331,6 +333,7 @@ TEST_CASE("every fault of a boot ends in its code, or is overcome", "[falcon][bo
       const auto report =
           falcon::bootloader{line, std::span<const falcon::byte>(image), options, cancel}.run();
       CHECK(report.how.what == code::cancelled);
+      CHECK(report.attempts <= 1);
     }
   }
   SECTION("unplugged after any number of calls") {
@@ -343,6 +346,7 @@ TEST_CASE("every fault of a boot ends in its code, or is overcome", "[falcon][bo
       other.far().unplug_after = n;
       const auto report = falcon::bootloader{other, std::span(image), options}.run();
       if (report.how.what != code::unplugged) FAIL("after " << n << " calls");
+      if (report.attempts > 1) FAIL("tried again without a cable");
     }
   }
   SECTION("not open") {

@@ -59,6 +59,8 @@ struct scripted_falcon {
   bool dead_program = false;         ///< loads, and does not run
   std::function<void(scripted_falcon&, std::vector<falcon::byte>&)> on_reply;  ///< may spoil it
   long unplug_after = -1;  ///< calls of control and receive
+  std::string late;        ///< comes by itself, at
+  falcon::nanoseconds late_at{0};
 
   // what came
   std::vector<falcon::byte> image;
@@ -93,6 +95,10 @@ struct scripted_falcon {
   void elapse(falcon::nanoseconds passed) {
     clock += passed;
     out.elapse(passed);
+    if (!late.empty() && clock >= late_at) {
+      emit(late);
+      late.clear();
+    }
     if (!dtr && (now == mode::autobaud || now == mode::loading) && clock - dtr_fell >= cts_after) {
       out.lines.modem = 0x11;
     }
