@@ -5,7 +5,7 @@
 //
 // A packet device holds a command one tick late: late_reachable_bound, or strict_bound<scene, 1>.
 // reduced_energy takes the encoders' steps for exact positions. quantised_energy does not, and keeps
-// its promise on them; a hand slower than about 50 mm/s then sinks into this wall.
+// its promise on them; a hand that comes at 50 mm/s or slower then sinks into this wall.
 
 #include "falcon_ready.hpp"
 #include <passive_haptics/passive_haptics.hpp>
@@ -23,7 +23,7 @@ int touch(Device& grip) {
                        ph::damped_spring<scene>{.mass = mass, .force_limit = 8.0},
                        ph::reduced_energy<scene>{.damping = damping},
                        ph::late_reachable_bound<scene>{.mass = mass, .hand_force = strongest_hand},
-                       ph::loop_limits<scene>{.longest_tick = 2e-3},
+                       ph::loop_limits<scene>{.longest_tick = 2.5e-3},
                        ph::mass_observer<scene>{.mass = mass, .quantum = quantum}};
 
   scene::vector force = scene::zero();

@@ -38,6 +38,9 @@ falcon::result make_ready(Device& grip, const char* image_path) {
   return {};
 }
 
+/// While a reply is waited for, the last force is held: longest_tick has to cover that.
+inline constexpr falcon::settings<double> patience{.reply = std::chrono::milliseconds(2)};
+
 /// `use` gets the homed device and returns what main() returns.
 ///     program [firmware.bin]        program --simulate
 template <class Hand, class Use>
@@ -51,11 +54,12 @@ int with_falcon(int argc, char** argv, double gain, const falcon::mock_parameter
   };
   const char* argument = argc > 1 ? argv[1] : nullptr;
   if (argument != nullptr && std::string_view(argument) == "--simulate") {
-    falcon::device<falcon::in_memory_transport<falcon::mock<Hand>>> grip{gain, {}, simulated, hand};
+    falcon::device<falcon::in_memory_transport<falcon::mock<Hand>>> grip{gain, patience, simulated,
+                                                                         hand};
     return run(grip, nullptr);
   }
 #if __has_include(<libusb-1.0/libusb.h>)
-  falcon::device<falcon::libusb_transport> grip{gain};
+  falcon::device<falcon::libusb_transport> grip{gain, patience};
   return run(grip, argument);
 #else
   return std::puts("built without libusb: try --simulate"), 1;
