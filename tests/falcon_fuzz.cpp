@@ -14,8 +14,9 @@ std::vector<std::uint8_t> made_up(std::mt19937& random, std::string_view telling
   std::vector<std::uint8_t> bytes(random() % 600);
   const unsigned bias = random() % 4;
   for (auto& b : bytes) {
-    b = static_cast<std::uint8_t>(random() % 4 < bias ? telling[random() % telling.size()]
-                                                      : random() & 255);
+    const bool tells = random() % 4 < bias;
+    b = tells ? static_cast<std::uint8_t>(telling[random() % telling.size()])
+              : static_cast<std::uint8_t>(random() & 255);
   }
   return bytes;
 }
