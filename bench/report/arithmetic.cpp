@@ -136,6 +136,9 @@ class contender {
   contender(std::string scalar, double epsilon, const Model& model)
       : scalar_(std::move(scalar)), epsilon_(epsilon), model_(model) {}
 
+  [[nodiscard]] candidate timed(const std::string& composition) const {
+    return candidate_of(composition + ", " + scalar_, model_);
+  }
   observed tick(long n) {
     using space = typename Model::space_type;
     if (n % ticks_per_update == 0) {
@@ -166,30 +169,21 @@ class contender {
   extremes off_;
 };
 
-/// f(name, epsilon, model) for each scalar.
-template <class Composition, class F>
-void for_each_scalar(const F& f) {
-  const auto one = [&]<class S, class Ledger>(const char* name, S, Ledger) {
-    f(name, static_cast<double>(std::numeric_limits<S>::epsilon()),
-      Composition::template make<S, Ledger>());
+/// Every scalar but the reference, beside each other.
+template <class Composition>
+auto contenders() {
+  const auto one = []<class S, class Ledger>(const char* name, S, Ledger) {
+    return contender(name, static_cast<double>(std::numeric_limits<S>::epsilon()),
+                     Composition::template make<S, Ledger>());
   };
-  one("float", 0.0F, 0.0F);
-  one("float, compensated ledger", 0.0F, compensated<float>{});
-  one("double", 0.0, 0.0);
-  one("long double", 0.0L, 0.0L);
+  return std::tuple{one("float", 0.0F, 0.0F),
+                    one("float, compensated ledger", 0.0F, compensated<float>{}),
+                    one("double", 0.0, 0.0), one("long double", 0.0L, 0.0L)};
 }
 
 template <class Composition>
 std::vector<arithmetic_row> compare_scalars(long ticks) {
-  auto contenders = [] {
-    return std::tuple{
-        contender("float", 0x1p-23, Composition::template make<float, float>()),
-        contender("float, compensated ledger", 0x1p-23,
-                  Composition::template make<float, compensated<float>>()),
-        contender("double", 0x1p-52, Composition::template make<double, double>()),
-        contender("long double", static_cast<double>(std::numeric_limits<long double>::epsilon()),
-                  Composition::template make<long double, long double>())};
-  }();
+  auto all = contenders<Composition>();
   contender reference("113 bits", 0x1p-112, Composition::template make<quad, quad>());
   const quad zero[3] = {0, 0, 0};
   extremes largest;
@@ -198,11 +192,10 @@ std::vector<arithmetic_row> compare_scalars(long ticks) {
   for (long n = 0; n < ticks; ++n) {
     const observed truth = reference.tick(n);
     largest.take(length(truth.force, zero), distance(truth.energy, 0), distance(truth.depth, 0), 1);
-    std::apply([&](auto&... c) { (c.compare(c.tick(n), truth), ...); }, contenders);
+    std::apply([&](auto&... c) { (c.compare(c.tick(n), truth), ...); }, all);
     if (n + 1 == next) {
       std::apply(
-          [&](auto&... c) { (rows.push_back(c.row(Composition::name, next, largest)), ...); },
-          contenders);
+          [&](auto&... c) { (rows.push_back(c.row(Composition::name, next, largest)), ...); }, all);
       next *= 10;
     }
   }
@@ -244,9 +237,8 @@ const std::vector<candidate>& arithmetic_candidates() {
   static const std::vector<candidate> all = [] {
     std::vector<candidate> made;
     const auto add = [&]<class Composition>(Composition) {
-      for_each_scalar<Composition>([&](const char* scalar, double, const auto& model) {
-        made.push_back(candidate_of(std::string(Composition::name) + ", " + scalar, model));
-      });
+      std::apply([&](const auto&... c) { (made.push_back(c.timed(Composition::name)), ...); },
+                 contenders<Composition>());
     };
     add(wall_strict{});
     add(wall_settling{});

@@ -5,6 +5,7 @@
 //     report --quick --out DIR            the same, shorter, without counts
 //     report --replay NAME --ticks N      one composition alone, for callgrind
 
+#include "../cost/counts.hpp"
 #include "tables.hpp"
 
 #include <exception>
@@ -71,7 +72,7 @@ int run(int argc, char** argv) {
     return EXIT_SUCCESS;
   }
   if (chosen.quick && !ticks_given) chosen.ticks = 10'000;
-  if (chosen.counts && std::system("valgrind --version > /dev/null 2>&1") != 0) {
+  if (chosen.counts && !cost::valgrind_is_here()) {
     std::cout << "valgrind is not installed: no instruction counts\n";
     chosen.counts = false;
   }
