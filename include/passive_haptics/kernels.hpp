@@ -89,19 +89,50 @@ template <real S>
   return f * f / (S(4) * B);
 }
 
-/// f_max = √(4 B E1) [N], zero for a ledger in debt. The clamp stays inside the root (A6). (2.17)
+/// The part of a credit E1 [J] that may be spent although every step rounds, in any direction:
+///     E1 (1 − 16ε) − min/ε,   ε and min the machine epsilon and the smallest normal number
+/// A force found from it has f²/(4B) ≤ E1 in exact arithmetic, and so has its direction in three
+/// dimensions; the proof counts roundings (docs/design/stability.md). For b ≥ 1e-13 N·s/m.
+template <real S>
+[[nodiscard]] constexpr S spendable(S E1) noexcept {
+  using limits = std::numeric_limits<S>;
+  return E1 * (S(1) - S(16) * limits::epsilon()) - limits::min() / limits::epsilon();
+}
+
+/// f_max = √(4 B E1) [N], rounded towards zero; zero for a ledger in debt. The clamp stays inside
+/// the root (A6). (2.17)
 template <real S>
 [[nodiscard]] constexpr S strict_force_bound(S E1, S B) noexcept {
-  return E1 > S(0) ? square_root(S(4) * B * E1) : S(0);
+  const S credit = spendable(E1);
+  if (!(credit > S(0))) return S(0);
+  return square_root(smaller(S(4) * B * credit, std::numeric_limits<S>::max()));
 }
 
 /// The factor that brings a force whose worst outflow is `outflow` [J] down to what E1 [J] covers:
 /// √(E1/outflow), rounded towards zero; 1 when it is covered already. (2.17 for any direction)
 template <real S>
 [[nodiscard]] constexpr S strict_scale(S E1, S outflow) noexcept {
-  if (outflow <= E1) return S(1);
-  if (!(E1 > S(0))) return S(0);
-  return square_root(E1 / outflow) * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
+  const S credit = spendable(E1);
+  if (outflow <= credit) return S(1);
+  if (!(credit > S(0))) return S(0);
+  const S share = credit / outflow;
+  return share >= std::numeric_limits<S>::min() ? square_root(share) : S(0);
+}
+
+/// dissipated − work [J], less what rounding can have done to either: never more than in exact
+/// arithmetic. `passed` is Σ |fᵢ Δxᵢ|, at least |work|.
+template <real S>
+[[nodiscard]] constexpr S sure_gain(S dissipated, S work, S passed) noexcept {
+  return dissipated - work - S(16) * std::numeric_limits<S>::epsilon() * (dissipated + passed);
+}
+
+/// E + gain [J], rounded down, so that a ledger never grows by rounding: one of 1 J in float would not
+/// notice 1e-8 J going out, tick after tick. Exact to an ulp; where the gain is larger than E, to an
+/// ulp of the gain.
+template <real S>
+[[nodiscard]] constexpr S sum_rounded_down(S E, S gain) noexcept {
+  const S sum = E + gain;
+  return sum - E > gain ? S(sum - magnitude(sum) * std::numeric_limits<S>::epsilon()) : sum;
 }
 
 /// d_max = f/K [m]; with no stiffness there is no force to place. (2.27, A10)
@@ -125,15 +156,16 @@ template <real S>
 
 /// The largest force F [N] with F s − B s² ≤ E1 for every 0 ≤ s ≤ δ:
 ///     δ ≤ 0: any force      δ < √(E1/B): E1/δ + B δ      else: √(4 B E1)
-/// The two branches meet where s = δ is itself the worst case (AM-GM), so it is continuous. (§ 9)
+/// rounded towards zero. The two branches meet where s = δ is itself the worst case (AM-GM), so it
+/// is continuous. (§ 9)
 template <real S>
 [[nodiscard]] constexpr S reachable_force_bound(S E1, S B, S reach) noexcept {
   if (!(reach > S(0))) return std::numeric_limits<S>::max();
-  const S credit = larger(E1, S(0));
+  const S credit = spendable(E1);
   if (B * reach * reach < credit) {
-    return (credit / reach + B * reach) * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
+    return (credit / reach + B * reach) * (S(1) - S(8) * std::numeric_limits<S>::epsilon());
   }
-  return strict_force_bound(credit, B) * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
+  return strict_force_bound(E1, B);
 }
 
 /// K_s = min(K, κ m/T²) [N/m]: the stiffness that a mass sampled every T can be held with. (§ 9)

@@ -38,11 +38,48 @@ class compensated_sum {
   Scalar sum_{}, lost_{};
 };
 
+namespace detail {
+
+/// `dissipated` − h·Δx [J], at least.
+template <class Space>
+[[nodiscard]] constexpr typename Space::scalar sure_gain(
+    typename Space::scalar dissipated, const typename Space::vector& held,
+    const typename Space::vector& displacement) noexcept {
+  using scalar = typename Space::scalar;
+  scalar work(0), passed(0);
+  for (int i = 0; i < Space::dof; ++i) {
+    const scalar along = Space::component(held, i) * Space::component(displacement, i);
+    work += along;
+    passed += kernels::magnitude(along);
+  }
+  return kernels::sure_gain(dissipated, work, passed);
+}
+
+template <class Ledger, class Scalar>
+constexpr void book(Ledger& energy, Scalar gain) noexcept {
+  if constexpr (std::is_same_v<Ledger, Scalar>) {
+    energy = kernels::sum_rounded_down(energy, gain);
+  } else {
+    energy += gain;  // a sum that forgets nothing
+  }
+}
+
+/// What is left at least when `held` may have cost its worst, down to an empty ledger [J].
+template <class Scalar>
+[[nodiscard]] constexpr Scalar written_off(Scalar energy, Scalar worst) noexcept {
+  const Scalar margin = Scalar(1) + Scalar(16) * std::numeric_limits<Scalar>::epsilon();
+  const Scalar left = kernels::sum_rounded_down(energy, Scalar(-worst * margin));
+  return kernels::larger(kernels::smaller(energy, Scalar(0)), left);  // so ordered, NaN is nothing
+}
+
+}  // namespace detail
+
 /// The reduced energy E1 [J] that has flowed from the hand into the device and is not yet spent:
 ///     E1(n) = E1(n−1) + Δxᵀ(b/dt)Δx − f_held·Δx                                    (2.9, 2.16)
-/// exact for a zero-order hold but for the damping, which it never overstates (lemma L1). `dt` is
-/// the measured length of the tick. A negative E1 is a debt: it is kept, it is visible, it is
-/// repaid. Start with `.energy > 0` and the guarantee becomes E ≥ −that much (A8).
+/// exact for a zero-order hold but for the damping, which it never overstates (lemma L1), and for
+/// rounding, which only lowers it (docs/design/stability.md). `dt` is the measured length of the
+/// tick. A negative E1 is a debt: it is kept, it is visible, it is repaid. Start with `.energy > 0`
+/// and the guarantee becomes E ≥ −that much (A8).
 template <class Space, class Damping = isotropic_damping<Space>,
           class Ledger = typename Space::scalar>
 struct reduced_energy {
@@ -59,7 +96,8 @@ struct reduced_energy {
   scalar idle{};                           ///< force-free time so far [s]
 
   constexpr void update(const vector& displacement, const vector& held, scalar dt) noexcept {
-    energy += damping.dissipated(displacement, dt) - Space::dot(held, displacement);
+    detail::book(
+        energy, detail::sure_gain<Space>(damping.dissipated(displacement, dt), held, displacement));
     idle = Space::dot(held, held) > scalar(0) ? scalar(0) : idle + dt;
     const scalar most = idle >= reset_after ? scalar(0) : cap;
     if (value() > most) energy = most;  // only ever lowers: a debt stays (L7)
@@ -68,9 +106,7 @@ struct reduced_energy {
   /// A tick passed and nobody saw the motion: write off the worst that `held` can have done, down
   /// to an empty ledger. Any bound that kept its promise has covered exactly that.
   constexpr void forfeit(const vector& held, scalar T) noexcept {
-    const scalar left = value() - damping.worst_outflow(held, T);
-    const scalar floor = kernels::smaller(value(), scalar(0));
-    energy = kernels::larger(left, floor);
+    energy = detail::written_off(value(), damping.worst_outflow(held, T));
   }
 
   [[nodiscard]] constexpr scalar value() const noexcept { return static_cast<scalar>(energy); }
@@ -117,23 +153,24 @@ struct quantised_energy {
 
   constexpr void update(const vector& displacement, const vector& held, scalar dt) noexcept {
     const vector change = held - vector(last_held);
-    energy += -Space::dot(held, displacement) - quantum / scalar(2) * sum_of_magnitudes(change);
+    detail::book(energy, detail::sure_gain<Space>(scalar(0), held, displacement));
+    detail::book(energy, -quantum / scalar(2) * sum_of_magnitudes(change) * (scalar(1) + rounding));
     last_held = held;
 
     elapsed += dt;
     travel = vector(vector(travel) + displacement);
     summed += damping.dissipated(surely_moved(displacement), dt);
     const scalar as_a_whole = damping.dissipated(surely_moved(travel), elapsed);
-    const scalar sure = kernels::larger(booked, kernels::larger(summed, as_a_whole));
-    energy += sure - booked;
+    const scalar most = kernels::larger(summed, as_a_whole) * (scalar(1) - scalar(8) * rounding);
+    const scalar sure = kernels::larger(booked, most);
+    detail::book(energy, sure - booked);
     booked = sure;
     if (elapsed >= window) begin_window();
     if (value() > cap) energy += cap - value();
   }
 
   constexpr void forfeit(const vector& held, scalar T) noexcept {
-    const scalar floor = kernels::smaller(value(), scalar(0));
-    energy = kernels::larger(value() - damping.worst_outflow(held, T), floor);
+    energy = detail::written_off(value(), damping.worst_outflow(held, T));
     last_held = Space::zero();
     begin_window();
   }
@@ -162,6 +199,8 @@ struct quantised_energy {
   }
 
  private:
+  static constexpr scalar rounding = scalar(16) * std::numeric_limits<scalar>::epsilon();
+
   [[nodiscard]] static constexpr scalar sum_of_magnitudes(const vector& v) noexcept {
     scalar sum(0);
     for (int i = 0; i < Space::dof; ++i) sum += kernels::magnitude(Space::component(v, i));
