@@ -128,10 +128,10 @@ class local_model {
     event what = dt > limits_.longest_tick ? event::late_tick : event::nominal;
     const bool known = seen_ && !(blind_ > scalar(0));
     const vector displacement = known ? travel : Space::zero();
-    if (known) {
-      book(displacement, held, dt);
-    } else {
+    if (!known) {
       observer_.forfeit(held, limits_.longest_tick);
+    } else if (!book(displacement, held, dt)) {
+      return refuse(event::rejected_sample, dt);
     }
     position_ = position;
     seen_ = true;
@@ -206,10 +206,11 @@ class local_model {
 
     // Put our own constraint where that force says it is.
     if constexpr (Supply::moves) {
-      if (limited) {
-        felt = contact_.depth(Space::dot(force, normal), outward_speed);
-        supply_.approach(in_local, here, normal, felt);
-      } else if (in_target && !(normal == goal)) {
+      const scalar wanted = felt;
+      if (limited) felt = contact_.depth(Space::dot(force, normal), outward_speed);
+      const bool somewhere = kernels::is_finite(felt * felt);  // K next to nothing: f/K is not
+      if (!somewhere) felt = wanted;
+      if (somewhere && (limited || (in_target && !(normal == goal)))) {
         supply_.approach(in_local, here, normal, felt);
       } else {
         supply_.sync();
@@ -221,13 +222,19 @@ class local_model {
   }
 
   /// One tick into the ledger. A late tick may have let a watchdog drop the force part of the way,
-  /// or not: it counts as the worse of the two.
-  constexpr void book(const vector& displacement, const vector& held, scalar dt) noexcept {
-    if (dt <= limits_.longest_tick) return observer_.update(displacement, held, dt);
-    Observer dropped = observer_;
-    dropped.forfeit(held, limits_.longest_tick);
-    observer_.update(displacement, held, dt);
-    if (dropped.value() < observer_.value()) observer_ = dropped;
+  /// or not: it counts as the worse of the two. False, and nothing booked, if the energy is no
+  /// finite number.
+  constexpr bool book(const vector& displacement, const vector& held, scalar dt) noexcept {
+    Observer next = observer_;
+    next.update(displacement, held, dt);
+    if (!kernels::is_finite(next.value())) return false;
+    if (dt > limits_.longest_tick) {
+      Observer dropped = observer_;
+      dropped.forfeit(held, limits_.longest_tick);
+      if (dropped.value() < next.value()) next = dropped;
+    }
+    observer_ = next;
+    return true;
   }
 
   /// A finite sample, no farther from the last good one than the device can have gone since.
