@@ -7,7 +7,7 @@
 //                return touch<Space>(p, ledger<Space>(p), ph::strict_bound<Space>{});
 //              })
 //
-// entry<3> offers it in 1, 2 and 3 dimensions, entry<1> in one, both in float too (not in 2). The tag
+// entry<3> offers it in 1, 2 and 3 dimensions, entry<1> in one; in 1 and 3 in float, too. The tag
 // comes from the type.
 
 #include "catalogue.hpp"
