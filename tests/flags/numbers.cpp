@@ -15,6 +15,7 @@
 #include <passive_haptics/simulation/challenge.hpp>
 
 #include <cfenv>
+#include <cfloat>
 #include <cstdio>
 
 namespace {
@@ -105,7 +106,9 @@ bool sound(const char* mode) {
   found.unbounded = least_energy<d1>(ph::no_bound<d1>{});
   const bool holds =
       found.strict == 0 && found.reach == 0 && found.ledger == 0 && found.attack >= -1e-12;
-  const bool caught = found.unbounded < -1e-3 && (found.naive > 1000 || mode[0] != 'n');
+  // Upwards, and with the excess precision of an x87, the formula without margin is safe, too.
+  const bool tells = mode[0] == 'n' && FLT_EVAL_METHOD == 0;
+  const bool caught = found.unbounded < -1e-3 && (found.naive > 1000 || !tells);
   std::printf("%-12s strict %ld, reach %ld, ledger %ld, attack %.1e J; control %ld, %.1e J: %s\n",
               mode, found.strict, found.reach, found.ledger, found.attack, found.naive,
               found.unbounded, holds && caught ? "holds" : "FAILS");
