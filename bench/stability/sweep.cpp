@@ -32,7 +32,7 @@ std::vector<job> jobs_of(const std::vector<controller>& all) {
 
 /// How near a claim came to being broken: 1 is at the edge of what rounding explains.
 double strain(const row& r) {
-  return r.says == verdict::holds && r.found.least_energy < 0.0
+  return r.says == verdict::holds && r.found.least_energy < 0.0 && r.where.offset == 0.0
              ? -r.found.least_energy / (r.found.slack + r.found.blurred)
              : 0.0;
 }

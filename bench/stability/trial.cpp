@@ -26,6 +26,7 @@ double spacing(double x) {
 ///
 /// Arithmetic: every sum and product of a tick is off by at most u = ε/2 of what goes into it, and
 /// no tick has more than sixteen in a row: 16 u (b‖Δx‖²/dt + ‖f‖‖Δx‖ + |E1|).
+/// Where dry friction is booked too, it rounds as the rest does, and so does its sum with the truth.
 /// Positions off by e ≤ q/2 an axis: Σ f·(e(k+1) − e(k)), summed by parts, and the square of a Δx
 /// off by q (docs/design/mathematics.md § 3); and a reach that is off by q.
 template <class Space>
@@ -36,8 +37,8 @@ class accounts {
 
   accounts(const world& w, double quantum) : b_(w.damping), q_(quantum) {}
 
-  void book(double energy, const state& travel, const state& held, const state& next, double dt,
-            const ph::tick_result<Space>& out) {
+  void book(double energy, double rubbed, const state& travel, const state& held, const state& next,
+            double dt, const ph::tick_result<Space>& out) {
     using physical = sim::physical<Space>;
     const double way = physical::norm(travel);
     const double force = physical::norm(next);
@@ -45,7 +46,8 @@ class accounts {
     const double damped = b_ * way * way / dt;
     const double ledger = std::abs(static_cast<double>(out.energy));
     const double u = static_cast<double>(std::numeric_limits<scalar>::epsilon()) / 2.0;
-    result.slack += 16.0 * u * (damped + (force + before) * way + ledger);
+    result.slack += 16.0 * u * (damped + (force + before) * way + ledger + rubbed - rubbed_);
+    rubbed_ = rubbed;
 
     double change = 0.0;
     for (int i = 0; i < Space::dof; ++i) {
@@ -61,7 +63,8 @@ class accounts {
     result.finite = result.finite && Space::is_finite(out.force) &&
                     ph::kernels::is_finite(out.depth) && ph::kernels::is_finite(out.energy);
     if (!(energy >= result.least_energy)) result.least_energy = energy;
-    const double explained = energy + result.slack + result.blurred;
+    const double truth = rubbed * 4.0 * std::numeric_limits<double>::epsilon();
+    const double explained = energy + result.slack + result.blurred + truth;
     if (!(explained >= result.margin)) result.margin = explained;
   }
 
@@ -69,7 +72,7 @@ class accounts {
 
  private:
   double b_, q_;
-  double summed_ = 0.0, strongest_ = 0.0;
+  double summed_ = 0.0, strongest_ = 0.0, rubbed_ = 0.0;
 };
 
 /// The scene far from the origin: the model sees offset + local, rounded to its scalar; the physics
@@ -146,8 +149,8 @@ outcome play(controllers::model<Space> model, Device& device, const world& w, do
     const state force = sim::to_physical<Space>(out.force);
     const double rubbed = device.meter().total().friction;  // zero where there is none
     const double energy = rubbed > 0.0 ? device.meter().value() + rubbed : device.meter().minimum();
-    books.book(energy, state(device.position() - last), held, force, static_cast<double>(sample.dt),
-               out);
+    books.book(energy, rubbed, state(device.position() - last), held, force,
+               static_cast<double>(sample.dt), out);
     last = device.position();
     held = force;
     const double period = next_period(w, tick, random);
