@@ -31,7 +31,7 @@ struct liar : ph::no_bound<Space> {
 };
 template <ph::guarantee Claim>
 controller lying(const std::string& name, const coverage& covers = {}) {
-  return entry<3>({name, "a lie", covers}, []<class Space>(Space, const premises& p) {
+  return entry<3>({name, "a lie", covers}, []<class Space>(Space, const known_in<Space>& p) {
     return touch<Space>(p, ledger<Space>(p), liar<Space, Claim>{});
   });
 }

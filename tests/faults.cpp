@@ -277,6 +277,19 @@ TEMPLATE_TEST_CASE("a force beyond all numbers is no force", "[fault]", ph::half
   });
 }
 
+TEST_CASE("a tick whose energy is no number is refused, and the ledger stays one", "[fault]") {
+  ph::reduced_energy<d1> ledger = thesis_ledger<d1>();
+  ledger.damping = 1e308;
+  auto model = following_half_space<d1>(ph::spring<d1>{}, ledger, ph::strict_bound<d1>{});
+  model.retarget(wall<d1>(500));
+  CHECK(model.tick(0.0, 1e-3).what == ph::event::nominal);
+  CHECK(model.tick(1e-4, 1e-3).what == ph::event::nominal);  // the control: 1e303 J
+  const auto beyond = model.tick(0.09, 1e-3);
+  CHECK(beyond.what == ph::event::rejected_sample);
+  CHECK(beyond.force == 0.0);
+  CHECK(ph::kernels::is_finite(model.energy()));
+}
+
 TEST_CASE("a late tick is reported, and costs what it may have cost with or without a watchdog",
           "[fault]") {
   auto model = following_half_space<d1>(ph::spring<d1>{}, thesis_ledger<d1>(),

@@ -32,13 +32,16 @@ TEST_CASE("worst_outflow is the minimum over all motions of the next tick (L3)",
   }
 }
 
-TEST_CASE("strict_force_bound spends the ledger exactly and nothing in debt (2.17, A6)",
+TEST_CASE("strict_force_bound spends the ledger to rounding and nothing in debt (2.17, A6)",
           "[kernels]") {
-  CHECK_THAT(k::strict_force_bound(0.01, 30.0), WithinRel(std::sqrt(1.2), 1e-15));
-  CHECK_THAT(k::worst_outflow(k::strict_force_bound(0.01, 30.0), 30.0), WithinRel(0.01, 1e-14));
+  const double eps = std::numeric_limits<double>::epsilon();
+  CHECK_THAT(k::strict_force_bound(0.01, 30.0), WithinRel(std::sqrt(1.2), 40 * eps));
+  CHECK_THAT(k::worst_outflow(k::strict_force_bound(0.01, 30.0), 30.0), WithinRel(0.01, 80 * eps));
   CHECK(k::strict_force_bound(0.0, 30.0) == 0.0);
   CHECK(k::strict_force_bound(-1e-3, 30.0) == 0.0);
-  static_assert(k::strict_force_bound(1.0, 1.0) == 2.0);
+  static_assert(k::strict_force_bound(1.0, 1.0) < 2.0);  // towards zero, by 32 ε
+  static_assert(k::strict_force_bound(1.0, 1.0) >
+                2.0 - 80 * std::numeric_limits<double>::epsilon());
   static_assert(k::strict_force_bound(-1.0, 1.0) == 0.0);
 }
 
@@ -53,10 +56,11 @@ TEST_CASE("strict_scale never lets the rounded force spend more than the ledger"
       FAIL("E = " << E << ", outflow = " << outflow);
     }
   }
-  CHECK(reduced > 10000);  // the control: the factor was at work
-  static_assert(k::strict_scale(1.0, 1.0) == 1.0);
+  CHECK(reduced > 10000);                          // the control: the factor was at work
+  static_assert(k::strict_scale(1.0, 1.0) < 1.0);  // just covered, but for rounding
+  static_assert(k::strict_scale(1.0, 0.99999) == 1.0);
   static_assert(k::strict_scale(-1.0, 1.0) == 0.0);
-  static_assert(k::strict_scale(0.0, 0.0) == 1.0);
+  static_assert(k::strict_scale(0.0, 0.0) == 0.0);
   static_assert(k::strict_scale(-1.0, 0.0) == 0.0);
 }
 

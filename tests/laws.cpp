@@ -79,8 +79,8 @@ static_assert(laws::measures_depth<d1>(ph::half_space<d1>{0.5, -3.0, 100.0}));
 
 /// Liars, one for each law.
 struct generous : ph::reduced_energy<d1> {
-  constexpr void update(double dx, double held, double dt) noexcept {
-    ph::reduced_energy<d1>::update(2 * dx, held, dt);
+  constexpr bool update(double dx, double held, double dt) noexcept {
+    return ph::reduced_energy<d1>::update(2 * dx, held, dt);
   }
 };
 struct forgiving : ph::reduced_energy<d1> {

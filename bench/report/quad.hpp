@@ -9,11 +9,64 @@
 #include <limits>
 
 namespace experiments {
-using quad = boost::multiprecision::number<
-    boost::multiprecision::cpp_bin_float<113, boost::multiprecision::digit_base_2, void,
-                                         std::int16_t, -16382, 16383>,
-    boost::multiprecision::et_off>;
+
+/// Boost's number behind functions that stay functions: a tick inlines all it calls, and these are
+/// hundreds of instructions each.
+class quad {
+ public:
+  using number = boost::multiprecision::number<
+      boost::multiprecision::cpp_bin_float<113, boost::multiprecision::digit_base_2, void,
+                                           std::int16_t, -16382, 16383>,
+      boost::multiprecision::et_off>;
+
+  quad() = default;
+  template <class Number>
+  requires std::is_arithmetic_v<Number> quad(Number value)  // NOLINT(google-explicit-constructor)
+      : value_(value) {}
+  explicit quad(const number& value) : value_(value) {}
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  explicit operator Number() const { return static_cast<Number>(value_); }
+
+  [[gnu::noinline]] quad& operator+=(const quad& b) { return value_ += b.value_, *this; }
+  [[gnu::noinline]] quad& operator-=(const quad& b) { return value_ -= b.value_, *this; }
+  [[gnu::noinline]] quad& operator*=(const quad& b) { return value_ *= b.value_, *this; }
+  [[gnu::noinline]] quad& operator/=(const quad& b) { return value_ /= b.value_, *this; }
+  friend quad operator+(quad a, const quad& b) { return a += b; }
+  friend quad operator-(quad a, const quad& b) { return a -= b; }
+  friend quad operator*(quad a, const quad& b) { return a *= b; }
+  friend quad operator/(quad a, const quad& b) { return a /= b; }
+  friend quad operator-(const quad& a) { return quad(number(-a.value_)); }
+
+  [[gnu::noinline]] friend bool operator==(const quad& a, const quad& b) {
+    return a.value_ == b.value_;
+  }
+  [[gnu::noinline]] friend std::partial_ordering operator<=>(const quad& a, const quad& b) {
+    return a.value_ < b.value_    ? std::partial_ordering::less
+           : a.value_ > b.value_  ? std::partial_ordering::greater
+           : a.value_ == b.value_ ? std::partial_ordering::equivalent
+                                  : std::partial_ordering::unordered;
+  }
+  [[gnu::noinline]] friend quad sqrt(const quad& a) { return quad(number(sqrt(a.value_))); }
+  [[gnu::noinline]] friend quad abs(const quad& a) { return quad(number(abs(a.value_))); }
+
+ private:
+  number value_;
+};
+
 }  // namespace experiments
+
+template <>
+struct std::numeric_limits<experiments::quad> : std::numeric_limits<experiments::quad::number> {
+  using quad = experiments::quad;
+  using limits = std::numeric_limits<quad::number>;
+  static quad min() { return quad(limits::min()); }
+  static quad max() { return quad(limits::max()); }
+  static quad lowest() { return quad(limits::lowest()); }
+  static quad epsilon() { return quad(limits::epsilon()); }
+  static quad infinity() { return quad(limits::infinity()); }
+  static quad quiet_NaN() { return quad(limits::quiet_NaN()); }
+};
 
 template <>
 struct Eigen::NumTraits<experiments::quad> : Eigen::GenericNumTraits<experiments::quad> {
@@ -31,7 +84,7 @@ struct Eigen::NumTraits<experiments::quad> : Eigen::GenericNumTraits<experiments
     MulCost = 40
   };
   static Real epsilon() { return std::numeric_limits<Real>::epsilon(); }
-  static Real dummy_precision() { return 1000 * epsilon(); }
+  static Real dummy_precision() { return Real(1000) * epsilon(); }
   static Real highest() { return (std::numeric_limits<Real>::max)(); }
   static Real lowest() { return std::numeric_limits<Real>::lowest(); }
   static Real infinity() { return std::numeric_limits<Real>::infinity(); }

@@ -15,6 +15,7 @@
 
 #include <passive_haptics/damping.hpp>
 #include <passive_haptics/event.hpp>
+#include <passive_haptics/ledger.hpp>
 #include <passive_haptics/space.hpp>
 
 #include <type_traits>
@@ -45,6 +46,10 @@ struct tick_state {
 
   /// The credit a new force may spend: E1 less what is already on its way.
   [[nodiscard]] constexpr scalar credit() const noexcept { return energy - in_flight; }
+  /// What the last tick brought, Δxᵀ(b/dt)Δx − f_held·Δx [J], rounded down.
+  [[nodiscard]] constexpr scalar gain() const noexcept {
+    return detail::sure_gain<Space>(damping.dissipated(displacement, dt), held, displacement);
+  }
   /// Is the device moving out of the object?
   [[nodiscard]] constexpr bool leaving() const noexcept {
     return Space::dot(displacement, normal) > scalar(0);
@@ -65,12 +70,12 @@ concept policy = plain_value<P, Space> && requires {
 };
 
 /// update() books one tick: displacement Δx [m], the force held while it happened [N], its length
-/// [s]. forfeit() writes off a tick whose motion is unknown and never raises the ledger. value() is
+/// [s]; false, and nothing is booked, when the energy would be no finite number. forfeit() writes off a tick whose motion is unknown and never raises the ledger. value() is
 /// E1 [J]. `counts` is false for the one that counts nothing.
 template <class O, class Space>
 concept energy_observer_for = policy<O, Space> &&
     requires(O o, const O c, const typename Space::vector v, typename Space::scalar s) {
-  { o.update(v, v, s) } -> std::same_as<void>;
+  { o.update(v, v, s) } -> std::same_as<bool>;
   { o.forfeit(v, s) } -> std::same_as<void>;
   { c.value() } -> std::same_as<typename Space::scalar>;
   { c.damping.worst_outflow(v, s) } -> std::same_as<typename Space::scalar>;

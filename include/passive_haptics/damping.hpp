@@ -111,9 +111,9 @@ struct damping_and_friction {
                                             scalar T) const noexcept {
     if (!(E >= scalar(0))) return scalar(0);
     const scalar asked = Space::norm(force);
-    const scalar most = coulomb + kernels::strict_force_bound(E, coefficient / T);
-    if (asked <= most) return scalar(1);
-    return most / asked * (scalar(1) - scalar(4) * std::numeric_limits<scalar>::epsilon());
+    const scalar most = (coulomb + kernels::strict_force_bound(E, coefficient / T)) *
+                        (scalar(1) - kernels::rounding<scalar>());
+    return asked <= most ? scalar(1) : most / asked;
   }
   [[nodiscard]] constexpr scalar per_tick(const vector& /*along*/, scalar T) const noexcept {
     return coefficient / T;

@@ -60,13 +60,16 @@ template <real S>
 
 template <real S>
 [[nodiscard]] constexpr S magnitude(S a) noexcept {
+  if constexpr (std::floating_point<S>) {
+    if (!std::is_constant_evaluated()) return std::fabs(a);
+  }
   return a < S(0) ? S(-a) : a;
 }
 
-/// x − x is zero for numbers and NaN for NaN and the infinities.
+/// Neither NaN nor an infinity.
 template <real S>
 [[nodiscard]] constexpr bool is_finite(S x) noexcept {
-  return x - x == S(0);
+  return magnitude(x) <= std::numeric_limits<S>::max();
 }
 
 /// √x for x ≥ 0, also in a constant expression (where Newton's iteration descends until it stalls).
@@ -99,19 +102,58 @@ template <real S>
   return f * f / (S(4) * B);
 }
 
-/// f_max = √(4 B E1) [N], zero for a ledger in debt. The clamp stays inside the root (A6). (2.17)
+/// A margin for a dozen roundings in any direction.
+template <real S>
+[[nodiscard]] constexpr S rounding() noexcept {
+  return S(16) * std::numeric_limits<S>::epsilon();
+}
+
+/// The part of a credit E1 [J] that may be spent although every step rounds, in any direction:
+///     E1 (1 − 64ε) − min/ε,   ε and min the machine epsilon and the smallest normal number
+/// A force found from it has f²/(4B) ≤ E1 in exact arithmetic, in any direction, and what the
+/// worst motion against it books, less sure_gain's margin, still leaves no debt. The proof counts
+/// roundings (docs/design/stability.md). For b ≥ 1e-13 N·s/m.
+template <real S>
+[[nodiscard]] constexpr S spendable(S E1) noexcept {
+  using limits = std::numeric_limits<S>;
+  return E1 * (S(1) - S(4) * rounding<S>()) - limits::min() / limits::epsilon();
+}
+
+/// f_max = √(4 B E1) [N], rounded towards zero; zero for a ledger in debt. The clamp stays inside
+/// the root (A6). (2.17)
 template <real S>
 [[nodiscard]] constexpr S strict_force_bound(S E1, S B) noexcept {
-  return E1 > S(0) ? square_root(S(4) * B * E1) : S(0);
+  const S credit = spendable(E1);
+  if (!(credit > S(0))) return S(0);
+  return square_root(smaller(S(4) * B * credit, std::numeric_limits<S>::max()));
 }
 
 /// The factor that brings a force whose worst outflow is `outflow` [J] down to what E1 [J] covers:
 /// √(E1/outflow), rounded towards zero; 1 when it is covered already. (2.17 for any direction)
 template <real S>
 [[nodiscard]] constexpr S strict_scale(S E1, S outflow) noexcept {
-  if (outflow <= E1) return S(1);
-  if (!(E1 > S(0))) return S(0);
-  return square_root(E1 / outflow) * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
+  const S credit = spendable(E1);
+  if (outflow <= credit) return S(1);
+  if (!(credit > S(0))) return S(0);
+  const S share = credit / outflow;
+  return share >= std::numeric_limits<S>::min() ? square_root(share) : S(0);
+}
+
+/// dissipated − work [J], less what rounding can have done to either: never more than in exact
+/// arithmetic. `passed` is Σ |fᵢ Δxᵢ|, at least |work|.
+template <real S>
+[[nodiscard]] constexpr S sure_gain(S dissipated, S work, S passed) noexcept {
+  return dissipated - work - rounding<S>() * (dissipated + passed);
+}
+
+/// E + gain [J], rounded down, so that a ledger never grows by rounding: one of 1 J in float would not
+/// notice 1e-8 J going out, tick after tick. Exact to an ulp; where the gain is larger than E, to an
+/// ulp of the gain.
+template <real S>
+[[nodiscard]] constexpr S sum_rounded_down(S E, S gain) noexcept {
+  const S sum = E + gain;
+  const S ulp = magnitude(sum) * std::numeric_limits<S>::epsilon();
+  return sum - (sum - E > gain ? ulp : S(0));
 }
 
 /// d_max = f/K [m]; with no stiffness there is no force to place. (2.27, A10)
@@ -124,26 +166,27 @@ template <real S>
 ///     x(n+1) − x(n) = Δx·T/T₀ + double integral of a(t),   |a| ≤ (|f| + F_other)/m
 /// `outward` is the travel along the force in the last tick [m], which lasted T₀ [s]; `held` and
 /// `next` are the force magnitudes over the last and the next tick; `other` bounds all else that
-/// pushes. Exact for the double integrator; with T₀ = T it is lemma L6.
+/// pushes. Exact for the double integrator, rounded up but for `outward`; with T₀ = T it is L6.
 template <real S>
 [[nodiscard]] constexpr S outward_reach(S outward, S held, S next, S other, S m, S T0,
                                         S T) noexcept {
   const S last = (held + other) * T0 * T / (S(2) * m);
   const S coming = (next + other) * T * T / (S(2) * m);
-  return outward * T / T0 + last + coming;
+  return outward * T / T0 + (last + coming) * (S(1) + rounding<S>());
 }
 
 /// The largest force F [N] with F s − B s² ≤ E1 for every 0 ≤ s ≤ δ:
 ///     δ ≤ 0: any force      δ < √(E1/B): E1/δ + B δ      else: √(4 B E1)
-/// The two branches meet where s = δ is itself the worst case (AM-GM), so it is continuous. (§ 9)
+/// rounded towards zero. The two branches meet where s = δ is itself the worst case (AM-GM), so it
+/// is continuous. (§ 9)
 template <real S>
 [[nodiscard]] constexpr S reachable_force_bound(S E1, S B, S reach) noexcept {
   if (!(reach > S(0))) return std::numeric_limits<S>::max();
-  const S credit = larger(E1, S(0));
+  const S credit = spendable(E1);
   if (B * reach * reach < credit) {
-    return (credit / reach + B * reach) * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
+    return (credit / reach + B * reach) * (S(1) - rounding<S>());
   }
-  return strict_force_bound(credit, B) * (S(1) - S(4) * std::numeric_limits<S>::epsilon());
+  return strict_force_bound(E1, B);
 }
 
 /// max of f s − B s² over 0 ≤ s ≤ δ [J]: the most energy that force f [N] can hand to the user over

@@ -142,7 +142,9 @@ class local_model {
 
     const bool known = seen_ && !(blind_ > scalar(0));
     if (known) [[likely]] {
-      book(displacement, held, dt);
+      if (!book(displacement, held, dt)) [[unlikely]] {
+        return refuse(event::rejected_sample, dt);
+      }
     } else {
       displacement = Space::zero();
       observer_.forfeit(held, limits_.longest_tick);
@@ -224,7 +226,12 @@ class local_model {
 
     // Put our own constraint where that force says it is.
     if constexpr (Supply::moves) {
-      if (limited) felt = contact_.depth(Space::dot(force, normal), outward_speed);
+      if (limited) {
+        felt = contact_.depth(Space::dot(force, normal), outward_speed);
+        if constexpr (!Bound::traits.only_reduces) {  // more than K d over a K next to nothing
+          if (!kernels::is_finite(felt)) felt = scalar(0);
+        }
+      }
       if (limited || (in_target && !(normal == goal))) {
         supply_.approach(in_local, here, normal, felt);
       } else {
@@ -246,30 +253,31 @@ class local_model {
     return {Space::zero(), scalar(0), observer_.value(), what, false};
   }
 
-  /// One tick into the ledger.
-  [[gnu::always_inline]] constexpr void book(const vector& displacement, const vector& held,
-                                             scalar dt) noexcept {
+  /// One tick into the ledger; false if its energy is no number.
+  [[nodiscard, gnu::always_inline]] constexpr bool book(const vector& displacement,
+                                                        const vector& held, scalar dt) noexcept {
     if (dt > limits_.longest_tick) return book_late(displacement, held, dt);
-    observer_.update(displacement, held, dt);
+    return observer_.update(displacement, held, dt);
   }
   /// A late tick may have let a watchdog drop the force part of the way, or not: it counts as the
   /// worse of the two. Vectors by value, so that the ordinary tick keeps its own in registers.
-  [[gnu::cold, gnu::noinline]] constexpr void book_late(vector displacement, vector held,
-                                                        scalar dt) noexcept {
+  [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_late(vector displacement, vector held,
+                                                                   scalar dt) noexcept {
     Observer dropped = observer_;
     dropped.forfeit(held, limits_.longest_tick);
-    observer_.update(displacement, held, dt);
+    if (!observer_.update(displacement, held, dt)) return false;
     if (dropped.value() < observer_.value()) observer_ = dropped;
+    return true;
   }
 
   /// A finite sample, no farther from the last good one than the device can have gone since.
   [[nodiscard]] constexpr bool trusted(const vector& position, const vector& travel,
                                        scalar dt) const noexcept {
-    if (!(dt > scalar(0)) || !kernels::is_finite(dt)) return false;
-    if (!seen_) return Space::is_finite(position);  // there is no travel yet
+    if (!(dt > scalar(0))) return false;
+    if (!seen_) return kernels::is_finite(dt) && Space::is_finite(position);  // no travel yet
     const scalar farthest = limits_.top_speed * (blind_ + dt);
     const scalar square = Space::dot(travel, travel);
-    return kernels::is_finite(square) && square <= farthest * farthest;
+    return kernels::is_finite(square + dt) && square <= farthest * farthest;
   }
 
   /// How far the contact counts at all: 1, less as a silent environment fades, 0 before
@@ -299,13 +307,13 @@ class local_model {
     }
   }
 
-  /// ¼ Σ fᵀB⁻¹f over the commands that are still on their way to the motors (§ 3).
+  /// ¼ Σ fᵀB⁻¹f over the commands that are still on their way to the motors, rounded up (§ 3).
   [[nodiscard]] constexpr scalar in_flight() const noexcept {
     scalar promised(0);
     for (std::size_t j = 0; j < latency; ++j) {
       promised += observer_.damping.worst_outflow(held_[j], limits_.longest_tick);
     }
-    return promised;
+    return promised * (scalar(1) + kernels::rounding<scalar>());
   }
 
   constexpr void hold(const vector& force) noexcept {

@@ -16,33 +16,12 @@
 
 namespace passive_haptics::inline v0 {
 
-/// A sum that carries on what rounding cut off (Kahan's, with Knuth's exact error of a sum): in
-/// float, 1e-9 J still counts against 1 J.
-template <real Scalar>
-class compensated_sum {
- public:
-  constexpr compensated_sum() noexcept = default;
-  constexpr compensated_sum(Scalar start) noexcept : sum_(start) {}  // NOLINT: a number
-
-  constexpr compensated_sum& operator+=(Scalar term) noexcept {
-    const Scalar carried = term + lost_;
-    const Scalar next = sum_ + carried;
-    const Scalar gained = next - sum_;
-    lost_ = (sum_ - (next - gained)) + (carried - gained);
-    sum_ = next;
-    return *this;
-  }
-  constexpr operator Scalar() const noexcept { return sum_; }  // NOLINT: a number
-
- private:
-  Scalar sum_{}, lost_{};
-};
-
 /// The reduced energy E1 [J] that has flowed from the hand into the device and is not yet spent:
 ///     E1(n) = E1(n−1) + Δxᵀ(b/dt)Δx − f_held·Δx                                    (2.9, 2.16)
-/// exact for a zero-order hold but for the damping, which it never overstates (lemma L1). `dt` is
-/// the measured length of the tick. A negative E1 is a debt: it is kept, it is visible, it is
-/// repaid. Start with `.energy > 0` and the guarantee becomes E ≥ −that much (A8).
+/// exact for a zero-order hold but for the damping, which it never overstates (lemma L1), and for
+/// rounding, which only lowers it (docs/design/stability.md). `dt` is the measured length of the
+/// tick. A negative E1 is a debt: it is kept, it is visible, it is repaid. Start with `.energy > 0`
+/// and the guarantee becomes E ≥ −that much (A8).
 template <class Space, class Damping = isotropic_damping<Space>,
           class Ledger = typename Space::scalar>
 struct reduced_energy {
@@ -58,20 +37,24 @@ struct reduced_energy {
   Ledger energy{};                         ///< E1 [J]; its first value is the loan
   scalar idle{};                           ///< force-free time so far [s]
 
-  [[gnu::always_inline]] constexpr void update(const vector& displacement, const vector& held,
+  [[gnu::always_inline]] constexpr bool update(const vector& displacement, const vector& held,
                                                scalar dt) noexcept {
-    energy += damping.dissipated(displacement, dt) - Space::dot(held, displacement);
+    const scalar gain =
+        detail::sure_gain<Space>(damping.dissipated(displacement, dt), held, displacement);
+    if (!kernels::is_finite(value() + gain)) [[unlikely]] {
+      return false;
+    }
+    detail::book(energy, gain);
     idle = Space::dot(held, held) > scalar(0) ? scalar(0) : idle + dt;
     const scalar most = idle >= reset_after ? scalar(0) : cap;
     if (value() > most) energy = most;  // only ever lowers: a debt stays (L7)
+    return true;
   }
 
   /// A tick passed and nobody saw the motion: write off the worst that `held` can have done, down
   /// to an empty ledger. Any bound that kept its promise has covered exactly that.
   constexpr void forfeit(const vector& held, scalar T) noexcept {
-    const scalar left = value() - damping.worst_outflow(held, T);
-    const scalar floor = kernels::smaller(value(), scalar(0));
-    energy = kernels::larger(left, floor);
+    energy = detail::written_off(value(), damping.worst_outflow(held, T));
   }
 
   [[nodiscard]] constexpr scalar value() const noexcept { return static_cast<scalar>(energy); }
@@ -116,25 +99,32 @@ struct quantised_energy {
   scalar summed{};                                  ///< credit of its ticks, one by one [J]
   scalar booked{};                                  ///< credit of it that is in `energy` [J]
 
-  constexpr void update(const vector& displacement, const vector& held, scalar dt) noexcept {
+  constexpr bool update(const vector& displacement, const vector& held, scalar dt) noexcept {
+    const quantised_energy before = *this;
     const vector change = held - vector(last_held);
-    energy += -Space::dot(held, displacement) - quantum / scalar(2) * sum_of_magnitudes(change);
+    detail::book(energy, detail::sure_gain<Space>(scalar(0), held, displacement));
+    detail::book(energy, -quantum / scalar(2) * sum_of_magnitudes(change) *
+                             (scalar(1) + kernels::rounding<scalar>()));
     last_held = held;
 
     elapsed += dt;
     travel = vector(vector(travel) + displacement);
     summed += damping.dissipated(surely_moved(displacement), dt);
     const scalar as_a_whole = damping.dissipated(surely_moved(travel), elapsed);
-    const scalar sure = kernels::larger(booked, kernels::larger(summed, as_a_whole));
-    energy += sure - booked;
+    const scalar most =
+        kernels::larger(summed, as_a_whole) * (scalar(1) - scalar(8) * kernels::rounding<scalar>());
+    const scalar sure = kernels::larger(booked, most);
+    detail::book(energy, sure - booked);
     booked = sure;
     if (elapsed >= window) begin_window();
     if (value() > cap) energy += cap - value();
+    if (kernels::is_finite(value())) return true;
+    *this = before;
+    return false;
   }
 
   constexpr void forfeit(const vector& held, scalar T) noexcept {
-    const scalar floor = kernels::smaller(value(), scalar(0));
-    energy = kernels::larger(value() - damping.worst_outflow(held, T), floor);
+    energy = detail::written_off(value(), damping.worst_outflow(held, T));
     last_held = Space::zero();
     begin_window();
   }
@@ -200,7 +190,9 @@ struct no_observer {
   };
   [[no_unique_address]] unknown_damping damping{};
 
-  constexpr void update(const vector& /*dx*/, const vector& /*held*/, scalar /*dt*/) noexcept {}
+  constexpr bool update(const vector& /*dx*/, const vector& /*held*/, scalar /*dt*/) noexcept {
+    return true;
+  }
   constexpr void forfeit(const vector& /*held*/, scalar /*T*/) noexcept {}
   [[nodiscard]] constexpr scalar value() const noexcept { return scalar(0); }
   [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept { return {}; }

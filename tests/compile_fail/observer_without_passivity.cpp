@@ -21,7 +21,9 @@ struct mine {
 #endif
   static constexpr bool counts = true;
   ph::isotropic_damping<scene> damping{1};
-  constexpr void update(float /*dx*/, float /*held*/, float /*dt*/) noexcept {}
+  constexpr bool update(float /*dx*/, float /*held*/, float /*dt*/) noexcept {
+    return true;
+  }
   constexpr void forfeit(float /*held*/, float /*T*/) noexcept {}
   constexpr float value() const noexcept {
     return 0;

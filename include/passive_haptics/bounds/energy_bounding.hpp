@@ -37,10 +37,10 @@ template <class Space>
                                                          const auto& state) noexcept {
   using scalar = typename Space::scalar;
   const scalar before = kernels::smaller(Space::dot(state.held, state.held), promised);
-  const scalar credit = before / (scalar(2) * c2) +
-                        state.damping.dissipated(state.displacement, state.dt) -
-                        Space::dot(state.held, state.displacement);
-  return force * kernels::strict_scale(credit, Space::dot(force, force) / (scalar(2) * c2));
+  const scalar credit = before / (scalar(2) * c2) + state.gain();
+  const scalar cost = Space::dot(force, force) / (scalar(2) * c2);
+  if (cost <= credit) return force;
+  return force * kernels::strict_scale(credit, cost);
 }
 }  // namespace detail
 

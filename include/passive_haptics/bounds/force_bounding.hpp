@@ -77,9 +77,7 @@ struct memoryless_bound {
     const scalar T = state.longest_tick;
     scalar credit(0);
     if (state.motion_known && state.dt <= T) {
-      credit = state.damping.worst_outflow(state.held, T) +
-               state.damping.dissipated(state.displacement, state.dt) -
-               Space::dot(state.held, state.displacement);
+      credit = state.damping.worst_outflow(state.held, T) + state.gain();
     }
     return desired * state.damping.affordable(desired, credit, T);
   }
@@ -109,13 +107,12 @@ struct per_axis_bound {
   typename Space::coordinates energy{};             ///< Eᵢ [J]
 
   [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) noexcept {
-    constexpr scalar inwards = scalar(1) - scalar(4) * std::numeric_limits<scalar>::epsilon();
     vector force = desired;
     for (int i = 0; i < Space::dof; ++i) {
       scalar& saved = Space::component(energy, i);
       saved = booked(saved, i, state);
       const scalar B = state.damping.along_axis(i) / state.longest_tick;
-      const scalar most = kernels::strict_force_bound(saved, B) * inwards;
+      const scalar most = kernels::strict_force_bound(saved, B);
       scalar& along = Space::component(force, i);
       along = kernels::smaller(kernels::larger(along, -most), most);
     }
@@ -135,10 +132,12 @@ struct per_axis_bound {
     const scalar b = state.damping.along_axis(i);
     const scalar held = Space::component(state.held, i);
     const scalar travel = Space::component(state.displacement, i);
-    scalar after = before + (b * travel / state.dt - held) * travel;
+    const scalar work = held * travel;
+    scalar after = kernels::sum_rounded_down(
+        before, kernels::sure_gain(b * travel * travel / state.dt, work, kernels::magnitude(work)));
     if (state.dt > state.longest_tick) {
       const scalar worst = kernels::worst_outflow(held, b / state.longest_tick);
-      after = kernels::smaller(after, kernels::larger(before - worst, debt));
+      after = kernels::smaller(after, kernels::larger(kernels::spendable(before) - worst, debt));
     }
     return kernels::smaller(after, cap);
   }

@@ -37,7 +37,8 @@ struct late_reachable_bound {
     if (in_flight > scalar(0)) {
       const scalar friction = state.damping.friction();
       const scalar B = state.damping.per_tick(h, state.longest_tick);
-      credit -= kernels::reachable_outflow(in_flight - friction, B, now(h, in_flight, state));
+      credit -= kernels::reachable_outflow(in_flight - friction, B, now(h, in_flight, state)) *
+                (scalar(1) + kernels::rounding<scalar>());
     }
     const vector force = affordable(desired, credit, in_flight, state);
     coming = force;
@@ -55,7 +56,8 @@ struct late_reachable_bound {
  private:
   [[nodiscard]] constexpr vector affordable(const vector& desired, scalar credit, scalar in_flight,
                                             const auto& state) const noexcept {
-    if (state.damping.worst_outflow(desired, state.longest_tick) <= credit) return desired;
+    const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
+    if (outflow <= kernels::spendable(credit)) return desired;
     const scalar force = Space::norm(desired);
     if (!(force > scalar(0))) return desired;
     const scalar B = state.damping.per_tick(desired, state.longest_tick);
@@ -72,6 +74,7 @@ struct late_reachable_bound {
                                      const auto& state) const noexcept {
     if (!state.motion_known) return std::numeric_limits<scalar>::max();
     const scalar outward = Space::dot(state.displacement, direction) / Space::norm(direction) +
+                           kernels::rounding<scalar>() * Space::norm(state.displacement) +
                            state.displacement_error;
     return kernels::outward_reach(outward, Space::norm(state.held), in_flight,
                                   others(direction, state), mass, state.dt, state.longest_tick);

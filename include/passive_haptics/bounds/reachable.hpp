@@ -29,13 +29,15 @@ struct reachable_bound {
 
   [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) const noexcept {
     const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
-    if (outflow <= state.credit()) return desired;  // covered even by the worst motion of all
+    const scalar credit = state.credit();
+    if (outflow <= kernels::spendable(credit)) return desired;  // by the worst motion of all
     const scalar force = Space::norm(desired);
     if (!(force > scalar(0))) return desired;
 
     const scalar B = state.damping.per_tick(desired, state.longest_tick);
     scalar outward = Space::dot(state.displacement, desired) / force;
     scalar moved = Space::norm(state.displacement);
+    outward += kernels::rounding<scalar>() * moved;
     if (state.displacement_error > scalar(0)) {
       outward += state.displacement_error;
       moved += state.displacement_error;
@@ -46,8 +48,7 @@ struct reachable_bound {
             ? kernels::outward_reach(outward, Space::norm(state.held), force, hand_force + damper,
                                      mass, state.dt, state.longest_tick)
             : std::numeric_limits<scalar>::max();  // it may be moving out at any speed
-    const scalar most =
-        state.damping.friction() + kernels::reachable_force_bound(state.credit(), B, reach);
+    const scalar most = state.damping.friction() + kernels::reachable_force_bound(credit, B, reach);
     return most < force ? vector(desired * (most / force)) : desired;
   }
   [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {

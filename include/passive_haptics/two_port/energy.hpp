@@ -36,18 +36,21 @@ struct two_port_energy {
   Ledger promised{};                                ///< E_in [J], never falls
   received_energy<scalar> received{};               ///< E_in_rx [J]
 
-  constexpr void update(const vector& displacement, const vector& held, scalar dt) noexcept {
+  constexpr bool update(const vector& displacement, const vector& held, scalar dt) noexcept {
+    const scalar gain =
+        detail::sure_gain<Space>(damping.dissipated(displacement, dt), held, displacement);
     const scalar gave = Space::dot(held, displacement);
     const scalar passed_on = gave < scalar(0) ? share * -gave : scalar(0);
-    energy += damping.dissipated(displacement, dt) - gave - passed_on;
-    promised += passed_on;
+    if (!kernels::is_finite(value() + gain - passed_on)) return false;
+    detail::book(energy, gain);
+    detail::book(energy, -passed_on);
+    detail::book(promised, passed_on);
     cut();
+    return true;
   }
   /// A tick that nobody saw promises nothing and costs the worst that `held` can have done.
   constexpr void forfeit(const vector& held, scalar T) noexcept {
-    const scalar left = value() - damping.worst_outflow(held, T);
-    const scalar floor = kernels::smaller(value(), scalar(0));
-    energy = kernels::larger(left, floor);
+    energy = detail::written_off(value(), damping.worst_outflow(held, T));
   }
   /// Takes the other side's E_in [J] from a packet, in whatever order they come.
   constexpr void receive(scalar other) noexcept {

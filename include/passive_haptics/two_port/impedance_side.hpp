@@ -108,7 +108,7 @@ class impedance_side {
     const bool known = seen_ && !(blind_ > scalar(0));
     const vector displacement = known ? travel : Space::zero();
     if (known) {
-      book(displacement, held, dt);
+      if (!book(displacement, held, dt)) return refuse(event::rejected_sample, dt);
     } else {
       observer_.forfeit(held, limits_.longest_tick);
     }
@@ -122,6 +122,7 @@ class impedance_side {
     for (std::size_t j = 0; j < latency; ++j) {
       in_flight += observer_.damping.worst_outflow(held_[j], limits_.longest_tick);
     }
+    in_flight *= scalar(1) + kernels::rounding<scalar>();
     using state_type = tick_state<Space, decltype(observer_.damping)>;
     const state_type state{.damping = observer_.damping,
                            .energy = observer_.value(),
@@ -148,12 +149,14 @@ class impedance_side {
 
   /// A late tick may have let a watchdog drop the force part of the way: the worse of the two, and
   /// nothing that may not have come in is promised. The ledger may show a debt the port has not.
-  constexpr void book(const vector& displacement, const vector& held, scalar dt) noexcept {
+  /// False, and nothing is booked, if the energy is no number.
+  constexpr bool book(const vector& displacement, const vector& held, scalar dt) noexcept {
     if (dt <= limits_.longest_tick) return observer_.update(displacement, held, dt);
     Observer dropped = observer_;
     dropped.forfeit(held, limits_.longest_tick);
-    observer_.update(displacement, held, dt);
+    if (!observer_.update(displacement, held, dt)) return false;
     if (dropped.value() < observer_.value()) observer_ = dropped;
+    return true;
   }
   [[nodiscard]] constexpr bool trusted(const vector& position, const vector& travel,
                                        const vector& held, scalar dt) const noexcept {

@@ -13,15 +13,23 @@
 typedef double real;
 #define REAL_EPSILON 0x1p-52
 #define REAL_MAX 0x1.fffffffffffffp1023
+#define REAL_MIN 0x1p-1022
 static inline real root(real x) {
   return sqrt(x);
+}
+static inline real magnitude(real x) {
+  return fabs(x);
 }
 #else
 typedef float real;
 #define REAL_EPSILON 0x1p-23F
 #define REAL_MAX 0x1.fffffep127F
+#define REAL_MIN 0x1p-126F
 static inline real root(real x) {
   return sqrtf(x);
+}
+static inline real magnitude(real x) {
+  return fabsf(x);
 }
 #endif
 
@@ -37,7 +45,7 @@ enum what { /* rising severity */
 };
 
 static inline bool finite_number(real x) {
-  return x - x == 0;
+  return magnitude(x) <= REAL_MAX;
 }
 static inline real larger(real a, real b) {
   return a < b ? b : a;
@@ -63,18 +71,32 @@ static inline real outflow(const struct ledger* l, real f_squared, real T) {
   return T * f_squared / (4 * l->damping);
 }
 
-/* Nobody saw the motion: write off the worst, down to an empty ledger. */
-static inline real written_off(const struct ledger* l, real held_squared, real T) {
-  const real left = l->energy - outflow(l, held_squared, T);
-  return larger(left, smaller(l->energy, 0));
+/* A margin for a dozen roundings in any direction. */
+static const real rounding = 16 * REAL_EPSILON;
+
+/* a + b, rounded down. */
+static inline real sum_rounded_down(real a, real b) {
+  const real sum = a + b;
+  const real ulp = magnitude(sum) * REAL_EPSILON;
+  return sum - (sum - a > b ? ulp : 0);
 }
 
-/* One tick into the ledger; a late one counts as the worse of the two stories. */
-static inline void book(struct ledger* l, real travel_squared, real work, real held_squared,
-                        real dt, real longest_tick) {
+/* Nobody saw the motion: write off the worst, down to an empty ledger. */
+static inline real written_off(const struct ledger* l, real held_squared, real T) {
+  const real left = sum_rounded_down(l->energy, -outflow(l, held_squared, T) * (1 + rounding));
+  return larger(smaller(l->energy, 0), left);
+}
+
+/* One tick into the ledger, rounded down; a late one counts as the worse of the two stories. `passed`
+   is the sum of |held_i travel_i|. False, and nothing is booked, when that is no number. */
+static inline bool book(struct ledger* l, real travel_squared, real work, real passed,
+                        real held_squared, real dt, real longest_tick) {
   const bool late = !(dt <= longest_tick);
   const real dropped = late ? written_off(l, held_squared, longest_tick) : REAL_MAX;
-  real energy = l->energy + (l->damping * travel_squared / dt - work);
+  const real dissipated = l->damping * travel_squared / dt;
+  const real gain = dissipated - work - rounding * (dissipated + passed);
+  if (!finite_number(l->energy + gain)) return false;
+  real energy = sum_rounded_down(l->energy, gain);
   const real idle = held_squared > 0 ? 0 : l->idle + dt;
   const real most = idle >= l->reset_after ? 0 : l->cap;
   if (energy > most) energy = most;
@@ -84,13 +106,21 @@ static inline void book(struct ledger* l, real travel_squared, real work, real h
     l->energy = energy;
     l->idle = idle;
   }
+  return true;
+}
+
+/* The part of a credit that may be spent, whichever way each step rounds. */
+static inline real spendable(real credit) {
+  return credit * (1 - 4 * rounding) - REAL_MIN / REAL_EPSILON;
 }
 
 /* The factor that brings an outflow down to what the ledger covers. */
 static inline real affordable(real E, real outflow) {
-  if (outflow <= E) return 1;
-  if (!(E > 0)) return 0;
-  return root(E / outflow) * (1 - 4 * REAL_EPSILON);
+  const real credit = spendable(E);
+  if (outflow <= credit) return 1;
+  if (!(credit > 0)) return 0;
+  const real share = credit / outflow;
+  return share >= REAL_MIN ? root(share) : 0;
 }
 
 /* A silent environment fades out. */
@@ -139,13 +169,12 @@ static inline real reachable_force(const struct reach* r, real b, real credit, r
     const real other = r->hand_force + 2 * B * travel;
     const real last = (held + other) * dt * T / (2 * r->mass);
     const real coming = (asked + other) * T * T / (2 * r->mass);
-    way = outward * T / dt + last + coming;
+    way = (outward + rounding * travel) * T / dt + (last + coming) * (1 + rounding);
   }
   if (!(way > 0)) return REAL_MAX;
-  const real E = larger(credit, 0);
-  const real inwards = 1 - 4 * REAL_EPSILON;
-  if (B * way * way < E) return (E / way + B * way) * inwards;
-  return (E > 0 ? root(4 * B * E) : 0) * inwards;
+  const real E = spendable(credit);
+  if (B * way * way < E) return (E / way + B * way) * (1 - rounding);
+  return E > 0 ? root(smaller(4 * B * E, REAL_MAX)) : 0;
 }
 
 #endif

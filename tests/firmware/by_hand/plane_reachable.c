@@ -53,7 +53,7 @@ static vec3 limited(const struct plane_reachable* w, vec3 desired, vec3 travel, 
   const real T = w->loop.longest_tick;
   const struct ledger* l = &w->ledger;
   const real square = dot3(desired, desired);
-  if (outflow(l, square, T) <= l->energy) return desired;
+  if (outflow(l, square, T) <= spendable(l->energy)) return desired;
   const real asked = root(square);
   if (!(asked > 0)) return desired;
   const vec3 held = w->device.held;
@@ -72,14 +72,16 @@ struct answer3 by_hand_plane_reachable_tick(struct plane_reachable* w, const vec
   vec3 travel = sub3(x, d->position);
   const real square = dot3(travel, travel);
   const real farthest = w->loop.top_speed * (d->blind + dt);
-  if (!d->sound || !(dt > 0) || !finite_number(dt) ||
-      !(d->seen ? finite_number(square) && square <= farthest * farthest : finite3(x))) {
+  if (!d->sound || !(dt > 0) ||
+      !(d->seen ? finite_number(square + dt) && square <= farthest * farthest
+                : finite_number(dt) && finite3(x))) {
     return refuse(w, dt);
   }
   const bool known = d->seen && !(d->blind > 0);
   const real held_squared = dot3(d->held, d->held);
   if (known) {
-    book(l, square, dot3(d->held, travel), held_squared, dt, T);
+    const real work = dot3(d->held, travel), passed = passed3(d->held, travel);
+    if (!book(l, square, work, passed, held_squared, dt, T)) return refuse(w, dt);
   } else {
     travel = (vec3){0};
     l->energy = written_off(l, held_squared, T);

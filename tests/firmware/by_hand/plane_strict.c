@@ -54,14 +54,16 @@ struct answer2 by_hand_plane_strict_tick(struct plane_strict* w, const vec2* at,
   vec2 travel = sub2(x, d->position);
   const real square = dot2(travel, travel);
   const real farthest = w->loop.top_speed * (d->blind + dt);
-  if (!d->sound || !(dt > 0) || !finite_number(dt) ||
-      !(d->seen ? finite_number(square) && square <= farthest * farthest : finite2(x))) {
+  if (!d->sound || !(dt > 0) ||
+      !(d->seen ? finite_number(square + dt) && square <= farthest * farthest
+                : finite_number(dt) && finite2(x))) {
     return refuse(w, dt);
   }
   const bool known = d->seen && !(d->blind > 0);
   const real held_squared = dot2(d->held, d->held);
   if (known) {
-    book(l, square, dot2(d->held, travel), held_squared, dt, T);
+    const real work = dot2(d->held, travel), passed = passed2(d->held, travel);
+    if (!book(l, square, work, passed, held_squared, dt, T)) return refuse(w, dt);
   } else {
     travel = (vec2){0};
     l->energy = written_off(l, held_squared, T);

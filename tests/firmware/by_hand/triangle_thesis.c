@@ -116,12 +116,14 @@ struct answer3 by_hand_triangle_thesis_tick(struct triangle_thesis* w, const vec
   vec3 travel = sub3(x, d->position);
   const real square = square3(travel);
   const real farthest = w->loop.top_speed * (d->blind + dt);
-  if (!d->sound || !(dt > 0) || !finite_number(dt) ||
-      !(d->seen ? finite_number(square) && square <= farthest * farthest : finite3(x))) {
+  if (!d->sound || !(dt > 0) ||
+      !(d->seen ? finite_number(square + dt) && square <= farthest * farthest
+                : finite_number(dt) && finite3(x))) {
     return refuse(w, dt);
   }
   if (d->seen && !(d->blind > 0)) {
-    book(l, square, dot3(d->held, travel), square3(d->held), dt, T);
+    const real work = dot3(d->held, travel), passed = passed3(d->held, travel);
+    if (!book(l, square, work, passed, square3(d->held), dt, T)) return refuse(w, dt);
   } else {
     travel = (vec3){0};
     l->energy = written_off(l, square3(d->held), T);

@@ -24,7 +24,7 @@ static inline bool same2(vec2 a, vec2 b) {
   return a.x == b.x && a.y == b.y;
 }
 static inline bool finite2(vec2 a) {
-  return (a.x - a.x) + (a.y - a.y) == 0;
+  return finite_number(a.x) && finite_number(a.y);
 }
 
 static inline vec3 sub3(vec3 a, vec3 b) {
@@ -46,7 +46,14 @@ static inline bool same3(vec3 a, vec3 b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 static inline bool finite3(vec3 a) {
-  return (a.x - a.x) + ((a.y - a.y) + (a.z - a.z)) == 0;
+  return finite_number(a.x) && finite_number(a.y) && finite_number(a.z);
+}
+/* The sum of |a_i b_i|. */
+static inline real passed2(vec2 a, vec2 b) {
+  return magnitude(a.x * b.x) + magnitude(a.y * b.y);
+}
+static inline real passed3(vec3 a, vec3 b) {
+  return magnitude(a.x * b.x) + magnitude(a.y * b.y) + magnitude(a.z * b.z);
 }
 static inline vec3 cross3(vec3 a, vec3 b) {
   return (vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -51,7 +51,7 @@ static real limited(const struct wall_reachable* w, real desired, real travel, b
                     real dt) {
   const real T = w->loop.longest_tick;
   const struct ledger* l = &w->ledger;
-  if (outflow(l, desired * desired, T) <= l->energy) return desired;
+  if (outflow(l, desired * desired, T) <= spendable(l->energy)) return desired;
   const real asked = desired < 0 ? -desired : desired;
   if (!(asked > 0)) return desired;
   const real held = w->device.held;
@@ -69,13 +69,15 @@ struct answer1 by_hand_wall_reachable_tick(struct wall_reachable* w, real x, rea
   real travel = x - d->position;
   const real square = travel * travel;
   const real farthest = w->loop.top_speed * (d->blind + dt);
-  if (!d->sound || !(dt > 0) || !finite_number(dt) ||
-      !(d->seen ? finite_number(square) && square <= farthest * farthest : finite_number(x))) {
+  if (!d->sound || !(dt > 0) ||
+      !(d->seen ? finite_number(square + dt) && square <= farthest * farthest
+                : finite_number(dt) && finite_number(x))) {
     return refuse(w, dt);
   }
   const bool known = d->seen && !(d->blind > 0);
   if (known) {
-    book(l, square, d->held * travel, d->held * d->held, dt, T);
+    const real work = d->held * travel;
+    if (!book(l, square, work, magnitude(work), d->held * d->held, dt, T)) return refuse(w, dt);
   } else {
     travel = 0;
     l->energy = written_off(l, d->held * d->held, T);

@@ -32,13 +32,15 @@ struct answer1 by_hand_wall_strict_tick(struct wall_strict* w, real x, real dt) 
   const real travel = x - d->position;
   const real square = travel * travel;
   const real farthest = w->loop.top_speed * (d->blind + dt);
-  if (!d->sound || !(dt > 0) || !finite_number(dt) ||
-      !(d->seen ? finite_number(square) && square <= farthest * farthest : finite_number(x))) {
+  if (!d->sound || !(dt > 0) ||
+      !(d->seen ? finite_number(square + dt) && square <= farthest * farthest
+                : finite_number(dt) && finite_number(x))) {
     return refuse(w, dt);
   }
   const real held_squared = d->held * d->held;
   if (d->seen && !(d->blind > 0)) {
-    book(l, square, d->held * travel, held_squared, dt, T);
+    const real work = d->held * travel;
+    if (!book(l, square, work, magnitude(work), held_squared, dt, T)) return refuse(w, dt);
   } else {
     l->energy = written_off(l, held_squared, T);
     d->seen = true;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The program, apart from main(): so that a test can run it.
+
+#include "session.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stability {
+
+/// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
+[[nodiscard]] settings parse(const std::vector<std::string>& arguments);
+
+/// 0: all is well. 1: a guarantee was lost or a number that is none came out, or something could
+/// not be written. 2: an argument is wrong.
+[[nodiscard]] int run(const std::vector<std::string>& arguments,
+                      const std::vector<controllers::controller>& judged);
+
+}  // namespace stability
