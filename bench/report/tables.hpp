@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The two parts of the report, as tables, CSV, JSON and plots.
+// The parts of the report, as tables, CSV, JSON and plots.
 
 #include "../common/report.hpp"
 #include "arithmetic.hpp"
@@ -53,5 +53,8 @@ std::vector<std::size_t> pareto_front(const std::vector<std::pair<double, double
 /// False: an error is far beyond what rounding can do, so something is broken.
 bool report_arithmetic(report& out, const settings& chosen, figures& all);
 bool report_models(report& out, const settings& chosen, figures& figured);
+/// The scenes that are also written by hand.
+void report_by_hand(report& out, const settings& chosen);
+[[nodiscard]] std::vector<candidate> by_hand_candidates();
 
 }  // namespace experiments

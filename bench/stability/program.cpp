@@ -62,25 +62,33 @@ settings parse(const std::vector<std::string>& arguments) {
   return chosen;
 }
 
+std::vector<std::string> try_all(ex::report& out, const settings& chosen,
+                                 const std::vector<controllers::controller>& judged) {
+  const session s{out, chosen, judged};
+  std::vector<std::string> found;
+  for (auto* part : {run_sweep, run_shapes, run_numbers, run_soak}) {
+    for (auto& sentence : part(s)) found.push_back(std::move(sentence));
+  }
+  std::vector<std::string> quoted;
+  for (const auto& sentence : found) {
+    std::cerr << "stability: " << sentence << '\n';
+    quoted.push_back(ex::json_string(sentence));
+  }
+  out.member("failures", ex::json_array(quoted));
+  return found;
+}
+
 int run(const std::vector<std::string>& arguments,
         const std::vector<controllers::controller>& judged) {
   try {
     const settings chosen = parse(arguments);
     ex::report report(chosen.out, {.json = "stability.json", .markdown = "stability.md"});
-    const session s{report, chosen, judged};
-    std::vector<std::string> found;
-    for (auto* part : {run_sweep, run_shapes, run_numbers, run_soak}) {
-      for (auto& sentence : part(s)) found.push_back(std::move(sentence));
-    }
-    std::vector<std::string> quoted;
-    for (const auto& sentence : found) quoted.push_back(ex::json_string(sentence));
-    report.member("failures", ex::json_array(quoted));
+    const std::vector<std::string> found = try_all(report, chosen, judged);
     if (!report.finish("passive_haptics: stiff and extreme cases")) {
       std::cout << "gnuplot did not draw every plot: is it installed? The rest is complete.\n";
     }
     std::cout << "results: " << report.path("stability.md").string() << ", "
               << report.path("stability.csv").string() << '\n';
-    for (const auto& sentence : found) std::cerr << "stability: " << sentence << '\n';
     return found.empty() ? 0 : 1;
   } catch (const std::invalid_argument& problem) {
     std::cerr << "stability: " << problem.what() << '\n';

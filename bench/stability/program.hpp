@@ -12,6 +12,11 @@ namespace stability {
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);
 
+/// Every part, into `out`. Returns a sentence for each guarantee that was lost, each number that
+/// came out and is none, and writes them there, too.
+[[nodiscard]] std::vector<std::string> try_all(ex::report& out, const settings& chosen,
+                                               const std::vector<controllers::controller>& judged);
+
 /// 0: all is well. 1: a guarantee was lost or a number that is none came out, or something could
 /// not be written. 2: an argument is wrong.
 [[nodiscard]] int run(const std::vector<std::string>& arguments,

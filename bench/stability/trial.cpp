@@ -14,7 +14,8 @@ namespace {
 namespace sim = passive_haptics::simulation;
 using controllers::controller;
 
-constexpr double dry_friction = 0.3;  // of devices for controllers that credit it [N]
+// Of devices for controllers that credit it [N]; a float, too, or the device had less than they know.
+constexpr double dry_friction = 0.3125;
 
 /// How far apart numbers are at x, in Scalar.
 template <class Scalar>
@@ -28,7 +29,8 @@ double spacing(double x) {
 /// no tick has more than sixteen in a row: 16 u (b‖Δx‖²/dt + ‖f‖‖Δx‖ + |E1|).
 /// Where dry friction is booked too, it rounds as the rest does, and so does its sum with the truth.
 /// Positions off by e ≤ q/2 an axis: Σ f·(e(k+1) − e(k)), summed by parts, and the square of a Δx
-/// off by q (docs/design/mathematics.md § 3); and a reach that is off by q.
+/// off by q (docs/design/mathematics.md § 3); and a reach that is off by q. The device may fly far
+/// from where it began, and q grows with the distance.
 template <class Space>
 class accounts {
  public:
@@ -37,9 +39,10 @@ class accounts {
 
   accounts(const world& w, double quantum) : b_(w.damping), q_(quantum) {}
 
-  void book(double energy, double rubbed, const state& travel, const state& held, const state& next,
-            double dt, const ph::tick_result<Space>& out) {
+  void book(double energy, double rubbed, const state& at, const state& travel, const state& held,
+            const state& next, double dt, const ph::tick_result<Space>& out) {
     using physical = sim::physical<Space>;
+    if (q_ > 0.0) q_ = std::fmax(q_, spacing<scalar>(physical::norm(at)));
     const double way = physical::norm(travel);
     const double force = physical::norm(next);
     const double before = physical::norm(held);
@@ -149,7 +152,7 @@ outcome play(controllers::model<Space> model, Device& device, const world& w, do
     const state force = sim::to_physical<Space>(out.force);
     const double rubbed = device.meter().total().friction;  // zero where there is none
     const double energy = rubbed > 0.0 ? device.meter().value() + rubbed : device.meter().minimum();
-    books.book(energy, rubbed, state(device.position() - last), held, force,
+    books.book(energy, rubbed, device.position(), state(device.position() - last), held, force,
                static_cast<double>(sample.dt), out);
     last = device.position();
     held = force;
@@ -299,7 +302,7 @@ outcome judge(const controller& c, const world& w, const effort& how) {
   const controllers::premises known{
       .mass = w.mass,
       .damping = w.damping,
-      .friction = static_cast<double>(static_cast<float>(friction)),
+      .friction = friction,
       .hand_force = 1.001 * (std::fmax(hand_force(w), weight(w)) + friction),
       .quantum = 1.001 * (c.covers.rounding ? sensed : 0.0),
       .longest_tick = w.tick,
