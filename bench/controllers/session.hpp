@@ -3,8 +3,8 @@
 // What every part of a run shares: the choices made on the command line, the report, the stop.
 
 #include "../common/report.hpp"
+#include "../common/work.hpp"
 #include "catalogue.hpp"
-#include "work.hpp"
 
 #include <optional>
 
@@ -49,11 +49,12 @@ struct session {
     std::vector<decltype(cell(0))> all;
     ex::csv_file csv(out.path(file), heading);
     ex::progress bar(what, count);
-    const int done = work_through(count, chosen.threads, stop, cell, [&](int, auto row) {
-      csv.line(text(row));
-      all.push_back(std::move(row));
-      bar.step();
-    });
+    const int done =
+        experiments::work_through(count, chosen.threads, stop, cell, [&](int, auto row) {
+          csv.line(text(row));
+          all.push_back(std::move(row));
+          bar.step();
+        });
     csv.close();
     if (done < count) {
       throw interrupted("stopped: " + out.path(file).string() + " has " + std::to_string(done) +

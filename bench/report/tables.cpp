@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tables.hpp"
 
-#include "../controllers/work.hpp"
+#include "../common/work.hpp"
 
 #include <algorithm>
 #include <map>
@@ -77,7 +77,7 @@ bool report_arithmetic(report& out, const settings& chosen, figures& all) {
   const auto& names = arithmetic_compositions();
   std::vector<arithmetic_row> rows;
   progress bar("arithmetic", static_cast<int>(names.size()));
-  controllers::work_through(
+  work_through(
       static_cast<int>(names.size()), 2, never,
       [&](int i) { return compare(names[static_cast<std::size_t>(i)], chosen.ticks); },
       [&](int, const std::vector<arithmetic_row>& some) {
@@ -203,7 +203,7 @@ bool report_models(report& out, const settings& chosen, figures& figured) {
     }
     const int cells = static_cast<int>(fitting.size() * rates.size());
     progress bar(scene.name, cells);
-    controllers::work_through(
+    work_through(
         cells, 2, never,
         [&](int cell) {
           const auto& c = all[fitting[static_cast<std::size_t>(cell) / rates.size()]];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "soak.hpp"
 
-#include "../controllers/work.hpp"
+#include "../common/work.hpp"
 #include <passive_haptics/passive_haptics.hpp>
 
 #include <cmath>
@@ -168,7 +168,7 @@ std::vector<soak_row> soak(long long ticks, int threads) {
   }
   std::vector<soak_row> rows;
   const std::atomic<bool> never = false;
-  controllers::work_through(
+  ex::work_through(
       static_cast<int>(jobs.size()), threads, never,
       [&](int i) {
         const job& j = jobs[static_cast<std::size_t>(i)];

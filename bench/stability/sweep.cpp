@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sweep.hpp"
 
-#include "../controllers/work.hpp"
+#include "../common/work.hpp"
 
 #include <map>
 
@@ -269,7 +269,7 @@ std::vector<std::string> run_sweep(const session& s) {
                    "swing,events");
   ex::progress bar("stability", static_cast<int>(jobs.size()));
   const std::atomic<bool> never = false;
-  controllers::work_through(
+  ex::work_through(
       static_cast<int>(jobs.size()), s.chosen.threads, never,
       [&](int i) { return work(jobs[static_cast<std::size_t>(i)], s.chosen.quick); },
       [&](int, std::vector<row> some) {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace controllers {
+namespace experiments {
 
 /// Calls cell(i) for 0 ≤ i < count in `threads` threads, and done(i, result) for each i in
 /// order, one at a time. Once `stop` is set the cells under way are finished and handed on, and no
@@ -54,4 +54,4 @@ int work_through(int count, int threads, const std::atomic<bool>& stop, Cell cel
   return handed_on;
 }
 
-}  // namespace controllers
+}  // namespace experiments
