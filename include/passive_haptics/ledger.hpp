@@ -41,13 +41,12 @@ template <class Space>
     typename Space::scalar dissipated, const typename Space::vector& held,
     const typename Space::vector& displacement) noexcept {
   using scalar = typename Space::scalar;
-  const auto along = [&](int i) {
-    return Space::component(held, i) * Space::component(displacement, i);
-  };
-  scalar work = along(0), passed = kernels::magnitude(along(0));
+  scalar work = Space::component(held, 0) * Space::component(displacement, 0);
+  scalar passed = kernels::magnitude(work);
   for (int i = 1; i < Space::dof; ++i) {
-    work += along(i);
-    passed += kernels::magnitude(along(i));
+    const scalar along = Space::component(held, i) * Space::component(displacement, i);
+    work += along;
+    passed += kernels::magnitude(along);
   }
   return kernels::sure_gain(dissipated, work, passed);
 }
