@@ -273,11 +273,12 @@ class local_model {
   /// A finite sample, no farther from the last good one than the device can have gone since.
   [[nodiscard]] constexpr bool trusted(const vector& position, const vector& travel,
                                        scalar dt) const noexcept {
+    constexpr scalar largest = std::numeric_limits<scalar>::max();  // below infinity, and NaN
     if (!(dt > scalar(0))) return false;
-    if (!seen_) return kernels::is_finite(dt) && Space::is_finite(position);  // no travel yet
+    if (!seen_) return dt <= largest && Space::is_finite(position);  // there is no travel yet
     const scalar farthest = limits_.top_speed * (blind_ + dt);
     const scalar square = Space::dot(travel, travel);
-    return kernels::is_finite(square + dt) && square <= farthest * farthest;
+    return square + dt <= largest && square <= farthest * farthest;
   }
 
   /// How far the contact counts at all: 1, less as a silent environment fades, 0 before
@@ -324,7 +325,8 @@ class local_model {
   /// Force zero; the motion since the last good sample is unknown and written off.
   [[gnu::cold, gnu::noinline]] constexpr tick_result<Space> refuse(event why, scalar dt) noexcept {
     if (sound_) observer_.forfeit(held_.back(), limits_.longest_tick);
-    const scalar passed = dt > scalar(0) && kernels::is_finite(dt) ? dt : limits_.longest_tick;
+    const bool lasted = dt > scalar(0) && dt <= std::numeric_limits<scalar>::max();
+    const scalar passed = lasted ? dt : limits_.longest_tick;
     blind_ += passed;
     if constexpr (Supply::moves) supply_.grow_older(passed);
     hold(Space::zero());

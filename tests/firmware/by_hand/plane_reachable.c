@@ -35,7 +35,7 @@ bool by_hand_plane_reachable_retarget(struct plane_reachable* w, const struct pl
 static struct answer3 refuse(struct plane_reachable* w, real dt) {
   const real T = w->loop.longest_tick;
   struct device3* d = &w->device;
-  const real passed = dt > 0 && finite_number(dt) ? dt : T;
+  const real passed = dt > 0 && dt <= REAL_MAX ? dt : T;
   uint8_t what = rejected_parameters;
   if (d->sound) {
     w->ledger.energy = written_off(&w->ledger, dot3(d->held, d->held), T);
@@ -73,8 +73,8 @@ struct answer3 by_hand_plane_reachable_tick(struct plane_reachable* w, const vec
   const real square = dot3(travel, travel);
   const real farthest = w->loop.top_speed * (d->blind + dt);
   if (!d->sound || !(dt > 0) ||
-      !(d->seen ? finite_number(square + dt) && square <= farthest * farthest
-                : finite_number(dt) && finite3(x))) {
+      !(d->seen ? square + dt <= REAL_MAX && square <= farthest * farthest
+                : dt <= REAL_MAX && finite3(x))) {
     return refuse(w, dt);
   }
   const bool known = d->seen && !(d->blind > 0);

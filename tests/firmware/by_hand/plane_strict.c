@@ -33,7 +33,7 @@ bool by_hand_plane_strict_retarget(struct plane_strict* w, const struct plane2* 
 static struct answer2 refuse(struct plane_strict* w, real dt) {
   const real T = w->loop.longest_tick;
   struct device2* d = &w->device;
-  const real passed = dt > 0 && finite_number(dt) ? dt : T;
+  const real passed = dt > 0 && dt <= REAL_MAX ? dt : T;
   uint8_t what = rejected_parameters;
   if (d->sound) {
     w->ledger.energy = written_off(&w->ledger, dot2(d->held, d->held), T);
@@ -55,8 +55,8 @@ struct answer2 by_hand_plane_strict_tick(struct plane_strict* w, const vec2* at,
   const real square = dot2(travel, travel);
   const real farthest = w->loop.top_speed * (d->blind + dt);
   if (!d->sound || !(dt > 0) ||
-      !(d->seen ? finite_number(square + dt) && square <= farthest * farthest
-                : finite_number(dt) && finite2(x))) {
+      !(d->seen ? square + dt <= REAL_MAX && square <= farthest * farthest
+                : dt <= REAL_MAX && finite2(x))) {
     return refuse(w, dt);
   }
   const bool known = d->seen && !(d->blind > 0);

@@ -44,7 +44,7 @@ bool by_hand_triangle_thesis_retarget(struct triangle_thesis* w, const struct tr
 static struct answer3 refuse(struct triangle_thesis* w, real dt) {
   const real T = w->loop.longest_tick;
   struct device3* d = &w->device;
-  const real passed = dt > 0 && finite_number(dt) ? dt : T;
+  const real passed = dt > 0 && dt <= REAL_MAX ? dt : T;
   uint8_t what = rejected_parameters;
   if (d->sound) {
     w->ledger.energy = written_off(&w->ledger, dot3(d->held, d->held), T);
@@ -117,8 +117,8 @@ struct answer3 by_hand_triangle_thesis_tick(struct triangle_thesis* w, const vec
   const real square = square3(travel);
   const real farthest = w->loop.top_speed * (d->blind + dt);
   if (!d->sound || !(dt > 0) ||
-      !(d->seen ? finite_number(square + dt) && square <= farthest * farthest
-                : finite_number(dt) && finite3(x))) {
+      !(d->seen ? square + dt <= REAL_MAX && square <= farthest * farthest
+                : dt <= REAL_MAX && finite3(x))) {
     return refuse(w, dt);
   }
   if (d->seen && !(d->blind > 0)) {

@@ -34,7 +34,7 @@ bool by_hand_wall_reachable_retarget(struct wall_reachable* w, struct plane1 nex
 static struct answer1 refuse(struct wall_reachable* w, real dt) {
   const real T = w->loop.longest_tick;
   struct device1* d = &w->device;
-  const real passed = dt > 0 && finite_number(dt) ? dt : T;
+  const real passed = dt > 0 && dt <= REAL_MAX ? dt : T;
   uint8_t what = rejected_parameters;
   if (d->sound) {
     w->ledger.energy = written_off(&w->ledger, d->held * d->held, T);
@@ -70,8 +70,8 @@ struct answer1 by_hand_wall_reachable_tick(struct wall_reachable* w, real x, rea
   const real square = travel * travel;
   const real farthest = w->loop.top_speed * (d->blind + dt);
   if (!d->sound || !(dt > 0) ||
-      !(d->seen ? finite_number(square + dt) && square <= farthest * farthest
-                : finite_number(dt) && finite_number(x))) {
+      !(d->seen ? square + dt <= REAL_MAX && square <= farthest * farthest
+                : dt <= REAL_MAX && finite_number(x))) {
     return refuse(w, dt);
   }
   const bool known = d->seen && !(d->blind > 0);

@@ -20,7 +20,7 @@ static struct answer1 refuse(struct wall_strict* w, real dt) {
     w->ledger.energy = written_off(&w->ledger, d->held * d->held, T);
     what = rejected_sample;
   }
-  d->blind += dt > 0 && finite_number(dt) ? dt : T;
+  d->blind += dt > 0 && dt <= REAL_MAX ? dt : T;
   d->held = 0;
   return (struct answer1){0, 0, w->ledger.energy, what, false};
 }
@@ -33,8 +33,8 @@ struct answer1 by_hand_wall_strict_tick(struct wall_strict* w, real x, real dt) 
   const real square = travel * travel;
   const real farthest = w->loop.top_speed * (d->blind + dt);
   if (!d->sound || !(dt > 0) ||
-      !(d->seen ? finite_number(square + dt) && square <= farthest * farthest
-                : finite_number(dt) && finite_number(x))) {
+      !(d->seen ? square + dt <= REAL_MAX && square <= farthest * farthest
+                : dt <= REAL_MAX && finite_number(x))) {
     return refuse(w, dt);
   }
   const real held_squared = d->held * d->held;
