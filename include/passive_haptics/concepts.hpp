@@ -70,8 +70,9 @@ concept policy = plain_value<P, Space> && requires {
 };
 
 /// update() books one tick: displacement Δx [m], the force held while it happened [N], its length
-/// [s]; false, and nothing is booked, when the energy would be no finite number. forfeit() writes off a tick whose motion is unknown and never raises the ledger. value() is
-/// E1 [J]. `counts` is false for the one that counts nothing.
+/// [s]; false, and nothing is booked, when the energy would be no finite number. forfeit() writes
+/// off a tick whose motion is unknown and never raises the ledger. value() is E1 [J]. `counts` is
+/// false for the one that counts nothing.
 template <class O, class Space>
 concept energy_observer_for = policy<O, Space> &&
     requires(O o, const O c, const typename Space::vector v, typename Space::scalar s) {

@@ -273,7 +273,7 @@ class local_model {
   /// A finite sample, no farther from the last good one than the device can have gone since.
   [[nodiscard]] constexpr bool trusted(const vector& position, const vector& travel,
                                        scalar dt) const noexcept {
-    constexpr scalar largest = std::numeric_limits<scalar>::max();  // below infinity, and NaN
+    const scalar largest = std::numeric_limits<scalar>::max();  // below infinity, and NaN
     if (!(dt > scalar(0))) return false;
     if (!seen_) return dt <= largest && Space::is_finite(position);  // there is no travel yet
     const scalar farthest = limits_.top_speed * (blind_ + dt);
