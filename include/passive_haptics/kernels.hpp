@@ -11,6 +11,7 @@
 //   § 9    reachable_force_bound     largest force whose work over that reach the ledger covers
 //   § 9    reachable_outflow         most energy a force can hand over within that reach
 //   § 9    sampled_stiffness, sampled_damping          what a sampled mass can take
+//   -      spendable, sure_gain, sum_rounded_down     rounding costs force, never the promise
 //   2.30   half_angle_turn           cos φ and sin φ of a small turn, without cos and sin
 //
 // Numbers with a dot are equations of McWilliam's 2017 thesis "Local Model Interpolation for Stable
@@ -108,7 +109,7 @@ template <real S>
   return S(16) * std::numeric_limits<S>::epsilon();
 }
 
-/// The part of a credit E1 [J] that may be spent although every step rounds, in any direction:
+/// The part of a credit E1 [J] that may be spent although every step rounds, whichever way:
 ///     E1 (1 − 64ε) − min/ε,   ε and min the machine epsilon and the smallest normal number
 /// A force found from it has f²/(4B) ≤ E1 in exact arithmetic, in any direction, and what the
 /// worst motion against it books, less sure_gain's margin, still leaves no debt. The proof counts
@@ -146,9 +147,9 @@ template <real S>
   return dissipated - work - rounding<S>() * (dissipated + passed);
 }
 
-/// E + gain [J], rounded down, so that a ledger never grows by rounding: one of 1 J in float would not
-/// notice 1e-8 J going out, tick after tick. Exact to an ulp; where the gain is larger than E, to an
-/// ulp of the gain.
+/// E + gain [J], rounded down, so that a ledger never grows by rounding: one of 1 J in float would
+/// not notice 1e-8 J going out, tick after tick. Exact to an ulp; where the gain is larger than E,
+/// to an ulp of the gain.
 template <real S>
 [[nodiscard]] constexpr S sum_rounded_down(S E, S gain) noexcept {
   const S sum = E + gain;
