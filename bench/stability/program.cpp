@@ -18,7 +18,7 @@ namespace {
       what +
       "\nusage: stability [--quick] [--out DIR] [--soak TICKS] "
       "[--threads N]\n"
-      "  --quick        a minute instead of half an hour\n"
+      "  --quick        seconds instead of minutes\n"
       "  --out DIR      where the results go (default: stability)\n"
       "  --soak TICKS   of the long run (default: 10000000, quick 1000000)\n"
       "  --threads N    (default: as many as the machine has)");
