@@ -127,8 +127,7 @@ struct per_axis_bound {
   /// Eᵢ after the last tick. A tick that was late counts as the worse of held to its end and
   /// dropped at the worst moment; one that nobody saw leaves nothing but debts.
   [[nodiscard]] constexpr scalar booked(scalar before, int i, const auto& state) const noexcept {
-    const scalar debt = kernels::smaller(before, scalar(0));
-    if (!state.motion_known) return debt;
+    if (!state.motion_known) return kernels::smaller(before, scalar(0));
     const scalar b = state.damping.along_axis(i);
     const scalar held = Space::component(state.held, i);
     const scalar travel = Space::component(state.displacement, i);
@@ -137,7 +136,7 @@ struct per_axis_bound {
         before, kernels::sure_gain(b * travel * travel / state.dt, work, kernels::magnitude(work)));
     if (state.dt > state.longest_tick) {
       const scalar worst = kernels::worst_outflow(held, b / state.longest_tick);
-      after = kernels::smaller(after, kernels::larger(kernels::spendable(before) - worst, debt));
+      after = kernels::smaller(after, detail::written_off(before, worst));
     }
     return kernels::smaller(after, cap);
   }
