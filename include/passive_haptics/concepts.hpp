@@ -20,7 +20,8 @@
 
 #include <type_traits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// All that a force bound may look at. Lengths [m], forces [N], energies [J], times [s].
 template <class Space, class Damping = isotropic_damping<Space>>
@@ -182,4 +183,5 @@ concept haptic_device_for = requires(D d, const typename Space::vector v) {
   requires noexcept(d.exchange(v));
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

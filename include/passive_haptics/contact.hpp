@@ -12,7 +12,8 @@
 
 #include <passive_haptics/concepts.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// f* = K d [N], d > 0. (2.18)
 template <class Space>
@@ -149,4 +150,5 @@ static_assert(contact_law_for<spring<space<float, 1>>, space<float, 1>>);
 static_assert(contact_law_for<virtual_coupling<space<float, 1>>, space<float, 1>>);
 static_assert(contact_law_for<damped_spring<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -12,7 +12,8 @@
 #include <passive_haptics/event.hpp>
 #include <passive_haptics/kernels.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// b·I. Converts from the plain number, so `.damping = 0.03` reads as it should.
 template <class Space>
@@ -131,4 +132,5 @@ struct damping_and_friction {
   }
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -22,7 +22,9 @@
 
 #include <limits>
 
-namespace passive_haptics::inline v0::design {
+namespace passive_haptics {
+inline namespace v0 {
+namespace design {
 
 /// The constants of a loop: a device of mass m and damping b, sampled every T, its force held.
 /// A condition that does not cover sensor steps, delay or virtual damping answers, where there are
@@ -179,4 +181,6 @@ namespace stability {
 }
 
 }  // namespace stability
-}  // namespace passive_haptics::inline v0::design
+}  // namespace design
+}  // namespace v0
+}  // namespace passive_haptics

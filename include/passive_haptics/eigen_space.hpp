@@ -9,7 +9,8 @@
 
 #include <array>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// A vector at rest: trivially copyable (Eigen's are not), so it can cross threads and be
 /// snapshotted. Converts from any Eigen expression of that shape, and to space::vector.
@@ -99,4 +100,5 @@ requires(Dof >= 2) struct space<Scalar, Dof> {
   }
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// What happened in a tick, in order of rising severity; a tick reports the worst. The numbers are
 /// stable from 1.0 on.
@@ -77,4 +78,5 @@ struct parameter_fault {
   constexpr explicit operator bool() const noexcept { return parameter != nullptr; }
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -16,7 +16,8 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// One writer thread, one reader thread. Payload: any trivially copyable value, copied once a side.
 template <class Payload>
@@ -58,4 +59,5 @@ class exchange {
   std::uint8_t front_ = 2;               // the reader's
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

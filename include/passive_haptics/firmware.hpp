@@ -19,7 +19,8 @@
 #include <passive_haptics/supply.hpp>
 #include <passive_haptics/version.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// What the compiler says about the machine it compiles for. 32-bit ARM says it (ACLE: __ARM_FP,
 /// bit 2 single, bit 3 double); every other target is taken to have an FPU for every scalar.
@@ -66,4 +67,5 @@ struct checked {
 template <real Scalar, int Dof>
 using hardware_space = typename target::checked<Scalar, Dof>::type;
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

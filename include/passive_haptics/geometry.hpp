@@ -15,7 +15,8 @@
 
 #include <array>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 namespace detail {
 
@@ -181,4 +182,5 @@ requires(Space::dof == 2) struct segment {
 
 static_assert(constraint_for<half_space<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -32,7 +32,8 @@ rests on: compile without it
 longer rounded towards zero force: compile without it
 #endif
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// A real number type: float, double, long double, or anything that does arithmetic, compares, and
 /// has numeric_limits and a sqrt found by argument-dependent look-up (Boost.Multiprecision).
@@ -233,4 +234,5 @@ template <real S>
 }
 
 }  // namespace kernels
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

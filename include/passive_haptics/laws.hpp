@@ -18,7 +18,9 @@
 
 #include <cstdint>
 
-namespace passive_haptics::inline v0::laws {
+namespace passive_haptics {
+inline namespace v0 {
+namespace laws {
 
 /// A repeatable source of numbers in [−1, 1), also at compile time (SplitMix64 of Steele,
 /// Lea and Flood, 2014; not for cryptography).
@@ -264,4 +266,6 @@ template <class Space, class Constraint>
   return unit * unit <= slack * slack;
 }
 
-}  // namespace passive_haptics::inline v0::laws
+}  // namespace laws
+}  // namespace v0
+}  // namespace passive_haptics

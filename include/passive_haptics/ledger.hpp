@@ -9,7 +9,8 @@
 
 #include <passive_haptics/kernels.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// A sum that carries on what rounding cut off (Kahan's, with Knuth's exact error of a sum): in
 /// float, 1e-9 J still counts against 1 J.
@@ -71,4 +72,5 @@ template <class Scalar>
 
 }  // namespace detail
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

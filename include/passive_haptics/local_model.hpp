@@ -17,7 +17,8 @@
 
 #include <array>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// Compose by value; class template argument deduction finds the type:
 ///     ph::local_model wall{scene{},
@@ -348,4 +349,5 @@ class local_model {
   bool sound_ = true;    ///< are the parameters good?
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

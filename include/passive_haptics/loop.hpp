@@ -5,7 +5,8 @@
 #include <passive_haptics/event.hpp>
 #include <passive_haptics/kernels.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// What the loop around the model keeps to. A guarantee holds while it does; a tick that does not
 /// is reported.
@@ -36,4 +37,5 @@ struct tick_result {
   bool limited = false;           ///< the bound changed the desired force
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

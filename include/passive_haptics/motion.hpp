@@ -11,7 +11,8 @@
 
 #include <passive_haptics/concepts.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// The position shown, and the speed between the last two.
 template <class Space>
@@ -130,4 +131,5 @@ struct mass_observer {
 static_assert(motion_estimator_for<last_difference<space<float, 1>>, space<float, 1>>);
 static_assert(motion_estimator_for<mass_observer<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -10,7 +10,8 @@
 
 #include <passive_haptics/concepts.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// n ← n_VE.
 template <class Space>
@@ -65,4 +66,5 @@ struct rotate_limited {
 
 static_assert(normal_interpolation_for<rotate_limited<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -14,7 +14,8 @@
 
 #include <limits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// The reduced energy E1 [J] that has flowed from the hand into the device and is not yet spent:
 ///     E1(n) = E1(n−1) + Δxᵀ(b/dt)Δx − f_held·Δx                                    (2.9, 2.16)
@@ -202,4 +203,5 @@ static_assert(energy_observer_for<reduced_energy<space<float, 1>>, space<float, 
 static_assert(energy_observer_for<quantised_energy<space<float, 1>>, space<float, 1>>);
 static_assert(energy_observer_for<no_observer<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -20,7 +20,8 @@
 
 #include <passive_haptics/kernels.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// The port: Scalar is float, double or any `real`; Dof ≥ 1 is a compile-time constant.
 ///   scalar        a number
@@ -55,4 +56,5 @@ struct space<Scalar, 1> {
   [[nodiscard]] static constexpr Scalar smallest(Scalar a) noexcept { return a; }
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -7,7 +7,8 @@
 
 #include <passive_haptics/concepts.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 namespace detail {
 /// What prepare() refuses, in words.
@@ -145,4 +146,5 @@ class following {
   Constraint newest_{}, own_{};
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -21,7 +21,8 @@
 
 #include <passive_haptics/concepts.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 namespace detail {
 /// Is there anything to shape, and is it known how the device came here?
@@ -232,4 +233,5 @@ static_assert(force_bound_for<nonlinear_coupling<space<float, 1>>, space<float, 
 static_assert(force_bound_for<stiffness_increment<space<float, 1>>, space<float, 1>>);
 static_assert(force_bound_for<force_augmentation<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

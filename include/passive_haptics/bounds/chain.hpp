@@ -4,7 +4,8 @@
 
 #include <passive_haptics/concepts.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// First, then the rest. What the chain promises is the best promise among its bounds that nothing
 /// behind them can break: a bound that only reduces cannot, because zero force is always safe and
@@ -39,4 +40,5 @@ struct bound_chain<Only> : Only {
   constexpr explicit bound_chain(const Only& one) noexcept : Only(one) {}
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -16,7 +16,8 @@
 
 #include <limits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 namespace detail {
 /// The smallest damping of any axis [N·s/m].
@@ -164,4 +165,5 @@ struct tight_energy_bounding {
 static_assert(force_bound_for<energy_bounding<space<float, 1>>, space<float, 1>>);
 static_assert(force_bound_for<tight_energy_bounding<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

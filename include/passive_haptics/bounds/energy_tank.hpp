@@ -14,7 +14,8 @@
 #include <cstdint>
 #include <limits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// What the next tick is taken to let out.
 enum class tank_outflow : std::uint8_t {
@@ -133,4 +134,5 @@ struct two_layer_tank {
 static_assert(force_bound_for<energy_tank<space<float, 1>>, space<float, 1>>);
 static_assert(force_bound_for<two_layer_tank<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

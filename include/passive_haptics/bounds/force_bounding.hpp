@@ -17,7 +17,8 @@
 
 #include <limits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// ¼ fᵀB⁻¹f ≤ E1 at every tick (2.15-2.17): the worst motion of the next tick cannot empty the
 /// ledger, so E1 ≥ 0 for ever, by induction, whatever the environment does.
@@ -146,4 +147,5 @@ static_assert(force_bound_for<strict_bound<space<float, 1>>, space<float, 1>>);
 static_assert(force_bound_for<memoryless_bound<space<float, 1>>, space<float, 1>>);
 static_assert(force_bound_for<per_axis_bound<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

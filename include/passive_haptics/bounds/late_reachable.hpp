@@ -4,7 +4,8 @@
 
 #include <passive_haptics/concepts.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// The command of tick n is held during [n+1, n+2); meanwhile h, that of n−1, is. Both must be
 /// covered, each over what its own tick can reach:
@@ -90,4 +91,5 @@ struct late_reachable_bound {
 
 static_assert(force_bound_for<late_reachable_bound<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -8,7 +8,8 @@
 
 #include <passive_haptics/concepts.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// f = f*. Loses energy at every tick in contact (lemma L2): K Δx²/2 against b Δx²/T.
 template <class Space>
@@ -77,4 +78,5 @@ static_assert(force_bound_for<no_bound<space<float, 1>>, space<float, 1>>);
 static_assert(force_bound_for<actuator_limit<space<float, 1>>, space<float, 1>>);
 static_assert(force_bound_for<force_rate_limit<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -16,7 +16,8 @@
 #include <cstdint>
 #include <limits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// Whether the damping of the device pays for the environment too.
 enum class damping_credit : std::uint8_t {
@@ -179,4 +180,5 @@ struct parallel_passivity_controller {
 
 static_assert(force_bound_for<series_passivity_controller<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

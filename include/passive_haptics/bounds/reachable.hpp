@@ -4,7 +4,8 @@
 
 #include <passive_haptics/concepts.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// F s − B s² ≤ E1 for every outward travel s that the next tick can reach (§ 2(a'), § 9). A device
 /// of mass m that is moving in cannot turn round within a tick, so pressing is hardly bounded; a
@@ -63,4 +64,5 @@ struct reachable_bound {
 
 static_assert(force_bound_for<reachable_bound<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

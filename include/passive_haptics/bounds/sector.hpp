@@ -9,7 +9,8 @@
 
 #include <limits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// With F ≥ 0 the size of the force and s the travel of the last tick against it [m]:
 ///     pressing  (s ≥ 0):   F_held             ≤ F ≤ F_held + β s
@@ -64,4 +65,5 @@ struct sector_bound {
 
 static_assert(force_bound_for<sector_bound<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

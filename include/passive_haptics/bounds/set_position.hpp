@@ -13,7 +13,8 @@
 #include <cstdint>
 #include <limits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// Who pays for the leak of the zero-order hold, K Δx²/2 per tick (lemma L2).
 enum class hold_leak : std::uint8_t {
@@ -136,4 +137,5 @@ struct set_position_modulation {
 
 static_assert(force_bound_for<set_position_modulation<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -4,7 +4,8 @@
 
 #include <passive_haptics/concepts.hpp>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// The rule of the thesis (2.24-2.27, Fig. 3.2), in force form. With f_max = √(4 B E1):
 ///     leaving (Δx·n > 0):   |f| ≤ f_max
@@ -40,4 +41,5 @@ struct thesis_bound {
 
 static_assert(force_bound_for<thesis_bound<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

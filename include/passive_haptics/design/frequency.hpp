@@ -7,7 +7,9 @@
 //   frequency_grid   where a condition over all θ is looked at
 //   cos_sin          e^{jα} by range reduction and Taylor's series
 
-namespace passive_haptics::inline v0::design {
+namespace passive_haptics {
+inline namespace v0 {
+namespace design {
 
 struct complex {
   double re = 0.0, im = 0.0;
@@ -94,4 +96,6 @@ struct frequency_grid {
   }
 };
 
-}  // namespace passive_haptics::inline v0::design
+}  // namespace design
+}  // namespace v0
+}  // namespace passive_haptics

@@ -13,7 +13,9 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 /// A gyroelongated square bipyramid in a sphere of `radius` [m] about the origin, plus its centre.
 ///     nodes 0 (0, 0, r) | 1-4 upper ring | 5-8 lower ring, turned by 45° | 9 (0, 0, −r) | 10
@@ -58,4 +60,6 @@ namespace passive_haptics::inline v0::environment {
   return {9, 5, 6};
 }
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

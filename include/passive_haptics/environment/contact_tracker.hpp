@@ -14,7 +14,9 @@
 #include <optional>
 #include <stdexcept>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 class contact_tracker {
  public:
@@ -54,4 +56,6 @@ class contact_tracker {
   int triangle_ = -1;
 };
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

@@ -29,7 +29,9 @@
 #include <stdexcept>
 #include <vector>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 /// What the local model needs to know of the body.
 struct surface_contact {
@@ -176,4 +178,6 @@ class deformable_body {
   surface_contact contact_;
 };
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

@@ -26,7 +26,9 @@
 #include <utility>
 #include <vector>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 /// Linear (4-node) tetrahedra. Element (a, b, c, d) is upright when d lies on the side of the face
 /// abc from which a→b→c turns counter-clockwise: signed_volume > 0.
@@ -181,4 +183,6 @@ inline void check(const tetrahedral_mesh& mesh, std::string_view name = "mesh") 
   return mesh;
 }
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

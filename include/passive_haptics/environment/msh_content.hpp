@@ -12,7 +12,9 @@
 #include <utility>
 #include <vector>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 class msh_content {
  public:
@@ -93,4 +95,6 @@ class msh_content {
   bool quadratic_ = false;
 };
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

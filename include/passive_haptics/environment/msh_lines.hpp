@@ -18,7 +18,9 @@
 #include <string_view>
 #include <system_error>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 class msh_lines {
  public:
@@ -140,4 +142,6 @@ class msh_lines {
   int number_ = 0;
 };
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

@@ -27,7 +27,9 @@
 #include <system_error>
 #include <vector>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 /// One reading of one file; use read_msh.
 class msh_reader {
@@ -237,4 +239,6 @@ class msh_reader {
   return read_msh(file, name);
 }
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

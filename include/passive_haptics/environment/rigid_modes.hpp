@@ -18,7 +18,9 @@
 #include <span>
 #include <vector>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 /// The parts of a mesh that share no node.
 struct connected_parts {
@@ -84,4 +86,6 @@ struct connected_parts {
   });
 }
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

@@ -19,7 +19,9 @@
 #include <span>
 #include <stdexcept>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 class spring_wall {
  public:
@@ -69,4 +71,6 @@ class spring_wall {
   Eigen::VectorXd compliance_;  ///< of every free node to a force at node 1 [m/N]
 };
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

@@ -26,7 +26,9 @@
 #include <utility>
 #include <vector>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 /// Three nodes of the mesh, counter-clockwise seen from outside.
 struct surface_triangle {
@@ -214,4 +216,6 @@ struct surface_point {
   return point_on(surface, nodes, best, x);
 }
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

@@ -26,7 +26,9 @@
 #include <string>
 #include <vector>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 /// The body can move without being deformed, so that no force determines its place.
 class singular_stiffness : public std::runtime_error {
@@ -159,4 +161,6 @@ class tetrahedral_fem {
   return result;
 }
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

@@ -22,7 +22,9 @@
 #include <stdexcept>
 #include <vector>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 /// A homogeneous isotropic material.
 struct material {
@@ -116,4 +118,6 @@ inline void check(const material& m) {
   return result;
 }
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

@@ -18,7 +18,9 @@
 #include <cstdint>
 #include <limits>
 
-namespace passive_haptics::inline v0::environment {
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
 
 using triangle = std::array<Eigen::Vector3d, 3>;  ///< corners [m], counter-clockwise from outside
 
@@ -100,4 +102,6 @@ enum class force_split : std::uint8_t {
   return closeness / closeness.sum();
 }
 
-}  // namespace passive_haptics::inline v0::environment
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

@@ -16,7 +16,9 @@
 #include <passive_haptics/falcon/firmware.hpp>
 #include <passive_haptics/falcon/transport.hpp>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// One boot over an open transport.
 ///     const auto report = bootloader{usb, image.bytes(), options}.run();
@@ -226,4 +228,6 @@ class bootloader {
   boot_report report_{};
 };
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

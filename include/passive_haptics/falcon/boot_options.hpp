@@ -5,7 +5,9 @@
 #include <passive_haptics/falcon/ftdi.hpp>
 #include <passive_haptics/falcon/result.hpp>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 enum class firmware_policy : byte {
   probe_then_load,  ///< load only if nothing answers
@@ -59,4 +61,6 @@ struct no_progress {
   }
 };
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

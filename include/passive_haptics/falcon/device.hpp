@@ -19,7 +19,9 @@
 #include <optional>
 #include <utility>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// Models haptic_device_for<Space>. One thread owns it. Nothing is allocated after open().
 ///     falcon::device<falcon::libusb_transport> grip{falcon::cautious_gain<double>};
@@ -281,4 +283,6 @@ requires(Space::dof == 3) class device {
   std::optional<lamps> light_;
 };
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

@@ -14,7 +14,9 @@
 
 #include <cstdio>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// What a boot stream says of itself.
 struct image_summary {
@@ -86,4 +88,6 @@ class firmware {
   std::size_t size_ = 0;
 };
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

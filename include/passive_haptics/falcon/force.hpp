@@ -14,7 +14,9 @@
 
 #include <cstdint>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// What the motors are sent, legs 0, 1, 2. Positive pulls the arm in.
 using dac_words = std::array<std::int16_t, 3>;
@@ -91,4 +93,6 @@ template <real S>
   return f + missing * force<S>{moved.value};
 }
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

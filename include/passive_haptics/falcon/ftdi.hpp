@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <chrono>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// Since the transport's own epoch, monotonic.
 using nanoseconds = std::chrono::nanoseconds;
@@ -133,4 +135,6 @@ class sender {
 
 }  // namespace ftdi
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

@@ -15,7 +15,9 @@
 #include <passive_haptics/falcon/trigonometry.hpp>
 #include <passive_haptics/falcon/triple.hpp>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// Lengths of each leg [m].
 template <real S>
@@ -77,4 +79,6 @@ struct ball {
 template <real S>
 inline constexpr ball<S> workspace{};
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

@@ -18,7 +18,9 @@
 
 #include <cstdint>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 enum class pose_fault : std::uint8_t {
   none,
@@ -232,4 +234,6 @@ template <real S>
   return pose;
 }
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

@@ -8,7 +8,9 @@
 #if __has_include(<libusb-1.0/libusb.h>)
 #include <libusb-1.0/libusb.h>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// Which Falcon: the n-th on the bus, or the one with that serial number.
 struct which {
@@ -93,6 +95,8 @@ void each_falcon(libusb_context* context, Visit visit) noexcept {
   return n;
 }
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics
 
 #endif

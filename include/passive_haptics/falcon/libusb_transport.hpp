@@ -15,7 +15,9 @@
 #include <libusb-1.0/libusb.h>
 #include <memory>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 class libusb_transport {
  public:
@@ -238,6 +240,8 @@ class libusb_transport {
 
 static_assert(transport<libusb_transport>);
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics
 
 #endif

@@ -12,7 +12,9 @@
 #include <passive_haptics/falcon/mock_processor.hpp>
 #include <passive_haptics/falcon/transport.hpp>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 ///     in_memory_transport<mock<>> cable{mock_parameters{.runs = true, .homed = true}};
 template <class Hand = simulation::no_hand<space<double, 3>>>
@@ -54,4 +56,6 @@ class mock {
 
 static_assert(far_side<mock<>>);
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

@@ -15,7 +15,9 @@
 
 #include <algorithm>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// The body's box keeps every pose regular; its period is the longest step.
 struct mock_parameters {
@@ -153,4 +155,6 @@ class mock_mechanism {
   compensated_sum<double> motor_work_;
 };
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

@@ -10,7 +10,9 @@
 
 #include <passive_haptics/falcon/ftdi.hpp>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// The ROM loader's reading of a boot stream: header, blocks, a zero length.
 class mock_loader {
@@ -140,4 +142,6 @@ class mock_processor {
   std::uint32_t packets_ = 0;
 };
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

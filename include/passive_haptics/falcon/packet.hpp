@@ -18,7 +18,9 @@
 #include <optional>
 #include <span>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 using byte = std::uint8_t;
 using leg_words = std::array<std::int16_t, 3>;
@@ -179,4 +181,6 @@ static_assert(encode(to_device{.homing = false}) == packet_bytes{'<', 'A', 'A', 
                                                                  'A', 'A', 'A', 'A', 'A', 'A', 'A',
                                                                  'A', '>'});
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

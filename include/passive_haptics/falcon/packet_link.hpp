@@ -8,7 +8,9 @@
 
 #include <passive_haptics/falcon/transport.hpp>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// What the line has been through since open().
 struct link_counts {
@@ -130,4 +132,6 @@ class packet_link {
   bool unsettled_ = false;  ///< an answer may still be on its way
 };
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

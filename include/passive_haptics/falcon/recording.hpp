@@ -19,7 +19,9 @@
 #include <string_view>
 #include <vector>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// One call of a transport, and how it ended.
 struct wire_row {
@@ -186,4 +188,6 @@ class replay_transport {
 
 static_assert(transport<replay_transport>);
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

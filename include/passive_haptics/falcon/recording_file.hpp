@@ -12,7 +12,9 @@
 
 #include <charconv>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 namespace detail {
 
@@ -142,4 +144,6 @@ struct loaded_log {
   return log;
 }
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

@@ -8,7 +8,9 @@
 
 #include <optional>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 template <real S>
 class reply_guard {
@@ -45,4 +47,6 @@ class reply_guard {
   int settled_ = 0;                   ///< good replies in a row
 };
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

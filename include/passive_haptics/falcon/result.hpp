@@ -11,7 +11,9 @@
 #include <span>
 #include <string_view>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 enum class code : std::uint8_t {
   ok,
@@ -208,4 +210,6 @@ inline const char* describe(const result& r, std::span<char> text) noexcept {
   return text.data();
 }
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

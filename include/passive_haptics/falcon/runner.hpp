@@ -19,7 +19,9 @@
 #include <thread>
 #include <utility>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// The ticks of a runner.
 struct runner_counts {
@@ -103,4 +105,6 @@ class runner {
   exchange<news> box_;
 };
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

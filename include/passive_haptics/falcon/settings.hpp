@@ -6,7 +6,9 @@
 #include <passive_haptics/falcon/force.hpp>
 #include <passive_haptics/falcon/packet_link.hpp>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// closed ─open()─▶ open ─boot()─▶ booting ─▶ unhomed ◀──▶ homed       any of the last two ─▶ fault
 /// Forces are zero in every state but `homed`.
@@ -83,4 +85,6 @@ struct reading {
   ftdi::line_status lines{};
 };
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

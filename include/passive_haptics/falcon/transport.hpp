@@ -15,7 +15,9 @@
 #include <concepts>
 #include <utility>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// How a read() ended.
 struct [[nodiscard]] transfer {
@@ -136,4 +138,6 @@ class in_memory_transport {
   bool open_ = false;
 };
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <type_traits>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 template <real S>
 inline constexpr S pi = S(3.14159265358979323846264338327950288L);
@@ -56,4 +58,6 @@ template <real S>
   return S(atan2(y, x));
 }
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

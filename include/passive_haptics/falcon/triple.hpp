@@ -9,7 +9,9 @@
 #include <array>
 #include <cstddef>
 
-namespace passive_haptics::inline v0::falcon {
+namespace passive_haptics {
+inline namespace v0 {
+namespace falcon {
 
 /// Components along x, y, z, or of the legs 0 (top), 1 (right), 2 (left).
 template <real S, class Kind>
@@ -119,4 +121,6 @@ template <real S>
   return kernels::square_root(sum);
 }
 
-}  // namespace passive_haptics::inline v0::falcon
+}  // namespace falcon
+}  // namespace v0
+}  // namespace passive_haptics

@@ -5,7 +5,9 @@
 
 #include <passive_haptics/simulation/hand.hpp>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// Either tapping_hand, which reverses at the surface and between two ticks if need be, or a push
 /// that the caller changes whenever it likes; never more than `limit`.
@@ -27,4 +29,6 @@ struct striking_hand {
 
 static_assert(hand_for<striking_hand<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

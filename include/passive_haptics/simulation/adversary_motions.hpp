@@ -7,7 +7,9 @@
 
 #include <concepts>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// All an adversary knows when it moves. It sees the force before it has to.
 template <class Space>
@@ -155,4 +157,6 @@ static_assert(adversary_for<greedy_motion<space<float, 1>>, space<float, 1>>);
 static_assert(adversary_for<rocking_motion<space<float, 1>>, space<float, 1>>);
 static_assert(adversary_for<restless_motion<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

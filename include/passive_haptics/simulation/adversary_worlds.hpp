@@ -4,7 +4,9 @@
 
 #include <passive_haptics/simulation/schedule.hpp>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// Where the surface has jumped to, along its normal [m].
 class jumping_surface {
@@ -133,4 +135,6 @@ struct erratic_sensor {
   }
 };
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

@@ -9,7 +9,9 @@
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 #include <passive_haptics/simulation/subject.hpp>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// One tick of a run, for whoever watches.
 template <class Space>
@@ -240,4 +242,6 @@ run_result attack(const subject<Space>& model, adversary by, const circumstances
 
 }  // namespace detail
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

@@ -14,7 +14,9 @@
 #include <cmath>
 #include <limits>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// What m v̇ + b v = F, F constant, does in a time h. With r = b/m, z = r h, a = F/m:
 ///     v(h) = v + v (e⁻ᶻ − 1) + a h φ₁(z)    φ₁(z) = (1 − e⁻ᶻ)/z
@@ -182,4 +184,6 @@ struct axis {
   }
 };
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

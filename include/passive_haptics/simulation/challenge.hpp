@@ -16,7 +16,9 @@
 
 #include <array>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// What `runs` runs have shown. Energies at the port [J], each the least of its run; NaN if the
 /// circumstances are impossible or a force was commanded that is no number.
@@ -98,4 +100,6 @@ template <class Model>
   return replay(model, by, world, seed, [](const auto& /*now*/) {});
 }
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

@@ -12,7 +12,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 struct channel_parameters {
   double delay = 0.0;        ///< every packet [s]
@@ -99,4 +101,6 @@ class channel {
   double latest_ = 0.0;  ///< the last arrival promised [s]
 };
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

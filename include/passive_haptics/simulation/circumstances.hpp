@@ -11,7 +11,9 @@
 #include <cstdint>
 #include <limits>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 enum class adversary : std::uint8_t {
   nyquist,          ///< in by δ, out by δ
@@ -117,4 +119,6 @@ struct circumstances {
   }
 };
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

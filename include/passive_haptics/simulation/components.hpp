@@ -15,7 +15,9 @@
 #include <cstddef>
 #include <utility>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 template <class Space>
 using physical = space<double, Space::dof>;
@@ -70,4 +72,6 @@ template <class Space>
   return unit * (length / physical<Space>::norm(unit));
 }
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

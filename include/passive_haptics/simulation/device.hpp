@@ -19,7 +19,9 @@
 
 #include <concepts>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// Models haptic_device_for<Space>. One whose check() names a fault answers with samples that are
 /// not valid, and does not move.
@@ -153,4 +155,6 @@ class device {
 
 static_assert(haptic_device_for<device<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

@@ -13,7 +13,9 @@
 #include <cmath>
 #include <limits>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// The defaults are the ideal device of docs/design/mathematics.md § 5. Vectors are written
 /// {x, y, z}, and as a plain number for one degree of freedom.
@@ -119,4 +121,6 @@ template <class Space>
   return to_port<Space>(seen);
 }
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

@@ -18,7 +18,9 @@
 #include <cstdint>
 #include <limits>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// force(time [s], position [m], velocity [m/s]) on the device [N]; mass() moves with it [kg].
 template <class H, class Space>
@@ -179,4 +181,6 @@ static_assert(hand_for<constant_hand<space<float, 1>>, space<float, 1>>);
 static_assert(hand_for<impedance_hand<space<float, 1>>, space<float, 1>>);
 static_assert(hand_for<tapping_hand<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

@@ -11,7 +11,9 @@
 
 #include <passive_haptics/observers.hpp>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// Energy [J] of one interval: three sinks, each ≥ 0, and the work of three sources on the device.
 struct energy_flows {
@@ -65,4 +67,6 @@ class port_energy_meter {
   double kinetic_at_start_ = 0.0;
 };
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

@@ -7,7 +7,9 @@
 #include <passive_haptics/simulation/driver.hpp>
 #include <passive_haptics/simulation/meter.hpp>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// Models haptic_device_for<Space>: each exchange travels from one position to the next at constant
 /// velocity while the force is held. The meter books exactly
@@ -113,4 +115,6 @@ class prescribed_motion {
 
 static_assert(haptic_device_for<prescribed_motion<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

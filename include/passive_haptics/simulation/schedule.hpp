@@ -14,7 +14,9 @@
 #include <cstdint>
 #include <utility>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// The samples of the laws, and 53 of their bits as a double. Needs no heap and eight bytes.
 class random_source {
@@ -94,4 +96,6 @@ class one_update_late {
   T last_;
 };
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

@@ -11,7 +11,9 @@
 #include <cstdint>
 #include <limits>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 enum class sample_fault : std::uint8_t {
   nan_position,
@@ -91,4 +93,6 @@ class scripted_device {
   std::int64_t tick_ = 0;
 };
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

@@ -14,7 +14,9 @@
 #include <passive_haptics/simulation/attack.hpp>
 #include <passive_haptics/simulation/tuned_motion.hpp>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// What a search has found. energy < 0: energy drawn from the port [J], by these parameters; −∞ if
 /// they led to a force that is no number, NaN if the circumstances are impossible.
@@ -185,4 +187,6 @@ template <class Model, class Make = usual_constraint<Model>>
                                 seed, true);
 }
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

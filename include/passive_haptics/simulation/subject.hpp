@@ -11,7 +11,9 @@
 #include <passive_haptics/geometry.hpp>
 #include <passive_haptics/simulation/adversary_worlds.hpp>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// operator()(point [m], unit outward normal, K [N/m]): the constraint of type C through that point.
 /// Specialise it for a constraint of your own, or hand challenge() a callable of the same shape.
@@ -147,4 +149,6 @@ class subject {
   const verbs* verbs_;
 };
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

@@ -6,7 +6,9 @@
 #include <passive_haptics/simulation/adversary_motions.hpp>
 #include <passive_haptics/simulation/circumstances.hpp>
 
-namespace passive_haptics::inline v0::simulation {
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
 
 /// The cycle. A hand that is limited in force presses with hand_force/press_ticks and pulls back
 /// with `retreat` of hand_force, at most all of it.
@@ -129,4 +131,6 @@ struct tuned_motion {
 
 static_assert(adversary_for<tuned_motion<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0::simulation
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics

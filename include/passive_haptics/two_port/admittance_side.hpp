@@ -7,7 +7,8 @@
 
 #include <limits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// Parameters of the admittance side.
 template <class Space>
@@ -207,4 +208,5 @@ class admittance_side {
   bool sound_ = true;
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -7,7 +7,8 @@
 
 #include <limits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// Energy observer of the device port. With the flow into the channel split by its sign,
 ///     E_out += max(f_held·Δx, 0)      E_in += share · max(−f_held·Δx, 0)
@@ -80,4 +81,5 @@ struct two_port_energy {
 
 static_assert(energy_observer_for<two_port_energy<space<float, 1>>, space<float, 1>>);
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -8,7 +8,8 @@
 
 #include <array>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// What a tick of the impedance side knows.
 template <class Space>
@@ -190,4 +191,5 @@ class impedance_side {
   bool sound_ = true;
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

@@ -6,7 +6,8 @@
 
 #include <cstdint>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// One packet, either way. Trivially copyable if the payload is.
 template <class Scalar, class Payload>
@@ -31,4 +32,5 @@ struct received_energy {
   }
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics

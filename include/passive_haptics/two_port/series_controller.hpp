@@ -7,7 +7,8 @@
 
 #include <limits>
 
-namespace passive_haptics::inline v0 {
+namespace passive_haptics {
+inline namespace v0 {
 
 /// With the force f and the velocity v = Δx/dt of ONE sample (f here is the force on the device):
 ///     E_out += max(f·v dt, 0)      E_in += max(−f·v dt, 0)
@@ -54,4 +55,5 @@ struct two_port_series_controller {
   }
 };
 
-}  // namespace passive_haptics::inline v0
+}  // namespace v0
+}  // namespace passive_haptics
