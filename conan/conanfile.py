@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Conan 2 package: `conan create conan`."""
+"""The Conan 2 package: `conan create conan -s compiler.cppstd=20`.
+
+It needs C++20 and says so; a profile that states less (gnu17 is a usual default) is refused with that
+sentence, so state it in yours or on the line.
+"""
 
 import os
 import re
@@ -46,6 +50,7 @@ class PassiveHaptics(ConanFile):
 
     def generate(self):
         toolchain = CMakeToolchain(self)
+        toolchain.user_presets_path = False  # nothing is written beside the sources
         for room in ("TESTS", "BENCH", "EXAMPLES"):
             toolchain.cache_variables[f"PASSIVE_HAPTICS_BUILD_{room}"] = False
         toolchain.generate()

@@ -14,17 +14,18 @@ namespace ph = passive_haptics;
 using scene = ph::space<double, 1>;
 
 int main() {
+  const double dt = 1e-3;  // s
   // The surface is at 0 m, the object below it: outward is +1.
   const ph::half_space<scene> surface{.point = 0.0, .normal = 1.0, .stiffness = 2500.0};
   ph::local_model wall{scene{},
-                       ph::rigid{surface},
-                       ph::snap<scene>{},                          // a flat wall never turns
-                       ph::spring<scene>{},                        // f* = K d
-                       ph::reduced_energy<scene>{.damping = 0.5},  // of the device, N·s/m
-                       ph::strict_bound<scene>{}};                 // passive, always
+                       ph::fixed{surface},
+                       ph::turn_at_once{},                    // a flat wall never turns
+                       ph::spring{},                          // f* = K d
+                       ph::reduced_energy{.damping = 0.5},    // of the device, N·s/m
+                       ph::strict_bound{},                    // passive, always
+                       ph::loop_limits{.longest_tick = dt}};  // the worst tick of YOUR loop
   static_assert(decltype(wall)::passivity == ph::guarantee::strict);
 
-  const double dt = 1e-3;  // s
   std::puts("   x [mm]   force [N]  energy [mJ]");
   for (const double millimetres :
        {3., 2., 1., 0., -1., -2., -3., -4., -4., -3., -2., -1., 0., 1.}) {

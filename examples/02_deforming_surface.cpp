@@ -2,7 +2,7 @@
 // A surface that heaves and tilts, published 30 times a second, felt 1000 times a second.
 //
 // Between two updates the local model stands still; at an update it may jump by millimetres and
-// turn by degrees. rotate_limited turns the normal smoothly, reachable_bound keeps what the next
+// turn by degrees. turn_limited turns the normal smoothly, reachable_bound keeps what the next
 // tick can give back within what the hand has paid, actuator_limit cuts what no motor can hold.
 
 #include <passive_haptics/passive_haptics.hpp>
@@ -24,29 +24,30 @@ ph::half_space<scene> world(double t) {
 }
 
 int main() {
-  const double mass = 0.1, damping = 0.5;  // of the device, kg and N·s/m
-  const double dt = 1e-3;                  // s
+  const double mass = 0.1, damping = 0.5, dt = 1e-3;  // of the device, kg and N·s/m; s
   ph::local_model touch{scene{},
-                        ph::following<ph::half_space<scene>>{},
-                        ph::rotate_limited<scene>{.rate = 2.0},  // rad/s
-                        ph::damped_spring<scene>{.mass = mass},
-                        ph::reduced_energy<scene>{.damping = damping},
-                        ph::bound_chain{ph::reachable_bound<scene>{.mass = mass, .hand_force = 5.0},
-                                        ph::actuator_limit<scene>{.most = 9.0}}};
+                        ph::followed<ph::half_space<scene>>{},
+                        ph::turn_limited{.rate = 2.0},  // rad/s
+                        ph::damped_spring{.mass = mass},
+                        ph::reduced_energy{.damping = damping},
+                        ph::bound_chain{ph::reachable_bound{.mass = mass, .hand_force = 5.0},
+                                        ph::actuator_limit{.most = 9.0}},
+                        ph::loop_limits{.longest_tick = dt}};
   static_assert(decltype(touch)::passivity == ph::guarantee::conditional);
 
   vector x(0.0, 0.0, 0.008), v = vector::Zero(), normal = vector::UnitZ();
   double least_energy = 0.0, fastest_turn = 0.0;
   for (int tick = 1; tick <= 1000; ++tick) {
-    if (tick % 33 == 1) touch.retarget(world(tick * dt));
+    if (tick % 33 == 1) touch.update(world(tick * dt));
     const auto out = touch.tick(x, dt);
     // A hand presses with 2 N and steadies the device sideways; the device is a damped mass.
     const vector hand(-100.0 * x(0), -100.0 * x(1), -2.0);
     v += dt / mass * (hand + out.force - damping * v);
     x += dt * v;
 
-    fastest_turn = std::max(fastest_turn, (touch.local().outward() - normal).norm() / dt);
-    normal = touch.local().outward();
+    const vector turned = touch.local().normal;
+    fastest_turn = std::max(fastest_turn, (turned - normal).norm() / dt);
+    normal = turned;
     least_energy = std::min(least_energy, out.energy);
     if (tick % 100 == 0) {
       const vector goal = touch.target().normal;

@@ -34,17 +34,18 @@ int main() {
   ph::exchange<plane> to_loop;
   ph::exchange<position> from_loop;
   ph::local_model touch{scene{},
-                        ph::following<plane>{},
-                        ph::rotate_limited<scene>{.rate = 4},
-                        ph::spring<scene>{},
-                        ph::reduced_energy<scene>{.damping = 0.5F},
-                        ph::strict_bound<scene>{}};
+                        ph::followed<plane>{},
+                        ph::turn_limited{.rate = 4},
+                        ph::spring{},
+                        ph::reduced_energy{.damping = 0.5},
+                        ph::strict_bound{},
+                        ph::loop_limits{.longest_tick = 1e-3}};
   std::thread world(environment, std::ref(to_loop), std::ref(from_loop));
 
   scene::vector x(0, 0, -0.001F);
   bool good = true;
   do {
-    if (const plane* newest = to_loop.take()) touch.retarget(*newest);
+    if (const plane* newest = to_loop.take()) touch.update(*newest);
     const auto out = touch.tick(x, 1e-3F);  // a real loop measures dt
     from_loop.publish(x);
     good = good && out.force(2) >= 0 && out.energy >= 0;

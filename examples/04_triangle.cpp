@@ -2,10 +2,10 @@
 // A triangle, as a mesh would publish it: press into it, slide along it, slide off its edge.
 //
 // The triangle counts as touched only while the device is below its face AND on the inner side of
-// all three edges. The bound is the thesis's: it leaves the force alone while the device presses or
-// slides. On the way out, and when the device comes back from beside the triangle, it allows no
-// more than √(4 B E1): the local triangle then sinks below the published one, so that the depth in
-// it is f/K.
+// all three edges. The rule that shapes its force is the thesis's: it leaves the force alone
+// while the device presses or slides. On the way out, and when the device comes back from beside
+// the triangle, it allows no more than √(4 B E1): the local triangle then sinks below the published
+// one, so that the depth in it is f/K.
 
 #include <passive_haptics/passive_haptics.hpp>
 
@@ -17,20 +17,21 @@ using vector = scene::vector;
 
 int main() {
   ph::local_model touch{scene{},
-                        ph::following<ph::triangle<scene>>{},
-                        ph::rotate_limited<scene>{.rate = 4.0},  // rad/s
-                        ph::spring<scene>{},
-                        ph::reduced_energy<scene>{.damping = 0.03},  // N·s/m
-                        ph::thesis_bound<scene>{}};
+                        ph::followed<ph::triangle<scene>>{},
+                        ph::turn_limited{.rate = 4.0},  // rad/s
+                        ph::shaped{ph::spring{}, ph::thesis_rule{}},
+                        ph::reduced_energy{.damping = 0.03},  // N·s/m
+                        ph::no_bound{},
+                        ph::loop_limits{.longest_tick = 1e-3}};
   // Stiff and quick, but not passive: 05_choose_a_bound.cpp shows the price.
   static_assert(decltype(touch)::passivity == ph::guarantee::none);
 
   // Counter-clockwise seen from outside; 40 mm along x, 30 mm along y, facing up.
-  touch.retarget({.a = {0.0, 0.0, 0.0},
-                  .b = {0.04, 0.0, 0.0},
-                  .c = {0.0, 0.03, 0.0},
-                  .stiffness = 1500.0,
-                  .thickness = 0.01});
+  touch.update({.a = {0.0, 0.0, 0.0},
+                .b = {0.04, 0.0, 0.0},
+                .c = {0.0, 0.03, 0.0},
+                .stiffness = 1500.0,
+                .thickness = 0.01});
 
   vector x(0.0105, 0.0105, 0.0022);  // m
   int tick = 0;

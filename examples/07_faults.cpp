@@ -17,9 +17,9 @@ int main() {
   ph::local_model touch{
       scene{},
       // Silent for more than 4.5 ms is stale; the contact then fades out over another 4 ms.
-      ph::following<wall>{{.stale_after = 4.5F * ms, .fade = 4.0F * ms}}, ph::snap<scene>{},
-      ph::spring<scene>{}, ph::reduced_energy<scene>{.damping = 1.0F, .energy = 0.01F},
-      ph::strict_bound<scene>{}};
+      ph::followed<wall>{{.stale_after = 4.5e-3, .fade = 4e-3}}, ph::turn_at_once{}, ph::spring{},
+      ph::reduced_energy{.damping = 1.0, .loan = 0.01}, ph::strict_bound{},
+      ph::loop_limits{.longest_tick = 1e-3}};
 
   const auto tick = [&touch](const char* what, float x, float dt) {
     const auto out = touch.tick(x, dt);
@@ -30,23 +30,23 @@ int main() {
   const wall good{.point = 0, .normal = 1, .stiffness = 1000};
 
   tick("nothing published yet", inside, ms);
-  touch.retarget(good);
+  touch.update(good);
   tick("a wall arrives", inside, ms);
   tick("a position is not a number", nan, ms);
   tick("the next is fine again", inside, ms);
-  touch.retarget(good);
+  touch.update(good);
   tick("no time has passed", inside, 0);
   tick("fine again", inside, ms);
   tick("a jump of 1 m in 1 ms", inside + 1, ms);
   tick("fine again", inside, ms);
   tick("a tick longer than longest_tick", inside, 1.5F * ms);
 
-  touch.retarget(good);
-  touch.retarget(wall{.point = 0, .normal = 0, .stiffness = 1000});
+  touch.update(good);
+  touch.update(wall{.point = 0, .normal = 0, .stiffness = 1000});
   tick("a wall with no direction", inside, ms);
-  touch.retarget(wall{.point = nan, .normal = 1, .stiffness = 1000});
+  touch.update(wall{.point = nan, .normal = 1, .stiffness = 1000});
   tick("a wall nowhere", inside, ms);
 
-  touch.retarget(good);
+  touch.update(good);
   for (int silent = 1; silent <= 9; ++silent) tick("the environment falls silent", inside, ms);
 }

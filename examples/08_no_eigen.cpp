@@ -3,13 +3,13 @@
 // umbrella. CMake compiles this file without Eigen's directory. The whole scene is even a constant
 // expression: the compiler presses the wall.
 
-#include <passive_haptics/bounds.hpp>
-#include <passive_haptics/contact.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/local_model.hpp>
-#include <passive_haptics/normals.hpp>
-#include <passive_haptics/observers.hpp>
-#include <passive_haptics/supply.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 
 #include <cstdio>
 
@@ -18,11 +18,12 @@ using scene = ph::space<float, 1>;
 
 constexpr ph::local_model knob{
     scene{},
-    ph::rigid{ph::half_space<scene>{.point = 0.0F, .normal = 1.0F, .stiffness = 1000.0F}},
-    ph::snap<scene>{},
-    ph::spring<scene>{},
-    ph::reduced_energy<scene>{.damping = 0.25F},
-    ph::strict_bound<scene>{}};
+    ph::fixed{ph::half_space<scene>{.point = 0.0F, .normal = 1.0F, .stiffness = 1000.0F}},
+    ph::turn_at_once{},
+    ph::spring{},
+    ph::reduced_energy{.damping = 0.25},
+    ph::strict_bound{},
+    ph::loop_limits{.longest_tick = 1e-3}};
 
 struct outcome {
   float largest_force = 0, least_energy = 0;

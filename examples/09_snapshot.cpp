@@ -12,13 +12,14 @@
 namespace ph = passive_haptics;
 using scene = ph::space<float, 3>;
 
-auto make(float damping) {
+auto make(double damping) {
   return ph::local_model{scene{},
-                         ph::following<ph::half_space<scene>>{},
-                         ph::rotate_limited<scene>{.rate = 4.0F},
-                         ph::spring<scene>{},
-                         ph::reduced_energy<scene>{.damping = damping},
-                         ph::strict_bound<scene>{}};
+                         ph::followed<ph::half_space<scene>>{},
+                         ph::turn_limited{.rate = 4.0},
+                         ph::spring{},
+                         ph::reduced_energy{.damping = damping},
+                         ph::strict_bound{},
+                         ph::loop_limits{.longest_tick = 1e-3}};
 }
 using model = decltype(make(0));
 static_assert(std::is_trivially_copyable_v<model>);
@@ -31,8 +32,8 @@ std::array<scene::vector, 20> press(model& touch, float start) {
 }
 
 int main() {
-  model touch = make(0.5F);
-  touch.retarget({.point = {0, 0, 0}, .normal = {0.3F, 0.1F, 1}, .stiffness = 2000});
+  model touch = make(0.5);
+  touch.update({.point = {0, 0, 0}, .normal = {0.3F, 0.1F, 1}, .stiffness = 2000});
   press(touch, 0.001F);
 
   std::array<std::byte, sizeof(model)> snapshot{};
@@ -45,10 +46,9 @@ int main() {
   std::printf("last force %.3f N\n", static_cast<double>(again.back().norm()));
 
   // A parameter read from a file, say. The model made of it is harmless: it ticks with force zero.
-  model broken = make(-0.03F);
+  model broken = make(-0.03);
   if (const auto fault = broken.check()) {
-    std::printf("%s = %g is refused: it must be %s\n", fault.parameter,
-                static_cast<double>(fault.value), fault.remedy);
+    std::printf("%s = %g is refused: it must be %s\n", fault.parameter, fault.value, fault.remedy);
   }
   std::printf("a tick of it: %s\n", ph::to_string(broken.tick({0, 0, 0}, 1e-3F).what));
 }

@@ -17,23 +17,24 @@ using scene = ph::space<double, 1>;
 
 struct trusting_bound {
   static constexpr ph::guarantee passivity = ph::guarantee::none;
-  static constexpr ph::bound_traits traits{.only_reduces = true, .needs_ledger = true};
+  static constexpr ph::bound_traits traits{.needs_ledger = true};
 
-  [[nodiscard]] constexpr double limit(const double& desired, const auto& state) const noexcept {
-    const double expected = desired * state.displacement;  // f·Δx, if it moves on as it did
-    if (expected <= state.credit()) return desired;
-    return expected > 0.0 && state.credit() > 0.0 ? desired * (state.credit() / expected) : 0.0;
+  [[nodiscard]] constexpr ph::share<double> limit(double desired,
+                                                  const auto& state) const noexcept {
+    const double expected = desired * state.travel;  // f·Δx, if it moves on as it did
+    if (expected <= state.credit()) return {1.0};
+    return {expected > 0.0 && state.credit() > 0.0 ? state.credit() / expected : 0.0};
   }
-  [[nodiscard]] constexpr ph::parameter_fault<double> check() const noexcept { return {}; }
 };
 
 auto wall_with(const auto& bound) {
   return ph::local_model{scene{},
-                         ph::following<ph::half_space<scene>>{},
-                         ph::snap<scene>{},
-                         ph::spring<scene>{},
-                         ph::reduced_energy<scene>{.damping = 0.03},
-                         bound};
+                         ph::followed<ph::half_space<scene>>{},
+                         ph::turn_at_once{},
+                         ph::spring{},
+                         ph::reduced_energy{.damping = 0.03},
+                         bound,
+                         ph::loop_limits{.longest_tick = 1e-3}};
 }
 
 void tell(const sim::verdict& v) {
@@ -44,7 +45,7 @@ void tell(const sim::verdict& v) {
 int main() {
   const sim::circumstances truth{.damping = 0.03, .mass = 0.1, .hand_force = 5.0};
   const auto mine = sim::challenge_all(wall_with(trusting_bound{}), truth, 50);
-  const auto strict = sim::challenge_all(wall_with(ph::strict_bound<scene>{}), truth, 50);
+  const auto strict = sim::challenge_all(wall_with(ph::strict_bound{}), truth, 50);
   std::printf("%-16s%16s%16s\n", "", "trusting_bound", "strict_bound");
   for (std::size_t i = 0; i < mine.size(); ++i) {
     std::printf("%-16s", to_string(mine[i].by));

@@ -2,7 +2,7 @@
 // A hand presses on a stiff spring that is 25 ms away each way, over a network that loses every
 // tenth packet. Both ends count their energy, so nothing in between can create any.
 
-#include <passive_haptics/bounds.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/simulation/channel.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/two_port.hpp>
@@ -20,9 +20,10 @@ constexpr auto stored_at = [](double tool) { return force_at(tool) * -tool / 2; 
 
 void press(bool controlled) {
   std::puts(controlled ? "two-port, lent 0.0010 J:" : "bare:");
-  ph::impedance_side hand_end{scene{}, ph::two_port_energy<scene>{.damping = 1.0, .share = 0.5},
-                              ph::strict_bound<scene>{}};
-  ph::admittance_side<scene> tool_end{{.stiffness = K, .drift_rate = 20.0, .energy = loan}};
+  ph::impedance_side hand_end{scene{}, ph::two_port_energy{.damping = 1.0, .share = 0.5},
+                              ph::strict_bound{},
+                              ph::loop_limits{.longest_tick = T, .top_speed = 100.0}};
+  ph::admittance_side<scene> tool_end{{.stiffness = K, .drift_rate = 20.0, .loan = loan}};
   sim::channel<packet> up({.delay = 0.025, .loss = 0.1}, 1), down({.delay = 0.025, .loss = 0.1}, 2);
   sim::device<scene, sim::impedance_hand<scene>> device({.damping = 1.0},
                                                         {.stiffness = 500.0, .target = 0.02});

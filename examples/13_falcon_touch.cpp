@@ -3,7 +3,7 @@
 //     13_falcon_touch [firmware.bin]
 //     13_falcon_touch --simulate         a simulated Falcon, and a hand that pushes with 2.9 N
 //
-// A packet device holds a command one tick late: late_reachable_bound, or strict_bound<scene, 1>.
+// A packet device holds a command one tick late: late_loop_limits<1> says so, once, for every bound.
 // reduced_energy takes the encoders' steps for exact positions. quantised_energy does not, and keeps
 // its promise on them; a hand that comes at 50 mm/s or slower then sinks into this wall.
 
@@ -18,13 +18,13 @@ int touch(Device& grip) {
   constexpr double quantum = 1.03e-4;   // m, a count of every leg
   constexpr double strongest_hand = 5;  // N
   ph::local_model wall{scene{},
-                       ph::rigid{ph::half_space<scene>{{0, 0, 0.12}, {0, 0, 1}, 800.0}},
-                       ph::snap<scene>{},
-                       ph::damped_spring<scene>{.mass = mass, .force_limit = 8.0},
-                       ph::reduced_energy<scene>{.damping = damping},
-                       ph::late_reachable_bound<scene>{.mass = mass, .hand_force = strongest_hand},
-                       ph::loop_limits<scene>{.longest_tick = 2.5e-3},
-                       ph::mass_observer<scene>{.mass = mass, .quantum = quantum}};
+                       ph::fixed{ph::half_space<scene>{{0, 0, 0.12}, {0, 0, 1}, 800.0}},
+                       ph::turn_at_once{},
+                       ph::damped_spring{.mass = mass, .force_limit = 8.0},
+                       ph::reduced_energy{.damping = damping},
+                       ph::reachable_bound{.mass = mass, .hand_force = strongest_hand},
+                       ph::late_loop_limits<1>{.longest_tick = 2.5e-3},
+                       ph::mass_observer{.mass = mass, .quantum = quantum}};
 
   scene::vector force = scene::zero();
   double least_energy = 0;

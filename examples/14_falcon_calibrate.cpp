@@ -16,8 +16,8 @@ constexpr double asked = 2;  // N, along one axis
 template <class Device>
 double measure(Device& grip, const scene::vector& force) {
   for (int n = 0; n < 4000; ++n) (void)grip.exchange(force);
-  if constexpr (requires { grip.line().far(); }) {
-    const auto& arms = grip.line().far().mechanism();
+  if constexpr (requires { grip.line().peer(); }) {
+    const auto& arms = grip.line().peer().mechanism();
     const auto p = arms.body().position();
     const auto A = falcon::rates({{p(0), p(1), p(2)}}, arms.theta());
     const auto f = falcon::force_from(A, arms.torque());

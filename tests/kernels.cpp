@@ -2,6 +2,7 @@
 #include "support/catch.hpp"
 #include <passive_haptics/kernels.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -64,7 +65,7 @@ TEST_CASE("strict_scale never lets the rounded force spend more than the ledger"
   static_assert(k::strict_scale(-1.0, 0.0) == 0.0);
 }
 
-TEST_CASE("reachable_force_bound is the largest force that no reachable motion overdraws (§ 9)",
+TEST_CASE("reachable_force_bound is the largest force that no reachable motion overdraws (§ 2(a′))",
           "[kernels]") {
   for (const double B : {3.0, 30.0, 300.0}) {
     for (const double E : {1e-9, 1e-6, 1e-3, 0.1}) {
@@ -82,6 +83,40 @@ TEST_CASE("reachable_force_bound is the largest force that no reachable motion o
   CHECK(k::reachable_force_bound(0.0, 30.0, -1.0) == std::numeric_limits<double>::max());
   CHECK(k::reachable_force_bound(0.0, 30.0, 1e-6) == 0.0);
   CHECK(k::reachable_force_bound(-1.0, 30.0, 1e-6) == 0.0);
+}
+
+TEST_CASE("reachable_outflow is the most that a force hands out within its reach", "[kernels]") {
+  for (const double B : {3.0, 30.0, 300.0}) {
+    for (const double f : {0.1, 3.0, 20.0}) {
+      for (const double reach : {1e-5, 1e-3, 0.1}) {
+        CHECK_THAT(k::reachable_outflow(f, B, reach),
+                   WithinAbs(-worst_motion(f, B, 0.0, reach), 1e-9 * f * reach));
+      }
+    }
+  }
+  CHECK(k::reachable_outflow(5.0, 30.0, 0.0) == 0.0);
+  CHECK(k::reachable_outflow(5.0, 30.0, -1.0) == 0.0);
+  CHECK(k::reachable_outflow(0.0, 30.0, 1.0) == 0.0);
+}
+
+TEST_CASE("reachable_share and reachable_work say in joules what the others say in newtons",
+          "[kernels]") {
+  for (const double B : {3.0, 30.0, 300.0}) {
+    for (const double f : {0.1, 3.0, 20.0}) {
+      const double W = k::worst_outflow(f, B);
+      for (const double reach : {-1e-3, 0.0, 1e-6, 1e-4, 1e-2}) {
+        const double most_work = f * reach;  // η = f δ
+        CHECK_THAT(k::reachable_work(W, most_work),
+                   WithinRel(k::reachable_outflow(f, B, reach), 1e-12));
+        for (const double E : {-1e-3, 0.0, 1e-6, 1e-3, 0.1}) {
+          const double left = std::min(f, k::reachable_force_bound(E, B, reach));
+          CHECK_THAT(f * k::reachable_share(E, W, most_work), WithinRel(left, 1e-12));
+        }
+      }
+    }
+  }
+  CHECK(k::reachable_share(0.0, 1.0, std::numeric_limits<double>::max()) == 0.0);  // anything
+  CHECK(k::reachable_work(0.0, 1.0) == 0.0);
 }
 
 TEST_CASE("outward_reach bounds a mass under the worst admissible forces, and is met (L6)",

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <stdexcept>
 
 namespace experiments {
@@ -51,6 +52,19 @@ class csv_file {
  private:
   output_file file_;
 };
+
+/// gnuplot commands: a line through the points of each name, each point a line "x,y". They stand in
+/// the script itself, because gnuplot takes a comma within a quoted name for the end of a cell.
+inline std::string curves(const std::map<std::string, std::string>& points) {
+  std::string data, plots;
+  for (const auto& [name, lines] : points) {
+    const std::string block = "$curve" + std::to_string(data.size());
+    data += block + " << EOD\nx,y\n" + lines + "EOD\n";
+    plots += (plots.empty() ? "plot " : ", \\\n ") + block + " using 1:2 with linespoints title '" +
+             name + "'";
+  }
+  return data + plots;
+}
 
 struct report_files {
   std::string json = "results.json";

@@ -13,6 +13,7 @@
 #include "report.hpp"
 #include <passive_haptics/environment/spring_wall.hpp>
 #include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ namespace sim = passive_haptics::simulation;
 using line = ph::space<double, 1>;
 
 struct wall_scene {
-  std::string name;
+  std::string name{};
   double mass = 0.1;       ///< [kg]
   double stiffness = 1e4;  ///< of the wall [N/m]
   bool yields = false;     ///< S1
@@ -68,42 +69,57 @@ inline wall_result judge(const std::vector<double>& x, double period) {
   return result;
 }
 
-/// Lets the device fall onto the wall for 10 s of virtual time.
-template <class Model, class Device>
-wall_result drop(Model model, Device device, const wall_scene& scene, std::uint64_t seed,
-                 csv_file* csv) {
+inline sim::device_parameters<line> device_of(const wall_scene& scene) {
+  return {.mass = scene.mass,
+          .damping = 0.03,
+          .friction = scene.friction,
+          .force_limit = scene.force_limit,
+          .quantum = scene.quantum,
+          .lower = -0.061,
+          .load = 9.81 * scene.mass,
+          .start = -0.061};
+}
+
+/// The wall answers what the device does for so many ticks; watch(now, surface) sees each.
+template <class Model, class Device, class Watch>
+sim::run_result<line> run_on_wall(Model& model, Device& device, const wall_scene& scene,
+                                  std::uint64_t seed, int ticks, Watch watch) {
   const ph::environment::spring_wall springs({2 * scene.stiffness, 2 * scene.stiffness});
   sim::update_schedule schedule(seed);
   sim::one_update_late<double> late(0.0);
   double surface = 0.0;
+  const auto answer = [&](const auto& now) {
+    if (!schedule.due(now.time) || !(scene.yields || now.tick == 0)) return;
+    const double moved = scene.yields ? springs.surface(std::abs(now.sample.held)) : 0.0;
+    surface = scene.lags ? late(moved) : moved;
+    model.update({surface, -1.0, scene.stiffness});
+  };
+  return sim::run(device, model, ticks, answer, sim::idle,
+                  [&](const auto& now) { watch(now, surface); });
+}
+
+/// Lets the device fall onto the wall for 10 s of virtual time.
+template <class Device>
+wall_result drop(auto model, Device device, const wall_scene& scene, std::uint64_t seed,
+                 csv_file* csv) {
   std::vector<double> positions;
-  double error = 0.0, rubbed = 0.0;
+  double error = 0.0;
   int in_contact = 0;
-  ph::device_sample<line> sample = device.exchange(0.0);
-  for (int n = 0; n < 10000; ++n) {
-    if (schedule.due(device.time()) && (scene.yields || n == 0)) {
-      const double now = scene.yields ? springs.surface(std::abs(sample.held)) : 0.0;
-      surface = scene.lags ? late(now) : now;
-      model.retarget({surface, -1.0, scene.stiffness});
-    }
-    const auto out = model.tick(sample);
-    const double x = device.position();
-    sample = device.exchange(out.force);
-    if (x > surface) {
-      error += std::abs(-sample.held - scene.stiffness * (x - surface));
+  const auto note = [&](const auto& now, double surface) {
+    if (now.position > surface) {
+      error += std::abs(-now.sample.held - scene.stiffness * (now.position - surface));
       ++in_contact;
     }
     if (csv != nullptr) {
-      csv->row(device.time(), x, model.local().point, surface, -sample.held, out.energy,
-               device.meter().value());
+      csv->row(device.time(), now.position, model.local().point, surface, -now.sample.held,
+               now.out.energy, device.meter().value());
     }
     positions.push_back(device.position());
-    const auto& meter = device.meter();
-    rubbed = std::min(rubbed, meter.value() + meter.total().friction);
-  }
+  };
+  const auto seen = run_on_wall(model, device, scene, seed, 10000, note);
   wall_result result = judge(positions, 1e-3);
   result.port_energy = device.meter().minimum();
-  result.rubbed_energy = rubbed;
+  result.rubbed_energy = seen.least_energy;
   result.ledger = model.energy();
   result.force_error = in_contact > 0 ? error / in_contact : 0.0;
   return result;
@@ -112,14 +128,7 @@ wall_result drop(Model model, Device device, const wall_scene& scene, std::uint6
 template <class Model>
 wall_result drop(const Model& model, const wall_scene& scene, std::uint64_t seed,
                  csv_file* csv = nullptr) {
-  const sim::device_parameters<line> device{.mass = scene.mass,
-                                            .damping = 0.03,
-                                            .friction = scene.friction,
-                                            .force_limit = scene.force_limit,
-                                            .quantum = scene.quantum,
-                                            .lower = -0.061,
-                                            .load = 9.81 * scene.mass,
-                                            .start = -0.061};
+  const auto device = device_of(scene);
   if (!(scene.hand_damping > 0.0)) return drop(model, sim::device<line>(device), scene, seed, csv);
   const sim::impedance_hand<line> hand{.stiffness = 0.0, .damping = scene.hand_damping};
   return drop(model, sim::device<line, sim::impedance_hand<line>>(device, hand), scene, seed, csv);

@@ -3,6 +3,7 @@
 // A list of cells on all cores. Results are handed on in the order of the list, whatever the number
 // of threads, so two runs leave the same files.
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <map>
@@ -12,6 +13,11 @@
 #include <vector>
 
 namespace experiments {
+
+/// `asked` threads, or, if that is 0, as many as the machine has.
+inline int threads_of(int asked) {
+  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 /// Calls cell(i) for 0 ≤ i < count in `threads` threads, and done(i, result) for each i in
 /// order, one at a time. Once `stop` is set the cells under way are finished and handed on, and no
@@ -47,7 +53,7 @@ int work_through(int count, int threads, const std::atomic<bool>& stop, Cell cel
     }
   };
   std::vector<std::thread> others;
-  for (int i = 1; i < threads; ++i) others.emplace_back(worker);
+  for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(worker);
   worker();
   for (auto& thread : others) thread.join();
   if (problem) std::rethrow_exception(problem);

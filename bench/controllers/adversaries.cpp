@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "adversaries.hpp"
+#include "tables.hpp"
 
 #include <map>
 
@@ -20,23 +20,16 @@ template <class Space>
 attack_row judge_in(const controller& c, const attack& a, int runs) {
   sim::circumstances world = a.world;
   if (c.credits_friction) world.friction = 0.3;
-  world.latency = std::max(world.latency, c.covers.latency);
+  world.latency = std::max(world.latency, c.latency);
   const premises known{.mass = world.mass,
                        .damping = world.damping,
                        .friction = world.friction,
                        .hand_force = world.hand_force + world.friction,
                        .quantum = world.quantum,
-                       .longest_tick = world.longest_tick,
-                       .latency = world.latency};
-  const auto v = sim::challenge(c.maker<Space>()(known), a.by, world, runs);
+                       .longest_tick = world.longest_tick};
+  const auto v = sim::challenge(c.in<Space>()(known), a.by, world, runs);
   return {c.name,       c.tag,          a.name,          Space::dof,  runs,
           covers(c, a), v.least_energy, v.largest_force, v.worst_seed};
-}
-
-std::string cell_text(const attack_row& worst) {
-  const std::string energy =
-      worst.least_energy < 0.0 ? ex::format("%.0e", worst.least_energy) : "0";
-  return worst.covered ? energy : "(" + energy + ")";
 }
 
 }  // namespace
@@ -66,22 +59,15 @@ std::vector<attack> attacks() {
 }
 
 bool covers(const controller& c, const attack& a) noexcept {
-  if (c.tag == ph::guarantee::none) return false;
-  if (!c.covers.any_motion && !sim::is_force_limited(a.by)) return false;
-  if (!c.covers.any_clock && unsteady(a.by)) return false;
-  if (!c.covers.rounding && a.world.quantum > 0.0) return false;
-  return a.world.latency <= c.covers.latency && a.world.stiffest <= c.covers.stiffest;
+  if (c.needs_known_hands() && (!sim::is_force_limited(a.by) || unsteady(a.by))) return false;
+  if (!c.knows_steps && a.world.quantum > 0.0) return false;
+  return a.world.latency <= c.latency && c.covers_stiffness(a.world.stiffest);
 }
 
 attack_row judge_under_attack(const controller& c, const attack& a, int dof, int runs) {
-  switch (dof) {
-    case 1:
-      return judge_in<d1>(c, a, runs);
-    case 2:
-      return judge_in<d2>(c, a, runs);
-    default:
-      return judge_in<d3>(c, a, runs);
-  }
+  return dof == 1   ? judge_in<d1>(c, a, runs)
+         : dof == 2 ? judge_in<d2>(c, a, runs)
+                    : judge_in<d3>(c, a, runs);
 }
 
 std::vector<std::string> contradictions(const std::vector<attack_row>& rows) {
@@ -111,63 +97,53 @@ std::vector<std::string> contradictions(const std::vector<attack_row>& rows) {
   return found;
 }
 
+static ex::record record_of(const attack_row& r) {
+  return {{"controller", r.controller},
+          {"tag", to_string(r.tag)},
+          {"attack", r.attack},
+          {"dof", r.dof},
+          {"runs", r.runs},
+          {"covered", r.covered},
+          {"least port energy J", r.least_energy},
+          {"largest force N", r.largest_force},
+          {"worst seed", r.worst_seed}};
+}
+
+/// A line for each controller, a column for each attack: the worst of the dimensions.
+static ex::table worst_of(const std::vector<controller>& judged, const std::vector<attack>& list,
+                          const std::vector<attack_row>& rows) {
+  std::map<std::pair<std::string, std::string>, double> least;
+  for (const auto& r : rows) {
+    double& worst = least[{r.controller, r.attack}];
+    if (!(r.least_energy >= worst)) worst = r.least_energy;
+  }
+  return ex::table_of(judged, [&](const controller& c) {
+    ex::record line{{"controller", c.name}, {"tag", to_string(c.tag)}};
+    for (const auto& a : list) {
+      const double worst = least[{c.name, a.name}];
+      const std::string energy = worst < 0.0 ? ex::format("%.0e", worst) : "0";
+      line.emplace_back(a.name, covers(c, a) ? energy : "(" + energy + ")");
+    }
+    return line;
+  });
+}
+
 std::vector<std::string> run_adversaries(const session& s) {
-  const auto list = attacks();
   struct job {
     const controller* c;
-    const attack* a;
+    attack a;
     int dof;
   };
+  const auto list = attacks();
   std::vector<job> jobs;
-  for (const auto& c : s.judged) {
-    for (const auto& a : list) {
-      jobs.push_back({&c, &a, 1});
-      if (c.in_2) jobs.push_back({&c, &a, 2});
-      if (c.in_3) jobs.push_back({&c, &a, 3});
-    }
+  for (const auto& [c, a] : with_each(s.judged, list)) {
+    jobs.push_back({c, a, 1});
+    if (c->in<d2>()) jobs.push_back({c, a, 2});
+    if (c->in<d3>()) jobs.push_back({c, a, 3});
   }
-  const auto rows = s.rows(
-      "adversaries.csv",
-      "controller,tag,attack,dof,runs,covered,least port energy J,largest force N,worst seed",
-      "adversaries", static_cast<int>(jobs.size()),
-      [&](int i) {
-        const job& j = jobs[static_cast<std::size_t>(i)];
-        return judge_under_attack(*j.c, *j.a, j.dof, s.chosen.runs);
-      },
-      [](const attack_row& r) {
-        return csv_text(r.controller) + ',' + to_string(r.tag) + ',' + csv_text(r.attack) + ',' +
-               std::to_string(r.dof) + ',' + std::to_string(r.runs) + ',' +
-               (r.covered ? "yes" : "no") + ',' + csv_number(r.least_energy) + ',' +
-               csv_number(r.largest_force) + ',' + std::to_string(r.worst_seed);
-      });
-
-  std::vector<std::string> heading{"controller", "tag"};
-  for (const auto& a : list) heading.push_back(a.name);
-  ex::table shown(heading);
-  std::vector<std::string> json;
-  std::size_t next = 0;
-  for (const auto& c : s.judged) {
-    std::vector<std::string> line{c.name, to_string(c.tag)};
-    for (const auto& a : list) {
-      attack_row worst;
-      worst.covered = covers(c, a);
-      for (; next < rows.size() && rows[next].controller == c.name && rows[next].attack == a.name;
-           ++next) {
-        const auto& r = rows[next];
-        if (!(r.least_energy >= worst.least_energy)) worst.least_energy = r.least_energy;
-        json.push_back(ex::json_object({{"controller", ex::json_string(r.controller)},
-                                        {"tag", ex::json_string(to_string(r.tag))},
-                                        {"attack", ex::json_string(r.attack)},
-                                        {"dof", std::to_string(r.dof)},
-                                        {"runs", std::to_string(r.runs)},
-                                        {"covered", r.covered ? "true" : "false"},
-                                        {"least_port_energy_J", ex::json_number(r.least_energy)},
-                                        {"worst_seed", std::to_string(r.worst_seed)}}));
-      }
-      line.push_back(cell_text(worst));
-    }
-    shown.add(line);
-  }
+  const auto rows = s.rows("adversaries.csv", "adversaries", jobs, [&s](const job& j) {
+    return judge_under_attack(*j.c, j.a, j.dof, s.chosen.runs);
+  });
   s.out.section("Adversaries",
                 "Least true port energy [J] of " + std::to_string(s.chosen.runs) +
                     " runs in each of the 1, 2 and 3 dimensions that a controller is offered in; 0 "
@@ -175,12 +151,10 @@ std::vector<std::string> run_adversaries(const session& s) {
                     "covered cell below -1e-12 J fails the run; a conditional controller must lose "
                     "in some bracket, and so must one without a guarantee. adversaries.csv has "
                     "every dimension and the seed of each worst run.");
-  s.out.show(shown);
-  s.out.member("adversaries", ex::json_array(json));
+  s.out.show(worst_of(s.judged, list, rows));
+  s.out.member("adversaries", ex::json_of(rows));
   const auto found = contradictions(rows);
-  std::vector<std::string> quoted;
-  for (const auto& sentence : found) quoted.push_back(ex::json_string(sentence));
-  s.out.member("contradictions", ex::json_array(quoted));
+  s.out.member("contradictions", ex::json_of(found));
   return found;
 }
 

@@ -1,115 +1,72 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // No bound, the force bounding family, the thesis and what knows the device's mass.
 #include "compose.hpp"
-#include <passive_haptics/bounds/energy_bounding.hpp>
-#include <passive_haptics/bounds/sector.hpp>
 
 namespace controllers {
 
 namespace {
 
-/// The reachable set of a hand that pushes with no more than the scene says.
-template <class Space>
-ph::reachable_bound<Space> reachable(const known_in<Space>& p) {
-  return {.mass = p.mass, .hand_force = p.hand_force};
-}
-
 /// thesis_safe of § 2(a'): the credit is capped at what holds `times` the load.
-template <class Space>
-auto thesis_safe(const known_in<Space>& p, typename Space::scalar times) {
-  using scalar = typename Space::scalar;
-  auto capped = ledger<Space>(p);
-  if (p.load > scalar(0))
-    capped.cap = ph::kernels::bank_for_hold(times * p.load, p.damping, p.longest_tick);
-  return touch<Space>(p, capped, ph::bound_chain{ph::thesis_bound<Space>{}, reachable<Space>(p)});
+auto thesis_safe(const std::string& name, double times) {
+  return entry<3>({name, "shaped{spring, thesis_rule}, capped_energy, reachable_bound"},
+                  [times](const premises& p) {
+                    ph::capped_energy capped{.damping = p.damping};
+                    if (p.load > 0.0)
+                      capped.cap =
+                          ph::kernels::bank_for_hold(times * p.load, p.damping, p.longest_tick);
+                    return parts{ph::shaped{wall(p), ph::thesis_rule{}}, capped, reachable(p)};
+                  });
 }
-
-constexpr coverage mass_known{.any_motion = false, .any_clock = false};
 
 }  // namespace
 
 std::vector<controller> bounding_controllers() {
+  const auto strict = [](const premises&) { return ph::strict_bound{}; };
   return {
       entry<3>({"none", "spring, no_observer, no_bound"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(p, ph::no_observer<Space>{}, ph::no_bound<Space>{});
+               [](const premises& p) {
+                 return parts{wall(p), ph::no_observer{}, ph::no_bound{}};
                }),
-      entry<3>({"strict FBA", "spring, reduced_energy, strict_bound"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(p, ledger<Space>(p), ph::strict_bound<Space>{});
-               }),
-      entry<3>(
-          {"strict FBA, 2 ticks late", "spring, reduced_energy, strict_bound<2>", {.latency = 2}},
-          []<class Space>(Space, const known_in<Space>& p) {
-            return touch<Space>(p, ledger<Space>(p), ph::strict_bound<Space, 2>{});
-          }),
+      over_ledger<3>("strict FBA", "strict_bound", strict),
+      over_ledger<3, 2>("strict FBA, 2 ticks late", "strict_bound, late_loop_limits<2>", strict),
       entry<3>({"strict FBA + friction",
-                "spring, reduced_energy<damping_and_friction>, strict_bound",
-                {},
-                true,
-                true},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 using rich = ph::damping_and_friction<Space>;
-                 return touch<Space>(
-                     p, ph::reduced_energy<Space, rich>{.damping = rich{p.damping, p.friction}},
-                     ph::strict_bound<Space>{});
+                "spring, basic_reduced_energy<damping_and_friction>, strict_bound"},
+               [](const premises& p) {
+                 const ph::basic_reduced_energy<ph::damping_and_friction> rich{
+                     .damping = {p.damping, p.friction}};
+                 return parts{wall(p), rich, ph::strict_bound{}};
                }),
-      entry<3>({"force rate + strict FBA",
-                "spring, reduced_energy, bound_chain{force_rate_limit 100 N/s, strict_bound}"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(p, ledger<Space>(p),
-                                     ph::bound_chain{ph::force_rate_limit<Space>{.rate = 100},
-                                                     ph::strict_bound<Space>{}});
-               }),
-      entry<3>({"memoryless FBA", "spring, reduced_energy, memoryless_bound"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(p, ledger<Space>(p), ph::memoryless_bound<Space>{});
-               }),
-      entry<3>({"per-axis FBA", "spring, reduced_energy, per_axis_bound"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(p, ledger<Space>(p), ph::per_axis_bound<Space>{});
-               }),
-      entry<3>({"EBA", "spring, reduced_energy, energy_bounding c1 = c2 = b/T"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 const auto B = p.damping / p.longest_tick;
-                 return touch<Space>(p, ledger<Space>(p),
-                                     ph::energy_bounding<Space>{.slope = B, .storage = B});
-               }),
-      entry<3>({"EBA, tight", "spring, reduced_energy, tight_energy_bounding c2 = 2b/T"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(
-                     p, ledger<Space>(p),
-                     ph::tight_energy_bounding<Space>{.storage = 2 * p.damping / p.longest_tick});
-               }),
-      entry<1>({"sector", "spring, reduced_energy, sector_bound b/T"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(p, ledger<Space>(p),
-                                     ph::sector_bound<Space>{.slope = p.damping / p.longest_tick});
-               }),
-      entry<3>({"thesis", "spring, reduced_energy, thesis_bound"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(p, ledger<Space>(p), ph::thesis_bound<Space>{});
-               }),
-      entry<3>({"reachable", "spring, reduced_energy, reachable_bound", mass_known},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(p, ledger<Space>(p), reachable<Space>(p));
-               }),
+      over_ledger(
+          {"force rate + strict FBA",
+           "shaped{spring, force_rate_limit 100 N/s}, reduced_energy, strict_bound"},
+          [](const premises&) { return ph::force_rate_limit{.rate = 100}; }, ph::strict_bound{}),
+      over_ledger<3>("memoryless FBA", "memoryless_bound",
+                     [](const premises&) { return ph::memoryless_bound{}; }),
+      over_ledger<3>("per-axis FBA", "per_axis_bound",
+                     [](const premises&) { return ph::per_axis_bound{}; }),
+      over_ledger<3>("EBA", "energy_bounding c1 = c2 = b/T",
+                     [](const premises& p) {
+                       const double B = p.damping / p.longest_tick;
+                       return ph::energy_bounding{.slope = B, .storage = B};
+                     }),
+      over_ledger<3>("EBA, tight", "tight_energy_bounding c2 = 2b/T",
+                     [](const premises& p) {
+                       return ph::tight_energy_bounding{.storage = 2 * p.damping / p.longest_tick};
+                     }),
+      over_ledger<1>(
+          "sector", "sector_bound b/T",
+          [](const premises& p) { return ph::sector_bound{.slope = p.damping / p.longest_tick}; }),
+      over_ledger(
+          {"thesis", "shaped{spring, thesis_rule}, reduced_energy, no_bound"},
+          [](const premises&) { return ph::thesis_rule{}; }, ph::no_bound{}),
+      over_ledger<3>("reachable", "reachable_bound", reachable),
+      thesis_safe("thesis safe, holds 2 mg", 2.0),
+      thesis_safe("thesis safe, holds 1.2 mg", 1.2),
       entry<3>(
-          {"thesis safe, holds 2 mg",
-           "spring, reduced_energy{cap}, bound_chain{thesis_bound, reachable_bound}", mass_known},
-          []<class Space>(Space, const known_in<Space>& p) { return thesis_safe<Space>(p, 2); }),
-      entry<3>(
-          {"thesis safe, holds 1.2 mg",
-           "spring, reduced_energy{cap}, bound_chain{thesis_bound, reachable_bound}", mass_known},
-          []<class Space>(Space, const known_in<Space>& p) {
-            return thesis_safe<Space>(p, typename Space::scalar(1.2));
+          {"damped spring + reachable", "damped_spring, reduced_energy, reachable_bound", false},
+          [](const premises& p) {
+            return parts{ph::damped_spring{.mass = p.mass}, ledger(p), reachable(p)};
           }),
-      entry<3>({"damped spring + reachable", "damped_spring, reduced_energy, reachable_bound",
-                mass_known, false},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(p, ph::damped_spring<Space>{.mass = p.mass}, ledger<Space>(p),
-                                     reachable<Space>(p));
-               }),
   };
 }
 

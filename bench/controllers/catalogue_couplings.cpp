@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Couplings and what grows stiff on spare energy.
 #include "compose.hpp"
-#include <passive_haptics/bounds/augmentation.hpp>
 
 namespace controllers {
 
 namespace {
 
 /// 2b/T [N/m]: the stiffest spring that the damping pays for by itself (L2).
-template <class Scalar>
-Scalar soft(const premises_in<Scalar>& p) {
-  return Scalar(2) * p.damping / p.longest_tick;
+double soft(const premises& p) {
+  return 2 * p.damping / p.longest_tick;
+}
+
+/// A shaper of that softness, strictly bounded.
+template <class Shape>
+controller growing(const std::string& name, const std::string& shaper, Shape shape) {
+  return over_ledger(
+      {name, "shaped{spring, " + shaper + "}, reduced_energy, strict_bound"},
+      [shape](const premises& p) { return shape(soft(p)); }, ph::strict_bound{});
 }
 
 }  // namespace
@@ -18,30 +24,16 @@ Scalar soft(const premises_in<Scalar>& p) {
 std::vector<controller> coupling_controllers() {
   return {
       entry<3>({"virtual coupling", "virtual_coupling Kc = 2b/T, no_observer, no_bound"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(
-                     p,
-                     ph::virtual_coupling<Space>{.stiffness = soft(p), .damping = p.wall_damping},
-                     ph::no_observer<Space>{}, ph::no_bound<Space>{});
+               [](const premises& p) {
+                 const ph::virtual_coupling law{.stiffness = soft(p), .damping = p.wall_damping};
+                 return parts{law, ph::no_observer{}, ph::no_bound{}};
                }),
-      entry<3>({"nonlinear coupling", "spring, reduced_energy, nonlinear_coupling from 2b/T"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(
-                     p, ledger<Space>(p),
-                     ph::nonlinear_coupling<Space>{.initial = soft(p), .rate = 10000});
-               }),
-      entry<3>({"stiffness increment", "spring, reduced_energy, stiffness_increment 2b/T a press"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(
-                     p, ledger<Space>(p),
-                     ph::stiffness_increment<Space>{.initial = soft(p), .step = soft(p)});
-               }),
-      entry<3>({"force augmentation", "spring, reduced_energy, force_augmentation 2b/T + 0.5 N"},
-               []<class Space>(Space, const known_in<Space>& p) {
-                 return touch<Space>(p, ledger<Space>(p),
-                                     ph::force_augmentation<Space>{
-                                         .low = soft(p), .step = typename Space::scalar(0.5)});
-               }),
+      growing("nonlinear coupling", "nonlinear_coupling from 2b/T",
+              [](double K) { return ph::nonlinear_coupling{.initial = K, .rate = 10000}; }),
+      growing("stiffness increment", "stiffness_increment 2b/T a press",
+              [](double K) { return ph::stiffness_increment{.initial = K, .step = K}; }),
+      growing("force augmentation", "force_augmentation 2b/T + 0.5 N",
+              [](double K) { return ph::force_augmentation{.low = K, .step = 0.5}; }),
   };
 }
 

@@ -2,65 +2,95 @@
 #pragma once
 // How an entry of the catalogue is written:
 //
-//     entry<3>({"strict FBA", "spring, reduced_energy, strict_bound"},
-//              []<class Space>(Space, const known_in<Space>& p) {
-//                return touch<Space>(p, ledger<Space>(p), ph::strict_bound<Space>{});
-//              })
+//     entry<3>({"none", "spring, no_observer, no_bound"},
+//              [](const premises& p) { return parts{wall(p), ph::no_observer{}, ph::no_bound{}}; })
+//     over_ledger<3>("strict FBA", "strict_bound", [](auto&) { return ph::strict_bound{}; })
 //
-// entry<3> offers it in 1, 2 and 3 dimensions, entry<1> in one; in 1 and 3 in float, too. The tag
-// comes from the type.
+// entry<3> offers it in 1, 2 and 3 dimensions, entry<1> in one; in 1 and 3 in float, too. entry<3, 2>
+// is for a loop that is two ticks late. What it promises comes from the type.
 
 #include "catalogue.hpp"
 
 namespace controllers {
 
-template <class Space>
-ph::loop_limits<Space> limits(const known_in<Space>& p) {
-  return {.longest_tick = p.longest_tick};
-}
+template <class Law, class Observer, class Bound, class Motion = ph::last_difference>
+struct parts {
+  Law law;
+  Observer observer;
+  Bound bound;
+  Motion motion{};
+};
+template <class Law, class Observer, class Bound>
+parts(Law, Observer, Bound) -> parts<Law, Observer, Bound>;
+template <class Law, class Observer, class Bound, class Motion>
+parts(Law, Observer, Bound, Motion) -> parts<Law, Observer, Bound, Motion>;
 
-template <class Space>
-ph::reduced_energy<Space> ledger(const known_in<Space>& p) {
+/// The wall as the environment wants it: a spring, and a damper if the scene has one.
+inline ph::virtual_coupling wall(const premises& p) {
+  return {.damping = p.wall_damping};
+}
+inline ph::reduced_energy ledger(const premises& p) {
   return {.damping = p.damping};
 }
 
-/// A local model over a half-space that follows the environment's.
-template <class Space, class Contact, class Observer, class Bound,
-          class Motion = ph::last_difference<Space>>
-auto touch(const known_in<Space>& p, const Contact& contact, const Observer& observer,
-           const Bound& bound, const Motion& motion = {}) {
-  return ph::local_model{Space{},           ph::following<ph::half_space<Space>>{},
-                         ph::snap<Space>{}, contact,
-                         observer,          bound,
-                         limits<Space>(p),  motion};
-}
-/// The same with the wall as the environment wants it: a spring, and a damper if the scene has one.
-template <class Space, class Observer, class Bound>
-auto touch(const known_in<Space>& p, const Observer& observer, const Bound& bound) {
-  return touch<Space>(p, ph::virtual_coupling<Space>{.damping = p.wall_damping}, observer, bound);
+/// The reachable set of a hand that pushes with no more than the scene says.
+inline ph::reachable_bound reachable(const premises& p) {
+  return {.mass = p.mass, .hand_force = p.hand_force};
 }
 
-namespace detail {
-template <class Space, class Make>
-void offer(controller& c, auto controller::*where, const Make& make) {
-  using local = decltype(make(Space{}, known_in<Space>{}));
-  static_assert(local::passivity == decltype(make(d1{}, premises{}))::passivity,
-                "a controller promises the same in every dimension");
-  c.*where = [make](const premises& p) {
-    return model<Space>(make(Space{}, p.template in<typename Space::scalar>()));
-  };
+/// A local model over a half-space that follows the environment's. A light device thrown off a stiff
+/// wall is faster than any hand.
+template <class Space, int Latency = 0, class... Parts>
+auto touch(const premises& p, const parts<Parts...>& with) {
+  return ph::local_model{
+      Space{},
+      ph::followed<ph::half_space<Space>>{},
+      ph::turn_at_once{},
+      with.law,
+      with.observer,
+      with.bound,
+      ph::late_loop_limits<Latency>{.longest_tick = p.longest_tick, .top_speed = 100.0},
+      with.motion};
 }
-}  // namespace detail
 
-template <int Dofs, class Make>
+template <int Dofs, int Latency = 0, class Make>
 controller entry(facts about, const Make& make) {
-  controller c{std::move(about), decltype(make(d1{}, premises{}))::passivity, {}, {}, {}, {}, {}};
-  detail::offer<d1>(c, &controller::in_1, make);
-  if constexpr (Dofs >= 2) detail::offer<d2>(c, &controller::in_2, make);
-  if constexpr (Dofs >= 3) detail::offer<d3>(c, &controller::in_3, make);
-  detail::offer<f1>(c, &controller::in_1_float, make);
-  if constexpr (Dofs >= 3) detail::offer<f3>(c, &controller::in_3_float, make);
+  using observer = decltype(make(premises{}).observer);
+  using local = decltype(touch<d1, Latency>(premises{}, make(premises{})));
+  controller c{std::move(about), local::passivity, local::latency, !observer::exact,
+               local::state_type::damping_type::rubs};
+  const auto offer = [&c, &make]<class Space>(Space) {
+    static_assert(decltype(touch<Space, Latency>(premises{}, make(premises{})))::passivity ==
+                      local::passivity,
+                  "a controller promises the same in every dimension");
+    c.in<Space>() = [make](const premises& p) {
+      return model<Space>(touch<Space, Latency>(p, make(p)));
+    };
+  };
+  offer(d1{});
+  offer(f1{});
+  if constexpr (Dofs >= 2) offer(d2{});
+  if constexpr (Dofs >= 3) {
+    offer(d3{});
+    offer(f3{});
+  }
   return c;
+}
+
+/// The usual one: the wall as it is, a ledger, and bound(premises) over it.
+template <int Dofs, int Latency = 0, class Bound>
+controller over_ledger(const std::string& name, const std::string& said, Bound bound) {
+  return entry<Dofs, Latency>({name, "spring, reduced_energy, " + said},
+                              [bound](const premises& p) {
+                                return parts{wall(p), ledger(p), bound(p)};
+                              });
+}
+/// A shaper before it: shape(premises), and then strict_bound or what else is said.
+template <class Shape, class Bound>
+controller over_ledger(facts about, Shape shape, const Bound& bound) {
+  return entry<3>(std::move(about), [shape, bound](const premises& p) {
+    return parts{ph::shaped{wall(p), shape(p)}, ledger(p), bound};
+  });
 }
 
 }  // namespace controllers

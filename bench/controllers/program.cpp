@@ -1,23 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "program.hpp"
-
-#include "adversaries.hpp"
-#include "settling.hpp"
-#include "stiffness.hpp"
-#include "wall.hpp"
-#include "z_width.hpp"
+#include "tables.hpp"
 
 namespace controllers {
 
 namespace {
-
-ex::table list_of(const std::vector<controller>& judged) {
-  ex::table all({"controller", "tag", "dimensions", "composition"});
-  for (const auto& c : judged) {
-    all.add({c.name, to_string(c.tag), c.in_3 ? "1, 2, 3" : c.in_2 ? "1, 2" : "1", c.composition});
-  }
-  return all;
-}
 
 /// The sections that were asked for; returns what contradicts the tags.
 std::vector<std::string> judge(const session& s) {
@@ -26,7 +12,14 @@ std::vector<std::string> judge(const session& s) {
                 "conditional under the assumptions named in the header, none. What each header "
                 "assumes beside that: a lower bound of the damping, exact positions, the force "
                 "held known, no tick longer than the longest.");
-  s.out.show(list_of(s.judged));
+  s.out.show(ex::table_of(s.judged, [](const controller& c) {
+    return ex::record{{"controller", c.name},
+                      {"tag", to_string(c.tag)},
+                      {"dimensions", c.in<d3>()   ? "1, 2, 3"
+                                     : c.in<d2>() ? "1, 2"
+                                                  : "1"},
+                      {"composition", c.composition}};
+  }));
   std::vector<std::string> found;
   for (const auto& section : sections()) {
     const auto& only = s.chosen.only;
@@ -34,17 +27,6 @@ std::vector<std::string> judge(const session& s) {
     for (auto& sentence : section.run(s)) found.push_back(std::move(sentence));
   }
   return found;
-}
-
-int finish(const session& s, const std::vector<std::string>& found) {
-  if (s.chosen.part.of > 1) return 0;  // a part is no report
-  if (!s.out.finish("passive_haptics: all controllers side by side")) {
-    std::cout << "gnuplot did not draw every plot: is it installed? The rest is complete.\n";
-  }
-  std::cout << "results: " << s.out.path("controllers.md").string() << ", "
-            << s.out.path("controllers.json").string() << '\n';
-  for (const auto& sentence : found) std::cerr << "controllers: " << sentence << '\n';
-  return found.empty() ? 0 : 1;
 }
 
 }  // namespace
@@ -60,26 +42,21 @@ const std::vector<section>& sections() {
 
 int run(const std::vector<std::string>& arguments, const std::vector<controller>& judged,
         const std::atomic<bool>& stop) {
-  try {
+  return ex::guarded("controllers", [&] {
     const settings chosen = parse(arguments);
     ex::report report(chosen.out, {.json = "controllers.json", .markdown = "controllers.md"});
-    const session s{report, chosen, stop, judged};
-    if (!chosen.merge.empty()) {
+    const session s{{report, ex::threads_of(chosen.threads), stop}, chosen, judged};
+    std::vector<std::string> found;
+    if (chosen.merge.empty()) {
+      found = judge(s);
+    } else {
       merge_z_width(s, chosen.merge);
-      return finish(s, {});
     }
-    return finish(s, judge(s));
-  } catch (const std::invalid_argument& problem) {
-    std::cerr << "controllers: " << problem.what() << '\n';
-    return 2;
-  } catch (const interrupted& stopped) {
-    std::cerr << "controllers: " << stopped.what()
-              << "; the files of earlier sections are complete, there is no report\n";
-    return 130;
-  } catch (const std::exception& problem) {
-    std::cerr << "controllers: " << problem.what() << '\n';
-    return 1;
-  }
+    if (chosen.part.of > 1) return 0;  // a part is no report
+    for (const auto& sentence : found) std::cerr << "controllers: " << sentence << '\n';
+    return ex::conclude(report, "controllers", "passive_haptics: all controllers side by side",
+                        found.empty());
+  });
 }
 
 }  // namespace controllers

@@ -1,10 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The program, apart from main(): so that a test can run it, and stop it.
+// The program, apart from main(), so that a test can run it, and stop it; and what its sections share.
 
-#include "session.hpp"
+#include "../common/rows.hpp"
+#include "catalogue.hpp"
 
 namespace controllers {
+
+namespace ex = experiments;
+
+/// The i-th of n parts of a list, counted from 1.
+struct shard {
+  int part = 1;
+  int of = 1;
+};
+
+struct settings {
+  std::string out = "controllers";
+  std::vector<std::string> only;   ///< sections; empty: all
+  std::vector<std::string> merge;  ///< parts of z_width to join instead of running
+  shard part{};
+  bool quick = false;
+  int seeds = 0;    ///< schedules per scene; 0: 10, quick 3
+  int runs = 0;     ///< per adversary and dimension; 0: 1000, quick 30
+  int threads = 0;  ///< 0: as many as the machine has
+};
+
+struct session : ex::workshop {
+  const settings& chosen;
+  const std::vector<controller>& judged;
+};
+
+/// Every controller with everything of a list.
+template <class What>
+auto with_each(const std::vector<controller>& judged, const std::vector<What>& list) {
+  std::vector<std::pair<const controller*, What>> all;
+  for (const auto& c : judged) {
+    for (const auto& what : list) all.emplace_back(&c, what);
+  }
+  return all;
+}
 
 /// A part of the run. It writes its rows as they are finished, adds itself to the report, and
 /// returns a sentence for everything that contradicts a tag.

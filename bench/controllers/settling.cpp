@@ -1,254 +1,221 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "settling.hpp"
-
-#include <passive_haptics/motion.hpp>
+#include "compose.hpp"
+#include "tables.hpp"
 
 namespace controllers {
 
 namespace {
 
-namespace sim = passive_haptics::simulation;
-
-/// Presses `force` more, from second 10 on, within half a second.
-struct late_press {
-  double force_limit = 0.0;  ///< [N]
-  [[nodiscard]] double force(double t, double /*x*/, double /*v*/) const noexcept {
-    return force_limit * std::min(1.0, std::max(0.0, (t - 10.0) / 0.5));
-  }
-  [[nodiscard]] double mass() const noexcept { return 0.0; }
-  [[nodiscard]] ph::parameter_fault<double> check() const noexcept { return {}; }
+/// A composition and what of it is new against the line before: the baseline first, the recommended
+/// one last.
+struct settling_way {
+  const char* name = "";
+  bool knows_saturation = false;
+  bool observes_motion = false;
+  bool counts_surely = false;
 };
+constexpr std::array ways{settling_way{"damped spring, last difference"},
+                          settling_way{"+ secant in saturation", true},
+                          settling_way{"+ mass observer", true, true},
+                          settling_way{"+ quantised energy (recommended)", true, true, true}};
 
-/// The spring that is asked for: min(K, κ m/T²).
-double displayed(const settling_case& c) {
-  return ph::kernels::sampled_stiffness(c.stiffness, 0.1, c.mass, 1e-3);
-}
-
-template <class Observer, class Motion>
-model<d1> composed(const settling_way& way, const settling_device& device, const settling_case& c,
-                   double hand_force, const Observer& observer, const Motion& motion) {
-  ph::damped_spring<d1> contact{.mass = c.mass};
-  if (way.knows_saturation && std::isfinite(device.force_limit)) {
-    contact.force_limit = device.force_limit;
-  }
-  return ph::local_model{d1{},
-                         ph::following<ph::half_space<d1>>{},
-                         ph::snap<d1>{},
-                         contact,
-                         observer,
-                         ph::reachable_bound<d1>{.mass = c.mass, .hand_force = hand_force},
-                         ph::loop_limits<d1>{},
-                         motion};
-}
-
-model<d1> composed(const settling_way& way, const settling_device& device, const settling_case& c,
-                   double hand_force) {
-  const ph::reduced_energy<d1> plain{.damping = 0.03};
-  const ph::quantised_energy<d1> sure{.damping = 0.03, .quantum = device.quantum};
-  const ph::mass_observer<d1> observer{.mass = c.mass, .quantum = device.quantum};
-  if (way.counts_surely) return composed(way, device, c, hand_force, sure, observer);
-  if (way.observes_motion) return composed(way, device, c, hand_force, plain, observer);
-  return composed(way, device, c, hand_force, plain, ph::last_difference<d1>{});
-}
-
-sim::device_parameters<d1> parameters(const settling_device& d, const settling_case& c) {
-  return {.mass = c.mass,
-          .damping = 0.03,
-          .friction = d.friction,
-          .force_limit = d.force_limit,
-          .quantum = d.quantum,
-          .lower = -0.061,
-          .load = 9.81 * c.mass,
-          .start = -0.061};
-}
-
-/// One more press after the fall, 2 mm deep and twenty times the dry friction at least: the slope
-/// of the force held over the true depth, both means of a second.
-double stiffness_error(const settling_way& way, const settling_device& d, const settling_case& c) {
-  const double more = std::max(displayed(c) * 2e-3, 20.0 * d.friction);
-  model<d1> wall = composed(way, d, c, 9.81 * c.mass + d.friction + more);
-  const ph::environment::spring_wall springs({2 * c.stiffness, 2 * c.stiffness});
-  sim::device<d1, late_press> device(parameters(d, c), {more});
-  sim::update_schedule schedule(7);
-  sim::one_update_late<double> late(0.0);
-  double surface = 0.0;
-  std::array<double, 2> force{}, depth{};  // before, after
-  auto sample = device.exchange(0.0);
-  for (int n = 0; n < 14000; ++n) {
-    if (schedule.due(device.time()) && (c.yields || n == 0)) {
-      surface = c.yields ? late(springs.surface(std::abs(sample.held))) : 0.0;
-      wall.retarget({surface, -1.0, c.stiffness});
-    }
-    sample = device.exchange(wall.tick(sample).force);
-    const bool before = n >= 9000 && n < 10000;
-    if (!before && n < 13000) continue;
-    force[before ? 0 : 1] -= sample.held / 1000.0;
-    depth[before ? 0 : 1] += (device.position() - surface) / 1000.0;
-  }
-  return (force[1] - force[0]) / (depth[1] - depth[0]) / displayed(c) - 1.0;
-}
-
-}  // namespace
-
-std::vector<settling_way> settling_ways() {
-  return {{.name = "damped spring, last difference"},
-          {.name = "+ secant in saturation", .knows_saturation = true},
-          {.name = "+ mass observer", .knows_saturation = true, .observes_motion = true},
-          {.name = "+ quantised energy (recommended)",
-           .knows_saturation = true,
-           .observes_motion = true,
-           .counts_surely = true}};
-}
-
-std::vector<settling_device> settling_devices() {
-  std::vector<settling_device> all;
+/// A device, 48 cases each, and a wall; both as the scene of the fall.
+std::vector<ex::wall_scene> devices() {
+  std::vector<ex::wall_scene> all;
   for (const double friction : {0.0, 0.2}) {
-    for (const double limit : {settling_device::sim_infinity, 9.0}) {
+    for (const double limit : {std::numeric_limits<double>::infinity(), 9.0}) {
       for (const double quantum : {0.0, 10e-6, 30e-6, 60e-6}) {
-        all.push_back({quantum, friction, limit});
+        all.push_back({.force_limit = limit, .friction = friction, .quantum = quantum});
       }
     }
   }
   return all;
 }
-
-std::vector<settling_case> settling_cases() {
-  std::vector<settling_case> all;
+std::vector<ex::wall_scene> cases_of(ex::wall_scene scene, bool quick) {
+  std::vector<ex::wall_scene> all;
   for (const bool yields : {false, true}) {
     for (const double mass : {0.05, 0.1, 0.15, 0.5}) {
       for (const double stiffness : {1e2, 1e3, 1e4, 1e5, 1e6, 1e9}) {
-        all.push_back({mass, stiffness, yields});
+        scene.mass = mass;
+        scene.stiffness = stiffness;
+        scene.yields = scene.lags = yields;
+        all.push_back(scene);
       }
     }
   }
+  if (quick) all.resize(2);
   return all;
 }
 
-settling_result judge_settling(const settling_way& way, const settling_device& device,
-                               const settling_case& c) {
-  const ex::wall_scene scene{.name = "settling",
-                             .mass = c.mass,
-                             .stiffness = c.stiffness,
-                             .yields = c.yields,
-                             .lags = c.yields,
-                             .force_limit = device.force_limit,
-                             .friction = device.friction,
-                             .quantum = device.quantum};
-  model<d1> wall = composed(way, device, c, 9.81 * c.mass + device.friction + 1.0);
-  const ex::wall_result r = ex::drop(wall, scene, 7);
-  settling_result result{r.last_swing, r.settle, r.port_energy, r.ledger};
-  if (way.counts_surely && !std::isfinite(device.force_limit)) {
-    result.stiffness_error = stiffness_error(way, device, c);
+struct settling_row {
+  settling_way way{};
+  ex::wall_scene where{};
+  ex::wall_result fell{};
+  double stiffness_error = std::nan("");  ///< of the displayed static stiffness; NaN: not measured
+  [[nodiscard]] bool settled() const noexcept {
+    return fell.last_swing < 0.5e-3 && fell.settle < 3.0;
   }
-  return result;
+};
+
+ex::record record_of(const settling_row& r) {
+  return {{"composition", std::string(r.way.name)},
+          {"step m", r.where.quantum},
+          {"friction N", r.where.friction},
+          {"force limit N", r.where.force_limit},
+          {"mass kg", r.where.mass},
+          {"stiffness N/m", r.where.stiffness},
+          {"yields", r.where.yields},
+          {"swing m", r.fell.last_swing},
+          {"settle s", r.fell.settle},
+          {"port energy J", r.fell.port_energy},
+          {"ledger J", r.fell.ledger},
+          {"stiffness error", r.stiffness_error}};
 }
 
-namespace {
+model<d1> composed(const settling_way& way, const ex::wall_scene& scene, double hand_force) {
+  const premises p{.mass = scene.mass, .hand_force = hand_force, .quantum = scene.quantum};
+  ph::damped_spring law{.mass = p.mass};
+  if (way.knows_saturation) law.force_limit = scene.force_limit;
+  const ph::reachable_bound bound{.mass = p.mass, .hand_force = p.hand_force};
+  const ph::quantised_energy sure{.damping = p.damping, .quantum = p.quantum};
+  const ph::mass_observer observer{.mass = p.mass, .quantum = p.quantum};
+  if (way.counts_surely) return touch<d1>(p, parts{law, sure, bound, observer});
+  if (way.observes_motion) return touch<d1>(p, parts{law, ledger(p), bound, observer});
+  return touch<d1>(p, parts{law, ledger(p), bound});
+}
+
+/// Presses `most` more, from second 10 on, within half a second.
+struct late_press {
+  double most = 0.0;  ///< [N]
+  [[nodiscard]] double force(double t, double /*x*/, double /*v*/) const noexcept {
+    return most * std::min(1.0, std::max(0.0, (t - 10.0) / 0.5));
+  }
+  [[nodiscard]] double mass() const noexcept { return 0.0; }
+  [[nodiscard]] ph::parameter_fault check() const noexcept { return {}; }
+};
+
+/// One more press after the fall, 2 mm deep and twenty times the dry friction at least: the slope
+/// of the force held over the true depth, both means of a second, against min(K, κ m/T²).
+double stiffness_error(const settling_way& way, const ex::wall_scene& scene) {
+  const double K = ph::kernels::sampled_stiffness(scene.stiffness, 0.1, scene.mass, 1e-3);
+  const double more = std::max(K * 2e-3, 20.0 * scene.friction);
+  model<d1> wall = composed(way, scene, 9.81 * scene.mass + scene.friction + more);
+  sim::device<d1, late_press> device(ex::device_of(scene), {more});
+  std::array<double, 2> force{}, depth{};  // before, after
+  ex::run_on_wall(wall, device, scene, 7, 14000, [&](const auto& now, double surface) {
+    const bool before = now.tick >= 9000 && now.tick < 10000;
+    if (!before && now.tick < 13000) return;
+    force[before ? 0 : 1] -= now.sample.held / 1000.0;
+    depth[before ? 0 : 1] += (device.position() - surface) / 1000.0;
+  });
+  return (force[1] - force[0]) / (depth[1] - depth[0]) / K - 1.0;
+}
+
+settling_row judge_settling(const settling_row& job) {
+  settling_row row = job;
+  const double hand_force = 9.81 * row.where.mass + row.where.friction + 1.0;
+  row.fell = ex::drop(composed(row.way, row.where, hand_force), row.where, 7);
+  if (row.way.counts_surely && !std::isfinite(row.where.force_limit)) {
+    row.stiffness_error = stiffness_error(row.way, row.where);
+  }
+  return row;
+}
 
 /// What the 48 cases of one device and one composition come to.
-struct settling_row {
-  int unsettled = 0, long_cycles = 0;
+struct settling_sum {
+  settling_way way{};
+  ex::wall_scene device{};
+  int cases = 0, unsettled = 0, long_cycles = 0;
   double longest = 0.0;  ///< cycle [m]
   double worst = 0.0;    ///< settle time of those that settle [s]
   double port_energy = 0.0, ledger = std::numeric_limits<double>::infinity();
   double stiffness_error = std::nan("");
 
-  void add(const settling_result& r, const settling_device& d) {
+  void add(const settling_row& r) {
+    ++cases;
     unsettled += r.settled() ? 0 : 1;
-    long_cycles += d.quantum > 0.0 && r.swing > 10.0 * d.quantum ? 1 : 0;
-    longest = std::max(longest, r.swing);
-    if (r.settled()) worst = std::max(worst, r.settle);
-    port_energy = std::min(port_energy, r.port_energy);
-    ledger = std::min(ledger, r.ledger);
+    long_cycles += device.quantum > 0.0 && r.fell.last_swing > 10.0 * device.quantum ? 1 : 0;
+    longest = std::max(longest, r.fell.last_swing);
+    if (r.settled()) worst = std::max(worst, r.fell.settle);
+    port_energy = std::min(port_energy, r.fell.port_energy);
+    ledger = std::min(ledger, r.fell.ledger);
     stiffness_error = std::fmax(stiffness_error, std::abs(r.stiffness_error));
+  }
+  [[nodiscard]] std::string called() const {
+    return ex::format("%g µm", device.quantum * 1e6) + ex::format(", %g N", device.friction) +
+           (std::isfinite(device.force_limit) ? ex::format(", %g N", device.force_limit)
+                                              : ", none");
+  }
+  [[nodiscard]] std::string cycle() const {
+    return device.quantum > 0.0 ? ex::format("%.1f steps", longest / device.quantum)
+                                : ex::format("%.3f mm", longest * 1e3);
   }
 };
 
-std::string called(const settling_device& d) {
-  return ex::format("%g µm", d.quantum * 1e6) + ex::format(", %g N", d.friction) +
-         (std::isfinite(d.force_limit) ? ex::format(", %g N", d.force_limit) : ", none");
+ex::record record_of(const settling_sum& r) {
+  return {{"composition", std::string(r.way.name)},
+          {"step m", r.device.quantum},
+          {"friction N", r.device.friction},
+          {"force limit N", r.device.force_limit},
+          {"unsettled", r.unsettled},
+          {"longest cycle m", r.longest},
+          {"worst settle s", r.worst},
+          {"min port energy J", r.port_energy},
+          {"ledger J", r.ledger},
+          {"stiffness error", r.stiffness_error}};
 }
 
-void judge_recommended(const settling_device& d, const settling_row& row,
-                       std::vector<std::string>& found) {
+/// The recommended composition, for people.
+ex::record recommended(const settling_sum& r) {
+  if (!r.way.counts_surely) return {};
+  return {{"step, friction, force limit", r.called()},
+          {"not settled", std::to_string(r.unsettled) + " of " + std::to_string(r.cases)},
+          {"longest cycle", r.cycle()},
+          {"worst settle s", r.worst, "%.2f"},
+          {"least port energy J", r.port_energy},
+          {"ledger at the end mJ", r.ledger * 1e3, "%.1f"},
+          {"stiffness error", r.stiffness_error, "%.3f"}};
+}
+
+/// What it failed to do.
+std::vector<std::string> failures(const settling_sum& r) {
+  std::vector<std::string> found;
   const auto failed = [&](const std::string& what) {
-    found.push_back("settling, " + called(d) + ": " + what);
+    found.push_back("settling, " + r.called() + ": " + what);
   };
-  if (row.unsettled > 0) failed(std::to_string(row.unsettled) + " cases did not settle");
-  if (row.long_cycles > 0) failed(std::to_string(row.long_cycles) + " cycles over 10 steps");
-  if (!(row.port_energy >= -1e-12)) failed(ex::format("lost %g J", -row.port_energy));
-  if (row.stiffness_error > 0.05) failed(ex::format("stiffness off by %.3g", row.stiffness_error));
+  if (r.unsettled > 0) failed(std::to_string(r.unsettled) + " cases did not settle");
+  if (r.long_cycles > 0) failed(std::to_string(r.long_cycles) + " cycles over 10 steps");
+  if (!(r.port_energy >= -1e-12)) failed(ex::format("lost %g J", -r.port_energy));
+  if (r.stiffness_error > 0.05) failed(ex::format("stiffness off by %.3g", r.stiffness_error));
+  return found;
 }
 
 }  // namespace
 
 std::vector<std::string> run_settling(const session& s) {
-  const auto ways = settling_ways();
-  const auto devices = settling_devices();
-  auto cases = settling_cases();
-  if (s.chosen.quick) cases.resize(2);
-  struct line {
-    std::size_t way, device, which;
-    settling_result result;
-  };
-  const auto lines = s.rows(
-      "settling.csv",
-      "composition,step m,friction N,force limit N,mass kg,stiffness N/m,yields,swing m,settle s,"
-      "port energy J,ledger J,stiffness error",
-      "settling", static_cast<int>(ways.size() * devices.size() * cases.size()),
-      [&](int i) {
-        const auto at = static_cast<std::size_t>(i);
-        const std::size_t which = at % cases.size(), device = at / cases.size() % devices.size();
-        const std::size_t way = at / cases.size() / devices.size();
-        return line{way, device, which, judge_settling(ways[way], devices[device], cases[which])};
-      },
-      [&](const line& l) {
-        const auto& d = devices[l.device];
-        const auto& c = cases[l.which];
-        return csv_text(ways[l.way].name) + ',' + csv_number(d.quantum) + ',' +
-               csv_number(d.friction) + ',' + csv_number(d.force_limit) + ',' + csv_number(c.mass) +
-               ',' + csv_number(c.stiffness) + (c.yields ? ",yes," : ",no,") +
-               csv_number(l.result.swing) + ',' + csv_number(l.result.settle) + ',' +
-               csv_number(l.result.port_energy) + ',' + csv_number(l.result.ledger) + ',' +
-               csv_number(l.result.stiffness_error);
-      });
+  std::vector<settling_row> jobs;
+  std::vector<settling_sum> sums;
+  for (const auto& way : ways) {
+    for (const auto& device : devices()) {
+      sums.push_back({way, device});
+      for (const auto& where : cases_of(device, s.chosen.quick)) jobs.push_back({way, where});
+    }
+  }
+  const auto rows = s.rows("settling.csv", "settling", jobs, judge_settling);
+  const std::size_t each = rows.size() / sums.size();
+  for (std::size_t i = 0; i < rows.size(); ++i) sums[i / each].add(rows[i]);
 
-  std::vector<std::vector<settling_row>> rows(ways.size(),
-                                              std::vector<settling_row>(devices.size()));
-  for (const auto& l : lines) rows[l.way][l.device].add(l.result, devices[l.device]);
-
-  std::vector<std::string> found, json;
-  std::vector<std::string> heading{"step, friction, force limit"};
-  for (const auto& way : ways) heading.push_back(way.name);
+  std::vector<std::string> heading{"step, friction, force limit"}, found;
+  for (const auto& way : ways) heading.emplace_back(way.name);
   ex::table all(heading);
-  ex::table best({"step, friction, force limit", "not settled", "longest cycle", "worst settle s",
-                  "least port energy J", "ledger at the end mJ", "stiffness error"});
-  for (std::size_t d = 0; d < devices.size(); ++d) {
-    std::vector<std::string> cells{called(devices[d])};
-    for (std::size_t w = 0; w < ways.size(); ++w) {
-      const settling_row& row = rows[w][d];
-      const double q = devices[d].quantum;
-      const std::string cycle = q > 0.0 ? ex::format("%.1f steps", row.longest / q)
-                                        : ex::format("%.3f mm", row.longest * 1e3);
-      cells.push_back(std::to_string(row.unsettled) + " | " + cycle);
-      json.push_back(ex::json_object({{"composition", ex::json_string(ways[w].name)},
-                                      {"step_m", ex::json_number(q)},
-                                      {"friction_N", ex::json_number(devices[d].friction)},
-                                      {"force_limit_N", ex::json_number(devices[d].force_limit)},
-                                      {"unsettled", std::to_string(row.unsettled)},
-                                      {"longest_cycle_m", ex::json_number(row.longest)},
-                                      {"worst_settle_s", ex::json_number(row.worst)},
-                                      {"min_port_energy_J", ex::json_number(row.port_energy)},
-                                      {"ledger_J", ex::json_number(row.ledger)},
-                                      {"stiffness_error", ex::json_number(row.stiffness_error)}}));
-      if (w + 1 < ways.size()) continue;
-      best.add({called(devices[d]),
-                std::to_string(row.unsettled) + " of " + std::to_string(cases.size()), cycle,
-                ex::format("%.2f", row.worst), ex::format("%.3g", row.port_energy),
-                ex::format("%.1f", row.ledger * 1e3), ex::format("%.3f", row.stiffness_error)});
-      judge_recommended(devices[d], row, found);
+  const std::size_t lines = sums.size() / ways.size();
+  for (std::size_t d = 0; d < lines; ++d) {
+    std::vector<std::string> cells{sums[d].called()};
+    for (std::size_t i = d; i < sums.size(); i += lines) {
+      cells.push_back(std::to_string(sums[i].unsettled) + " | " + sums[i].cycle());
     }
     all.add(cells);
+    for (auto& sentence : failures(sums[sums.size() - lines + d])) found.push_back(sentence);
   }
   s.out.section("Passive and settled, on encoders with steps",
                 "Falls onto walls of 1e2 to 1e9 N/m with 0.05 to 0.5 kg: how many of the cases "
@@ -259,8 +226,8 @@ std::vector<std::string> run_settling(const session& s) {
       "The recommended composition",
       "Stiffness error: of the force held over the true depth, pressed at least 2 mm deeper, "
       "against min(K, κ m/T²); not measured where the motors saturate.");
-  s.out.show(best);
-  s.out.member("settling", ex::json_array(json));
+  s.out.show(ex::table_of(sums, recommended));
+  s.out.member("settling", ex::json_of(sums));
   return found;
 }
 

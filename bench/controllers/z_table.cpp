@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "z_table.hpp"
+#include "tables.hpp"
 
 #include <charconv>
 #include <map>
@@ -36,7 +36,7 @@ z_row row_of(const std::string& line, const std::string& where) {
 }
 
 std::string key_of(const std::string& controller, double damping, double stiffness) {
-  return controller + ", B = " + csv_number(damping) + ", K = " + csv_number(stiffness);
+  return controller + ex::format(", B = %.17g", damping) + ex::format(", K = %.17g", stiffness);
 }
 
 /// All rows of the parts, by what they are about; throws if two parts have the same.
@@ -47,15 +47,16 @@ std::map<std::string, z_row> read_parts(const std::vector<std::string>& files) {
     std::ifstream in(file);
     if (!in) throw std::runtime_error(file + ": cannot be read");
     std::string line;
-    if (!std::getline(in, line) || line != z_heading) {
+    if (!std::getline(in, line) || line != ex::csv_heading(record_of(z_row{}))) {
       throw std::runtime_error(file + ": not a part of a Z-width sweep of this version");
     }
     for (int n = 2; std::getline(in, line); ++n) {
-      const z_row r = row_of(line, file + ':' + std::to_string(n));
+      const std::string where = file + ':' + std::to_string(n);
+      const z_row r = row_of(line, where);
       const std::string key = key_of(r.controller, r.damping, r.stiffness);
       if (!rows.emplace(key, r).second) {
-        throw std::runtime_error(file + ':' + std::to_string(n) + ": " + key + " is in " +
-                                 home[key] + " already; give each part once");
+        throw std::runtime_error(where + ": " + key + " is in " + home[key] +
+                                 " already; give each part once");
       }
       home[key] = file;
     }
@@ -64,20 +65,20 @@ std::map<std::string, z_row> read_parts(const std::vector<std::string>& files) {
 }
 
 /// Squares coloured by passivity, crosses where it is not stable, the two lines.
-std::string plot_of(const std::string& controller) {
-  const std::string rows = "'z_width.csv' using (stringcolumn(1) eq '" + controller + "' && ";
-  const auto squares = [&](int level, const std::string& colour, const std::string& title) {
-    return rows + "column(7) == " + std::to_string(level) +
-           " ? column(2) : NaN):3 with points pt 5 ps 0.9 lc rgb '" + colour + "' title '" + title +
-           "'";
+std::string plot_of(const std::string& points) {
+  const auto squares = [](int level, const std::string& colour, const std::string& title) {
+    return "$cells using (column(3) == " + std::to_string(level) +
+           " ? column(1) : NaN):2 with points pt 5 ps 0.9 lc rgb '" + colour + "' title '" + title +
+           "', \\\n ";
   };
-  return "set logscale xy\nset xlabel 'B of the wall [N s/m]'\nset ylabel 'K of the wall [N/m]'\n"
+  return "$cells << EOD\nB,K,passive for,stable\n" + points +
+         "EOD\nset logscale xy\nset xlabel 'B of the wall [N s/m]'\n"
+         "set ylabel 'K of the wall [N/m]'\n"
          "set xrange [0.0008:125]\nset yrange [8:125000]\nset samples 2000\nb = 0.03\nT = 0.001\n"
          "plot " +
-         squares(2, "#4caf50", "passive") + ", \\\n " +
-         squares(1, "#ffd54f", "passive for a hand of 5 N") + ", \\\n " +
-         squares(0, "#ef9a9a", "loses energy") + ", \\\n " + rows +
-         "column(8) == 0 ? column(2) : NaN):3 with points pt 2 ps 0.5 lc rgb 'black' "
+         squares(2, "#4caf50", "passive") + squares(1, "#ffd54f", "passive for a hand of 5 N") +
+         squares(0, "#ef9a9a", "loses energy") +
+         "$cells using (column(4) == 0 ? column(1) : NaN):2 with points pt 2 ps 0.5 lc rgb 'black' "
          "title 'unstable', \\\n (x < b ? 2*(b - x)/T : NaN) with lines lw 2 lc rgb '#1a237e' "
          "title 'Colgate: b = KT/2 + |B|', \\\n 2*(b + x)/T with lines lw 2 dt 2 lc rgb '#1a237e' "
          "title 'Gil, Hulin: K = 2(b + B)/T'";
@@ -92,41 +93,59 @@ std::string z_plot_name(std::string controller) {
   return "z_" + controller;
 }
 
-std::vector<z_cell> z_cells(const std::vector<controller>& judged, const z_grid& grid) {
-  std::vector<z_cell> cells;
-  for (const auto& c : judged) {
-    if (!c.wall_damping) continue;
-    for (int i = 0; i < grid.dampings; ++i) {
-      for (int k = 0; k < grid.stiffnesses; ++k) {
-        cells.push_back({&c, grid.damping(i), grid.stiffness(k)});
-      }
-    }
-  }
-  return cells;
+ex::record record_of(const z_row& r) {
+  return {{"controller", r.controller},    {"damping N s/m", r.damping},
+          {"stiffness N/m", r.stiffness},  {"motion J", r.motion_energy},
+          {"hand J", r.hand_energy},       {"growth", r.growth},
+          {"passive for", passive_for(r)}, {"stable", stable(r) ? 1 : 0}};
 }
 
-std::string z_line(const z_row& r) {
-  return csv_text(r.controller) + ',' + csv_number(r.damping) + ',' + csv_number(r.stiffness) +
-         ',' + csv_number(r.motion_energy) + ',' + csv_number(r.hand_energy) + ',' +
-         csv_number(r.growth) + ',' + std::to_string(passive_for(r)) + ',' +
-         (stable(r) ? '1' : '0');
+namespace {
+
+/// What the cells of one controller come to.
+struct z_counts {
+  std::string controller;
+  ph::guarantee tag{};
+  int cells = 0, passive = 0, for_hands = 0, stable = 0, both = 0;
+  double stiffest_passive = std::nan(""), stiffest_stable = std::nan("");
+  std::string points{};  ///< for the plot: B, K, passive for, stable
+
+  void add(const z_row& r) {
+    const bool holds = passive_for(r) >= 1, calms = controllers::stable(r);
+    ++cells;
+    points += ex::format("%.9g,", r.damping) + ex::format("%.9g,", r.stiffness) +
+              std::to_string(passive_for(r)) + (calms ? ",1\n" : ",0\n");
+    passive += passive_for(r) == 2 ? 1 : 0;
+    for_hands += holds ? 1 : 0;
+    stable += calms ? 1 : 0;
+    both += holds && calms ? 1 : 0;
+    if (holds) stiffest_passive = std::fmax(stiffest_passive, r.stiffness);
+    if (calms) stiffest_stable = std::fmax(stiffest_stable, r.stiffness);
+  }
+};
+
+ex::record record_of(const z_counts& n) {
+  return {{"controller", n.controller},
+          {"tag", to_string(n.tag)},
+          {"cells", n.cells},
+          {"passive", n.passive},
+          {"for a hand of 5 N", n.for_hands},
+          {"stable", n.stable},
+          {"both", n.both},
+          {"stiffest passive N/m", n.stiffest_passive},
+          {"stiffest stable N/m", n.stiffest_stable}};
 }
+
+}  // namespace
 
 void show_z_width(const session& s, const std::vector<z_row>& rows) {
-  struct counts {
-    int cells = 0, passive = 0, for_hands = 0, stable = 0, both = 0;
-    double stiffest_passive = std::nan(""), stiffest_stable = std::nan("");
-  };
-  std::map<std::string, counts> sums;
-  for (const auto& r : rows) {
-    counts& c = sums[r.controller];
-    ++c.cells;
-    c.passive += passive_for(r) == 2 ? 1 : 0;
-    c.for_hands += passive_for(r) >= 1 ? 1 : 0;
-    c.stable += stable(r) ? 1 : 0;
-    c.both += stable(r) && passive_for(r) >= 1 ? 1 : 0;
-    if (passive_for(r) >= 1) c.stiffest_passive = std::fmax(c.stiffest_passive, r.stiffness);
-    if (stable(r)) c.stiffest_stable = std::fmax(c.stiffest_stable, r.stiffness);
+  std::vector<z_counts> sums;
+  for (const auto& c : s.judged) {
+    z_counts sum{c.name, c.tag};
+    for (const auto& r : rows) {
+      if (r.controller == c.name) sum.add(r);
+    }
+    if (sum.cells > 0) sums.push_back(sum);
   }
   s.out.section(
       "Z-width",
@@ -136,34 +155,16 @@ void show_z_width(const session& s, const std::vector<z_row>& rows) {
           "greedy), passive against a hand of 5 N that taps, and stable: released at the surface "
           "under 1 N, the swing of the fourth second is no larger than the first. A wall that "
           "swings for ever is stable in this sense; so is one that sinks.");
-  ex::table shown({"controller", "tag", "passive", "for a hand of 5 N", "stable", "both",
-                   "stiffest passive N/m", "stiffest stable N/m"});
-  std::vector<std::string> json;
-  for (const auto& c : s.judged) {
-    const auto found = sums.find(c.name);
-    if (found == sums.end()) continue;
-    const counts& n = found->second;
-    shown.add({c.name, to_string(c.tag), std::to_string(n.passive), std::to_string(n.for_hands),
-               std::to_string(n.stable), std::to_string(n.both),
-               ex::format("%.3g", n.stiffest_passive), ex::format("%.3g", n.stiffest_stable)});
-    json.push_back(ex::json_object({{"controller", ex::json_string(c.name)},
-                                    {"cells", std::to_string(n.cells)},
-                                    {"passive", std::to_string(n.passive)},
-                                    {"passive_for_5_N", std::to_string(n.for_hands)},
-                                    {"stable", std::to_string(n.stable)},
-                                    {"both", std::to_string(n.both)}}));
-  }
-  s.out.show(shown);
-  s.out.member("z_width", ex::json_array(json));
-  for (const auto& c : s.judged) {
-    if (!sums.contains(c.name)) continue;
-    s.out.plot(z_plot_name(c.name), "Z-width: " + c.name + " (" + to_string(c.tag) + ")",
-               plot_of(c.name));
+  s.out.show(ex::table_of(sums));
+  s.out.member("z_width", ex::json_of(sums));
+  for (const auto& sum : sums) {
+    s.out.plot(z_plot_name(sum.controller),
+               "Z-width: " + sum.controller + " (" + to_string(sum.tag) + ")", plot_of(sum.points));
   }
 }
 
 void merge_z_width(const session& s, const std::vector<std::string>& files) {
-  auto rows = read_parts(files);
+  const auto rows = read_parts(files);
   std::string problem;
   for (const bool quick : {false, true}) {
     std::vector<z_row> ordered;
@@ -179,9 +180,7 @@ void merge_z_width(const session& s, const std::vector<std::string>& files) {
       }
     }
     if (absent == 0 && ordered.size() == rows.size()) {
-      ex::csv_file csv(s.out.path("z_width.csv"), z_heading);
-      for (const auto& r : ordered) csv.line(z_line(r));
-      csv.close();
+      ex::write_csv(s.out, "z_width.csv", ordered);
       return show_z_width(s, ordered);
     }
     if (!ordered.empty() && (problem.empty() || ordered.size() == rows.size())) {

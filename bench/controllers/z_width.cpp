@@ -1,39 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "z_width.hpp"
-
-#include "z_table.hpp"
-#include <passive_haptics/simulation/adversary.hpp>
-#include <passive_haptics/simulation/device.hpp>
-#include <passive_haptics/simulation/prescribed_motion.hpp>
+#include "tables.hpp"
 
 namespace controllers {
 
-namespace sim = passive_haptics::simulation;
-
 namespace {
-
-constexpr double hand_force = 5.0;  // [N]
-
-model<d1> wall_of(const controller& c, double damping, double stiffness) {
-  auto wall = c.in_1({.hand_force = hand_force, .load = 1.0, .wall_damping = damping});
-  wall.retarget({0.0, -1.0, stiffness});
-  return wall;
-}
 
 /// A velocity source on a wall that stays put.
 template <class Motion>
 double least_energy(model<d1> wall, Motion motion, double start) {
   sim::prescribed_motion<d1> device({.start = start});
   sim::random_source random(1);
-  auto sample = device.exchange(0.0);
-  for (int n = 0; n < 400; ++n) {
-    const double force = wall.tick(sample).force;
-    device.move_to(motion.next(
-        {.position = device.position(), .normal = -1.0, .depth = device.position(), .force = force},
-        random));
-    sample = device.exchange(force);
-  }
-  return device.meter().minimum();
+  const auto move = [&](const auto& now) {
+    const double x = device.position();
+    device.move_to(
+        motion.next({.position = x, .normal = -1.0, .depth = x, .force = now.force}, random));
+  };
+  return sim::run(device, wall, 400, sim::idle, move).least_energy;
 }
 
 double under_motions(const model<d1>& wall) {
@@ -51,12 +33,9 @@ double under_motions(const model<d1>& wall) {
   return least;
 }
 
-double under_hand(model<d1> wall) {
-  sim::device<d1, sim::tapping_hand<d1>> device(
-      {.start = -1e-3}, {.surface = 0.0, .normal = -1.0, .limit = hand_force});
-  auto sample = device.exchange(0.0);
-  for (int n = 0; n < 1000; ++n) sample = device.exchange(wall.tick(sample).force);
-  return device.meter().minimum();
+double under_hand(model<d1> wall, double force) {
+  sim::device<d1, sim::tapping_hand<d1>> device({.start = -1e-3}, {.normal = -1.0, .limit = force});
+  return sim::run(device, wall, 1000).least_energy;
 }
 
 /// The device is released at the surface, at rest, under 1 N. Swings over half a second each.
@@ -64,14 +43,12 @@ double growth_of(model<d1> wall) {
   constexpr int ticks = 4000, window = 500;
   sim::device<d1> device({.load = 1.0});
   double first[2] = {0.0, 0.0}, last[2] = {1e9, -1e9};
-  auto sample = device.exchange(0.0);
-  for (int n = 0; n < ticks; ++n) {
-    sample = device.exchange(wall.tick(sample).force);
-    double* seen = n < window ? first : last;
-    if (n >= window && n < ticks - window) continue;
+  sim::run(device, wall, ticks, sim::idle, sim::idle, [&](const auto& now) {
+    if (now.tick >= window && now.tick < ticks - window) return;
+    double* seen = now.tick < window ? first : last;
     seen[0] = std::min(seen[0], device.position());
     seen[1] = std::max(seen[1], device.position());
-  }
+  });
   return (last[1] - last[0]) / (first[1] - first[0]);
 }
 
@@ -99,36 +76,48 @@ bool stable(const z_row& r) noexcept {
   return r.growth <= 1.0;
 }
 
-z_row judge_z(const controller& c, double damping, double stiffness) {
-  const auto wall = wall_of(c, damping, stiffness);
-  return {c.name, damping, stiffness, under_motions(wall), under_hand(wall), growth_of(wall)};
+std::vector<z_cell> z_cells(const std::vector<controller>& judged, const z_grid& grid) {
+  std::vector<z_cell> cells;
+  for (const auto& c : judged) {
+    if (!c.wall_damping) continue;
+    for (int i = 0; i < grid.dampings; ++i) {
+      for (int k = 0; k < grid.stiffnesses; ++k) {
+        cells.push_back({&c, grid.damping(i), grid.stiffness(k)});
+      }
+    }
+  }
+  return cells;
+}
+
+z_row judge_z(const z_cell& cell) {
+  const premises known{.load = 1.0, .wall_damping = cell.damping};
+  auto wall = cell.c->in<d1>()(known);
+  wall.update({0.0, -1.0, cell.stiffness});
+  return {cell.c->name,
+          cell.damping,
+          cell.stiffness,
+          under_motions(wall),
+          under_hand(wall, known.hand_force),
+          growth_of(wall)};
 }
 
 std::vector<std::string> run_z_width(const session& s) {
-  const z_grid grid = grid_of(s.chosen.quick);
-  const auto all = z_cells(s.judged, grid);
-  const auto& part = s.chosen.part;
+  const auto all = z_cells(s.judged, grid_of(s.chosen.quick));
+  const auto [part, of] = s.chosen.part;
   std::vector<z_cell> mine;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (part.has(static_cast<int>(i))) mine.push_back(all[i]);
+    if (static_cast<int>(i) % of == part - 1) mine.push_back(all[i]);
   }
-  const bool whole = part.of == 1;
-  const std::string file =
-      whole ? "z_width.csv"
-            : "z_width_" + std::to_string(part.part) + "_of_" + std::to_string(part.of) + ".csv";
-  const auto rows = s.rows(
-      file, z_heading, "z-width", static_cast<int>(mine.size()),
-      [&](int i) {
-        const z_cell& cell = mine[static_cast<std::size_t>(i)];
-        return judge_z(*cell.c, cell.damping, cell.stiffness);
-      },
-      z_line);
-  if (whole) {
+  const std::string suffix =
+      of == 1 ? "" : "_" + std::to_string(part) + "_of_" + std::to_string(of);
+  const std::string file = "z_width" + suffix + ".csv";
+  const auto rows = s.rows(file, "z-width", mine, judge_z);
+  if (of == 1) {
     show_z_width(s, rows);
-    return {};
+  } else {
+    std::cout << rows.size() << " of " << all.size() << " cells of the Z-width in "
+              << s.out.path(file).string() << "; join all " << of << " parts with --merge\n";
   }
-  std::cout << rows.size() << " of " << all.size() << " cells of the Z-width in "
-            << s.out.path(file).string() << "; join all " << part.of << " parts with --merge\n";
   return {};
 }
 

@@ -40,7 +40,7 @@ void run(State state, const std::vector<step>& steps) {
   auto* volatile ticker = &probe<Scene, State, position>;  // not to be inlined
   using pointer = decltype(&probe<Scene, State, position>);
   for (const step& s : steps) {
-    if (s.news) retarget_any(state, s.target);
+    if (s.news) update_any(state, s.target);
     const position x = position_for<Scene, State>(s.position);
     const S dt = in<S>(s.dt);
     const pointer call = ticker;

@@ -2,59 +2,46 @@
 // cost: what a tick costs, composed from the library and written by hand.
 //
 //     cost --count PROGRAM --count PROGRAM --baseline FILE --out DIR
-//     cost --quick …                 instructions only, no clock
-//     cost --rewrite …               writes the baseline anew, from this machine's compilers
+//     cost --help                                       all options
 //
 // Instructions are counted by callgrind and exact; growth of more than 1 % over the committed baseline
 // fails, by name. Times are paired and interleaved, and worth their ratios only.
 
+#include "../common/options.hpp"
+#include "../common/record.hpp"
 #include "../common/report.hpp"
 #include "counts.hpp"
 #include "paired.hpp"
 #include "parts.hpp"
-
-#include <iostream>
 
 namespace {
 
 namespace ex = experiments;
 
 struct settings {
-  std::filesystem::path out = "cost";
-  std::filesystem::path baseline;
+  std::string out = "cost";
+  std::string baseline;
   std::vector<std::filesystem::path> programs;
   bool quick = false;
   bool rewrite = false;
 };
 
-constexpr const char* usage =
-    "\nusage: cost [--quick] [--rewrite] [--count PROGRAM]... [--baseline FILE] [--out DIR]";
-
 settings parse(const std::vector<std::string>& arguments) {
   settings chosen;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& name = arguments[i];
-    const auto value = [&]() -> const std::string& {
-      if (i + 1 == arguments.size()) throw std::invalid_argument(name + ": its value is missing");
-      return arguments[++i];
-    };
-    if (name == "--quick") {
-      chosen.quick = true;
-    } else if (name == "--rewrite") {
-      chosen.rewrite = true;
-    } else if (name == "--count") {
-      chosen.programs.emplace_back(value());
-    } else if (name == "--baseline") {
-      chosen.baseline = value();
-    } else if (name == "--out") {
-      chosen.out = value();
-    } else {
-      throw std::invalid_argument(name + ": no such option" + usage);
-    }
-  }
-  if (chosen.rewrite && chosen.baseline.empty()) {
-    throw std::invalid_argument("--rewrite: name the --baseline to write");
-  }
+  ex::read_options(
+      "cost",
+      {ex::a_switch("--quick", "instructions only, no clock", chosen.quick),
+       {"--count PROGRAM...", "builds of count.cpp, whose instructions are counted",
+        [&](const std::string& program) { chosen.programs.emplace_back(program); }},
+       ex::a_text("--baseline FILE", "fails if a count has grown by more than 1 % over it",
+                  chosen.baseline),
+       ex::a_switch("--rewrite", "writes the baseline anew instead", chosen.rewrite),
+       ex::a_text("--out DIR", "where the results go (default: " + chosen.out + ")", chosen.out)},
+      arguments, [&] {
+        if (chosen.rewrite && chosen.baseline.empty()) {
+          ex::complain("--rewrite: name the --baseline to write");
+        }
+      });
   return chosen;
 }
 
@@ -71,24 +58,25 @@ std::string side_by_side(const cost::counts& build, const std::string& scene,
          ex::format("%.3f", ours->per_tick() / theirs->per_tick());
 }
 
+void show(ex::report& out, const std::string& member, const std::vector<ex::record>& rows) {
+  out.show(ex::table_of(rows, std::identity{}));
+  out.member(member, ex::json_of(rows, std::identity{}));
+}
+
 void show_counts(ex::report& out, ex::csv_file& csv, const std::vector<cost::counts>& all) {
-  std::vector<std::string> heading{"compiler", "scene", "scalar", "composed / by hand"};
-  for (const auto path : cost::all_paths) heading.emplace_back(cost::to_string(path));
-  ex::table table(heading);
-  std::vector<std::string> json;
+  std::vector<ex::record> rows;
   for (const auto& build : all) {
     for (const auto& scene : scenes) {
       for (const auto& scalar : scalars) {
-        const double ratio = build.ratio(scene, scalar);
-        std::vector<std::string> row{build.compiler, scene, scalar, ex::format("%.3f", ratio)};
+        ex::record row{{"compiler", build.compiler},
+                       {"scene", scene},
+                       {"scalar", scalar},
+                       {"relative to by hand", build.ratio(scene, scalar), "%.3f"}};
         for (const auto path : cost::all_paths) {
-          row.push_back(side_by_side(build, scene, scalar, cost::to_string(path)));
+          const char* const way = cost::to_string(path);
+          row.emplace_back(way, side_by_side(build, scene, scalar, way));
         }
-        table.add(row);
-        json.push_back(ex::json_object({{"compiler", ex::json_string(build.compiler)},
-                                        {"scene", ex::json_string(scene)},
-                                        {"scalar", ex::json_string(scalar)},
-                                        {"ratio", ex::json_number(ratio)}}));
+        rows.push_back(row);
       }
     }
     for (const auto& row : build.rows) {
@@ -100,42 +88,39 @@ void show_counts(ex::report& out, ex::csv_file& csv, const std::vector<cost::cou
   out.section("Instructions per tick",
               "Counted by callgrind, -O3 -ffp-contract=off. The ratio is over the whole workload; "
               "then composed / by hand for each path of a tick.");
-  out.show(table);
-  out.member("instructions", ex::json_array(json));
+  show(out, "instructions", rows);
 }
 
-/// One row for a part: instructions per tick of each build, state in bytes.
+/// Two rows for a part: instructions per tick of each build, state in bytes.
 template <template <class, int> class Part>
-void show_part(ex::table& table, const std::vector<cost::counts>& all, const std::string& scene) {
-  const auto row = [&](auto part, const char* port, const char* scalar) {
+void add_part(std::vector<ex::record>& rows, const std::vector<cost::counts>& all,
+              const std::string& scene) {
+  const auto add = [&](auto part, const char* port, const char* scalar) {
     using chosen = decltype(part);
-    std::vector<std::string> cells{chosen::name, port};
+    ex::record row{{"scene", std::string(chosen::name)}, {"port", port}};
     for (const auto& build : all) {
-      cells.push_back(ex::format("%.1f", build.per_tick(scene, scalar)));
+      row.emplace_back(build.compiler, build.per_tick(scene, scalar), "%.1f");
     }
-    cells.push_back(std::to_string(sizeof(chosen::composed({}))));
-    table.add(cells);
+    row.emplace_back("state bytes", sizeof(chosen::composed({})));
+    rows.push_back(row);
   };
-  row(Part<float, 1>{}, "1-DOF float", "float");
-  row(Part<double, 3>{}, "3-DOF double", "double");
+  add(Part<float, 1>{}, "1-DOF float", "float");
+  add(Part<double, 3>{}, "3-DOF double", "double");
 }
 
 /// What each part costs; returns which parts that a scene has no use for cost instructions.
 std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::counts>& all) {
-  std::vector<std::string> heading{"scene", "port"};
-  for (const auto& build : all) heading.push_back(build.compiler);
-  heading.emplace_back("state bytes");
-  ex::table table(heading);
-  show_part<cost::part_bare>(table, all, "part_bare");
-  show_part<cost::part_turning>(table, all, "part_turning");
-  show_part<cost::part_counting>(table, all, "part_counting");
-  show_part<cost::part_strict>(table, all, "part_strict");
-  show_part<cost::part_limited>(table, all, "part_limited");
-  show_part<cost::part_following>(table, all, "part_following");
+  std::vector<ex::record> rows;
+  add_part<cost::part_bare>(rows, all, "part_bare");
+  add_part<cost::part_turning>(rows, all, "part_turning");
+  add_part<cost::part_counting>(rows, all, "part_counting");
+  add_part<cost::part_strict>(rows, all, "part_strict");
+  add_part<cost::part_limited>(rows, all, "part_limited");
+  add_part<cost::part_following>(rows, all, "part_following");
   out.section("What each part costs",
-              "Instructions per tick, composed, of the same rigid wall with one part more each "
+              "Instructions per tick, composed, of the same fixed wall with one part more each "
               "time. A part that a scene has no use for must cost none.");
-  out.show(table);
+  show(out, "parts", rows);
 
   std::vector<std::string> found;
   for (const auto& build : all) {
@@ -143,7 +128,7 @@ std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::cou
       const double without = build.per_tick("part_bare", scalar);
       const double with = build.per_tick("part_turning", scalar);
       if (with > without) {
-        found.push_back(build.compiler + ": rotate_limited on a rigid wall costs " +
+        found.push_back(build.compiler + ": turn_limited on a fixed wall costs " +
                         ex::format("%.2f instructions per tick, ", with - without) + scalar);
       }
     }
@@ -168,47 +153,42 @@ std::vector<std::string> judge(const cost::baseline& committed,
 }
 
 template <class Scene>
-void show_time(ex::table& pairs, ex::table& paths, std::vector<std::string>& json,
-               const char* scene, const char* scalar) {
+void add_times(std::vector<ex::record>& pairs, std::vector<ex::record>& paths, const char* scene,
+               const char* scalar) {
   const cost::timing t = cost::time_pairs<Scene>(200);
-  const auto bytes = [](auto n) { return std::to_string(n); };
-  pairs.add({scene, scalar, ex::format("%.1f", t.p50), ex::format("%.1f", t.p999),
-             ex::format("%.1f", t.max), ex::format("%.1f", t.by_hand), ex::format("%.3f", t.ratio),
-             bytes(sizeof(Scene::composed({}))), bytes(sizeof(Scene::by_hand({})))});
-  std::vector<std::string> row{scene, scalar};
-  for (const double ns : cost::time_paths<Scene>(2000)) row.push_back(ex::format("%.1f", ns));
-  paths.add(row);
-  json.push_back(ex::json_object({{"scene", ex::json_string(scene)},
-                                  {"scalar", ex::json_string(scalar)},
-                                  {"p50", ex::json_number(t.p50)},
-                                  {"p99_9", ex::json_number(t.p999)},
-                                  {"max", ex::json_number(t.max)},
-                                  {"by_hand_p50", ex::json_number(t.by_hand)},
-                                  {"paired_ratio", ex::json_number(t.ratio)}}));
+  pairs.push_back({{"scene", scene},
+                   {"scalar", scalar},
+                   {"p50 ns", t.p50, "%.1f"},
+                   {"p99.9", t.p999, "%.1f"},
+                   {"max", t.max, "%.1f"},
+                   {"by hand p50", t.by_hand, "%.1f"},
+                   {"paired ratio", t.ratio, "%.3f"},
+                   {"state bytes", sizeof(Scene::composed({}))},
+                   {"by hand bytes", sizeof(Scene::by_hand({}))}});
+  const auto times = cost::time_paths<Scene>(2000);
+  ex::record row{{"scene", scene}, {"scalar", scalar}};
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    row.emplace_back(cost::to_string(cost::all_paths[i]), times[i], "%.1f");
+  }
+  paths.push_back(row);
 }
 
 void show_times(ex::report& out) {
-  ex::table pairs({"scene", "scalar", "p50 ns", "p99.9", "max", "by hand p50", "paired ratio",
-                   "state bytes", "by hand bytes"});
-  std::vector<std::string> heading{"scene", "scalar"};
-  for (const auto path : cost::all_paths) heading.push_back(cost::to_string(path));
-  ex::table paths(heading);
-  std::vector<std::string> json;
-  show_time<cost::wall<float>>(pairs, paths, json, "wall", "float");
-  show_time<cost::wall<double>>(pairs, paths, json, "wall", "double");
-  show_time<cost::half_space<float>>(pairs, paths, json, "half_space", "float");
-  show_time<cost::half_space<double>>(pairs, paths, json, "half_space", "double");
-  show_time<cost::triangle<float>>(pairs, paths, json, "triangle", "float");
-  show_time<cost::triangle<double>>(pairs, paths, json, "triangle", "double");
+  std::vector<ex::record> pairs, paths;
+  add_times<cost::wall<float>>(pairs, paths, "wall", "float");
+  add_times<cost::wall<double>>(pairs, paths, "wall", "double");
+  add_times<cost::half_space<float>>(pairs, paths, "half_space", "float");
+  add_times<cost::half_space<double>>(pairs, paths, "half_space", "double");
+  add_times<cost::triangle<float>>(pairs, paths, "triangle", "float");
+  add_times<cost::triangle<double>>(pairs, paths, "triangle", "double");
   out.section("Nanoseconds per tick",
               "Blocks of 100 ticks, composed and by hand in turns; p50, p99.9 and max of blocks. "
               "The machine's own noise is in all but the ratio.");
-  out.show(pairs);
+  show(out, "nanoseconds", pairs);
   out.section("Nanoseconds per tick, by path",
               "Composed, p50 of batches of up to 64 ticks that take the same path, each from the "
               "state in which it happened.");
-  out.show(paths);
-  out.member("nanoseconds", ex::json_array(json));
+  show(out, "nanoseconds_by_path", paths);
 }
 
 int run(const settings& chosen) {
@@ -230,10 +210,10 @@ int run(const settings& chosen) {
       ex::output_file file(chosen.baseline);
       cost::write_baseline(file.stream(), all);
       file.close();
-      std::cout << "baseline written: " << chosen.baseline.string() << '\n';
+      std::cout << "baseline written: " << chosen.baseline << '\n';
     } else if (!chosen.baseline.empty()) {
       std::ifstream file(chosen.baseline);
-      if (!file) throw std::runtime_error(chosen.baseline.string() + ": cannot be read");
+      if (!file) throw std::runtime_error(chosen.baseline + ": cannot be read");
       for (auto& grown : judge(cost::read_baseline(file), all)) found.push_back(std::move(grown));
     }
   }
@@ -247,13 +227,5 @@ int run(const settings& chosen) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(parse({argv + 1, argv + argc}));
-  } catch (const std::invalid_argument& problem) {
-    std::cerr << "cost: " << problem.what() << '\n';
-    return 2;
-  } catch (const std::exception& problem) {
-    std::cerr << "cost: " << problem.what() << '\n';
-    return 1;
-  }
+  return ex::guarded("cost", [&] { return run(parse({argv + 1, argv + argc})); });
 }

@@ -22,7 +22,7 @@ void benchmark(const char* side, State state) {
   BENCHMARK(std::string(Scene::name) + ", " + side) {
     const cost::step& s = steps[n];
     n = n + 1 < steps.size() ? n + 1 : 0;
-    if (s.news) cost::retarget_any(state, s.target);
+    if (s.news) cost::update_any(state, s.target);
     return cost::advance(state, cost::position_for<Scene, State>(s.position),
                          cost::in<typename Scene::scalar>(s.dt));
   };

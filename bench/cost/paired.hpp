@@ -49,7 +49,7 @@ class stopwatch {
     using clock = std::chrono::steady_clock;
     const auto start = clock::now();
     for (std::size_t n = begin; n < begin + ticks; ++n) {
-      if (steps_[n].news) retarget_any(state, steps_[n].target);
+      if (steps_[n].news) update_any(state, steps_[n].target);
       last_ = advance(state, ready_[n].position, ready_[n].dt);
       asm volatile("" : : "g"(&last_) : "memory");
     }
@@ -63,7 +63,7 @@ class stopwatch {
     std::vector<std::size_t> which;
     State state = start;
     for (std::size_t n = 0; n < steps_.size() && which.size() < 64; ++n) {
-      if (steps_[n].news) retarget_any(state, steps_[n].target);
+      if (steps_[n].news) update_any(state, steps_[n].target);
       if (steps_[n].taken == along) {
         before.push_back(state);
         which.push_back(n);

@@ -24,75 +24,66 @@ struct part_base {
       }
     }();
     if constexpr (Moves) {
-      return ph::following{wall};
+      return ph::followed{wall};
     } else {
-      return ph::rigid{wall};
+      return ph::fixed{wall};
     }
   }
   template <class Normals, class Observer, class Bound>
   [[nodiscard]] static auto model(const settings& s, const Normals& normals, const Observer& o,
                                   const Bound& bound) {
-    return ph::local_model{space{}, supply(s), normals,         ph::spring<space>{},
-                           o,       bound,     limits<space>(s)};
+    return ph::local_model{space{}, supply(s), normals, ph::spring{}, o, bound, limits(s)};
   }
 };
 
 template <class Scalar, int Dof>
 struct part_bare : part_base<Scalar, Dof> {
-  using space = ph::space<Scalar, Dof>;
-  static constexpr const char* name = "rigid, snap, spring, no_observer, no_bound";
+  static constexpr const char* name = "fixed, turn_at_once, spring, no_observer, no_bound";
   [[nodiscard]] static auto composed(const settings& s) {
-    return part_bare::model(s, ph::snap<space>{}, ph::no_observer<space>{}, ph::no_bound<space>{});
+    return part_bare::model(s, ph::turn_at_once{}, ph::no_observer{}, ph::no_bound{});
   }
 };
 
 template <class Scalar, int Dof>
 struct part_turning : part_base<Scalar, Dof> {
-  using space = ph::space<Scalar, Dof>;
-  static constexpr const char* name = "... rotate_limited for snap: nothing turns here";
+  static constexpr const char* name = "... turn_limited for turn_at_once: nothing turns here";
   [[nodiscard]] static auto composed(const settings& s) {
-    return part_turning::model(s, ph::rotate_limited<space>{.rate = in<Scalar>(s.rate)},
-                               ph::no_observer<space>{}, ph::no_bound<space>{});
+    return part_turning::model(s, ph::turn_limited{.rate = s.rate}, ph::no_observer{},
+                               ph::no_bound{});
   }
 };
 
 template <class Scalar, int Dof>
 struct part_counting : part_base<Scalar, Dof> {
-  using space = ph::space<Scalar, Dof>;
   static constexpr const char* name = "... + reduced_energy";
   [[nodiscard]] static auto composed(const settings& s) {
-    return part_counting::model(s, ph::snap<space>{}, observer<space>(s), ph::no_bound<space>{});
+    return part_counting::model(s, ph::turn_at_once{}, observer(s), ph::no_bound{});
   }
 };
 
 template <class Scalar, int Dof>
 struct part_strict : part_base<Scalar, Dof> {
-  using space = ph::space<Scalar, Dof>;
   static constexpr const char* name = "... + reduced_energy, strict_bound";
   [[nodiscard]] static auto composed(const settings& s) {
-    return part_strict::model(s, ph::snap<space>{}, observer<space>(s), ph::strict_bound<space>{});
+    return part_strict::model(s, ph::turn_at_once{}, observer(s), ph::strict_bound{});
   }
 };
 
 template <class Scalar, int Dof>
 struct part_limited : part_base<Scalar, Dof> {
-  using space = ph::space<Scalar, Dof>;
   static constexpr const char* name = "... + reduced_energy, strict_bound, actuator_limit";
   [[nodiscard]] static auto composed(const settings& s) {
     return part_limited::model(
-        s, ph::snap<space>{}, observer<space>(s),
-        ph::bound_chain{ph::strict_bound<space>{},
-                        ph::actuator_limit<space>{.most = in<Scalar>(s.force_limit)}});
+        s, ph::turn_at_once{}, observer(s),
+        ph::bound_chain{ph::strict_bound{}, ph::actuator_limit{.most = s.force_limit}});
   }
 };
 
 template <class Scalar, int Dof>
 struct part_following : part_base<Scalar, Dof, true> {
-  using space = ph::space<Scalar, Dof>;
-  static constexpr const char* name = "... + reduced_energy, strict_bound, following for rigid";
+  static constexpr const char* name = "... + reduced_energy, strict_bound, followed for fixed";
   [[nodiscard]] static auto composed(const settings& s) {
-    return part_following::model(s, ph::snap<space>{}, observer<space>(s),
-                                 ph::strict_bound<space>{});
+    return part_following::model(s, ph::turn_at_once{}, observer(s), ph::strict_bound{});
   }
 };
 

@@ -2,13 +2,13 @@
 #pragma once
 // The three scenes whose cost is measured, composed from the library and written by hand.
 //
-//   wall         1 DOF: rigid half-space, snap, spring, reduced energy, strict bound
-//   half_space   3 DOF: rigid half-space, snap, damped spring, reduced energy, reachable bound
-//   triangle     3 DOF: following triangle, rotate_limited, spring, reduced energy, thesis bound
+//   wall         1 DOF: fixed half-space, turn_at_once, spring, reduced energy, strict bound
+//   half_space   3 DOF: fixed half-space, turn_at_once, damped spring, reduced energy, reachable bound
+//   triangle     3 DOF: followed triangle, turn_limited, spring, reduced energy, thesis rule
 //
 // Both sides of a scene are plain values that tick, take a new target and can be copied.
 
-#include "by_hand/by_hand.hpp"
+#include "../by_hand/by_hand.hpp"
 #include <passive_haptics/passive_haptics.hpp>
 
 #include <array>
@@ -18,9 +18,9 @@ namespace cost {
 
 namespace ph = passive_haptics;
 
-/// What can be set at run time, in double; SI units.
+/// What can be set at run time; SI units.
 struct settings {
-  double damping = 0.03, cap = 1e30, reset_after = 1e30, loan = 0;
+  double damping = 0.03, loan = 0;
   double longest_tick = 1e-3, top_speed = 100;
   double stiffness = 1000;
   double mass = 0.1, hand_force = 5, force_limit = 9;
@@ -42,64 +42,61 @@ struct outcome {
   bool limited{};
 };
 
-/// The types of the hand-written side for float and double.
+/// The types of the side written by hand, for float and for double.
 template <class Scalar>
 struct hand;
 template <>
 struct hand<float> {
-  using wall = by_hand::in_float::wall;
-  using half_space = by_hand::in_float::half_space;
-  using triangle = by_hand::in_float::triangle;
-  using triple = by_hand::in_float::triple;
+  using wall = by_hand::in_float::wall_strict;
+  using half_space = by_hand::in_float::half_space_reachable;
+  using triangle = by_hand::in_float::triangle_thesis;
+  using vector = by_hand::in_float::vec3;
+  using loop = by_hand::in_float::loop;
 };
 template <>
 struct hand<double> {
-  using wall = by_hand::in_double::wall;
-  using half_space = by_hand::in_double::half_space;
-  using triangle = by_hand::in_double::triangle;
-  using triple = by_hand::in_double::triple;
+  using wall = by_hand::in_double::wall_strict;
+  using half_space = by_hand::in_double::half_space_reachable;
+  using triangle = by_hand::in_double::triangle_thesis;
+  using vector = by_hand::in_double::vec3;
+  using loop = by_hand::in_double::loop;
 };
 
 template <class Scalar>
 [[nodiscard]] constexpr Scalar in(double x) {
   return static_cast<Scalar>(x);
 }
-template <class Scalar>
-[[nodiscard]] typename hand<Scalar>::triple triple(const std::array<double, 3>& v) {
+/// Three numbers, as either side has them.
+template <class Vector, class Scalar>
+[[nodiscard]] Vector three(const std::array<double, 3>& v) {
   return {in<Scalar>(v[0]), in<Scalar>(v[1]), in<Scalar>(v[2])};
 }
 template <class Scalar>
-[[nodiscard]] typename ph::space<Scalar, 3>::vector vector(const std::array<double, 3>& v) {
-  return {in<Scalar>(v[0]), in<Scalar>(v[1]), in<Scalar>(v[2])};
+[[nodiscard]] auto triple(const std::array<double, 3>& v) {
+  return three<typename hand<Scalar>::vector, Scalar>(v);
+}
+template <class Scalar>
+[[nodiscard]] auto vector(const std::array<double, 3>& v) {
+  return three<typename ph::space<Scalar, 3>::vector, Scalar>(v);
 }
 
-/// What both sides share of a scene's parameters.
-template <class Space>
-[[nodiscard]] auto observer(const settings& s) {
-  using S = typename Space::scalar;
-  ph::reduced_energy<Space> o{
-      .damping = in<S>(s.damping), .cap = in<S>(s.cap), .reset_after = in<S>(s.reset_after)};
-  o.energy = in<S>(s.loan);
-  return o;
+/// What all scenes have.
+[[nodiscard]] inline ph::reduced_energy observer(const settings& s) {
+  return {.damping = s.damping, .loan = s.loan};
 }
-template <class Space>
-[[nodiscard]] ph::loop_limits<Space> limits(const settings& s) {
-  using S = typename Space::scalar;
-  return {.longest_tick = in<S>(s.longest_tick), .top_speed = in<S>(s.top_speed)};
+[[nodiscard]] inline ph::loop_limits limits(const settings& s) {
+  return {.longest_tick = s.longest_tick, .top_speed = s.top_speed};
 }
-template <class Ledger>
-[[nodiscard]] Ledger ledger(const settings& s, bool sound) {
-  using S = decltype(Ledger::damping);
-  return {.damping = in<S>(s.damping),
-          .cap = in<S>(s.cap),
-          .reset_after = in<S>(s.reset_after),
-          .longest_tick = in<S>(s.longest_tick),
-          .top_speed = in<S>(s.top_speed),
-          .energy = in<S>(s.loan),
-          .idle = 0,
-          .blind = 0,
-          .sound = sound,
-          .seen = false};
+template <class Scalar>
+[[nodiscard]] typename hand<Scalar>::loop loop(const settings& s) {
+  return {in<Scalar>(s.longest_tick), in<Scalar>(s.top_speed)};
+}
+/// The side written by hand checks no parameters: it is told whether they are good, and of a loan.
+template <class State, class Model>
+[[nodiscard]] State begun(State by_hand, const Model& composed, const settings& s) {
+  by_hand.ledger.energy = in<typename Model::scalar>(s.loan);
+  by_hand.device.sound = !composed.check();
+  return by_hand;
 }
 
 template <class Scalar>
@@ -110,21 +107,17 @@ struct wall {
 
   [[nodiscard]] static auto composed(const settings& s) {
     return ph::local_model{space{},
-                           ph::rigid{ph::half_space<space>{0, 1, in<Scalar>(s.stiffness)}},
-                           ph::snap<space>{},
-                           ph::spring<space>{},
-                           observer<space>(s),
-                           ph::strict_bound<space>{},
-                           limits<space>(s)};
+                           ph::fixed{ph::half_space<space>{0, 1, in<Scalar>(s.stiffness)}},
+                           ph::turn_at_once{},
+                           ph::spring{},
+                           observer(s),
+                           ph::strict_bound{},
+                           limits(s)};
   }
   [[nodiscard]] static auto by_hand(const settings& s) {
-    using energy = decltype(hand<Scalar>::wall::energy);
-    return typename hand<Scalar>::wall{.energy = ledger<energy>(s, !composed(s).check()),
-                                       .surface = 0,
-                                       .outward = 1,
-                                       .stiffness = in<Scalar>(s.stiffness),
-                                       .position = 0,
-                                       .held = 0};
+    typename hand<Scalar>::wall w;
+    wall_strict_start(&w, {0, 1, in<Scalar>(s.stiffness)}, in<Scalar>(s.damping), loop<Scalar>(s));
+    return begun(w, composed(s), s);
   }
 };
 
@@ -133,36 +126,27 @@ struct half_space {
   using scalar = Scalar;
   using space = ph::space<Scalar, 3>;
   static constexpr const char* name = "3-DOF half-space, reachable bound";
+  static constexpr std::array<double, 3> point{}, normal{0.1, -0.2, 1};
 
   [[nodiscard]] static auto composed(const settings& s) {
     return ph::local_model{
         space{},
-        ph::rigid{ph::half_space<space>{vector<Scalar>({}), vector<Scalar>({0.1, -0.2, 1}),
+        ph::fixed{ph::half_space<space>{vector<Scalar>(point), vector<Scalar>(normal),
                                         in<Scalar>(s.stiffness)}},
-        ph::snap<space>{},
-        ph::damped_spring<space>{.mass = in<Scalar>(s.mass),
-                                 .force_limit = in<Scalar>(s.force_limit)},
-        observer<space>(s),
-        ph::reachable_bound<space>{.mass = in<Scalar>(s.mass),
-                                   .hand_force = in<Scalar>(s.hand_force)},
-        limits<space>(s)};
+        ph::turn_at_once{},
+        ph::damped_spring{.mass = s.mass, .force_limit = s.force_limit},
+        observer(s),
+        ph::reachable_bound{.mass = s.mass, .hand_force = s.hand_force},
+        limits(s)};
   }
   [[nodiscard]] static auto by_hand(const settings& s) {
-    using energy = decltype(hand<Scalar>::half_space::energy);
-    const auto model = composed(s);
-    const auto n = model.target().normal;
-    return typename hand<Scalar>::half_space{.energy = ledger<energy>(s, !model.check()),
-                                             .surface = {0, 0, 0},
-                                             .outward = {n[0], n[1], n[2]},
-                                             .stiffness = model.contact().stiffness,
-                                             .resistance = model.contact().damping,
-                                             .damping_ratio = model.contact().damping_ratio,
-                                             .force_limit = in<Scalar>(s.force_limit),
-                                             .contact_mass = in<Scalar>(s.mass),
-                                             .mass = in<Scalar>(s.mass),
-                                             .hand_force = in<Scalar>(s.hand_force),
-                                             .position = {0, 0, 0},
-                                             .held = {0, 0, 0}};
+    typename hand<Scalar>::half_space w;
+    const decltype(w.plane) plane{triple<Scalar>(point), triple<Scalar>(normal),
+                                  in<Scalar>(s.stiffness)};
+    half_space_reachable_start(&w, &plane, in<Scalar>(s.mass), in<Scalar>(s.force_limit),
+                               in<Scalar>(s.damping),
+                               {in<Scalar>(s.mass), in<Scalar>(s.hand_force)}, loop<Scalar>(s));
+    return begun(w, composed(s), s);
   }
 };
 
@@ -175,23 +159,18 @@ struct triangle {
   [[nodiscard]] static auto composed(const settings& s) {
     return ph::local_model{
         space{},
-        ph::following<ph::triangle<space>>{
-            {.stale_after = in<Scalar>(s.stale_after), .fade = in<Scalar>(s.fade)}},
-        ph::rotate_limited<space>{.rate = in<Scalar>(s.rate)},
-        ph::spring<space>{},
-        observer<space>(s),
-        ph::thesis_bound<space>{},
-        limits<space>(s)};
+        ph::followed<ph::triangle<space>>{{.stale_after = s.stale_after, .fade = s.fade}},
+        ph::turn_limited{.rate = s.rate},
+        ph::shaped{ph::spring{}, ph::thesis_rule{}},
+        observer(s),
+        ph::no_bound{},
+        limits(s)};
   }
   [[nodiscard]] static auto by_hand(const settings& s) {
-    using energy = decltype(hand<Scalar>::triangle::energy);
-    typename hand<Scalar>::triangle w{};
-    w.energy = ledger<energy>(s, !composed(s).check());
-    w.rate = in<Scalar>(s.rate);
-    w.stale_after = in<Scalar>(s.stale_after);
-    w.fade = in<Scalar>(s.fade);
-    w.together = true;
-    return w;
+    typename hand<Scalar>::triangle w;
+    triangle_thesis_start(&w, in<Scalar>(s.stale_after), in<Scalar>(s.fade), in<Scalar>(s.rate),
+                          in<Scalar>(s.damping), loop<Scalar>(s));
+    return begun(w, composed(s), s);
   }
 };
 
@@ -201,7 +180,7 @@ template <class Scene, class State>
   using S = typename Scene::scalar;
   if constexpr (Scene::space::dof == 1) {
     return in<S>(x[0]);
-  } else if constexpr (requires(State s) { s.target().depth(vector<S>(x)); }) {
+  } else if constexpr (requires { typename State::port_type; }) {
     return vector<S>(x);
   } else {
     return triple<S>(x);
@@ -210,31 +189,37 @@ template <class Scene, class State>
 
 /// One tick of either side.
 template <class State, class Position, class Scalar>
-[[nodiscard]] auto advance(State& state, const Position& x, Scalar dt) noexcept {
+[[nodiscard, gnu::always_inline, gnu::flatten]] inline auto advance(State& state, const Position& x,
+                                                                    Scalar dt) noexcept {
   if constexpr (requires { state.tick(x, dt); }) {
     return state.tick(x, dt);
+  } else if constexpr (requires { wall_strict_tick(&state, x, dt); }) {
+    return wall_strict_tick(&state, x, dt);
+  } else if constexpr (requires { half_space_reachable_tick(&state, &x, dt); }) {
+    return half_space_reachable_tick(&state, &x, dt);
   } else {
-    return tick(state, x, dt);
+    return triangle_thesis_tick(&state, &x, dt);
   }
 }
 
-/// A new target for either side; a rigid scene has no use for it.
+/// A new target for either side; a fixed scene has no use for it.
 template <class State>
-bool retarget_any(State& state, const surface& s) {
-  if constexpr (requires { state.retarget(state.target()), state.target().c; }) {
+bool update_any(State& state, const surface& s) {
+  if constexpr (requires { state.update(state.target()), state.target().c; }) {
     using S = typename State::scalar;
-    return state.retarget({.a = vector<S>(s.a),
-                           .b = vector<S>(s.b),
-                           .c = vector<S>(s.c),
-                           .stiffness = in<S>(s.stiffness)});
-  } else if constexpr (requires { state.published; }) {
+    return state.update({.a = vector<S>(s.a),
+                         .b = vector<S>(s.b),
+                         .c = vector<S>(s.c),
+                         .stiffness = in<S>(s.stiffness)});
+  } else if constexpr (requires { state.news; }) {
     using S = decltype(State::rate);
-    return retarget(state, {.a = triple<S>(s.a),
-                            .b = triple<S>(s.b),
-                            .c = triple<S>(s.c),
-                            .stiffness = in<S>(s.stiffness),
-                            .thickness = std::numeric_limits<S>::max(),
-                            .normal = {}});
+    const decltype(State::newest) next{triple<S>(s.a),
+                                       triple<S>(s.b),
+                                       triple<S>(s.c),
+                                       in<S>(s.stiffness),
+                                       std::numeric_limits<S>::max(),
+                                       {}};
+    return triangle_thesis_update(&state, &next);
   } else {
     return true;
   }
@@ -242,8 +227,11 @@ bool retarget_any(State& state, const surface& s) {
 
 template <class Scalar, class Reading>
 [[nodiscard]] outcome<Scalar> outcome_of(const Reading& r) {
-  outcome<Scalar> o{
-      .force = {}, .depth = r.depth, .energy = r.energy, .what = r.what, .limited = r.limited};
+  outcome<Scalar> o{.force = {},
+                    .depth = r.depth,
+                    .energy = r.energy,
+                    .what = static_cast<ph::event>(r.what),
+                    .limited = r.limited};
   if constexpr (requires { r.force.x; }) {
     o.force = {r.force.x, r.force.y, r.force.z};
   } else if constexpr (requires { r.force(0); }) {

@@ -64,8 +64,8 @@ template <class State, class Scalar>
   if (o.what == ph::event::late_tick) return path::late;
   if (!(o.depth > Scalar(0))) return path::air;
   if (o.limited) return path::limited;
-  if constexpr (requires { after.together; }) {
-    if (!after.together) return path::following;
+  if constexpr (requires { after.news; }) {
+    if (!after.news.together) return path::following;
   }
   return path::contact;
 }
@@ -78,7 +78,7 @@ template <class Scene>
   for (int n = 0; n < ticks; ++n) {
     step s = script(n);
     if (Scene::space::dof == 1) s.position = {s.position[2], 0, 0};
-    if (s.news) retarget_any(state, s.target);
+    if (s.news) update_any(state, s.target);
     const auto o = outcome_of<S>(
         advance(state, position_for<Scene, decltype(state)>(s.position), in<S>(s.dt)));
     s.taken = path_of(state, o);

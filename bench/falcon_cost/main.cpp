@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What one exchange with a Falcon costs the host, the cable left out: parts and whole, p50 and
-// p99.9 over blocks of 20, on replies recorded from a moving mock. Usage: falcon_cost [blocks]
+// p99.9 over blocks of 20, on replies recorded from a moving mock.
+#include "../common/options.hpp"
 #include "../common/text.hpp"
 #include <passive_haptics/falcon/device.hpp>
-#include <passive_haptics/falcon/mock.hpp>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -16,7 +15,6 @@ namespace {
 
 namespace ph = passive_haptics;
 namespace falcon = passive_haptics::falcon;
-namespace sim = passive_haptics::simulation;
 using experiments::format;
 using room = ph::space<double, 3>;
 
@@ -159,14 +157,14 @@ void add_parts(experiments::table& table, const std::string& scalar, int blocks,
       }));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const int blocks = argc > 1 ? std::atoi(argv[1]) : 20000;
-  if (blocks < 1) {
-    std::cerr << "falcon_cost: \"" << argv[1] << "\" is no number of blocks; give one ≥ 1\n";
-    return 2;
-  }
+int run(const std::vector<std::string>& arguments) {
+  int blocks = 20000;
+  experiments::read_options(
+      "falcon_cost",
+      {experiments::a_number("--blocks",
+                             "of 20 calls, to be timed (default: " + std::to_string(blocks) + ")",
+                             blocks)},
+      arguments);
   const auto replies = recording();
   experiments::table table({"what", "scalar", "p50 / ns", "p99.9 / ns"});
   add_parts<double>(table, "double", blocks, replies);
@@ -189,4 +187,10 @@ int main(int argc, char** argv) {
   table.print(std::cout);
   if (lost > 0) std::cerr << "falcon_cost: " << lost << " samples were not valid\n";
   return lost > 0 || !(whole.p50 <= 2000.0) ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return experiments::guarded("falcon_cost", [&] { return run({argv + 1, argv + argc}); });
 }

@@ -3,91 +3,71 @@
 
 #include "quad.hpp"
 
-#include <map>
+#include <tuple>
 
 namespace experiments {
 namespace {
 
-template <class S>
-using compensated = ph::compensated_sum<S>;
+using ph::ledger_sum;
 
-// All parameters are floats, so that every scalar has the same ones.
-template <class Space>
-constexpr ph::loop_limits<Space> loop() {
-  return {.longest_tick = typename Space::scalar(tick_length)};
+// Powers of two and small whole numbers, so that every scalar has the same ones.
+constexpr ph::isotropic_damping damping{0.03125};
+constexpr ph::reachable_bound reachable{.mass = 0.125, .hand_force = 5.0};
+constexpr ph::loop_limits loop{.longest_tick = double(tick_length)};
+
+template <ledger_sum Sum>
+constexpr ph::basic_reduced_energy<ph::isotropic_damping, Sum> ledger{.damping = damping};
+template <ledger_sum Sum>
+constexpr ph::basic_capped_energy<ph::isotropic_damping, Sum> capped{.damping = damping,
+                                                                     .cap = 0.5};
+
+template <class Constraint>
+auto over(const auto& normals, const auto& law, const auto& observer, const auto& bound) {
+  return ph::local_model{typename Constraint::space_type{},
+                         ph::followed<Constraint>{},
+                         normals,
+                         law,
+                         observer,
+                         bound,
+                         loop};
 }
-template <class Space, class Ledger>
-auto ledger(float cap) {
-  using scalar = typename Space::scalar;
-  ph::reduced_energy<Space, ph::isotropic_damping<Space>, Ledger> observer{
-      .damping = {scalar(0.03125F)}};
-  if (cap > 0.0F) observer.cap = scalar(cap);
-  return observer;
-}
-template <class Space>
-ph::reachable_bound<Space> reachable() {
-  using scalar = typename Space::scalar;
-  return {.mass = scalar(0.125F), .hand_force = scalar(5.0F)};
-}
+template <class S, int Dof>
+using plane = ph::half_space<ph::space<S, Dof>>;
 
 struct wall_strict {
   static constexpr const char* name = "1-DOF wall, strict";
-  template <class S, class Ledger>
+  template <class S, ledger_sum Sum>
   static auto make() {
-    using space = ph::space<S, 1>;
-    return ph::local_model{space{},
-                           ph::following<ph::half_space<space>>{},
-                           ph::snap<space>{},
-                           ph::spring<space>{},
-                           ledger<space, Ledger>(0.0F),
-                           ph::strict_bound<space>{},
-                           loop<space>()};
+    return over<plane<S, 1>>(ph::turn_at_once{}, ph::spring{}, ledger<Sum>, ph::strict_bound{});
   }
 };
 
 struct wall_settling {
   static constexpr const char* name = "1-DOF wall, damped spring, reachable, capped";
-  template <class S, class Ledger>
+  template <class S, ledger_sum Sum>
   static auto make() {
-    using space = ph::space<S, 1>;
-    return ph::local_model{
-        space{},
-        ph::following<ph::half_space<space>>{},
-        ph::snap<space>{},
-        ph::damped_spring<space>{.mass = S(0.125F), .stiffness_fraction = S(0.125F)},
-        ledger<space, Ledger>(0.5F),
-        reachable<space>(),
-        loop<space>()};
+    return over<plane<S, 1>>(ph::turn_at_once{},
+                             ph::damped_spring{.mass = 0.125, .stiffness_fraction = 0.125},
+                             capped<Sum>, reachable);
   }
 };
 
 struct plane_strict {
   static constexpr const char* name = "3-DOF plane, normals turned, strict, capped";
-  template <class S, class Ledger>
+  template <class S, ledger_sum Sum>
   static auto make() {
-    using space = ph::space<S, 3>;
-    return ph::local_model{space{},
-                           ph::following<ph::half_space<space>>{},
-                           ph::rotate_limited<space>{.rate = S(1)},
-                           ph::spring<space>{},
-                           ledger<space, Ledger>(0.5F),
-                           ph::strict_bound<space>{},
-                           loop<space>()};
+    return over<plane<S, 3>>(ph::turn_limited{.rate = 1}, ph::spring{}, capped<Sum>,
+                             ph::strict_bound{});
   }
 };
 
 struct triangle_thesis {
   static constexpr const char* name = "3-DOF triangle, full thesis, reachable, capped";
-  template <class S, class Ledger>
+  template <class S, ledger_sum Sum>
   static auto make() {
-    using space = ph::space<S, 3>;
-    return ph::local_model{space{},
-                           ph::following<ph::triangle<space>>{},
-                           ph::rotate_limited<space>{.rate = S(1)},
-                           ph::spring<space>{},
-                           ledger<space, Ledger>(0.5F),
-                           ph::bound_chain{ph::thesis_bound<space>{}, reachable<space>()},
-                           loop<space>()};
+    return over<ph::triangle<ph::space<S, 3>>>(ph::turn_limited{.rate = 1},
+                                               ph::shaped{ph::spring{}, ph::thesis_rule{}},
+                                               capped<Sum>, reachable);
   }
 };
 
@@ -97,15 +77,17 @@ struct observed {
 };
 template <class Model, class Result>
 observed observe(const Model& model, const Result& out, const std::array<float, 3>& at) {
-  using space = typename Model::space_type;
+  using space = typename Model::port_type;
+  const typename space::vector x = position_in<space>(at);
+  const auto local = model.local().at(x);
+  const typename space::vector normal = local.outward();
   observed seen{};
-  const typename space::vector normal = model.local().outward();
   for (int i = 0; i < space::dof; ++i) {
     seen.force[i] = quad(space::component(out.force, i));
     seen.normal[i] = quad(space::component(normal, i));
   }
   seen.energy = quad(out.energy);
-  seen.depth = quad(model.local().depth(position_in<space>(at)));
+  seen.depth = quad(local.depth);
   return seen;
 }
 
@@ -140,9 +122,9 @@ class contender {
     return candidate_of(composition + ", " + scalar_, model_);
   }
   observed tick(long n) {
-    using space = typename Model::space_type;
+    using space = typename Model::port_type;
     if (n % ticks_per_update == 0) {
-      model_.retarget(constraint_from<typename Model::constraint_type>(surface_at(n)));
+      model_.update(constraint_from<typename Model::constraint_type>(surface_at(n)));
     }
     const auto at = stroke_at(n);
     const auto out = model_.tick(position_in<space>(at), typename space::scalar(tick_length));
@@ -172,19 +154,21 @@ class contender {
 /// Every scalar but the reference, beside each other.
 template <class Composition>
 auto contenders() {
-  const auto one = []<class S, class Ledger>(const char* name, S, Ledger) {
-    return contender(name, static_cast<double>(std::numeric_limits<S>::epsilon()),
-                     Composition::template make<S, Ledger>());
+  const auto one = []<class S>(const char* name, S, const auto& model) {
+    return contender(name, static_cast<double>(std::numeric_limits<S>::epsilon()), model);
   };
-  return std::tuple{one("float", 0.0F, 0.0F),
-                    one("float, compensated ledger", 0.0F, compensated<float>{}),
-                    one("double", 0.0, 0.0), one("long double", 0.0L, 0.0L)};
+  constexpr auto plain = ledger_sum::plain;
+  return std::tuple{one("float", 0.0F, Composition::template make<float, plain>()),
+                    one("float, compensated ledger", 0.0F,
+                        Composition::template make<float, ledger_sum::compensated>()),
+                    one("double", 0.0, Composition::template make<double, plain>()),
+                    one("long double", 0.0L, Composition::template make<long double, plain>())};
 }
 
 template <class Composition>
 std::vector<arithmetic_row> compare_scalars(long ticks) {
   auto all = contenders<Composition>();
-  contender reference("113 bits", 0x1p-112, Composition::template make<quad, quad>());
+  contender reference("113 bits", 0x1p-112, Composition::template make<quad, ledger_sum::plain>());
   const quad zero[3] = {0, 0, 0};
   extremes largest;
   std::vector<arithmetic_row> rows;
@@ -202,50 +186,20 @@ std::vector<arithmetic_row> compare_scalars(long ticks) {
   return rows;
 }
 
-using comparison = std::vector<arithmetic_row> (*)(long);
-struct entry {
-  std::string name;
-  comparison run;
-};
-const std::vector<entry>& entries() {
-  static const std::vector<entry> all{{wall_strict::name, compare_scalars<wall_strict>},
-                                      {wall_settling::name, compare_scalars<wall_settling>},
-                                      {plane_strict::name, compare_scalars<plane_strict>},
-                                      {triangle_thesis::name, compare_scalars<triangle_thesis>}};
-  return all;
+template <class Composition>
+arithmetic_composition entry() {
+  arithmetic_composition made{Composition::name, compare_scalars<Composition>, {}};
+  const auto add = [&made](const auto& c) { made.timed.push_back(c.timed(made.name)); };
+  std::apply([&](const auto&... c) { (add(c), ...); }, contenders<Composition>());
+  return made;
 }
 
 }  // namespace
 
-const std::vector<std::string>& arithmetic_compositions() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const auto& e : entries()) all.push_back(e.name);
-    return all;
-  }();
-  return names;
-}
-
-std::vector<arithmetic_row> compare(const std::string& composition, long ticks) {
-  for (const auto& e : entries()) {
-    if (e.name == composition) return e.run(ticks);
-  }
-  throw std::invalid_argument("no composition " + composition);
-}
-
-const std::vector<candidate>& arithmetic_candidates() {
-  static const std::vector<candidate> all = [] {
-    std::vector<candidate> made;
-    const auto add = [&]<class Composition>(Composition) {
-      std::apply([&](const auto&... c) { (made.push_back(c.timed(Composition::name)), ...); },
-                 contenders<Composition>());
-    };
-    add(wall_strict{});
-    add(wall_settling{});
-    add(plane_strict{});
-    add(triangle_thesis{});
-    return made;
-  }();
+const std::vector<arithmetic_composition>& arithmetic_compositions() {
+  static const std::vector<arithmetic_composition> all{entry<wall_strict>(), entry<wall_settling>(),
+                                                       entry<plane_strict>(),
+                                                       entry<triangle_thesis>()};
   return all;
 }
 

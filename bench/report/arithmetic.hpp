@@ -25,13 +25,13 @@ struct arithmetic_row {
   arithmetic_error error;
 };
 
-/// The compositions by name, in the order of the tables.
-[[nodiscard]] const std::vector<std::string>& arithmetic_compositions();
-
-/// One composition, all scalars, at 1e3, 1e4 … up to `ticks`.
-[[nodiscard]] std::vector<arithmetic_row> compare(const std::string& composition, long ticks);
-
-/// All of them in all scalars but the reference, to be timed: "composition, scalar".
-[[nodiscard]] const std::vector<candidate>& arithmetic_candidates();
+struct arithmetic_composition {
+  std::string name;
+  /// All scalars, at 1e3, 1e4 … up to so many ticks.
+  std::function<std::vector<arithmetic_row>(long ticks)> compare;
+  std::vector<candidate> timed;  ///< in all scalars but the reference: "composition, scalar"
+};
+/// In the order of the tables.
+[[nodiscard]] const std::vector<arithmetic_composition>& arithmetic_compositions();
 
 }  // namespace experiments

@@ -15,7 +15,7 @@ candidate side(std::string name, const State& fresh) {
             double sum = 0.0;
             for (long n = 0; n < ticks; ++n) {
               const cost::step& s = steps[static_cast<std::size_t>(n) % steps.size()];
-              if (s.news) cost::retarget_any(state, s.target);
+              if (s.news) cost::update_any(state, s.target);
               const auto out = cost::advance(state, cost::position_for<Scene, State>(s.position),
                                              static_cast<typename Scene::scalar>(s.dt));
               sum += static_cast<double>(out.depth);
@@ -61,9 +61,7 @@ void report_by_hand(report& out, const settings& chosen) {
               "The scenes of bench/cost, composed and written by hand without templates: the same "
               "bits, so no error between them. Times: blocks of 100 ticks, both sides in turns; "
               "the ratio is the median over the pairs.");
-  table shown({"configuration", "scalar", "ns p50", "p99.9", "max", "relative to by hand",
-               "instructions", "relative to by hand", "bytes"});
-  std::vector<std::string> json;
+  std::vector<record> rows;
   for (const pair& p : pairs()) {
     const cost::timing time = p.time(chosen.quick ? 10 : 200);
     double ours = std::nan(""), theirs = ours;
@@ -71,21 +69,18 @@ void report_by_hand(report& out, const settings& chosen) {
       ours = instructions_per_tick(chosen.program, p.composed.name);
       theirs = instructions_per_tick(chosen.program, p.by_hand.name);
     }
-    shown.add({p.scene, p.scalar, format("%.1f", time.p50), format("%.1f", time.p999),
-               format("%.0f", time.max), format("%.2f", time.ratio), format("%.1f", ours),
-               format("%.3f", ours / theirs), std::to_string(p.composed.bytes)});
-    json.push_back(json_object({{"configuration", json_string(p.scene)},
-                                {"scalar", json_string(p.scalar)},
-                                {"ns_p50", json_number(time.p50)},
-                                {"ns_p999", json_number(time.p999)},
-                                {"ns_max", json_number(time.max)},
-                                {"time_relative_to_by_hand", json_number(time.ratio)},
-                                {"instructions", json_number(ours)},
-                                {"instructions_relative_to_by_hand", json_number(ours / theirs)},
-                                {"state_bytes", std::to_string(p.composed.bytes)}}));
+    rows.push_back({{"configuration", p.scene},
+                    {"scalar", p.scalar},
+                    {"ns p50", time.p50, "%.1f"},
+                    {"p99.9", time.p999, "%.1f"},
+                    {"max", time.max, "%.0f"},
+                    {"time relative to by hand", time.ratio, "%.2f"},
+                    {"instructions", ours, "%.1f"},
+                    {"instructions relative to by hand", ours / theirs, "%.3f"},
+                    {"bytes", p.composed.bytes}});
   }
-  out.show(shown);
-  out.member("by_hand", json_array(json));
+  out.show(table_of(rows, std::identity{}));
+  out.member("by_hand", json_of(rows, std::identity{}));
 }
 
 }  // namespace experiments

@@ -3,6 +3,7 @@
 // How a list of compositions is made: every contact law with the reachable bound, every bound with
 // the plain spring, over one shape and one way to turn normals.
 
+#include "../thesis_experiments/mesh.hpp"
 #include "touch.hpp"
 
 #include <chrono>
@@ -21,94 +22,80 @@ Constraint constraint_of(const answer& a) {
   }
 }
 
-template <class Space>
-typename Space::vector port_of(const vector3& x) {
-  if constexpr (Space::dof == 1) {
-    return x.z();
-  } else {
-    return x;
-  }
+/// What stands along z in one dimension.
+inline vector3 in_world(double z) {
+  return {0.0, 0.0, z};
 }
-inline vector3 seen(double f) {
-  return {0.0, 0.0, f};
-}
-inline vector3 seen(const vector3& f) {
-  return f;
+inline vector3 in_world(const vector3& v) {
+  return v;
 }
 
 /// The scene in virtual time: a tick each `tick` [s], an answer of the environment each `period` [s].
 template <class Model>
 felt run_touch(Model model, const touch_scene& scene, double period, double tick) {
-  using space = typename Model::space_type;
+  using space = typename Model::port_type;
+  const auto hand = [&](int n) { return position_in<space>(scene.hand(tick * n)); };
   const auto environment = scene.fresh();
-  const auto ticks = static_cast<long>(scene.duration / tick + 0.5);
-  const auto each = static_cast<long>(1e-3 / tick + 0.5);
+  sim::prescribed_motion<space> device({.period = tick, .start = hand(0)});
+  sim::update_schedule schedule(1, period, period);
+  const int each = static_cast<int>(1e-3 / tick + 0.5);
   felt run;
   std::vector<double> spent;
-  vector3 held = vector3::Zero();
-  double due = 0.0;
-  for (long n = 0; n < ticks; ++n) {
-    const double t = tick * static_cast<double>(n);
-    const vector3 x = scene.hand(t);
-    if (t >= due - tick / 2.0) {
-      const auto begin = std::chrono::steady_clock::now();
-      const answer now = environment(x, held);
-      const std::chrono::duration<double, std::nano> took =
-          std::chrono::steady_clock::now() - begin;
-      spent.push_back(took.count());
-      model.retarget(constraint_of<typename Model::constraint_type>(now));
-      due += period;
+  const auto ask = [&](const auto& now) {
+    if (!schedule.due(tick * now.tick + tick / 2.0)) return;
+    const auto begin = std::chrono::steady_clock::now();
+    const answer said = environment(in_world(now.sample.position), in_world(now.sample.held));
+    const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
+    spent.push_back(took.count());
+    model.update(constraint_of<typename Model::constraint_type>(said));
+  };
+  const auto move = [&](const auto& now) {
+    if (now.tick % each == 0) {
+      run.force.push_back(in_world(now.force));
+      run.depth.push_back(now.out.depth);
     }
-    const auto out = model.tick(port_of<space>(x), tick);
-    held = seen(out.force);
-    if (n % each == 0) {
-      run.force.push_back(held);
-      run.depth.push_back(out.depth);
-    }
-  }
-  std::nth_element(spent.begin(), spent.begin() + static_cast<long>(spent.size() / 2), spent.end());
-  run.update_ns = spent[spent.size() / 2];
+    device.move_to(hand(now.tick + 1));
+  };
+  sim::run(device, model, static_cast<int>(scene.duration / tick + 0.5), ask, move);
+  run.update_ns = median(spent);
   return run;
 }
 
-/// One shape and one way to turn normals, all contact laws and bounds.
-template <class Space, class Constraint, class Normals>
-std::vector<composition> compositions_over(const std::string& shape, const std::string& turning,
-                                           const Normals& normals) {
-  std::vector<composition> all;
-  const auto add = [&](const std::string& law, const std::string& limit, const auto& contact,
+/// All contact laws and bounds over one shape, "wall" or "plane, turn_limited".
+template <class Constraint, class Normals>
+void compose_over(std::vector<composition>& all, const std::string& shape, const Normals& normals) {
+  using space = typename Constraint::space_type;
+  const auto add = [&](const std::string& contact, const std::string& limit, const auto& law,
                        const auto& observer, const auto& bound) {
-    const ph::local_model model{Space{},  ph::following<Constraint>{{.stale_after = 10.0}},
-                                normals,  contact,
-                                observer, bound};
-    composition c{shape, turning, law, limit, decltype(model)::passivity, Space::dof, {}, {}};
-    c.cost = candidate_of(name_of(c), model);
-    c.touch = [model](const touch_scene& scene, double rate) {
-      return run_touch(model, scene, 1.0 / rate, 1e-3);
-    };
-    all.push_back(std::move(c));
+    const ph::followed<Constraint> supply{ph::freshness{.stale_after = 10.0}};
+    const ph::local_model model{space{}, supply, normals, law, observer, bound, loop};
+    all.push_back({model.passivity, space::dof,
+                   candidate_of(shape + ", " + contact + ", " + limit, model),
+                   [model](const touch_scene& scene, double rate) {
+                     return run_touch(model, scene, 1.0 / rate, 1e-3);
+                   }});
   };
-  const ph::spring<Space> spring{};
-  const ph::reduced_energy<Space> ledger{.damping = 0.03};
-  const ph::reachable_bound<Space> reachable{.mass = 0.1, .hand_force = 5.0};
-  add("spring", "none", spring, ph::no_observer<Space>{}, ph::no_bound<Space>{});
-  add("spring", "strict", spring, ledger, ph::strict_bound<Space>{});
-  add("spring", "memoryless", spring, ledger, ph::memoryless_bound<Space>{});
-  add("spring", "EBA, tight", spring, ledger, ph::tight_energy_bounding<Space>{});
-  add("spring", "thesis", spring, ledger, ph::thesis_bound<Space>{});
+  const ph::spring spring;
+  const ph::reduced_energy ledger{.damping = 0.03};
+  const ph::reachable_bound reachable{.mass = 0.1, .hand_force = 5.0};
+  const ph::no_bound none;
+  const ph::thesis_rule thesis;
+  add("spring", "none", spring, ph::no_observer{}, none);
+  add("spring", "strict", spring, ledger, ph::strict_bound{});
+  add("spring", "memoryless", spring, ledger, ph::memoryless_bound{});
+  add("spring", "EBA, tight", spring, ledger, ph::tight_energy_bounding{});
+  add("spring", "thesis", ph::shaped{spring, thesis}, ledger, none);
   add("spring", "reachable", spring, ledger, reachable);
-  add("spring", "thesis, reachable", spring, ledger,
-      ph::bound_chain{ph::thesis_bound<Space>{}, reachable});
-  add("spring", "force rate, reachable", spring, ledger,
-      ph::bound_chain{ph::force_rate_limit<Space>{.rate = 20.0}, reachable});
-  add("spring", "tank, worst case", spring, ledger, ph::energy_tank<Space>{});
-  add("spring", "PSPM", spring, ledger, ph::set_position_modulation<Space>{});
-  add("spring", "PO/PC", spring, ph::no_observer<Space>{},
-      ph::series_passivity_controller<Space>{.max_damping = 50.0});
-  add("damped spring", "reachable", ph::damped_spring<Space>{.mass = 0.1}, ledger, reachable);
-  add("virtual coupling", "reachable",
-      ph::virtual_coupling<Space>{.stiffness = 5e3, .damping = 0.5}, ledger, reachable);
-  return all;
+  add("spring", "thesis, reachable", ph::shaped{spring, thesis}, ledger, reachable);
+  add("spring", "force rate, reachable", ph::shaped{spring, ph::force_rate_limit{.rate = 20.0}},
+      ledger, reachable);
+  add("spring", "tank, worst case", spring, ledger, ph::energy_tank{});
+  add("spring", "PSPM", ph::shaped{spring, ph::set_position_modulation{}}, ledger, none);
+  add("spring", "PO/PC", spring, ph::no_observer{},
+      ph::series_passivity_controller{.max_damping = 50.0});
+  add("damped spring", "reachable", ph::damped_spring{.mass = 0.1}, ledger, reachable);
+  add("virtual coupling", "reachable", ph::virtual_coupling{.stiffness = 5e3, .damping = 0.5},
+      ledger, reachable);
 }
 
 }  // namespace experiments

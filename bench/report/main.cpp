@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // report: error against run time.
 //
-//     report --out DIR                    everything: ten million ticks in 113 bits take minutes
-//     report --quick --out DIR            the same, shorter, without counts
-//     report --stiff --out DIR            stiff and extreme cases in full, not their quick form
-//     report --replay NAME --ticks N      one composition alone, for callgrind
+//     report --out DIR            everything: ten million ticks in 113 bits take minutes
+//     report --quick --out DIR    the same, shorter, without counts
+//     report --help               all options
 
+#include "../common/options.hpp"
 #include "../cost/counts.hpp"
 #include "../stability/program.hpp"
 #include "tables.hpp"
 
-#include <exception>
 #include <filesystem>
 
 namespace {
@@ -18,70 +17,39 @@ namespace {
 using namespace experiments;
 using namespace std::string_literals;
 
-[[noreturn]] void usage(const std::string& complaint) {
-  throw std::invalid_argument(
-      complaint +
-      "\nusage: report [--out DIR] [--quick] [--ticks N] [--no-counts] [--stiff]"
-      "\n       report --replay NAME --ticks N");
-}
-
-long whole_number(const std::string& name, const char* text) {
-  char* end = nullptr;
-  const long value = std::strtol(text, &end, 10);
-  if (end == text || *end != '\0' || value < 1) {
-    usage(name + " " + text + ": give a whole number of at least 1");
+candidate named(const std::string& name) {
+  std::vector<candidate> all = by_hand_candidates();
+  for (const auto& c : arithmetic_compositions()) {
+    all.insert(all.end(), c.timed.begin(), c.timed.end());
   }
-  return value;
-}
-
-const candidate& named(const std::string& name) {
-  for (const auto& c : arithmetic_candidates()) {
+  for (const auto& c : all_compositions()) all.push_back(c.cost);
+  for (const auto& c : all) {
     if (c.name == name) return c;
   }
-  for (const auto& c : all_compositions()) {
-    if (c.cost.name == name) return c.cost;
-  }
-  static const std::vector<candidate> both = by_hand_candidates();
-  for (const auto& c : both) {
-    if (c.name == name) return c;
-  }
-  usage("--replay " + name + ": no such composition");
+  complain("--replay " + name + ": no such composition");
 }
 
-int run(int argc, char** argv) {
+int run(const std::vector<std::string>& arguments) {
   settings chosen;
   std::string replayed;
-  bool ticks_given = false, stiff = false;
+  bool stiff = false, uncounted = false;
+  int ticks = 0;
   chosen.program = std::filesystem::read_symlink("/proc/self/exe").string();
-  for (int i = 1; i < argc; ++i) {
-    const std::string name = argv[i];
-    const auto value = [&] {
-      if (i + 1 == argc) usage(name + ": its value is missing");
-      return argv[++i];
-    };
-    if (name == "--out") {
-      chosen.out = value();
-    } else if (name == "--quick") {
-      chosen.quick = true;
-      chosen.counts = false;
-    } else if (name == "--no-counts") {
-      chosen.counts = false;
-    } else if (name == "--stiff") {
-      stiff = true;
-    } else if (name == "--ticks") {
-      chosen.ticks = whole_number(name, value());
-      ticks_given = true;
-    } else if (name == "--replay") {
-      replayed = value();
-    } else {
-      usage(name + ": no such option");
-    }
-  }
+  read_options(
+      "report",
+      {a_text("--out DIR", "where the results go (default: " + chosen.out + ")", chosen.out),
+       a_switch("--quick", "fewer ticks and rates; no counts", chosen.quick),
+       a_number("--ticks", "of the arithmetic (default: 10000000, quick 10000) or a replay", ticks),
+       a_switch("--no-counts", "no instructions, which need valgrind", uncounted),
+       a_switch("--stiff", "stiff and extreme cases in full, not their quick form", stiff),
+       a_text("--replay NAME", "one composition alone, for callgrind", replayed)},
+      arguments);
+  chosen.ticks = ticks > 0 ? ticks : chosen.quick ? 10'000 : 10'000'000;
+  chosen.counts = !chosen.quick && !uncounted;
   if (!replayed.empty()) {
     std::cout << named(replayed).replay(chosen.ticks) << '\n';
     return EXIT_SUCCESS;
   }
-  if (chosen.quick && !ticks_given) chosen.ticks = 10'000;
   if (chosen.counts && !cost::valgrind_is_here()) {
     std::cout << "valgrind is not installed: no instruction counts\n";
     chosen.counts = false;
@@ -106,10 +74,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& problem) {
-    std::cerr << "report: " << problem.what() << '\n';
-    return EXIT_FAILURE;
-  }
+  return guarded("report", [&] { return run({argv + 1, argv + argc}); });
 }

@@ -45,9 +45,9 @@ struct surface_sample {
   return {{node(-0.0625F, -0.0625F), node(0.125F, 0.0F), node(-0.0625F, 0.0625F)}, 1000.0F};
 }
 
-/// The position in a space of any scalar: z alone in one dimension.
+/// Three numbers as a position in a space of any scalar: the last alone in one dimension.
 template <class Space>
-[[nodiscard]] typename Space::vector position_in(const std::array<float, 3>& p) {
+[[nodiscard]] typename Space::vector position_in(const auto& p) {
   using scalar = typename Space::scalar;
   if constexpr (Space::dof == 1) {
     return scalar(p[2]);
@@ -60,19 +60,16 @@ template <class Space>
 template <class Constraint>
 [[nodiscard]] Constraint constraint_from(const surface_sample& s) {
   using space = typename Constraint::space_type;
+  using vector = typename space::vector;
   using scalar = typename space::scalar;
-  const scalar K(s.stiffness);
+  const vector a = position_in<space>(s.nodes[0]), b = position_in<space>(s.nodes[1]),
+               c = position_in<space>(s.nodes[2]);
   if constexpr (space::dof == 1) {
-    return {scalar(s.nodes[0][2]), scalar(1), K};
+    return {a, scalar(1), scalar(s.stiffness)};
+  } else if constexpr (requires(Constraint t) { t.thickness; }) {
+    return {.a = a, .b = b, .c = c, .stiffness = scalar(s.stiffness)};
   } else {
-    using vector = typename space::vector;
-    const vector a = position_in<space>(s.nodes[0]), b = position_in<space>(s.nodes[1]),
-                 c = position_in<space>(s.nodes[2]);
-    if constexpr (requires(Constraint t) { t.thickness; }) {
-      return {.a = a, .b = b, .c = c, .stiffness = K, .thickness = scalar(0.5)};
-    } else {
-      return {a, space::cross(vector(b - a), vector(c - a)), K};
-    }
+    return {a, space::cross(vector(b - a), vector(c - a)), scalar(s.stiffness)};
   }
 }
 
@@ -80,7 +77,7 @@ template <class Constraint>
 template <class Model>
 class recording {
  public:
-  using space = typename Model::space_type;
+  using space = typename Model::port_type;
   using constraint = typename Model::constraint_type;
 
   explicit recording(long ticks) {
@@ -96,7 +93,7 @@ class recording {
   /// One tick of it.
   auto feed(Model& model, long n) const {
     const auto i = static_cast<std::size_t>(n);
-    if (n % ticks_per_update == 0) model.retarget(surfaces_[i / ticks_per_update]);
+    if (n % ticks_per_update == 0) model.update(surfaces_[i / ticks_per_update]);
     return model.tick(positions_[i], typename space::scalar(tick_length));
   }
 

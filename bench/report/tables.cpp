@@ -12,9 +12,6 @@ namespace {
 std::string quoted(const std::string& text) {
   return '"' + text + '"';
 }
-std::string power_of_ten(long ticks) {
-  return format("%.0e", static_cast<double>(ticks));
-}
 
 const std::atomic<bool> never = false;  // nothing stops a report but the end of the program
 
@@ -74,12 +71,13 @@ std::vector<std::size_t> pareto_front(const std::vector<std::pair<double, double
 }
 
 bool report_arithmetic(report& out, const settings& chosen, figures& all) {
-  const auto& names = arithmetic_compositions();
+  const auto& compositions = arithmetic_compositions();
+  const int count = static_cast<int>(compositions.size());
   std::vector<arithmetic_row> rows;
-  progress bar("arithmetic", static_cast<int>(names.size()));
+  progress bar("arithmetic", count);
   work_through(
-      static_cast<int>(names.size()), 2, never,
-      [&](int i) { return compare(names[static_cast<std::size_t>(i)], chosen.ticks); },
+      count, 2, never,
+      [&](int i) { return compositions[static_cast<std::size_t>(i)].compare(chosen.ticks); },
       [&](int, const std::vector<arithmetic_row>& some) {
         rows.insert(rows.end(), some.begin(), some.end());
         bar.step();
@@ -87,10 +85,12 @@ bool report_arithmetic(report& out, const settings& chosen, figures& all) {
 
   std::map<std::string, measured_cost> costs;
   std::map<std::string, std::size_t> bytes;
-  progress timing("arithmetic, cost", static_cast<int>(arithmetic_candidates().size()));
-  for (const auto& c : arithmetic_candidates()) {
-    costs[c.name] = measure(c, chosen);
-    bytes[c.name] = c.bytes;
+  progress timing("arithmetic, cost", count);
+  for (const auto& composition : compositions) {
+    for (const auto& c : composition.timed) {
+      costs[c.name] = measure(c, chosen);
+      bytes[c.name] = c.bytes;
+    }
     timing.step();
   }
 
@@ -102,36 +102,29 @@ bool report_arithmetic(report& out, const settings& chosen, figures& all) {
       "ulp, as a multiple of the scalar's epsilon. Times: blocks of 16 ticks of a replay; "
       "on a busy machine the worst is the machine's. Instructions: callgrind, the loop of "
       "the replay included.");
-  table shown({"configuration", "scalar", "ticks", "force", "force ulp", "energy", "energy ulp",
-               "plane", "normal", "ns p50", "p99.9", "max", "instructions", "bytes"});
-  std::vector<std::string> json;
+  std::vector<record> shown;
   bool sound = true;
   for (const auto& r : rows) {
     const std::string name = r.composition + ", " + r.scalar;
     const measured_cost& cost = costs[name];
-    shown.add({r.composition, r.scalar, power_of_ten(r.ticks), format("%.1e", r.error.force),
-               format("%.0f", r.error.force / r.epsilon), format("%.1e", r.error.energy),
-               format("%.0f", r.error.energy / r.epsilon), format("%.1e", r.error.plane),
-               format("%.1e", r.error.normal), format("%.1f", cost.time.median),
-               format("%.1f", cost.time.p999), format("%.0f", cost.time.worst),
-               format("%.1f", cost.instructions), std::to_string(bytes[name])});
+    shown.push_back({{"configuration", r.composition},
+                     {"scalar", r.scalar},
+                     {"ticks", static_cast<double>(r.ticks), "%.0e"},
+                     {"force", r.error.force, "%.1e"},
+                     {"force ulp", r.error.force / r.epsilon, "%.0f"},
+                     {"energy", r.error.energy, "%.1e"},
+                     {"energy ulp", r.error.energy / r.epsilon, "%.0f"},
+                     {"plane", r.error.plane, "%.1e"},
+                     {"normal", r.error.normal, "%.1e"},
+                     {"ns p50", cost.time.median, "%.1f"},
+                     {"p99.9", cost.time.p999, "%.1f"},
+                     {"max", cost.time.worst, "%.0f"},
+                     {"instructions", cost.instructions, "%.1f"},
+                     {"bytes", bytes[name]}});
     if (r.ticks == chosen.ticks) {
       all.add({"arithmetic", r.composition, r.scalar, r.error.force, cost.time.median, cost,
                bytes[name]});
     }
-    json.push_back(json_object({{"configuration", json_string(r.composition)},
-                                {"scalar", json_string(r.scalar)},
-                                {"ticks", std::to_string(r.ticks)},
-                                {"epsilon", json_number(r.epsilon)},
-                                {"force", json_number(r.error.force)},
-                                {"energy", json_number(r.error.energy)},
-                                {"plane", json_number(r.error.plane)},
-                                {"normal", json_number(r.error.normal)},
-                                {"ns_p50", json_number(cost.time.median)},
-                                {"ns_p999", json_number(cost.time.p999)},
-                                {"ns_max", json_number(cost.time.worst)},
-                                {"instructions", json_number(cost.instructions)},
-                                {"state_bytes", std::to_string(bytes[name])}}));
     // Rounding alone: a ledger that is never rounded up may give away an epsilon of itself a tick.
     if (!(r.error.force < (1e4 + static_cast<double>(r.ticks)) * r.epsilon)) {
       std::cout << "BROKEN: " << name << ": force off by " << r.error.force << " after " << r.ticks
@@ -139,26 +132,26 @@ bool report_arithmetic(report& out, const settings& chosen, figures& all) {
       sound = false;
     }
   }
-  out.show(shown);
-  out.member("arithmetic", json_array(json));
+  out.show(table_of(shown, std::identity{}));
+  out.member("arithmetic", json_of(shown, std::identity{}));
   all.write_front(out, "arithmetic");
   std::string plot =
       "set logscale xy\nset format y '10^{%L}'\nset xlabel 'run time [ns a tick]'\n"
       "set ylabel 'largest force error / largest force'\nplot ";
   int series = 0;
-  for (const auto& name : names) {
+  for (const auto& composition : compositions) {
     ++series;
-    plot += gnuplot_points("arithmetic", 2, name, 4 + series, series);
+    plot += gnuplot_points("arithmetic", 2, composition.name, 4 + series, series);
   }
   out.plot("arithmetic",
-           "Arithmetic error of the force after " + power_of_ten(chosen.ticks) +
-               " ticks against run time",
+           "Arithmetic error of the force after " +
+               format("%.0e", static_cast<double>(chosen.ticks)) + " ticks against run time",
            plot + front_of("arithmetic"));
   return sound;
 }
 
 bool report_models(report& out, const settings& chosen, figures& figured) {
-  const std::vector<touch_scene> scenes{yielding_wall(), soft_ball(), stroked_cushion()};
+  const std::vector<touch_scene> scenes{yielding_wall(), soft_ball(), stroked_organ()};
   const std::vector<double> rates = chosen.quick
                                         ? std::vector<double>{30, 1000}
                                         : std::vector<double>{1, 3, 10, 30, 100, 300, 1000};
@@ -170,18 +163,23 @@ bool report_models(report& out, const settings& chosen, figures& figured) {
     timing.step();
   }
 
-  table parts({"configuration", "tag", "ns p50", "p99.9", "max", "instructions", "bytes"});
+  std::vector<record> parts;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    parts.add({all[i].cost.name, ph::to_string(all[i].tag), format("%.1f", costs[i].time.median),
-               format("%.1f", costs[i].time.p999), format("%.0f", costs[i].time.worst),
-               format("%.1f", costs[i].instructions), std::to_string(all[i].cost.bytes)});
+    parts.push_back({{"configuration", all[i].cost.name},
+                     {"tag", ph::to_string(all[i].tag)},
+                     {"ns p50", costs[i].time.median, "%.1f"},
+                     {"p99.9", costs[i].time.p999, "%.1f"},
+                     {"max", costs[i].time.worst, "%.0f"},
+                     {"instructions", costs[i].instructions, "%.1f"},
+                     {"bytes", all[i].cost.bytes}});
   }
   out.section("What a tick costs",
               "Every composition below, in double, on one recorded motion with an update each 33 "
               "ticks. Instructions include the loop of the replay and the update.");
-  out.show(parts);
+  out.show(table_of(parts, std::identity{}));
+  out.member("ticks", json_of(parts, std::identity{}));
 
-  std::vector<std::string> json;
+  std::vector<record> models;
   bool sound = true;
   for (const auto& scene : scenes) {
     const felt truth = truth_of(scene);
@@ -194,8 +192,7 @@ bool report_models(report& out, const settings& chosen, figures& figured) {
                     format("%.3f", smooth.largest_step) + " N; one solution takes " +
                     format("%.1f", truth.update_ns / 1e3) +
                     " µs. Run time: a tick, and its share of the environment's work.");
-    table shown({"configuration", "tag", "environment Hz", "rms force N", "largest force N",
-                 "rms depth mm", "largest step N", "ns a tick"});
+    std::vector<record> shown;
     std::vector<std::size_t> fitting;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (all[i].dof == scene.dof) fitting.push_back(i);
@@ -216,29 +213,25 @@ bool report_models(report& out, const settings& chosen, figures& figured) {
           const double ns = costs[i].time.median + run.update_ns * rate / 1000.0;
           figured.add({scene.name, c.cost.name, format("%g Hz", rate), e.rms_force, ns, costs[i],
                        c.cost.bytes});
-          shown.add({c.cost.name, ph::to_string(c.tag), format("%g", rate),
-                     format("%.4f", e.rms_force), format("%.4f", e.largest_force),
-                     format("%.3f", e.rms_depth * 1e3), format("%.4f", e.largest_step),
-                     format("%.1f", ns)});
-          json.push_back(json_object({{"scene", json_string(scene.name)},
-                                      {"configuration", json_string(c.cost.name)},
-                                      {"tag", json_string(ph::to_string(c.tag))},
-                                      {"environment_Hz", json_number(rate)},
-                                      {"rms_force_N", json_number(e.rms_force)},
-                                      {"max_force_N", json_number(e.largest_force)},
-                                      {"rms_depth_m", json_number(e.rms_depth)},
-                                      {"max_step_N", json_number(e.largest_step)},
-                                      {"ns_per_tick", json_number(ns)},
-                                      {"tick_ns_p50", json_number(costs[i].time.median)},
-                                      {"tick_instructions", json_number(costs[i].instructions)},
-                                      {"state_bytes", std::to_string(c.cost.bytes)}}));
+          shown.push_back({{"configuration", c.cost.name},
+                           {"tag", ph::to_string(c.tag)},
+                           {"environment Hz", rate, "%g"},
+                           {"rms force N", e.rms_force, "%.4f"},
+                           {"largest force N", e.largest_force, "%.4f"},
+                           {"rms depth mm", e.rms_depth * 1e3, "%.3f"},
+                           {"largest step N", e.largest_step, "%.4f"},
+                           {"ns a tick", ns, "%.1f"}});
           if (!std::isfinite(e.rms_force)) {
             std::cout << "BROKEN: " << scene.name << ", " << c.cost.name << ": no number\n";
             sound = false;
           }
           bar.step();
         });
-    out.show(shown);
+    out.show(table_of(shown, std::identity{}));
+    for (record& r : shown) {
+      r.insert(r.begin(), {"scene", scene.name});
+      models.push_back(std::move(r));
+    }
     figured.write_front(out, scene.name);
     std::string plot =
         "set logscale xy\nset xlabel 'run time [ns a tick, environment included]'\nset ylabel "
@@ -250,7 +243,7 @@ bool report_models(report& out, const settings& chosen, figures& figured) {
     out.plot("model_" + scene.name, "Model error against run time: " + scene.name,
              plot + front_of(scene.name));
   }
-  out.member("models", json_array(json));
+  out.member("models", json_of(models, std::identity{}));
   return sound;
 }
 

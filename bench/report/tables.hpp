@@ -2,10 +2,12 @@
 #pragma once
 // The parts of the report, as tables, CSV, JSON and plots.
 
+#include "../common/record.hpp"
 #include "../common/report.hpp"
 #include "arithmetic.hpp"
 #include "touch.hpp"
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -13,10 +15,10 @@ namespace experiments {
 
 struct settings {
   std::string out = "report";
-  std::string program;      ///< this program's own path, to be counted by callgrind
-  long ticks = 10'000'000;  ///< of the arithmetic comparison
-  bool quick = false;       ///< fewer ticks, rates and compositions; no counts
-  bool counts = true;       ///< instructions by callgrind
+  std::string program;  ///< this program's own path, to be counted by callgrind
+  long ticks = 0;       ///< of the arithmetic comparison
+  bool quick = false;   ///< fewer ticks, rates and compositions; no counts
+  bool counts = true;   ///< instructions by callgrind
 };
 
 /// What one candidate costs, measured now.

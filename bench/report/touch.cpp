@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "touch.hpp"
 
-#include "../thesis_experiments/mesh.hpp"
 #include "compose_touch.hpp"
 
 #include <memory>
@@ -57,12 +56,10 @@ touch_scene soft_ball() {
   return {"ball", 3, 3.0, 0.5, 3.0, hand, fresh};
 }
 
-touch_scene stroked_cushion() {
-  const auto scene = std::make_shared<stroke_scene>(cushion());
+touch_scene stroked_organ() {
+  const auto scene = std::make_shared<stroke_scene>(read_mesh(organ, millimetre));
   const auto hand = [scene](double t) { return scene->position(t); };
-  const auto fresh = [scene] {
-    return body_of(scene->mesh(), {.young = 2e4, .poisson = 0.45}, scene->fixed());
-  };
+  const auto fresh = [scene] { return body_of(scene->mesh(), flesh, scene->fixed()); };
   return {"mesh",
           3,
           stroke_scene::total,
@@ -91,18 +88,15 @@ model_error error_of(const touch_scene& scene, const felt& run, const felt& trut
   return error;
 }
 
-std::string name_of(const composition& c) {
-  return (c.dof == 1 ? c.shape : c.shape + ", " + c.normals) + ", " + c.contact + ", " + c.bound;
-}
-
 felt truth_of(const touch_scene& scene) {
   const auto bare = []<class Space>(Space) {
     return ph::local_model{Space{},
-                           ph::following<ph::half_space<Space>>{},
-                           ph::snap<Space>{},
-                           ph::spring<Space>{},
-                           ph::no_observer<Space>{},
-                           ph::no_bound<Space>{}};
+                           ph::followed<ph::half_space<Space>>{},
+                           ph::turn_at_once{},
+                           ph::spring{},
+                           ph::no_observer{},
+                           ph::no_bound{},
+                           loop};
   };
   if (scene.dof == 1) return run_touch(bare(ph::space<double, 1>{}), scene, 1e-4, 1e-4);
   return run_touch(bare(volume{}), scene, 1e-4, 1e-4);
@@ -110,10 +104,11 @@ felt truth_of(const touch_scene& scene) {
 
 const std::vector<composition>& all_compositions() {
   static const std::vector<composition> all = [] {
-    std::vector<composition> joined = wall_compositions();
-    for (auto& c : plane_compositions()) joined.push_back(std::move(c));
-    for (auto& c : triangle_compositions()) joined.push_back(std::move(c));
-    return joined;
+    std::vector<composition> every;
+    compose_walls(every);
+    compose_planes(every);
+    compose_triangles(every);
+    return every;
   }();
   return all;
 }

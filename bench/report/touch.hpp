@@ -6,7 +6,6 @@
 
 #include "cost.hpp"
 #include <passive_haptics/environment/deformable_body.hpp>
-#include <passive_haptics/simulation/prescribed_motion.hpp>
 
 #include <functional>
 #include <string>
@@ -15,9 +14,11 @@
 namespace experiments {
 
 namespace env = passive_haptics::environment;
-namespace sim = passive_haptics::simulation;
 
 using vector3 = Eigen::Vector3d;
+
+/// Of all these scenes.
+inline constexpr ph::loop_limits loop{.longest_tick = 1e-3};
 
 /// What an environment says of the place that is touched; in one dimension x is all there is.
 struct answer {
@@ -40,8 +41,8 @@ struct touch_scene {
 [[nodiscard]] touch_scene yielding_wall();
 /// The ball of thesis 3.3: 11 nodes, pressed to 6 mm and slid over its faces.
 [[nodiscard]] touch_scene soft_ball();
-/// A cushion of 495 nodes, stroked 1 to 3 mm deep.
-[[nodiscard]] touch_scene stroked_cushion();
+/// The organ of the thesis experiments, stroked 1 to 3 mm deep.
+[[nodiscard]] touch_scene stroked_organ();
 
 /// Force on the device and depth in the model, every millisecond.
 struct felt {
@@ -59,20 +60,18 @@ struct model_error {
 
 /// One composition of the local model, ready for any scene of its dimension.
 struct composition {
-  std::string shape, normals, contact, bound;
   ph::guarantee tag = ph::guarantee::none;
   int dof = 3;
   candidate cost;
   std::function<felt(const touch_scene&, double rate)> touch;
 };
-[[nodiscard]] std::string name_of(const composition& c);
 
 /// The environment solved at 10 kHz, straight to the device.
 [[nodiscard]] felt truth_of(const touch_scene& scene);
 
-[[nodiscard]] std::vector<composition> wall_compositions();
-[[nodiscard]] std::vector<composition> plane_compositions();
-[[nodiscard]] std::vector<composition> triangle_compositions();
+void compose_walls(std::vector<composition>& all);
+void compose_planes(std::vector<composition>& all);
+void compose_triangles(std::vector<composition>& all);
 [[nodiscard]] const std::vector<composition>& all_compositions();
 
 }  // namespace experiments

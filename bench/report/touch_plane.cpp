@@ -3,14 +3,10 @@
 
 namespace experiments {
 
-std::vector<composition> plane_compositions() {
-  using space = ph::space<double, 3>;
-  auto all = compositions_over<space, ph::half_space<space>>("plane", "snap", ph::snap<space>{});
-  for (auto& c : compositions_over<space, ph::half_space<space>>(
-           "plane", "rotate_limited", ph::rotate_limited<space>{.rate = 3.0})) {
-    all.push_back(std::move(c));
-  }
-  return all;
+void compose_planes(std::vector<composition>& all) {
+  using plane = ph::half_space<volume>;
+  compose_over<plane>(all, "plane, turn_at_once", ph::turn_at_once{});
+  compose_over<plane>(all, "plane, turn_limited", ph::turn_limited{.rate = 3.0});
 }
 
 }  // namespace experiments

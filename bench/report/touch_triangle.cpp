@@ -3,14 +3,10 @@
 
 namespace experiments {
 
-std::vector<composition> triangle_compositions() {
-  using space = ph::space<double, 3>;
-  auto all = compositions_over<space, ph::triangle<space>>("triangle", "snap", ph::snap<space>{});
-  for (auto& c : compositions_over<space, ph::triangle<space>>(
-           "triangle", "rotate_limited", ph::rotate_limited<space>{.rate = 3.0})) {
-    all.push_back(std::move(c));
-  }
-  return all;
+void compose_triangles(std::vector<composition>& all) {
+  using triangle = ph::triangle<volume>;
+  compose_over<triangle>(all, "triangle, turn_at_once", ph::turn_at_once{});
+  compose_over<triangle>(all, "triangle, turn_limited", ph::turn_limited{.rate = 3.0});
 }
 
 }  // namespace experiments

@@ -3,9 +3,9 @@
 
 namespace experiments {
 
-std::vector<composition> wall_compositions() {
-  using space = ph::space<double, 1>;
-  return compositions_over<space, ph::half_space<space>>("wall", "-", ph::snap<space>{});
+void compose_walls(std::vector<composition>& all) {
+  using wall = ph::half_space<ph::space<double, 1>>;
+  compose_over<wall>(all, "wall", ph::turn_at_once{});
 }
 
 }  // namespace experiments

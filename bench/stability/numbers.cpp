@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "numbers.hpp"
-
+#include "parts.hpp"
 #include <passive_haptics/simulation/schedule.hpp>
 
 #include <array>
@@ -53,32 +52,25 @@ bool all_finite(const ph::tick_result<Space>& out) {
 
 template <class Space>
 std::string text_of(const ph::device_sample<Space>& sample) {
-  std::string text;
-  const auto add = [&text](const char* name, const auto& v) {
-    text += name;
-    for (int i = 0; i < Space::dof; ++i) {
-      const auto wide = static_cast<double>(sim::component(v, i));
-      char number[32];
-      std::snprintf(number, sizeof number, " %.9g", wide);
-      text += number;
-    }
-  };
-  add("x", sample.position);
-  add(", held", sample.held);
-  return text + ", dt " + std::to_string(static_cast<double>(sample.dt));
+  std::string x = "x", held = ", held";
+  for (int i = 0; i < Space::dof; ++i) {
+    x += ex::format(" %.9g", static_cast<double>(sim::component(sample.position, i)));
+    held += ex::format(" %.9g", static_cast<double>(sim::component(sample.held, i)));
+  }
+  return x + held + ex::format(", dt %g", static_cast<double>(sample.dt));
 }
 
 template <class Space>
 void try_in(const controller& c, long ticks, std::uint64_t seed, numbers_row& row) {
   using scalar = typename Space::scalar;
-  if (!c.maker<Space>()) return;
+
   odd_numbers<scalar> odd(seed);
   controllers::premises known;
   if (odd.chance(0.5)) known.damping = static_cast<double>(odd.positive());
   if (odd.chance(0.3)) known.mass = static_cast<double>(odd.positive());
   if (odd.chance(0.3)) known.longest_tick = static_cast<double>(odd.positive());
   if (odd.chance(0.3)) known.quantum = static_cast<double>(odd.positive());
-  auto model = c.maker<Space>()(known);
+  auto model = c.in<Space>()(known);
   const bool sound = !model.check();
   ph::tick_result<Space> last{Space::zero(), scalar(0), scalar(0)};
   for (long n = 0; n < ticks; ++n) {
@@ -88,8 +80,7 @@ void try_in(const controller& c, long ticks, std::uint64_t seed, numbers_row& ro
         sim::component(point, i) = odd.chance(0.9) ? scalar(0) : odd.any();
         sim::component(normal, i) = odd.any();
       }
-      static_cast<void>(
-          model.retarget({point, normal, odd.chance(0.5) ? scalar(1000) : odd.any()}));
+      static_cast<void>(model.update({point, normal, odd.chance(0.5) ? scalar(1000) : odd.any()}));
     }
     ph::device_sample<Space> sample{.dt = odd.tick(), .valid = odd.chance(0.95)};
     for (int i = 0; i < Space::dof; ++i) {
@@ -119,67 +110,64 @@ void try_in(const controller& c, long ticks, std::uint64_t seed, numbers_row& ro
 }
 
 template <class Space>
-numbers_row row_of(const controller& c, const char* scalar, long ticks) {
+void try_in(const controller& c, const char* scalar, long ticks, std::vector<numbers_row>& rows) {
+  if (!c.in<Space>()) return;
   numbers_row row{.controller = c.name, .scalar = scalar, .dof = Space::dof};
   const long run = 500;
   for (long done = 0; done < ticks; done += run) {
     try_in<Space>(c, run, static_cast<std::uint64_t>(done / run) + 1, row);
   }
-  return row;
+  rows.push_back(row);
+}
+
+ex::record counts_of(const numbers_row& r) {
+  return {{"ticks", r.ticks},   {"refused", r.refused},       {"limited", r.limited},
+          {"pushed", r.pushed}, {"not finite", r.not_finite}, {"silent", r.silent}};
 }
 
 }  // namespace
 
+static ex::record record_of(const numbers_row& r) {
+  ex::record all{{"controller", r.controller}, {"scalar", r.scalar}, {"dof", r.dof}};
+  for (auto& count : counts_of(r)) all.push_back(std::move(count));
+  return all;
+}
+
 std::vector<numbers_row> try_numbers(const std::vector<controller>& all, long ticks) {
   std::vector<numbers_row> rows;
   for (const auto& c : all) {
-    rows.push_back(row_of<controllers::f1>(c, "float", ticks));
-    rows.push_back(row_of<controllers::d1>(c, "double", ticks));
-    if (c.in_3_float) rows.push_back(row_of<controllers::f3>(c, "float", ticks));
-    if (c.in_3) rows.push_back(row_of<controllers::d3>(c, "double", ticks));
+    try_in<controllers::f1>(c, "float", ticks, rows);
+    try_in<controllers::d1>(c, "double", ticks, rows);
+    try_in<controllers::f3>(c, "float", ticks, rows);
+    try_in<controllers::d3>(c, "double", ticks, rows);
   }
   return rows;
 }
 
 std::vector<std::string> run_numbers(const session& s) {
   const auto rows = try_numbers(s.judged, s.chosen.quick ? 10000 : 200000);
+  ex::write_csv(s.out, "numbers.csv", rows);
   numbers_row sum;
   std::vector<std::string> found;
-  ex::csv_file csv(s.out.path("numbers.csv"),
-                   "controller,scalar,dof,ticks,refused,limited,pushed,not finite,silent");
   for (const auto& r : rows) {
-    sum.ticks += r.ticks;
-    sum.refused += r.refused;
-    sum.limited += r.limited;
-    sum.pushed += r.pushed;
-    sum.not_finite += r.not_finite;
-    sum.silent += r.silent;
-    csv.line('"' + r.controller + "\"," + r.scalar + ',' + std::to_string(r.dof) + ',' +
-             std::to_string(r.ticks) + ',' + std::to_string(r.refused) + ',' +
-             std::to_string(r.limited) + ',' + std::to_string(r.pushed) + ',' +
-             std::to_string(r.not_finite) + ',' + std::to_string(r.silent));
+    for (const auto count :
+         {&numbers_row::ticks, &numbers_row::refused, &numbers_row::limited, &numbers_row::pushed,
+          &numbers_row::not_finite, &numbers_row::silent}) {
+      sum.*count += r.*count;
+    }
     if (r.not_finite + r.silent == 0) continue;
     found.push_back(r.controller + ", " + r.scalar + ", " + std::to_string(r.dof) +
                     " DOF: " + std::to_string(r.not_finite) + " times no number, " +
                     std::to_string(r.silent) + " times silent; first " + r.first);
   }
-  csv.close();
   s.out.section(
       "Numbers at the ends of their range",
       "Positions, forces held, tick lengths, surfaces and parameters drawn from 0, "
       "subnormal, 1e-30 to 1e18, the largest, infinite and NaN, mixed with ordinary ones, "
       "every controller. Nothing but numbers may come out; a bad sample must give an "
       "event and force zero.");
-  ex::table shown({"ticks", "refused", "limited", "pushed", "not finite", "silent"});
-  shown.add({std::to_string(sum.ticks), std::to_string(sum.refused), std::to_string(sum.limited),
-             std::to_string(sum.pushed), std::to_string(sum.not_finite),
-             std::to_string(sum.silent)});
-  s.out.show(shown);
-  s.out.member("numbers", ex::json_object({{"ticks", std::to_string(sum.ticks)},
-                                           {"refused", std::to_string(sum.refused)},
-                                           {"pushed", std::to_string(sum.pushed)},
-                                           {"not_finite", std::to_string(sum.not_finite)},
-                                           {"silent", std::to_string(sum.silent)}}));
+  s.out.show(ex::table_of(std::vector{sum}, counts_of));
+  s.out.member("numbers", ex::json_of(counts_of(sum)));
   return found;
 }
 

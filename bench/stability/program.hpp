@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The program, apart from main(): so that a test can run it.
+// The program, apart from main(), so that a test can run it; and what its parts share.
 
-#include "session.hpp"
-
-#include <string>
-#include <vector>
+#include "../common/rows.hpp"
+#include "../controllers/catalogue.hpp"
 
 namespace stability {
+
+namespace ex = experiments;
+namespace ph = passive_haptics;
+
+struct settings {
+  std::string out = "stability";
+  bool quick = false;
+  int soak = 0;     ///< ticks; 0: 10⁷, quick 10⁶
+  int threads = 0;  ///< 0: as many as the machine has
+};
+
+struct session : ex::workshop {
+  const settings& chosen;
+  const std::vector<controllers::controller>& judged;
+};
 
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shapes.hpp"
-
+#include "parts.hpp"
 #include <passive_haptics/simulation/challenge.hpp>
 
 #include <cmath>
@@ -45,6 +44,19 @@ struct lay_sliver {
   }
 };
 
+constexpr double turn_rate = 4.0;  // [rad/s]
+
+template <class Space, class Bound>
+auto on_triangle(const Bound& bound) {
+  return ph::local_model{Space{},
+                         ph::followed<ph::triangle<Space>>{},
+                         ph::turn_limited{.rate = turn_rate},
+                         ph::spring{},
+                         ph::reduced_energy{.damping = 0.03},
+                         bound,
+                         ph::loop_limits{.longest_tick = 1e-3, .top_speed = 100.0}};
+}
+
 template <class Space>
 sliver_row sliver_row_of(const char* scalar_name, double size, double aspect, int each) {
   using scalar = typename Space::scalar;
@@ -56,14 +68,9 @@ sliver_row sliver_row_of(const char* scalar_name, double size, double aspect, in
     const auto point = sim::to_port<Space>(
         typename sim::physical<Space>::vector(random.direction<Space>() * size));
     auto t = lay(point, normal, scalar(1000));
-    ph::local_model model{Space{},
-                          ph::following<ph::triangle<Space>>{},
-                          ph::rotate_limited<Space>{.rate = scalar(4)},
-                          ph::spring<Space>{},
-                          ph::reduced_energy<Space>{.damping = scalar(0.03)},
-                          ph::strict_bound<Space>{}};
+    auto model = on_triangle<Space>(ph::strict_bound{});
     ++row.tried;
-    const bool taken = model.retarget(t);
+    const bool taken = model.update(t);
     const auto out = model.tick(point, scalar(1e-3));
     if (!Space::is_finite(out.force) || !ph::kernels::is_finite(out.depth)) ++row.not_finite;
     if (!taken) {
@@ -76,7 +83,7 @@ sliver_row sliver_row_of(const char* scalar_name, double size, double aspect, in
     const wide_vector along = widened<Space>(b) - widened<Space>(a);
     const wide_vector aside = widened<Space>(c) - widened<Space>(a);
     const wide_vector exact = ph::space<wide, 3>::cross(along, aside);
-    const wide_vector shown = widened<Space>(t.outward());
+    const wide_vector shown = widened<Space>(t.at(point).outward());
     if (!shown.allFinite()) ++row.not_finite;
     const wide error = angle_between(exact.normalized(), shown.normalized());
     row.largest_error = std::fmax(row.largest_error, static_cast<double>(error));
@@ -90,9 +97,9 @@ normal_row normal_row_of(const char* scalar_name, double apart, int each) {
   using vector = typename Space::vector;
   normal_row row{.scalar = scalar_name, .apart = apart};
   sim::random_source random(11);
-  const auto rate = scalar(4), dt = scalar(1e-3);
-  const wide most = wide(rate) * wide(dt);
-  const ph::rotate_limited<Space> turner{.rate = rate};
+  const auto dt = scalar(1e-3);
+  const wide most = wide(turn_rate) * wide(dt);
+  const ph::part_at<ph::turn_limited, Space> turner(ph::turn_limited{.rate = turn_rate});
   for (int i = 0; i < each; ++i) {
     const auto first = random.direction<Space>();
     const auto aside = sim::physical<Space>::orthogonal(first);
@@ -117,17 +124,10 @@ normal_row normal_row_of(const char* scalar_name, double apart, int each) {
 template <class Space, class Bound>
 attack_row attack_of(const char* scalar_name, const char* name, const Bound& bound, double aspect,
                      int runs) {
-  using scalar = typename Space::scalar;
-  const ph::local_model model{Space{},
-                              ph::following<ph::triangle<Space>>{},
-                              ph::rotate_limited<Space>{.rate = scalar(4)},
-                              ph::spring<Space>{},
-                              ph::reduced_energy<Space>{.damping = scalar(0.03)},
-                              bound};
   attack_row row{scalar_name, name + ex::format(", aspect %g", aspect)};
   const lay_sliver<Space> lay{0.04, aspect};
   for (const auto by : {sim::adversary::flipping_normal, sim::adversary::kitchen_sink}) {
-    const auto v = sim::challenge(model, by, {}, runs, 1, lay);
+    const auto v = sim::challenge(on_triangle<Space>(bound), by, {}, runs, 1, lay);
     row.least_energy = std::fmin(row.least_energy, v.least_energy);
     row.largest_force = std::fmax(row.largest_force, v.largest_force);
   }
@@ -160,77 +160,78 @@ std::vector<normal_row> turns(int each) {
 std::vector<attack_row> attacks_on_slivers(int runs) {
   std::vector<attack_row> rows;
   for (const double aspect : {1.0, 1e2, 1e4}) {
-    rows.push_back(attack_of<f3>("float", "strict_bound", ph::strict_bound<f3>{}, aspect, runs));
-    rows.push_back(attack_of<d3>("double", "strict_bound", ph::strict_bound<d3>{}, aspect, runs));
+    rows.push_back(attack_of<f3>("float", "strict_bound", ph::strict_bound{}, aspect, runs));
+    rows.push_back(attack_of<d3>("double", "strict_bound", ph::strict_bound{}, aspect, runs));
   }
-  rows.push_back(attack_of<d3>("double", "no_bound", ph::no_bound<d3>{}, 1.0, runs));
+  rows.push_back(attack_of<d3>("double", "no_bound", ph::no_bound{}, 1.0, runs));
   return rows;
+}
+
+static ex::record record_of(const sliver_row& r) {
+  return {{"scalar", r.scalar}, {"longest edge m", r.size},
+          {"aspect", r.aspect}, {"accepted", r.accepted},
+          {"of", r.tried},      {"largest error rad", r.largest_error},
+          {"silent", r.silent}, {"not finite", r.not_finite}};
+}
+static ex::record record_of(const normal_row& r) {
+  return {{"scalar", r.scalar},         {"apart rad", r.apart, "%.10g"},
+          {"arrived", r.arrived},       {"of", r.tried},
+          {"speed", r.fastest, "%.6f"}, {"largest | |n| - 1 |", r.longest_error}};
+}
+static ex::record record_of(const attack_row& r) {
+  return {{"scalar", r.scalar},
+          {"bound", r.what},
+          {"least true energy J", r.least_energy},
+          {"largest force N", r.largest_force}};
+}
+
+/// "slivers, scalar float, aspect 100, ...": all of a row that failed.
+template <class Row>
+static std::string described(std::string text, const Row& row) {
+  for (const auto& f : record_of(row)) text += ", " + f.name + ' ' + f.shown;
+  return text;
 }
 
 std::vector<std::string> run_shapes(const session& s) {
   const int each = s.chosen.quick ? 100 : 2000;
-  std::vector<std::string> found, json;
-  const auto number = [](double x) { return ex::format("%.3g", x); };
-
+  std::vector<std::string> found;
   s.out.section("Slivers",
                 "Triangles of any direction, longest edge over height. Refused: the "
                 "height is lost in rounding (event rejected target, the last good one "
                 "stays). Error: of an accepted triangle's normal, against 64 bits.");
-  ex::table thin({"scalar", "longest edge m", "aspect", "accepted", "of", "largest error rad",
-                  "silent", "not finite"});
-  for (const auto& r : slivers(each)) {
-    thin.add({r.scalar, number(r.size), number(r.aspect), std::to_string(r.accepted),
-              std::to_string(r.tried), number(r.largest_error), std::to_string(r.silent),
-              std::to_string(r.not_finite)});
-    json.push_back(ex::json_object({{"scalar", ex::json_string(r.scalar)},
-                                    {"size_m", ex::json_number(r.size)},
-                                    {"aspect", ex::json_number(r.aspect)},
-                                    {"accepted", std::to_string(r.accepted)},
-                                    {"tried", std::to_string(r.tried)},
-                                    {"largest_error_rad", ex::json_number(r.largest_error)}}));
-    if (r.silent + r.not_finite > 0) {
-      found.push_back("slivers, " + std::string(r.scalar) + ", aspect " + number(r.aspect) + ": " +
-                      std::to_string(r.silent) + " silent, " + std::to_string(r.not_finite) +
-                      " not finite");
-    }
+  const auto thin = slivers(each);
+  for (const auto& r : thin) {
+    if (r.silent + r.not_finite > 0) found.push_back(described("slivers", r));
   }
-  s.out.show(thin);
-  s.out.member("slivers", ex::json_array(json));
+  s.out.show(ex::table_of(thin));
+  s.out.member("slivers", ex::json_of(thin));
 
   s.out.section("Normals",
-                "rotate_limited at 4 rad/s, 1 ms, from one direction to another. speed: "
+                "turn_limited at 4 rad/s, 1 ms, from one direction to another. speed: "
                 "the largest turn of a step over rate·dt.");
-  ex::table turned({"scalar", "apart rad", "arrived", "of", "speed", "largest | |n| - 1 |"});
-  for (const auto& r : turns(each / 20 + 5)) {
-    const bool single = std::string(r.scalar) == "float";
-    const double eps = single ? 1.2e-7 : 2.3e-16;
-    turned.add({r.scalar, ex::format("%.10g", r.apart), std::to_string(r.arrived),
-                std::to_string(r.tried), ex::format("%.6f", r.fastest), number(r.longest_error)});
+  const auto turned = turns(each / 20 + 5);
+  for (const auto& r : turned) {
+    const double eps = std::string(r.scalar) == "float" ? 1.2e-7 : 2.3e-16;
     // Normals round by ε or so, which is 3e-5 of a step of 4 mrad in float.
     if (r.arrived < r.tried || !(r.fastest <= 1.0 + 4.0 * eps / 4e-3) ||
         !(r.longest_error <= 2.0 * eps)) {
-      found.push_back("normals, " + std::string(r.scalar) + ", apart " + number(r.apart) +
-                      ": arrived " + std::to_string(r.arrived) + " of " + std::to_string(r.tried) +
-                      ", speed " + ex::format("%.6f", r.fastest));
+      found.push_back(described("normals", r));
     }
   }
-  s.out.show(turned);
+  s.out.show(ex::table_of(turned));
 
   s.out.section("Attacks on slivers",
-                "Flipping normals and the kitchen sink against triangle + rotate_limited + spring. "
+                "Flipping normals and the kitchen sink against triangle + turn_limited + spring. "
                 "no_bound is the control: it must be seen losing.");
-  ex::table attacked({"scalar", "bound", "least true energy J", "largest force N"});
-  for (const auto& r : attacks_on_slivers(s.chosen.quick ? 30 : 1000)) {
-    attacked.add({r.scalar, r.what, number(r.least_energy), number(r.largest_force)});
+  const auto attacked = attacks_on_slivers(s.chosen.quick ? 30 : 1000);
+  for (const auto& r : attacked) {
     const bool is_control = r.what.rfind("no_bound", 0) == 0;
     const bool held = r.least_energy >= -1e-12;
     if (held == is_control || !(r.largest_force > 0.0)) {
-      found.push_back("attacks on slivers, " + std::string(r.scalar) + ", " + r.what +
-                      ": least energy " + number(r.least_energy) + " J, largest force " +
-                      number(r.largest_force) + " N");
+      found.push_back(described("attacks on slivers", r));
     }
   }
-  s.out.show(attacked);
+  s.out.show(ex::table_of(attacked));
   return found;
 }
 

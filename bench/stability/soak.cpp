@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "soak.hpp"
+#include "parts.hpp"
+#include <passive_haptics/simulation/loop.hpp>
+#include <passive_haptics/simulation/prescribed_motion.hpp>
 
-#include "../common/work.hpp"
-#include <passive_haptics/passive_haptics.hpp>
-
-#include <cmath>
+#include <functional>
 
 namespace stability {
 
@@ -12,10 +11,9 @@ namespace {
 
 using controllers::d1;
 using controllers::f1;
-template <class Space>
-using compensated = ph::reduced_energy<Space, ph::isotropic_damping<Space>,
-                                       ph::compensated_sum<typename Space::scalar>>;
+namespace sim = ph::simulation;
 constexpr const char* control = "float, to nearest (control)";
+constexpr double b = 0x1p-5, T = 0x1p-10;  // [N·s/m], [s]
 
 /// Where the hand goes: positions that float and double both show exactly, so that all drift is the
 /// ledger's own.
@@ -53,7 +51,7 @@ class hand {
     }
   }
 
-  double next(long long tick, double force) noexcept {
+  double next(int tick, double force) noexcept {
     if (kind_ != motion::leeching || tick < period) {
       return turn_[static_cast<std::size_t>(tick % period)];
     }
@@ -71,118 +69,101 @@ class hand {
 };
 
 /// The ledger as it would be without care: rounded to nearest. The control.
-template <class Space>
-struct careless_energy : ph::reduced_energy<Space> {
-  using scalar = typename Space::scalar;
-  using vector = typename Space::vector;
-  constexpr bool update(const vector& displacement, const vector& held, scalar dt) noexcept {
-    this->energy += this->damping.dissipated(displacement, dt) - Space::dot(held, displacement);
+struct careless_energy {
+  static constexpr auto passivity = ph::guarantee::strict;
+  static constexpr bool counts = true, exact = true;
+  ph::part_at<ph::isotropic_damping, f1> b;
+  float energy = 0.0F;
+
+  bool update(float dx, float held, float dt) noexcept {
+    energy += b.dissipated(dx, dt) - held * dx;
     return true;
   }
+  void forfeit(float /*held*/, float /*T*/) noexcept {}
+  [[nodiscard]] float value() const noexcept { return energy; }
+  [[nodiscard]] const auto& damping() const noexcept { return b; }
 };
 
-template <class Scalar, class Observer>
-std::vector<soak_row> run(const char* name, motion kind, long long ticks) {
-  using line = ph::space<Scalar, 1>;
-  Observer observer;
-  observer.damping = Scalar(0.03125);
-  ph::local_model model{line{},
-                        ph::rigid{ph::half_space<line>{Scalar(0), Scalar(-1), Scalar(1000)}},
-                        ph::snap<line>{},
-                        ph::spring<line>{},
+template <class Space, class Observer>
+std::vector<soak_row> run(const char* name, motion kind, int ticks, const Observer& observer) {
+  using scalar = typename Space::scalar;
+  ph::local_model model{Space{},
+                        ph::fixed{ph::half_space<Space>{scalar(0), scalar(-1), scalar(1000)}},
+                        ph::turn_at_once{},
+                        ph::spring{},
                         observer,
-                        ph::strict_bound<line>{},
-                        ph::loop_limits<line>{.longest_tick = Scalar(0x1p-10)}};
-  constexpr double dt = 0x1p-10, b = 0.03125;
+                        ph::strict_bound{},
+                        ph::loop_limits{.longest_tick = T, .top_speed = 100.0}};
+  sim::prescribed_motion<Space> device({.damping = b, .period = T});
   hand h(kind);
-  ph::compensated_sum<double> truth;
-  soak_row row;
-  row.ledger = name;
-  row.motion = to_string(kind);
-  row.unit = static_cast<double>(std::numeric_limits<Scalar>::epsilon()) / 2.0;
+  soak_row row{.ledger = name,
+               .motion = to_string(kind),
+               .unit = static_cast<double>(std::numeric_limits<scalar>::epsilon()) / 2.0};
   std::vector<soak_row> rows;
-  double last = 0.0, force = 0.0;
-  long long report = 1000;
-  for (long long n = 0; n < ticks; ++n) {
-    const double x = n == 0 ? 0.0 : h.next(n, force);
-    const auto out = model.tick(static_cast<Scalar>(x), static_cast<Scalar>(dt));
-    const double travel = x - last;
-    const double damped = b * travel * travel / dt, work = force * travel;
-    truth += damped;
-    truth += -work;
-    last = x;
-    force = static_cast<double>(out.force);
-    const double energy = truth;
-    row.least_energy = std::fmin(row.least_energy, energy);
-    row.drift = static_cast<double>(out.energy) - energy;
-    row.bank = static_cast<double>(out.energy);
+  int report = 1000;
+  sim::run(device, model, ticks, sim::idle, [&](const auto& now) {
+    row.bank = static_cast<double>(now.out.energy);
+    row.drift = row.bank - device.meter().value();
+    row.least_energy = device.meter().minimum();
     row.overstated = std::fmax(row.overstated, row.drift);
-    if (n + 1 == report || n + 1 == ticks) {
-      row.ticks = n + 1;
-      rows.push_back(row);
-      report *= 10;
-    }
-  }
+    row.ticks = now.tick + 1;
+    if (row.ticks == report || row.ticks == ticks) rows.push_back(row);
+    if (row.ticks == report) report = report > ticks / 10 ? ticks : report * 10;
+    device.move_to(h.next(row.ticks, static_cast<double>(now.force)));
+  });
   return rows;
 }
 
 void plot(const session& s, const std::vector<soak_row>& rows) {
-  std::string commands =
-      "set logscale xy\nset format y '%.0e'\nset xlabel 'ticks'\nset ylabel '|drift| [J]'\nplot ";
-  int files = 0;
-  for (const char* m : {"pressing", "waving", "leeching"}) {
-    for (const char* ledger : {control, "float", "float, compensated", "double"}) {
-      const std::string file = "soak_" + std::to_string(files) + ".csv";
-      ex::csv_file curve(s.out.path(file), "ticks,drift J");
-      for (const auto& r : rows) {
-        if (r.motion != m || r.ledger != ledger) continue;
-        curve.line(std::to_string(r.ticks) + ',' +
-                   ex::format("%.6g", std::fmax(std::abs(r.drift), 1e-20)));
-      }
-      curve.close();
-      commands += std::string(files++ == 0 ? "" : ", ") + "'" + file +
-                  "' using 1:2 with linespoints title '" + m + ", " + ledger + "'";
-    }
+  std::map<std::string, std::string> lines;
+  for (const auto& r : rows) {
+    if (r.ledger == "double, compensated") continue;
+    lines[std::string(r.motion) + ", " + r.ledger] +=
+        std::to_string(r.ticks) + ex::format(",%.6g\n", std::fmax(std::abs(r.drift), 1e-20));
   }
-  s.out.plot("soak",
-             "Drift of the ledger from the true energy against ticks; only the control's is "
-             "ever upwards",
-             commands);
+  s.out.plot(
+      "soak",
+      "Drift of the ledger from the true energy against ticks; only the control's is "
+      "ever upwards",
+      "set logscale xy\nset format y '%.0e'\nset xlabel 'ticks'\nset ylabel '|drift| [J]'\n" +
+          ex::curves(lines));
 }
 
 }  // namespace
 
-std::vector<soak_row> soak(long long ticks, int threads) {
-  struct job {
-    const char* name;
-    motion kind;
-    std::vector<soak_row> (*run)(const char*, motion, long long);
-  };
-  std::vector<job> jobs;
+std::vector<soak_row> soak(int ticks, int threads) {
+  using compensated = ph::basic_reduced_energy<ph::isotropic_damping, ph::ledger_sum::compensated>;
+  const ph::reduced_energy plain{.damping = b};
+  const compensated careful{.damping = b};
+  const careless_energy careless{.b = ph::part_at<ph::isotropic_damping, f1>(b)};
+  std::vector<std::function<std::vector<soak_row>()>> jobs;
   for (const auto kind : {motion::pressing, motion::waving, motion::leeching}) {
-    jobs.push_back({control, kind, run<float, careless_energy<f1>>});
-    jobs.push_back({"float", kind, run<float, ph::reduced_energy<f1>>});
-    jobs.push_back({"float, compensated", kind, run<float, compensated<f1>>});
-    jobs.push_back({"double", kind, run<double, ph::reduced_energy<d1>>});
-    jobs.push_back({"double, compensated", kind, run<double, compensated<d1>>});
+    jobs.push_back([=] { return run<f1>(control, kind, ticks, careless); });
+    jobs.push_back([=] { return run<f1>("float", kind, ticks, plain); });
+    jobs.push_back([=] { return run<f1>("float, compensated", kind, ticks, careful); });
+    jobs.push_back([=] { return run<d1>("double", kind, ticks, plain); });
+    jobs.push_back([=] { return run<d1>("double, compensated", kind, ticks, careful); });
   }
   std::vector<soak_row> rows;
   const std::atomic<bool> never = false;
   ex::work_through(
       static_cast<int>(jobs.size()), threads, never,
-      [&](int i) {
-        const job& j = jobs[static_cast<std::size_t>(i)];
-        return j.run(j.name, j.kind, ticks);
-      },
+      [&](int i) { return jobs[static_cast<std::size_t>(i)](); },
       [&](int, const std::vector<soak_row>& some) {
         rows.insert(rows.end(), some.begin(), some.end());
       });
   return rows;
 }
 
+static ex::record record_of(const soak_row& r) {
+  return {{"motion", r.motion}, {"ledger", r.ledger},           {"ticks", r.ticks},
+          {"drift J", r.drift}, {"overstated J", r.overstated}, {"least energy J", r.least_energy},
+          {"bank J", r.bank}};
+}
+
 std::vector<std::string> run_soak(const session& s) {
-  const long long ticks = s.chosen.soak > 0 ? s.chosen.soak : s.chosen.quick ? 1000000 : 10000000;
-  const auto rows = soak(ticks, s.chosen.threads);
+  const int ticks = s.chosen.soak > 0 ? s.chosen.soak : s.chosen.quick ? 1000000 : 10000000;
+  const auto rows = soak(ticks, s.threads);
   s.out.section(
       "Soak",
       "strict_bound on a 1 kN/m wall, b 1/32 N·s/m, T 1/1024 s, in virtual time. drift: "
@@ -191,39 +172,23 @@ std::vector<std::string> run_soak(const session& s) {
       "the time; leeching: a bank filled once, then outward steps whose energy is below "
       "half of its last digit in float. A ledger that overstates fails the program; the "
       "control, which only rounds to nearest, must.");
-  ex::table shown(
-      {"motion", "ledger", "ticks", "drift J", "overstated J", "least true energy J", "bank J"});
-  std::vector<std::string> json, found;
-  ex::csv_file csv(s.out.path("soak.csv"),
-                   "motion,ledger,ticks,drift J,overstated J,least energy J,bank J");
+  ex::write_csv(s.out, "soak.csv", rows, "%.3g");
+  std::vector<std::string> found;
   double caught = 0.0;
   for (const auto& r : rows) {
-    const auto number = [](double x) { return ex::format("%.3g", x); };
-    csv.line(r.motion + ",\"" + r.ledger + "\"," + std::to_string(r.ticks) + ',' + number(r.drift) +
-             ',' + number(r.overstated) + ',' + number(r.least_energy) + ',' + number(r.bank));
-    json.push_back(ex::json_object({{"motion", ex::json_string(r.motion)},
-                                    {"ledger", ex::json_string(r.ledger)},
-                                    {"ticks", std::to_string(r.ticks)},
-                                    {"drift_J", ex::json_number(r.drift)},
-                                    {"overstated_J", ex::json_number(r.overstated)},
-                                    {"least_energy_J", ex::json_number(r.least_energy)},
-                                    {"bank_J", ex::json_number(r.bank)}}));
     if (r.ledger == control) {
       caught = std::fmax(caught, r.overstated);
     } else if (r.overstated > r.unit * r.bank || r.least_energy < 0.0) {
-      found.push_back("soak, " + r.motion + ", " + r.ledger + ", " + std::to_string(r.ticks) +
-                      " ticks: overstated by " + number(r.overstated) + " J, least energy " +
-                      number(r.least_energy) + " J");
-    }
-    if (r.ticks == ticks) {
-      shown.add({r.motion, r.ledger, std::to_string(r.ticks), number(r.drift), number(r.overstated),
-                 number(r.least_energy), number(r.bank)});
+      found.push_back(std::string("soak, ") + r.motion + ", " + r.ledger + ", " +
+                      std::to_string(r.ticks) + " ticks: overstated by " +
+                      ex::format("%.3g", r.overstated) + " J, least energy " +
+                      ex::format("%.3g", r.least_energy) + " J");
     }
   }
-  csv.close();
   if (!(caught > 1e-6)) found.push_back("soak: the control was not caught overstating");
-  s.out.show(shown);
-  s.out.member("soak", ex::json_array(json));
+  s.out.show(ex::table_of(
+      rows, [ticks](const soak_row& r) { return r.ticks == ticks ? record_of(r) : ex::record{}; }));
+  s.out.member("soak", ex::json_of(rows));
   plot(s, rows);
   return found;
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sweep.hpp"
-
-#include "../common/work.hpp"
+#include "parts.hpp"
 
 #include <map>
 
@@ -10,6 +8,16 @@ namespace stability {
 namespace {
 
 using controllers::controller;
+
+bool has(unsigned events, ph::event e) noexcept {
+  return (events >> static_cast<unsigned>(e) & 1U) != 0;
+}
+/// Is one of them that tells of a lost guarantee or of bad input?
+bool reported(unsigned events) noexcept {
+  using enum ph::event;
+  return has(events, debt) || has(events, late_tick) || has(events, rejected_target) ||
+         has(events, rejected_sample) || has(events, rejected_parameters);
+}
 
 /// A controller in one Space: all its cells, one after the other.
 struct job {
@@ -24,8 +32,9 @@ std::vector<job> jobs_of(const std::vector<controller>& all) {
   for (const auto& c : all) {
     list.push_back({&c, "float", 1, judge<controllers::f1>});
     list.push_back({&c, "double", 1, judge<controllers::d1>});
-    if (c.in_3_float) list.push_back({&c, "float", 3, judge<controllers::f3>});
-    if (c.in_3) list.push_back({&c, "double", 3, judge<controllers::d3>});
+    if (!c.in<controllers::d3>()) continue;
+    list.push_back({&c, "float", 3, judge<controllers::f3>});
+    list.push_back({&c, "double", 3, judge<controllers::d3>});
   }
   return list;
 }
@@ -63,10 +72,6 @@ std::vector<row> work(const job& j, bool quick) {
   return rows;
 }
 
-std::string yes(bool b) {
-  return b ? "yes" : "no";
-}
-
 std::string events_text(unsigned events) {
   std::string text;
   for (unsigned e = 1; e <= static_cast<unsigned>(ph::event::rejected_parameters); ++e) {
@@ -76,22 +81,11 @@ std::string events_text(unsigned events) {
   return text;
 }
 
-std::string csv_line(const row& r) {
-  const auto number = [](double x) { return ex::format("%.6g", x); };
-  return '"' + r.controller + "\"," + to_string(r.tag) + ',' + r.scalar + ',' +
-         std::to_string(r.dof) + ",\"" + r.where.axis + "\",\"" + r.where.value + "\"," +
-         yes(r.found.stable) + ',' + yes(r.found.margin >= 0.0) + ',' + yes(r.found.finite) + ',' +
-         yes(reported(r.found.events)) + ',' + to_string(r.says) + ",\"" + r.why + "\"," +
-         number(r.found.least_energy) + ',' + number(r.found.slack) + ',' +
-         number(r.found.blurred) + ',' + number(r.found.exchanged) + ',' +
-         number(r.found.largest_force) + ',' + number(r.found.swing) + ",\"" +
-         events_text(r.found.events) + '"';
-}
-
 /// Numbers of cells by verdict, and what goes with it.
 struct tally {
+  ex::record key;  ///< what its cells have in common
   int cells = 0, stable = 0, passive = 0, finite = 0, told = 0;
-  std::map<verdict, int> verdicts;
+  std::map<verdict, int> verdicts{};
   double strained = 0.0;
 
   void add(const row& r) {
@@ -103,136 +97,72 @@ struct tally {
     ++verdicts[r.says];
     strained = std::fmax(strained, strain(r));
   }
-  [[nodiscard]] int of(verdict v) const {
-    const auto it = verdicts.find(v);
-    return it == verdicts.end() ? 0 : it->second;
-  }
-  [[nodiscard]] std::vector<std::string> columns() const {
+  [[nodiscard]] ex::record columns() const {
+    const auto of = [this](verdict v) { return verdicts.contains(v) ? verdicts.at(v) : 0; };
     const int failed = of(verdict::lost) + of(verdict::no_number) + of(verdict::silent);
-    std::vector<std::string> all;
-    for (const int n :
-         {cells, stable, passive, finite, told, of(verdict::holds), of(verdict::refused),
-          of(verdict::told), of(verdict::outside), of(verdict::no_claim), failed}) {
-      all.push_back(std::to_string(n));
+    ex::record all = key;
+    all.emplace_back("cells", cells);
+    all.emplace_back("stable", stable);
+    all.emplace_back("passive", passive);
+    all.emplace_back("finite", finite);
+    all.emplace_back("event", told);
+    for (const auto v :
+         {verdict::holds, verdict::refused, verdict::told, verdict::outside, verdict::no_claim}) {
+      all.emplace_back(to_string(v), of(v));
     }
+    all.emplace_back("LOST, NaN, silent", failed);
     return all;
   }
 };
 
-const std::vector<std::string> tally_heading{"cells",   "stable",   "passive",          "finite",
-                                             "event",   "holds",    "refused",          "told",
-                                             "outside", "no claim", "LOST, NaN, silent"};
-
-ex::table table_of(const std::vector<std::string>& keys,
-                   const std::vector<std::pair<std::vector<std::string>, tally>>& lines) {
-  std::vector<std::string> heading = keys;
-  heading.insert(heading.end(), tally_heading.begin(), tally_heading.end());
-  ex::table shown(heading);
-  for (const auto& [key, sum] : lines) {
-    std::vector<std::string> line = key;
-    for (const auto& column : sum.columns()) line.push_back(column);
-    shown.add(line);
-  }
-  return shown;
-}
-
 /// Sums over rows with the same key, in order of first appearance.
 template <class Key>
-std::vector<std::pair<std::vector<std::string>, tally>> grouped(const std::vector<row>& rows,
-                                                                Key key) {
-  std::vector<std::pair<std::vector<std::string>, tally>> lines;
-  std::map<std::vector<std::string>, std::size_t> where;
+std::vector<tally> grouped(const std::vector<row>& rows, Key key) {
+  std::vector<tally> all;
+  std::map<std::string, std::size_t> where;
   for (const row& r : rows) {
-    const auto k = key(r);
-    const auto [it, fresh] = where.emplace(k, lines.size());
-    if (fresh) lines.emplace_back(k, tally{});
-    lines[it->second].second.add(r);
+    const ex::record common = key(r);
+    const auto [it, fresh] = where.emplace(ex::csv_line(common), all.size());
+    if (fresh) all.push_back({common});
+    all[it->second].add(r);
   }
-  return lines;
+  return all;
 }
 
-std::string json_of(const std::vector<std::pair<std::vector<std::string>, tally>>& lines) {
-  std::vector<std::string> items;
-  for (const auto& [key, sum] : lines) {
-    std::vector<std::pair<std::string, std::string>> members{
-        {"controller", ex::json_string(key[0])},
-        {"tag", ex::json_string(key[1])},
-        {"scalar", ex::json_string(key[2])},
-        {"greatest_strain", ex::json_number(sum.strained)}};
-    const auto columns = sum.columns();
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      members.emplace_back(tally_heading[i], columns[i]);
-    }
-    items.push_back(ex::json_object(members));
-  }
-  return ex::json_array(items);
-}
-
-/// Swing against stiffness, a column for each of a few controllers, in double and one dimension.
+/// Swing against stiffness, a line for each of a few controllers, in double and one dimension.
 void plot_swing(const session& s, const std::vector<row>& rows) {
-  const std::vector<std::string> shown{
-      "none", "strict FBA", "thesis", "reachable", "damped spring + reachable", "PO/PC"};
-  std::string heading = "K N/m";
-  for (const auto& name : shown) heading += ',' + name;
-  ex::csv_file csv(s.out.path("swing.csv"), heading);
-  std::map<double, std::map<std::string, double>> at;
+  std::map<std::string, std::string> lines;
   for (const row& r : rows) {
-    if (r.where.axis == "K N/m" && std::string(r.scalar) == "double" && r.dof == 1) {
-      at[r.where.stiffness][r.controller] = r.found.swing;
+    const bool shown = r.where.axis == "K N/m" && std::string(r.scalar) == "double" && r.dof == 1;
+    if (!shown) continue;
+    for (const char* name :
+         {"none", "strict FBA", "thesis", "reachable", "damped spring + reachable", "PO/PC"}) {
+      if (r.controller != name) continue;
+      lines[name] += ex::format("%g", r.where.stiffness) +
+                     ex::format(",%.4g\n", std::fmin(std::fmax(r.found.swing, 1e-3), 1e12));
     }
   }
-  for (const auto& [K, by] : at) {
-    std::string line = ex::format("%g", K);
-    for (const auto& name : shown) {
-      const auto it = by.find(name);
-      const double swing = it == by.end() ? 0.0 : it->second;
-      line += ',' + ex::format("%.4g", std::fmin(std::fmax(swing, 1e-3), 1e12));
-    }
-    csv.line(line);
-  }
-  csv.close();
   s.out.plot("swing",
              "A mass falling onto the wall: most mechanical energy of the second half of the run "
              "over the first, against stiffness (b 0.03 N·s/m, T 1 ms, 0.1 kg; above 1 it gains)",
-             "set logscale xy\nset xlabel 'K [N/m]'\nset ylabel 'energy, last over first'\n"
-             "plot for [i=2:" +
-                 std::to_string(shown.size() + 1) +
-                 "] 'swing.csv' using 1:i with linespoints lw 2, 1 with lines dt 2 lc 'black' "
-                 "title 'no gain'");
+             "set logscale xy\nset xlabel 'K [N/m]'\nset ylabel 'energy, last over first'\n" +
+                 ex::curves(lines) + ", 1 with lines dt 2 lc 'black' title 'no gain'");
 }
 
 }  // namespace
 
 const char* to_string(verdict v) noexcept {
-  switch (v) {
-    case verdict::holds:
-      return "holds";
-    case verdict::refused:
-      return "refused";
-    case verdict::told:
-      return "told";
-    case verdict::outside:
-      return "outside";
-    case verdict::no_claim:
-      return "no claim";
-    case verdict::lost:
-      return "LOST";
-    case verdict::no_number:
-      return "NO NUMBER";
-    case verdict::silent:
-      return "SILENT";
-  }
-  return "unknown verdict";
+  constexpr std::array names{"holds",    "refused", "told",      "outside",
+                             "no claim", "LOST",    "NO NUMBER", "SILENT"};
+  return names[static_cast<std::size_t>(v)];
 }
 
 std::string why_outside(const controller& c, const world& w, const outcome& found) {
   if (w.clock == clockwork::missed_and_held) return "a late tick with no watchdog";
-  if (!c.covers.any_clock && w.clock != clockwork::steady) return "ticks that vary";
-  if (ph::kernels::is_finite(c.covers.stiffest) && w.stiffness > 2.0 * w.damping / w.tick) {
-    return "stiffer than 2b/T";
-  }
-  if (!c.covers.any_motion && w.damping * w.tick > 0.1 * w.mass) return "b T/m > 0.1";
-  if (!c.covers.rounding && found.blurred > 1e-3 * found.exchanged && found.blurred > 1e-12) {
+  if (c.needs_known_hands() && w.clock != clockwork::steady) return "ticks that vary";
+  if (c.proved_up_to > 0.0 && w.stiffness > 2.0 * w.damping / w.tick) return "stiffer than 2b/T";
+  if (c.needs_known_hands() && w.damping * w.tick > 0.1 * w.mass) return "b T/m > 0.1";
+  if (!c.knows_steps && found.blurred > 1e-3 * found.exchanged && found.blurred > 1e-12) {
     return "position resolution";
   }
   return {};
@@ -245,7 +175,7 @@ row judged(const controller& c, const char* scalar, int dof, const world& w, con
   } else if (found.refused) {
     const bool said = has(found.events, ph::event::rejected_parameters);
     r.says = said && !(found.largest_force > 0.0) ? verdict::refused : verdict::silent;
-  } else if (c.tag == ph::guarantee::none) {
+  } else if (!c.promises()) {
     r.says = verdict::no_claim;
   } else {
     r.why = why_outside(c, w, found);
@@ -260,27 +190,41 @@ row judged(const controller& c, const char* scalar, int dof, const world& w, con
   return r;
 }
 
-std::vector<std::string> run_sweep(const session& s) {
-  const auto jobs = jobs_of(s.judged);
-  std::vector<row> rows;
-  ex::csv_file csv(s.out.path("stability.csv"),
-                   "controller,tag,scalar,dof,axis,value,stable,passive,finite,event,verdict,why,"
-                   "least energy J,rounding slack J,position slack J,exchanged J,largest force N,"
-                   "swing,events");
-  ex::progress bar("stability", static_cast<int>(jobs.size()));
-  const std::atomic<bool> never = false;
-  ex::work_through(
-      static_cast<int>(jobs.size()), s.chosen.threads, never,
-      [&](int i) { return work(jobs[static_cast<std::size_t>(i)], s.chosen.quick); },
-      [&](int, std::vector<row> some) {
-        for (row& r : some) {
-          csv.line(csv_line(r));
-          rows.push_back(std::move(r));
-        }
-        bar.step();
-      });
-  csv.close();
+static ex::record record_of(const row& r) {
+  return {{"controller", r.controller},
+          {"tag", to_string(r.tag)},
+          {"scalar", r.scalar},
+          {"dof", r.dof},
+          {"axis", r.where.axis},
+          {"value", r.where.value},
+          {"stable", r.found.stable},
+          {"passive", r.found.margin >= 0.0},
+          {"finite", r.found.finite},
+          {"event", reported(r.found.events)},
+          {"verdict", to_string(r.says)},
+          {"why", r.why},
+          {"least energy J", r.found.least_energy},
+          {"rounding slack J", r.found.slack},
+          {"position slack J", r.found.blurred},
+          {"exchanged J", r.found.exchanged},
+          {"largest force N", r.found.largest_force},
+          {"swing", r.found.swing},
+          {"events", events_text(r.found.events)}};
+}
 
+/// What is outside, by the reason.
+struct reason {
+  std::string why;
+  int cells = 0, lost = 0;
+};
+static ex::record record_of(const reason& r) {
+  return {{"why", r.why.c_str()}, {"cells", r.cells}, {"lost there", r.lost}};
+}
+
+std::vector<std::string> run_sweep(const session& s) {
+  const auto rows = s.rows(
+      "stability.csv", "stability", jobs_of(s.judged),
+      [&s](const job& j) { return work(j, s.chosen.quick); }, "%.6g");
   s.out.section(
       "Stiff and extreme cells",
       "Every controller of the catalogue, float and double, 1 and 3 dimensions. stable: a mass "
@@ -288,37 +232,30 @@ std::vector<std::string> run_sweep(const session& s) {
       "zero than rounding explains, derived run by run. finite: every number that came out. event: "
       "one told of debt, lateness or refusal. holds: the tag covers the cell and nothing was lost. "
       "refused: check() names the parameter. told: a late tick, reported. outside: the tag does "
-      "not "
-      "cover the cell, stability.csv says why. The last column fails the program.");
+      "not cover the cell, stability.csv says why. The last column fails the program.");
   const auto by_controller = grouped(rows, [](const row& r) {
-    return std::vector<std::string>{r.controller, to_string(r.tag), r.scalar};
+    return ex::record{
+        {"controller", r.controller}, {"tag", to_string(r.tag)}, {"scalar", r.scalar}};
   });
-  s.out.show(table_of({"controller", "tag", "scalar"}, by_controller));
+  const auto columns = [](const tally& t) { return t.columns(); };
+  s.out.show(ex::table_of(by_controller, columns));
   s.out.section("By axis",
                 "The same cells by what they vary; the rest is K 1e4 N/m, b 0.03 N·s/m, "
                 "T 1 ms, 0.1 kg, 1 mm at the origin.");
-  s.out.show(
-      table_of({"axis", "value"}, grouped(rows, [](const row& r) {
-                 const bool single = r.where.axis != "anywhere" && r.where.axis != "refined";
-                 return std::vector<std::string>{r.where.axis, single ? r.where.value : "random"};
-               })));
+  const auto by_axis = grouped(rows, [](const row& r) {
+    const bool single = r.where.axis != "anywhere" && r.where.axis != "refined";
+    return ex::record{{"axis", r.where.axis}, {"value", single ? r.where.value : "random"}};
+  });
+  s.out.show(ex::table_of(by_axis, columns));
   s.out.section("Outside, and why", "Cells of controllers with a tag that the tag does not cover.");
-  ex::table reasons({"why", "cells", "lost there"});
-  std::map<std::string, std::pair<int, int>> why;
-  for (const row& r : rows) {
-    if (r.why.empty()) continue;
-    ++why[r.why].first;
-    why[r.why].second += r.found.margin >= 0.0 ? 0 : 1;
-  }
-  for (const auto& [reason, n] : why) {
-    reasons.add({reason, std::to_string(n.first), std::to_string(n.second)});
-  }
-  s.out.show(reasons);
-  s.out.member("controllers", json_of(by_controller));
-  plot_swing(s, rows);
-
   std::vector<std::string> found;
+  std::map<std::string, reason> outside;
   for (const row& r : rows) {
+    if (!r.why.empty()) {
+      reason& why = outside.try_emplace(r.why, reason{r.why}).first->second;
+      ++why.cells;
+      why.lost += r.found.margin >= 0.0 ? 0 : 1;
+    }
     if (r.says != verdict::lost && r.says != verdict::no_number && r.says != verdict::silent) {
       continue;
     }
@@ -327,6 +264,15 @@ std::vector<std::string> run_sweep(const session& s) {
                     to_string(r.says) + ex::format(", least energy %.3g J", r.found.least_energy) +
                     ex::format(", explained by rounding %.3g J", r.found.slack + r.found.blurred));
   }
+  std::vector<reason> reasons;
+  for (const auto& [why, sum] : outside) reasons.push_back(sum);
+  s.out.show(ex::table_of(reasons));
+  s.out.member("controllers", ex::json_of(by_controller, [](const tally& t) {
+                 ex::record all = t.columns();
+                 all.emplace_back("greatest strain", t.strained);
+                 return all;
+               }));
+  plot_swing(s, rows);
   return found;
 }
 

@@ -3,6 +3,7 @@
 
 #include <passive_haptics/simulation/adversary.hpp>
 #include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 
 #include <cmath>
@@ -34,48 +35,54 @@ double spacing(double x) {
 template <class Space>
 class accounts {
  public:
+  using physical = sim::physical<Space>;
+  using state = typename physical::vector;
   using scalar = typename Space::scalar;
-  using state = typename sim::physical<Space>::vector;
 
-  accounts(const world& w, double quantum) : b_(w.damping), q_(quantum) {}
+  accounts(const world& w, double quantum, const state& start)
+      : last_(start), b_(w.damping), q_(quantum) {}
 
-  void book(double energy, double rubbed, const state& at, const state& travel, const state& held,
-            const state& next, double dt, const ph::tick_result<Space>& out) {
-    using physical = sim::physical<Space>;
+  /// A tick of length dt [s]: the device has come to `at`, and `out` is answered.
+  void book(const sim::port_energy_meter& meter, const state& at, double dt,
+            const ph::tick_result<Space>& out) {
+    const state next = sim::to_physical<Space>(out.force);
     if (q_ > 0.0) q_ = std::fmax(q_, spacing<scalar>(physical::norm(at)));
-    const double way = physical::norm(travel);
-    const double force = physical::norm(next);
-    const double before = physical::norm(held);
+    const double way = physical::norm(state(at - last_));
+    const double force = physical::norm(next), before = physical::norm(held_);
     const double damped = b_ * way * way / dt;
+    const double rubbed = meter.friction();  // zero where there is none
     const double ledger = std::abs(static_cast<double>(out.energy));
     const double u = static_cast<double>(std::numeric_limits<scalar>::epsilon()) / 2.0;
     result.slack += 16.0 * u * (damped + (force + before) * way + ledger + rubbed - rubbed_);
-    rubbed_ = rubbed;
 
     double change = 0.0;
     for (int i = 0; i < Space::dof; ++i) {
-      change += std::abs(sim::component(next, i) - sim::component(held, i));
+      change += std::abs(sim::component(next, i) - sim::component(held_, i));
     }
     summed_ += q_ / 2.0 * change + b_ / dt * Space::dof * (2.0 * way * q_ + q_ * q_);
-    strongest_ = std::fmax(strongest_, force);
-    result.blurred = summed_ + 2.0 * Space::dof * q_ * strongest_;
+    result.largest_force = std::fmax(result.largest_force, force);
+    result.blurred = summed_ + 2.0 * Space::dof * q_ * result.largest_force;
 
     result.exchanged += before * way + damped;
-    result.largest_force = std::fmax(result.largest_force, force);
     result.events |= 1U << static_cast<unsigned>(out.what);
-    result.finite = result.finite && Space::is_finite(out.force) &&
-                    ph::kernels::is_finite(out.depth) && ph::kernels::is_finite(out.energy);
+    result.finite =
+        result.finite && ph::kernels::is_finite(out.depth) && ph::kernels::is_finite(out.energy);
+    const double energy = rubbed > 0.0 ? meter.value() + rubbed : meter.minimum();
     if (!(energy >= result.least_energy)) result.least_energy = energy;
     const double truth = rubbed * 4.0 * std::numeric_limits<double>::epsilon();
     const double explained = energy + result.slack + result.blurred + truth;
     if (!(explained >= result.margin)) result.margin = explained;
+    last_ = at;
+    held_ = next;
+    rubbed_ = rubbed;
   }
 
   outcome result;
 
  private:
+  state last_, held_ = physical::zero();
   double b_, q_;
-  double summed_ = 0.0, strongest_ = 0.0, rubbed_ = 0.0;
+  double summed_ = 0.0, rubbed_ = 0.0;
 };
 
 /// The scene far from the origin: the model sees offset + local, rounded to its scalar; the physics
@@ -94,18 +101,11 @@ struct frame {
   }
 };
 
+/// The length of a tick, by the clock of the cell [s].
 double next_period(const world& w, int tick, sim::random_source& random) {
-  switch (w.clock) {
-    case clockwork::jitter:
-      return w.tick * random.uniform(0.5, 1.0);
-    case clockwork::missed:
-    case clockwork::missed_and_held:
-      return random.chance(0.02) ? w.tick * random.uniform(2.0, 20.0) : w.tick;
-    case clockwork::switching:
-      return tick / 50 % 2 == 0 ? w.tick : w.tick / 100.0;
-    default:
-      return w.tick;
-  }
+  if (w.clock == clockwork::switching && tick / 50 % 2 != 0) return w.tick / 100.0;
+  const bool misses = w.clock == clockwork::missed || w.clock == clockwork::missed_and_held;
+  return sim::erratic_clock{w.tick, w.clock == clockwork::jitter, misses}.next(random);
 }
 
 template <class Space>
@@ -115,52 +115,46 @@ sim::device_parameters<Space> device_of(const controller& c, const world& w) {
   p.damping = w.damping;
   p.friction = c.credits_friction ? dry_friction : 0.0;
   p.period = w.tick;
-  p.latency = c.covers.latency;
+  p.latency = c.latency;
   if (w.clock != clockwork::missed_and_held) p.watchdog = w.tick;
   return p;
 }
 
-/// The loop: world, sample, model, device. move(position, surface, command, period) is the hand.
+/// One run; move(surface, command, period, random) is the hand.
 template <class Space, class Device, class Move>
 outcome play(controllers::model<Space> model, Device& device, const world& w, double quantum,
              std::uint64_t seed, int ticks, bool updates, Move move) {
-  using state = typename sim::physical<Space>::vector;
-  using scalar = typename Space::scalar;
   const frame<Space> here{w.offset};
   sim::random_source random(seed);
   sim::surface_state<Space> surface{sim::physical<Space>::zero(), random.direction<Space>(),
                                     w.stiffness};
   const auto publish = [&] {
-    model.retarget({here.seen(surface.point), sim::to_port<Space>(surface.normal),
-                    static_cast<scalar>(surface.stiffness)});
+    model.update({here.seen(surface.point), sim::to_port<Space>(surface.normal),
+                  static_cast<typename Space::scalar>(surface.stiffness)});
   };
   publish();
   sim::erratic_sensor sensor{w.clock == clockwork::lost_samples};
-  accounts<Space> books(w, quantum);
-  state last = device.position(), held = sim::physical<Space>::zero();
-  auto sample = device.exchange(Space::zero());
-  for (int tick = 0; tick < ticks; ++tick) {
-    if (updates && tick % 25 == 24) {
+  accounts<Space> books(w, quantum, device.position());
+  double dt = 0.0;
+  const auto show = [&](auto& now) {
+    if (updates && now.tick % 25 == 24) {
       if (random.chance(0.5)) surface.normal = random.direction<Space>();
       surface.point = surface.normal * random.uniform(-w.size, w.size);
       surface.stiffness = random.chance(0.5) ? w.stiffness : w.stiffness / 10.0;
       publish();
     }
-    sample.position = here.seen(device.position());
-    const bool lost = sensor.loses_one(random);
-    const auto out = model.tick(lost ? ph::device_sample<Space>{} : sample);
-    const state force = sim::to_physical<Space>(out.force);
-    const double rubbed = device.meter().total().friction;  // zero where there is none
-    const double energy = rubbed > 0.0 ? device.meter().value() + rubbed : device.meter().minimum();
-    books.book(energy, rubbed, device.position(), state(device.position() - last), held, force,
-               static_cast<double>(sample.dt), out);
-    last = device.position();
-    held = force;
-    const double period = next_period(w, tick, random);
+    dt = static_cast<double>(now.sample.dt);
+    now.sample.position = here.seen(now.position);
+    if (sensor.loses_one(random)) now.sample = {};
+  };
+  const auto act = [&](const auto& now) {
+    books.book(device.meter(), now.position, dt, now.out);
+    const double period = next_period(w, now.tick, random);
     device.set_period(period);
-    move(surface, out.force, period, random);
-    sample = device.exchange(out.force);
-  }
+    move(surface, now.force, period, random);
+  };
+  const auto seen = sim::run(device, model, ticks, show, act);
+  if (seen.ticks < ticks) books.result.finite = false;  // the last force was no number
   return books.result;
 }
 
@@ -177,23 +171,16 @@ outcome attack_by_motion(const controllers::model<Space>& model, const controlle
                         sim::random_source& random) {
     const state x = device.position();
     const double farthest = std::fmin(w.size, 20.0 * period);  // slower than a sensor fault
+    const double speed = farthest / period;
     const state force = sim::to_physical<Space>(device.upcoming(command));
     const sim::adversary_view<Space> view{x,     surface.normal, surface.depth(x),
                                           force, period,         w.damping};
-    state next = x;
     nyquist.amplitude = farthest;
-    switch (seed % 3U) {
-      case 0:
-        next = nyquist.next(view, random);
-        break;
-      case 1:
-        next = sim::greedy_motion<Space>{.speed = farthest / period}.next(view, random);
-        break;
-      default:
-        next = sim::random_walk<Space>{.speed = farthest / period, .range = 2.0 * w.size}.next(
-            view, random);
-    }
-    next = here.shown_exactly(next);
+    const sim::greedy_motion<Space> greedy{.speed = speed};
+    const sim::random_walk<Space> walk{.speed = speed, .range = 2.0 * w.size};
+    const state next = here.shown_exactly(seed % 3U == 0   ? nyquist.next(view, random)
+                                          : seed % 3U == 1 ? greedy.next(view, random)
+                                                           : walk.next(view, random));
     if (!(period > device.parameters().watchdog)) return device.move_to(next);
     const double b = std::fmax(w.damping, 1e-9);
     const state best =
@@ -266,20 +253,7 @@ outcome fall(const controllers::model<Space>& model, const controller& c, const 
   return result;
 }
 
-}  // namespace
-
-bool has(unsigned events, ph::event e) noexcept {
-  return (events >> static_cast<unsigned>(e) & 1U) != 0;
-}
-
-bool reported(unsigned events) noexcept {
-  for (const auto e : {ph::event::debt, ph::event::late_tick, ph::event::rejected_target,
-                       ph::event::rejected_sample, ph::event::rejected_parameters}) {
-    if (has(events, e)) return true;
-  }
-  return false;
-}
-
+/// The worst of both.
 outcome worse(const outcome& a, const outcome& b) noexcept {
   outcome w =
       b.margin < a.margin || (b.margin == a.margin && b.least_energy < a.least_energy) ? b : a;
@@ -293,27 +267,26 @@ outcome worse(const outcome& a, const outcome& b) noexcept {
   return w;
 }
 
+}  // namespace
+
 template <class Space>
 outcome judge(const controller& c, const world& w, const effort& how) {
-  using scalar = typename Space::scalar;
-  const double quantum = w.offset == 0.0 ? 0.0 : spacing<scalar>(w.offset + 10.0 * w.size);
-  const double sensed = spacing<scalar>(w.offset + 10.0 * w.size);  // for hands, also at the origin
+  const double sensed = spacing<typename Space::scalar>(w.offset + 10.0 * w.size);
+  const double quantum = w.offset == 0.0 ? 0.0 : sensed;  // hands feel it at the origin, too
   const double friction = c.credits_friction ? dry_friction : 0.0;
-  const controllers::premises known{
-      .mass = w.mass,
-      .damping = w.damping,
-      .friction = friction,
-      .hand_force = 1.001 * (std::fmax(hand_force(w), weight(w)) + friction),
-      .quantum = 1.001 * (c.covers.rounding ? sensed : 0.0),
-      .longest_tick = w.tick,
-      .latency = c.covers.latency};
-  const auto model = c.maker<Space>()(known);
+  const auto model =
+      c.in<Space>()({.mass = w.mass,
+                     .damping = w.damping,
+                     .friction = friction,
+                     .hand_force = 1.001 * (std::fmax(hand_force(w), weight(w)) + friction),
+                     .quantum = 1.001 * (c.knows_steps ? sensed : 0.0),
+                     .longest_tick = w.tick});
   outcome all = fall<Space>(model, c, w, sensed, 1, how.ticks);
   for (int run = 0; run < how.runs; ++run) {
     const auto seed = static_cast<std::uint64_t>(run) + 1;
-    all = worse(all, c.covers.any_motion
-                         ? attack_by_motion<Space>(model, c, w, quantum, seed, how.ticks)
-                         : attack_by_hand<Space>(model, c, w, sensed, seed, how.ticks));
+    all = worse(all, c.needs_known_hands()
+                         ? attack_by_hand<Space>(model, c, w, sensed, seed, how.ticks)
+                         : attack_by_motion<Space>(model, c, w, quantum, seed, how.ticks));
   }
   all.refused = static_cast<bool>(model.check());
   return all;

@@ -25,12 +25,6 @@ struct outcome {
   bool refused = false;  ///< check() names a fault
 };
 
-/// True if `events` has one that tells of a lost guarantee or of bad input.
-[[nodiscard]] bool reported(unsigned events) noexcept;
-[[nodiscard]] bool has(unsigned events, ph::event e) noexcept;
-/// The worst of both.
-[[nodiscard]] outcome worse(const outcome& a, const outcome& b) noexcept;
-
 struct effort {
   int runs = 6;     ///< seeds per cell
   int ticks = 600;  ///< of a run
@@ -39,14 +33,5 @@ struct effort {
 /// All runs of one cell. Hands instead of velocity sources where the guarantee asks for them.
 template <class Space>
 [[nodiscard]] outcome judge(const controllers::controller& c, const world& w, const effort& how);
-
-extern template outcome judge<controllers::f1>(const controllers::controller&, const world&,
-                                               const effort&);
-extern template outcome judge<controllers::d1>(const controllers::controller&, const world&,
-                                               const effort&);
-extern template outcome judge<controllers::f3>(const controllers::controller&, const world&,
-                                               const effort&);
-extern template outcome judge<controllers::d3>(const controllers::controller&, const world&,
-                                               const effort&);
 
 }  // namespace stability

@@ -4,6 +4,7 @@
 #include "../common/text.hpp"
 #include <passive_haptics/simulation/schedule.hpp>
 
+#include <array>
 #include <cmath>
 
 namespace stability {
@@ -37,21 +38,9 @@ std::string described(const world& w) {
 }  // namespace
 
 const char* to_string(clockwork c) noexcept {
-  switch (c) {
-    case clockwork::steady:
-      return "steady";
-    case clockwork::jitter:
-      return "jitter";
-    case clockwork::missed:
-      return "missed";
-    case clockwork::missed_and_held:
-      return "missed, held";
-    case clockwork::switching:
-      return "switching";
-    case clockwork::lost_samples:
-      return "lost samples";
-  }
-  return "unknown clock";
+  constexpr std::array names{"steady",       "jitter",    "missed",
+                             "missed, held", "switching", "lost samples"};
+  return names[static_cast<std::size_t>(c)];
 }
 
 std::vector<world> cells(bool quick) {

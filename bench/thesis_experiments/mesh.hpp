@@ -4,57 +4,25 @@
 // answers at 30 Hz. Three runs along the same path:
 //
 //   reference   the environment solved at 1 kHz
-//   bare        30 Hz, normals snapped, no bound
-//   passive     30 Hz, normals turned at a rate, force-rate limit and energy bound in a chain
+//   bare        30 Hz, normals taken at once, no bound
+//   passive     30 Hz, normals turned at a rate, force-rate limit and energy bound
 
 #include "../common/report.hpp"
 #include "ball.hpp"
 #include <passive_haptics/environment/msh_reader.hpp>
+#include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 
 #include <chrono>
 
 namespace experiments {
 
+/// The organ for those who bring none, which tests/data/make_organ.py makes, and its unit [m].
+inline constexpr const char* organ = PASSIVE_HAPTICS_TEST_DATA "/organ.msh";
+inline constexpr double millimetre = 1e-3;
+
 inline env::tetrahedral_mesh read_mesh(const std::string& file, double unit) {
   return env::scaled(env::read_msh(std::filesystem::path(file)), unit);
-}
-
-/// A rounded cushion of 100 × 80 × 40 mm, for those without an organ: a grid of 6 tetrahedra a
-/// cell.
-inline env::tetrahedral_mesh cushion() {
-  constexpr int nx = 10, ny = 8, nz = 4;
-  env::tetrahedral_mesh mesh;
-  const auto node = [](int i, int j, int k) { return (k * (ny + 1) + j) * (nx + 1) + i; };
-  for (int k = 0; k <= nz; ++k) {
-    for (int j = 0; j <= ny; ++j) {
-      for (int i = 0; i <= nx; ++i) {
-        const double x = 0.010 * (i - nx / 2.0), y = 0.010 * (j - ny / 2.0);
-        const double dome = 1.0 - 60.0 * (x * x + y * y);
-        mesh.nodes.emplace_back(x, y, 0.010 * k * dome);
-      }
-    }
-  }
-  constexpr int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-  for (int k = 0; k < nz; ++k) {
-    for (int j = 0; j < ny; ++j) {
-      for (int i = 0; i < nx; ++i) {
-        for (const auto& axes : order) {
-          int at[3] = {i, j, k};
-          std::array<int, 4> tetrahedron{node(i, j, k), 0, 0, 0};
-          for (std::size_t step = 0; step < 3; ++step) {
-            ++at[axes[step]];
-            tetrahedron[step + 1] = node(at[0], at[1], at[2]);
-          }
-          if (env::signed_volume(mesh, tetrahedron) < 0.0) {
-            std::swap(tetrahedron[2], tetrahedron[3]);
-          }
-          mesh.tetrahedra.push_back(tetrahedron);
-        }
-      }
-    }
-  }
-  return mesh;
 }
 
 /// Where the hand goes, and what holds the organ. Up is the axis along which it is thinnest; its
@@ -157,6 +125,8 @@ class stroke_scene {
   Eigen::Index up_ = 2, along_ = 0;
 };
 
+inline constexpr env::material flesh{.young = 2e4, .poisson = 0.45};
+
 struct stroke_result {
   std::vector<vector3> forces;
   double force_step = 0;          ///< largest in one tick [N]
@@ -167,38 +137,33 @@ struct stroke_result {
 
 template <class Model>
 stroke_result follow_stroke(Model model, const stroke_scene& scene, double period, csv_file* csv) {
-  const env::material flesh{.young = 2e4, .poisson = 0.45};
   env::deformable_body body(scene.mesh(), flesh, scene.fixed());
   sim::prescribed_motion<volume> device({.start = scene.position(0.0)});
   sim::update_schedule schedule(1, period, period);
   stroke_result result;
   vector3 last = vector3::Zero();
-  auto sample = device.exchange(vector3::Zero());
-  const int ticks = static_cast<int>(stroke_scene::total * 1000.0);
-  for (int n = 0; n < ticks; ++n) {
-    const double t = device.time();
-    if (schedule.due(t)) {
-      const auto begin = std::chrono::steady_clock::now();
-      const auto contact = body.update(sample.position, sample.held);
-      const std::chrono::duration<double, std::milli> took =
-          std::chrono::steady_clock::now() - begin;
-      result.update_ms.push_back(took.count());
-      model.retarget(tangent_plane(contact));
-    }
-    const auto out = model.tick(sample);
-    result.force_step = std::max(result.force_step, (out.force - last).norm());
-    last = out.force;
-    if (stroke_scene::stroking(t) && out.force.norm() == 0.0) ++result.contact_lost;
-    result.forces.push_back(out.force);
+  const auto answer = [&](const auto& now) {
+    if (!schedule.due(now.time)) return;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto contact = body.update(now.sample.position, now.sample.held);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    result.update_ms.push_back(took.count());
+    model.update(tangent_plane(contact));
+  };
+  const auto move = [&](const auto& now) {
+    const vector3 &x = now.position, &f = now.force;
+    result.force_step = std::max(result.force_step, (f - last).norm());
+    last = f;
+    if (stroke_scene::stroking(now.time) && f.norm() == 0.0) ++result.contact_lost;
+    result.forces.push_back(f);
     if (csv != nullptr) {
-      const vector3 x = device.position();
-      csv->row(t, x(0), x(1), x(2), out.force(0), out.force(1), out.force(2), out.force.norm(),
-               out.depth, out.energy, device.meter().value());
+      csv->row(now.time, x(0), x(1), x(2), f(0), f(1), f(2), f.norm(), now.out.depth,
+               now.out.energy, device.meter().value());
     }
-    device.move_to(scene.position(t + 1e-3));
-    sample = device.exchange(out.force);
-  }
-  result.port_energy = device.meter().minimum();
+    device.move_to(scene.position(now.time + 1e-3));
+  };
+  const int ticks = static_cast<int>(stroke_scene::total * 1000.0);
+  result.port_energy = sim::run(device, model, ticks, answer, move).least_energy;
   return result;
 }
 
@@ -222,23 +187,23 @@ inline double median(std::vector<double> values) {
 
 inline auto bare_model() {
   return ph::local_model{volume{},
-                         ph::following<ph::half_space<volume>>{},
-                         ph::snap<volume>{},
-                         ph::spring<volume>{},
-                         ph::no_observer<volume>{},
-                         ph::no_bound<volume>{}};
+                         ph::followed<ph::half_space<volume>>{},
+                         ph::turn_at_once{},
+                         ph::spring{},
+                         ph::no_observer{},
+                         ph::no_bound{},
+                         ph::loop_limits{.longest_tick = 1e-3}};
 }
 
 inline auto passive_model() {
-  return ph::local_model{
-      volume{},
-      ph::following<ph::half_space<volume>>{{.stale_after = 0.2}},
-      ph::rotate_limited<volume>{.rate = 3.0},
-      ph::spring<volume>{},
-      ph::reduced_energy<volume>{.damping = 0.03},
-      ph::bound_chain{ph::force_rate_limit<volume>{.rate = 3.0},
-                      ph::reachable_bound<volume>{.mass = 0.1, .hand_force = 5.0},
-                      ph::actuator_limit<volume>{.most = 9.0}}};
+  return ph::local_model{volume{},
+                         ph::followed<ph::half_space<volume>>{{.stale_after = 0.2}},
+                         ph::turn_limited{.rate = 3.0},
+                         ph::shaped{ph::spring{}, ph::force_rate_limit{.rate = 3.0}},
+                         ph::reduced_energy{.damping = 0.03},
+                         ph::bound_chain{ph::reachable_bound{.mass = 0.1, .hand_force = 5.0},
+                                         ph::actuator_limit{.most = 9.0}},
+                         ph::loop_limits{.longest_tick = 1e-3}};
 }
 
 inline void run_mesh(report& out, const stroke_scene& scene, const std::string& name) {
@@ -255,45 +220,39 @@ inline void run_mesh(report& out, const stroke_scene& scene, const std::string& 
   const stroke_result bare = run(bare_model(), 1.0 / 30.0, "bare");
   const stroke_result passive = run(passive_model(), 1.0 / 30.0, "passive");
 
-  table rows({"run", "environment", "largest force step N", "contact lost, ticks",
-              "rms force error N", "min port energy J"});
-  const auto add = [&](const std::string& title, const std::string& rate, const stroke_result& r) {
-    rows.add({title, rate, format("%.4f", r.force_step), std::to_string(r.contact_lost),
-              format("%.4f", rms_error(r, reference)), format("%.3g", r.port_energy)});
+  std::vector<record> rows;
+  const auto add = [&](const std::string& title, const char* rate, const stroke_result& r) {
+    rows.push_back({{"run", title},
+                    {"environment", rate},
+                    {"largest force step N", r.force_step, "%.4f"},
+                    {"contact lost, ticks", r.contact_lost},
+                    {"rms force error N", rms_error(r, reference), "%.4f"},
+                    {"min port energy J", r.port_energy}});
   };
-  add("reference: snap, no bound", "1 kHz", reference);
-  add("bare: snap, no bound", "30 Hz", bare);
-  add("passive: rotate_limited, force-rate limit, reachable bound", "30 Hz", passive);
+  add("reference: turn_at_once, no bound", "1 kHz", reference);
+  add("bare: turn_at_once, no bound", "30 Hz", bare);
+  add("passive: turn_limited, force-rate limit, reachable bound", "30 Hz", passive);
   const double update_ms = median(passive.update_ms);
-  out.section(
-      "Mesh: " + name,
-      std::to_string(scene.mesh().nodes.size()) + " nodes, " +
-          std::to_string(scene.mesh().tetrahedra.size()) +
-          " tetrahedra, 5 kPa. A stroke 1-3 mm below the surface, haptic tick 1 kHz. Median "
-          "environment update " +
-          format("%.3f", update_ms) + " ms (wall clock of this machine).");
-  out.show(rows);
+  out.section("Mesh: " + name,
+              std::to_string(scene.mesh().nodes.size()) + " nodes, " +
+                  std::to_string(scene.mesh().tetrahedra.size()) + " tetrahedra, " +
+                  format("%g", flesh.young / 1e3) +
+                  " kPa. A stroke 1-3 mm below the surface, haptic tick 1 kHz. Median "
+                  "environment update " +
+                  format("%.3f", update_ms) + " ms (wall clock of this machine).");
+  out.show(table_of(rows, std::identity{}));
   std::cout << "median environment update " << format("%.3f", update_ms) << " ms\n\n";
-  const auto figures = [&reference](const stroke_result& r) {
-    return json_object({{"max_force_step_N", json_number(r.force_step)},
-                        {"contact_lost_ticks", std::to_string(r.contact_lost)},
-                        {"rms_force_error_N", json_number(rms_error(r, reference))},
-                        {"min_port_energy_J", json_number(r.port_energy)}});
-  };
-  out.member("mesh", json_object({{"file", json_string(name)},
-                                  {"nodes", std::to_string(scene.mesh().nodes.size())},
-                                  {"tetrahedra", std::to_string(scene.mesh().tetrahedra.size())},
-                                  {"update_ms_median", json_number(update_ms)},
-                                  {"max_force_step_N", json_number(passive.force_step)},
-                                  {"contact_lost_ticks", std::to_string(passive.contact_lost)},
-                                  {"rms_force_error_N", json_number(rms_error(passive, reference))},
-                                  {"bare", figures(bare)},
-                                  {"reference", figures(reference)}}));
+  out.member("mesh", json_of(record{{"file", name},
+                                    {"nodes", scene.mesh().nodes.size()},
+                                    {"tetrahedra", scene.mesh().tetrahedra.size()},
+                                    {"median update ms", update_ms}}));
+  out.member("strokes", json_of(rows, std::identity{}));
   out.plot(
       "mesh_force", "Force along the stroke: reference at 1 kHz, bare and passive at 30 Hz",
       "set xlabel 'time [s]'\nset ylabel '|f| [N]'\nplot 'mesh_reference.csv' using 1:8 with "
       "lines lc rgb '#777777' title 'reference, 1 kHz', 'mesh_bare.csv' using 1:8 with lines lc "
-      "rgb '#cc2222' title 'snap, no bound', 'mesh_passive.csv' using 1:8 with lines lc rgb "
+      "rgb '#cc2222' title 'turn_at_once, no bound', 'mesh_passive.csv' using 1:8 with lines lc "
+      "rgb "
       "'#2244aa' title 'passive'");
 }
 

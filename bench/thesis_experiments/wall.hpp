@@ -3,6 +3,7 @@
 // Thesis section 3.2: every controller of the thesis's time on the wall of common/wall.hpp, and the
 // settling composition over decades of mass and stiffness (docs/design/mathematics.md § 9).
 
+#include "../common/record.hpp"
 #include "../common/wall.hpp"
 #include <passive_haptics/passive_haptics.hpp>
 
@@ -15,18 +16,23 @@ struct wall_controller {
   std::function<wall_result(const wall_scene&, std::uint64_t seed, csv_file*)> run;
 };
 
-/// A local model over a half-space that follows the wall.
-template <class Contact, class Observer, class Bound>
-auto wall_model(const Contact& contact, const Observer& observer, const Bound& bound) {
-  return ph::local_model{
-      line{}, ph::following<ph::half_space<line>>{}, ph::snap<line>{}, contact, observer, bound};
+/// A local model over a half-space that follows the wall, in a loop that believes what a wall without
+/// a bound does to the device.
+template <class Law, class Observer, class Bound>
+auto wall_model(const Law& law, const Observer& observer, const Bound& bound) {
+  return ph::local_model{line{},
+                         ph::followed<ph::half_space<line>>{},
+                         ph::turn_at_once{},
+                         law,
+                         observer,
+                         bound,
+                         ph::loop_limits{.longest_tick = 1e-3, .top_speed = 100.0}};
 }
 
 /// Passive and settled (docs/design/mathematics.md § 9): the composition of the sweep.
 inline auto settling_model(double mass) {
-  return wall_model(ph::damped_spring<line>{.mass = mass},
-                    ph::reduced_energy<line>{.damping = 0.03},
-                    ph::reachable_bound<line>{.mass = mass, .hand_force = 5.0});
+  return wall_model(ph::damped_spring{.mass = mass}, ph::reduced_energy{.damping = 0.03},
+                    ph::reachable_bound{.mass = mass, .hand_force = 5.0});
 }
 
 inline std::vector<wall_controller> wall_controllers() {
@@ -36,24 +42,21 @@ inline std::vector<wall_controller> wall_controllers() {
                              return drop(make(scene), scene, seed, csv);
                            }};
   };
-  const ph::spring<line> spring;
-  const ph::reduced_energy<line> ledger{.damping = 0.03};
+  const ph::spring spring;
+  const ph::reduced_energy ledger{.damping = 0.03};
+  const ph::shaped thesis{spring, ph::thesis_rule{}};
   return {
       with("none",
-           [=](const wall_scene&) {
-             return wall_model(spring, ph::no_observer<line>{}, ph::no_bound<line>{});
-           }),
-      with("strict",
-           [=](const wall_scene&) { return wall_model(spring, ledger, ph::strict_bound<line>{}); }),
-      with("thesis",
-           [=](const wall_scene&) { return wall_model(spring, ledger, ph::thesis_bound<line>{}); }),
+           [=](const auto&) { return wall_model(spring, ph::no_observer{}, ph::no_bound{}); }),
+      with("strict", [=](const auto&) { return wall_model(spring, ledger, ph::strict_bound{}); }),
+      with("thesis", [=](const auto&) { return wall_model(thesis, ledger, ph::no_bound{}); }),
       with("reachable",
-           [=](const wall_scene& scene) {
+           [=](const auto& scene) {
              return wall_model(spring, ledger,
-                               ph::reachable_bound<line>{.mass = scene.mass, .hand_force = 5.0});
+                               ph::reachable_bound{.mass = scene.mass, .hand_force = 5.0});
            }),
       with("damped spring + reachable",
-           [](const wall_scene& scene) { return settling_model(scene.mass); }),
+           [](const auto& scene) { return settling_model(scene.mass); }),
   };
 }
 
@@ -71,9 +74,7 @@ inline void run_wall(report& out, int seeds) {
                                        {.name = "S2", .force_limit = 9.0, .friction = 0.2}};
   const auto controllers = wall_controllers();
   progress bar("wall", static_cast<int>(controllers.size()) * (2 + seeds));
-  std::vector<std::string> json;
-  table rows({"scene", "controller", "runs", "peak to peak mm", "settled", "settle s (worst)",
-              "min port energy J", "mean force error N", "rest mm"});
+  std::vector<record> rows;
   for (const auto& scene : scenes) {
     for (const auto& controller : controllers) {
       const int runs = scene.yields ? seeds : 1;
@@ -98,20 +99,15 @@ inline void run_wall(report& out, int seeds) {
         bar.step();
       }
       const double settle = settled == runs ? worst : std::nan("");
-      rows.add({scene.name, controller.name, std::to_string(runs),
-                format("%.3f", mean.peak_to_peak * 1e3),
-                std::to_string(settled) + " of " + std::to_string(runs), format("%.3f", settle),
-                format("%.3g", mean.port_energy), format("%.3g", mean.force_error),
-                format("%.3f", mean.rest * 1e3)});
-      json.push_back(json_object({{"scene", json_string(scene.name)},
-                                  {"controller", json_string(controller.name)},
-                                  {"runs", std::to_string(runs)},
-                                  {"runs_settled", std::to_string(settled)},
-                                  {"peak_to_peak_mm", json_number(mean.peak_to_peak * 1e3)},
-                                  {"settle_s", json_number(settle)},
-                                  {"min_port_energy_J", json_number(mean.port_energy)},
-                                  {"mean_force_error_N", json_number(mean.force_error)},
-                                  {"rest_mm", json_number(mean.rest * 1e3)}}));
+      rows.push_back({{"scene", scene.name},
+                      {"controller", controller.name},
+                      {"runs", runs},
+                      {"peak to peak mm", mean.peak_to_peak * 1e3, "%.3f"},
+                      {"settled", std::to_string(settled) + " of " + std::to_string(runs)},
+                      {"settle s (worst)", settle, "%.3f"},
+                      {"min port energy J", mean.port_energy},
+                      {"mean force error N", mean.force_error},
+                      {"rest mm", mean.rest * 1e3, "%.3f"}});
     }
   }
   out.section(
@@ -120,8 +116,8 @@ inline void run_wall(report& out, int seeds) {
       "device, static wall. S1: the wall gives way, surface = F/K, at 20-50 Hz. S2: 9 N "
       "saturation and 0.2 N dry friction. Settle time and energy are the worst of the runs, "
       "the rest their mean. The port energy is the simulator's own, never the observer's.");
-  out.show(rows);
-  out.member("wall", json_array(json));
+  out.show(table_of(rows, std::identity{}));
+  out.member("wall", json_of(rows, std::identity{}));
   const auto figure = [&out](const std::string& name, const std::string& caption,
                              const std::string& run, const std::string& range) {
     const std::string data = "'wall_" + run + "_1.csv' using 1:";
@@ -172,7 +168,6 @@ inline void run_sweep(report& out) {
   csv_file csv(out.path("sweep.csv"),
                "kind,mass kg,stiffness N/m,last swing mm,settle s,min port energy J");
   table rows({"settle s", "K = 1e2", "1e3", "1e4", "1e5", "1e6", "1e9 N/m"});
-  std::vector<std::string> json;
   int settled = 0, settled_of_48 = 0, cases = 0;
   double worst = 0.0, least = 0.0;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
@@ -211,11 +206,11 @@ inline void run_sweep(report& out) {
   std::cout << "settled " << settled << " of " << cases << " (" << settled_of_48
             << " of the 48 of section 9), worst " << format("%.2f", worst)
             << " s, least port energy " << format("%.3g", least) << " J\n\n";
-  out.member("sweep", json_object({{"cases", std::to_string(cases)},
-                                   {"settled", std::to_string(settled)},
-                                   {"settled_of_48", std::to_string(settled_of_48)},
-                                   {"worst_settle_s", json_number(worst)},
-                                   {"min_port_energy_J", json_number(least)}}));
+  out.member("sweep", json_of(record{{"cases", cases},
+                                     {"settled", settled},
+                                     {"settled of 48", settled_of_48},
+                                     {"worst settle s", worst},
+                                     {"min port energy J", least}}));
 }
 
 }  // namespace experiments

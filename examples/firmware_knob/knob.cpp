@@ -10,19 +10,20 @@ namespace ph = passive_haptics;
 using scene = ph::hardware_space<float, 1>;  // refuses to be computed in software
 using stop = ph::half_space<scene>;
 
-constexpr float inertia = 1e-5F, damping = 1e-4F;  // of the knob, lower bounds
-constexpr float period = 1e-4F;                    // s
+constexpr double inertia = 1e-5, damping = 1e-4;  // of the knob, lower bounds
+constexpr double period = 1e-4;                   // s
 
-// A constant expression: no code runs before run(), and the compiler checks the parameters.
+// A constant expression: no code runs before run(), and the compiler checks the parameters, which
+// are doubles, and turns them into the floats that the interrupt computes with.
 constexpr ph::local_model at_rest{
     scene{},
-    ph::following<stop>{{.stale_after = 0.1F, .fade = 0.05F}},  // main loop dead: fade out
-    ph::snap<scene>{},
-    ph::damped_spring<scene>{.mass = inertia},
-    ph::reduced_energy<scene>{.damping = damping},
-    ph::bound_chain{ph::reachable_bound<scene>{.mass = inertia, .hand_force = 0.05F},
-                    ph::actuator_limit<scene>{.most = 0.1F}},
-    ph::loop_limits<scene>{.longest_tick = 1.1F * period, .top_speed = 500.0F}};
+    ph::followed<stop>{{.stale_after = 0.1, .fade = 0.05}},  // main loop dead: fade out
+    ph::turn_at_once{},
+    ph::damped_spring{.mass = inertia},
+    ph::reduced_energy{.damping = damping},
+    ph::bound_chain{ph::reachable_bound{.mass = inertia, .hand_force = 0.05},
+                    ph::actuator_limit{.most = 0.1}},
+    ph::loop_limits{.longest_tick = 1.1 * period, .top_speed = 500.0}};
 static_assert(!at_rest.check());
 
 static constinit auto knob = at_rest;
@@ -35,8 +36,8 @@ static struct {
 
 // The tick. Everything it has to say about a bad sample or a dead main loop is in out.what.
 extern "C" void SysTick_Handler() {
-  if (const stop* news = inbox.take()) knob.retarget(*news);
-  const auto out = knob.tick(board::angle(), period);
+  if (const stop* news = inbox.take()) knob.update(*news);
+  const auto out = knob.tick(board::angle(), float(period));
   board::torque(out.force);
 
   journal.ticks = journal.ticks + 1;

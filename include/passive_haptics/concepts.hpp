@@ -2,185 +2,298 @@
 #pragma once
 // The contract of each role, on one page. What a concept cannot say is a law in laws.hpp.
 //
-//   energy observer       counts the energy at the port            observers.hpp
-//   force bound           how much force that energy allows        bounds.hpp
-//   normal interpolation  how fast the contact normal may turn     normals.hpp
-//   constraint            a piece of the world: plane, triangle    geometry.hpp
-//   supply                who owns the constraint, who moves it    supply.hpp
-//   motion estimator      where the device is and how fast         motion.hpp
-//   contact law           depth and speed to desired force         contact.hpp
-//   haptic device         position out, force in                   simulation/, falcon_hid.hpp
+//   the port                                                       port/
+//     port                  pose, motion, effort, work             space.hpp, joint_space.hpp
+//     damping               what the device pays with              damping.hpp
+//     inertia               what cannot turn round within a tick   inertia.hpp
+//     energy observer       counts the energy at the port          energy_observer/
+//     force bound           how much force that energy allows      force_bound/
+//     motion estimator      where the device is and how fast       last_difference.hpp, ...
+//   what is asked of it
+//     source                an effort for every tick               local_contact, contacts, ...
+//   a contact                                                      contact/
+//     constraint geometry   a piece of the world: plane, triangle  constraint_geometry/
+//     supply                who owns the constraint, who moves it  constraint_geometry/
+//     normal interpolation  how fast the contact normal may turn   normal_interpolation/
+//     contact law           depth and speed to desired force       contact/
+//     shaper                what looks at the contact and the port shaper/
+//   around it
+//     haptic device         position out, force in                 simulation/, falcon_hid.hpp
 //
-// Every policy is trivially copyable, never throws, and states `passivity`, what it promises.
+// A part is a struct of parameters with a template `on<Port>` that computes (parameter.hpp), or, where
+// it is written for one port, a struct that computes by itself. Every part is a plain value and never
+// throws. check() names the first parameter out of its range; a part that keeps something from tick to
+// tick has reset(), which puts it back. Only energy observers and force bounds state `passivity`.
 
-#include <passive_haptics/damping.hpp>
 #include <passive_haptics/event.hpp>
-#include <passive_haptics/ledger.hpp>
-#include <passive_haptics/space.hpp>
+#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/port/damping.hpp>
+#include <passive_haptics/port/device_sample.hpp>
+#include <passive_haptics/port/port_state.hpp>
+#include <passive_haptics/port/space.hpp>
 
+#include <concepts>
+#include <limits>
 #include <type_traits>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// All that a force bound may look at. Lengths [m], forces [N], energies [J], times [s].
-template <class Space, class Damping = isotropic_damping<Space>>
-struct tick_state {
-  using scalar = typename Space::scalar;
-  using vector = typename Space::vector;
-
-  const Damping& damping;  ///< of the device, as the observer knows it
-  scalar energy;           ///< E1(n), this tick's displacement included
-  scalar in_flight;        ///< worst outflow of forces commanded but not yet held (latency)
-  scalar dt;               ///< length of the last tick
-  scalar longest_tick;     ///< bound on the length of the next
-  vector held;             ///< force over the last tick
-  vector displacement;     ///< Δx over the last tick
-  scalar displacement_error = scalar(0);  ///< the true Δx is no farther from it than this [m]
-  bool motion_known = false;  ///< false: the last sample was lost, Δx is unknown and given as zero
-  vector normal;              ///< outward, of the local model, along which the force will act
-  scalar stiffness;           ///< K of the target [N/m]
-  scalar depth;               ///< in the local model, ≤ 0 outside
-  scalar target_depth;        ///< in the environment's newest constraint, ≤ 0 outside
-  scalar local_force;         ///< what the contact law gives at `depth`, along `normal`
-  bool target_changed = false;  ///< a new constraint arrived since the last tick
-
-  /// The credit a new force may spend: E1 less what is already on its way.
-  [[nodiscard]] constexpr scalar credit() const noexcept { return energy - in_flight; }
-  /// What the last tick brought, Δxᵀ(b/dt)Δx − f_held·Δx [J], rounded down.
-  [[nodiscard]] constexpr scalar gain() const noexcept {
-    return detail::sure_gain<Space>(damping.dissipated(displacement, dt), held, displacement);
-  }
-  /// Is the device moving out of the object?
-  [[nodiscard]] constexpr bool leaving() const noexcept {
-    return Space::dot(displacement, normal) > scalar(0);
-  }
-};
-
 /// A value: trivially copyable where the scalar is, so that it can be logged, sent and snapshotted;
 /// otherwise (a multiprecision scalar) one that copies without throwing.
-template <class V, class Space>
+template <class V, class Port>
 concept plain_value = std::is_trivially_copyable_v<V> ||
-    (!std::is_trivially_copyable_v<typename Space::scalar> &&
+    (!std::is_trivially_copyable_v<typename Port::scalar> &&
      std::is_nothrow_copy_constructible_v<V>);
 
-/// What a policy of any role must be.
-template <class P, class Space>
-concept policy = plain_value<P, Space> && requires {
-  { P::passivity } -> std::convertible_to<guarantee>;
+/// What a device is: effort times motion is energy. between() is the motion from one pose to another,
+/// work() what an effort did over it, squared() the square of its length or of its fastest joint.
+/// `stored_` types are the same at rest. Geometry is apart: a port in a space names it `geometry`.
+template <class P>
+concept port = requires(typename P::pose x, typename P::motion m, typename P::effort f, int i) {
+  requires real<typename P::scalar>;
+  { P::dof } -> std::convertible_to<int>;
+  { P::zero() } -> std::convertible_to<typename P::effort>;
+  { P::between(x, x) } -> std::same_as<typename P::motion>;
+  { P::work(f, m) } -> std::same_as<work_done<typename P::scalar>>;
+  { P::squared(m) } -> std::same_as<typename P::scalar>;
+  { P::is_finite(x) } -> std::same_as<bool>;
+  { P::is_finite(f) } -> std::same_as<bool>;
+  requires plain_value<typename P::stored_pose, P>;
+  requires plain_value<typename P::stored_effort, P>;
+  requires std::convertible_to<typename P::stored_pose, typename P::pose>;
+  requires std::convertible_to<typename P::stored_effort, typename P::effort>;
 };
 
-/// update() books one tick: displacement Δx [m], the force held while it happened [N], its length
-/// [s]; false, and nothing is booked, when the energy would be no finite number. forfeit() writes
-/// off a tick whose motion is unknown and never raises the ledger. value() is E1 [J]. `counts` is
-/// false for the one that counts nothing.
-template <class O, class Space>
-concept energy_observer_for = policy<O, Space> &&
-    requires(O o, const O c, const typename Space::vector v, typename Space::scalar s) {
-  { o.update(v, v, s) } -> std::same_as<bool>;
-  { o.forfeit(v, s) } -> std::same_as<void>;
-  { c.value() } -> std::same_as<typename Space::scalar>;
-  { c.damping.worst_outflow(v, s) } -> std::same_as<typename Space::scalar>;
-  { c.check() } -> std::same_as<parameter_fault<typename Space::scalar>>;
+/// dissipated(Δx, dt) [J] is never more than the device took; worst_outflow(f, T) [J] is the most that
+/// f can hand out in T, the conjugate of it; affordable(f, E, T) is the share of f that E covers.
+/// `rubs` says whether dry friction is credited.
+template <class D, class P>
+concept damping_for = requires(const part_at<D, P> d, const typename P::motion m,
+                               const typename P::effort f, typename P::scalar s) {
+  { d.dissipated(m, s) } -> std::same_as<typename P::scalar>;
+  { d.worst_outflow(f, s) } -> std::same_as<typename P::scalar>;
+  { d.affordable(f, s, s) } -> std::same_as<typename P::scalar>;
+  { part_at<D, P>::rubs } -> std::convertible_to<bool>;
+  requires noexcept(d.dissipated(m, s));
+  requires noexcept(d.worst_outflow(f, s));
+};
+
+/// norm(f) = √(fᵀM⁻¹f) [√J/s], M a lower bound of the device's inertia in every direction.
+template <class M, class P>
+concept inertia_for = requires(const part_at<M, P> m, const typename P::effort f) {
+  { m.norm(f) } -> std::same_as<typename P::scalar>;
+  requires noexcept(m.norm(f));
+};
+
+/// update() books one tick: the motion, the effort held while it happened, its length [s]; false, and
+/// nothing is booked, when the energy would be no finite number. forfeit() writes off a tick whose
+/// motion is unknown and never raises the ledger. value() is E1 [J]. `counts` is false for the one
+/// that counts nothing; `exact` is false for one that takes positions as known to a step only.
+template <class O, class P>
+concept energy_observer_for = plain_value<part_at<O, P>, P> &&
+    requires(part_at<O, P> o, const part_at<O, P> c, const typename P::motion m,
+             const typename P::effort f, typename P::scalar s) {
+  { O::passivity } -> std::convertible_to<guarantee>;
   { O::counts } -> std::convertible_to<bool>;
-  requires noexcept(o.update(v, v, s));
-  requires noexcept(o.forfeit(v, s));
+  { O::exact } -> std::convertible_to<bool>;
+  { o.update(m, f, s) } -> std::same_as<bool>;
+  { o.forfeit(f, s) } -> std::same_as<void>;
+  { c.value() } -> std::same_as<typename P::scalar>;
+  { c.damping().worst_outflow(f, s) } -> std::same_as<typename P::scalar>;
+  requires noexcept(o.update(m, f, s));
+  requires noexcept(o.forfeit(f, s));
   requires noexcept(c.value());
 };
 
-/// What a force bound is like. State what differs:
-///     static constexpr bound_traits traits{.only_reduces = true, .needs_ledger = true};
+/// What a force bound needs. What is not stated is taken as the worst:
+///     static constexpr bound_traits traits{.needs_ledger = true, .latency = any_latency};
 struct bound_traits {
-  bool only_reduces = false;       ///< the result is the desired force times a factor in [0, 1]
-  bool needs_ledger = false;       ///< it spends what an observer must have counted
-  bool needs_local_model = false;  ///< it compares with a local model that can move
-  int latency = 0;                 ///< ticks from a command to the first instant it is held
+  bool needs_ledger = false;  ///< it spends what an observer must have counted
+  bool exact_travel = true;   ///< it takes Δx as exact: not for encoders with steps
+  int latency = 0;            ///< most ticks of delay for which it holds
+};
+inline constexpr int any_latency = kernels::largest<int>();
 
-  /// Of one bound after the other.
-  [[nodiscard]] friend constexpr bound_traits operator+(bound_traits a, bound_traits b) noexcept {
-    return {a.only_reduces && b.only_reduces, a.needs_ledger || b.needs_ledger,
-            a.needs_local_model || b.needs_local_model,
-            a.latency < b.latency ? b.latency : a.latency};
+/// What its promise rests on. One that promises nothing rests on nothing.
+template <class Bound>
+[[nodiscard]] constexpr bound_traits assumptions_of() noexcept {
+  bound_traits all = Bound::traits;
+  if constexpr (requires { Bound::passivity; }) {
+    if (Bound::passivity == guarantee::none) {
+      all.exact_travel = false;
+      all.latency = any_latency;
+    }
   }
-};
+  return all;
+}
 
-/// limit() takes the desired force and returns the one to apply; `traits` says how it goes about
-/// it.
-template <class B, class Space>
-concept force_bound_for = policy<B, Space> &&
-    requires(B b, const B c, const typename Space::vector v, tick_state<Space> s) {
-  { b.limit(v, s) } -> std::same_as<typename Space::vector>;
-  { c.check() } -> std::same_as<parameter_fault<typename Space::scalar>>;
+namespace detail {
+/// A damping that any port has, for asking whether a bound fits.
+template <class P>
+using some_damping = typename diagonal_damping<P::dof>::template on<P>;
+}  // namespace detail
+
+/// What a bound promises at a port. A chain knows it there, any other bound at once.
+template <class Bound, class P>
+concept promises = requires {
+  part_at<Bound, P>::passivity;
+}
+|| requires {
+  Bound::passivity;
+};
+template <class Bound, class P>
+requires promises<Bound, P>
+[[nodiscard]] constexpr guarantee promise_of() noexcept {
+  if constexpr (requires { part_at<Bound, P>::passivity; }) {
+    return part_at<Bound, P>::passivity;
+  } else {
+    return Bound::passivity;
+  }
+}
+
+/// limit() takes the desired effort and a port_state. A bound that only reduces answers with the share
+/// that is left; one that adds or turns with an effort.
+template <class B, class P, class State = port_state<P, detail::some_damping<P>>>
+concept force_bound_for = plain_value<part_at<B, P>, P> &&
+    requires(part_at<B, P> b, const typename P::effort f, const State s) {
+  { promise_of<B, P>() } -> std::same_as<guarantee>;
   { B::traits } -> std::convertible_to<bound_traits>;
-  requires noexcept(b.limit(v, s));
+  requires std::same_as<decltype(b.limit(f, s)), share<typename P::scalar>> ||
+      std::same_as<decltype(b.limit(f, s)), typename P::effort>;
+  requires noexcept(b.limit(f, s));
 };
 
-/// step() returns the unit normal to use after dt [s] on the way from one unit normal to another.
-template <class N, class Space>
-concept normal_interpolation_for = policy<N, Space> &&
-    requires(N n, const N c, const typename Space::vector v, typename Space::scalar s) {
-  { n.step(v, v, s) } -> std::same_as<typename Space::vector>;
-  { c.check() } -> std::same_as<parameter_fault<typename Space::scalar>>;
-  requires noexcept(n.step(v, v, s));
-};
-
-/// estimate() takes the position shown [m], Δx [m], the force held meanwhile [N], its length [s],
-/// and whether Δx is known at all; it returns `position` [m] and along(n), the speed along a unit
+/// estimate() takes the pose shown, the motion, the effort held meanwhile, its length [s], and whether
+/// the motion is known at all; it returns `position` and, in a space, along(n), the speed along a unit
 /// vector [m/s].
-template <class M, class Space>
-concept motion_estimator_for = policy<M, Space> &&
-    requires(M m, const M c, const typename Space::vector v, typename Space::scalar s) {
-  { m.estimate(v, v, v, s, true).position } -> std::convertible_to<typename Space::vector>;
-  { m.estimate(v, v, v, s, true).along(v) } -> std::same_as<typename Space::scalar>;
-  { c.check() } -> std::same_as<parameter_fault<typename Space::scalar>>;
-  requires noexcept(m.estimate(v, v, v, s, true));
+template <class M, class P>
+concept motion_estimator_for = plain_value<part_at<M, P>, P> &&
+    requires(part_at<M, P> m, const typename P::pose x, const typename P::motion dx,
+             const typename P::effort f, typename P::scalar s) {
+  { m.estimate(x, dx, f, s, true).position } -> std::convertible_to<typename P::pose>;
+  requires noexcept(m.estimate(x, dx, f, s, true));
 };
 
-/// adopt() takes a new stiffness [N/m] and the longest tick [s]; force() gives the desired force
-/// [N] ≥ 0 from a depth [m] and the outward speed [m/s]; depth() is its inverse.
-template <class L, class Space>
-concept contact_law_for = policy<L, Space> && requires(L l, const L c, typename Space::scalar s) {
-  { l.adopt(s, s) } -> std::same_as<void>;
-  { c.force(s, s) } -> std::same_as<typename Space::scalar>;
-  { c.depth(s, s) } -> std::same_as<typename Space::scalar>;
-  { c.check() } -> std::same_as<parameter_fault<typename Space::scalar>>;
-  requires noexcept(l.adopt(s, s));
-  requires noexcept(c.force(s, s));
-  requires noexcept(c.depth(s, s));
+/// What a port has come to, before its source makes the result of the tick of it.
+template <class P>
+struct port_result {
+  typename P::effort force;     ///< on the device [N]; joints: [N·m]
+  typename P::scalar energy;    ///< E1 [J]
+  event what = event::nominal;  ///< the worst that happened
+  bool limited = false;         ///< the bound changed the desired effort
+};
+
+/// ask() is given the estimate of the motion, the port_state and the event so far, and returns a
+/// request: `wanted`, an effort, and `nothing`, whether there is nothing to bound. answered() gets the
+/// request back with what became of it, refused() a tick that nobody could believe, of length dt [s];
+/// both return the result of the tick. `asks_for_numbers`: it never asks for NaN or an infinity, so the
+/// port need not look.
+template <class S, class P>
+concept source_for = plain_value<part_at<S, P>, P> &&
+    requires(part_at<S, P> s, const port_result<P> r, typename P::scalar dt) {
+  typename part_at<S, P>::result_type;
+  { part_at<S, P>::asks_for_numbers } -> std::convertible_to<bool>;
+  { s.refused(r, dt) } -> std::same_as<typename part_at<S, P>::result_type>;
+  requires noexcept(s.refused(r, dt));
 };
 
 /// A value that crosses threads: a piece of the world as the environment publishes it. prepare()
-/// normalises it and is false when it is unusable; depth() is (p − x)·n; covers() is the edge test;
-/// toward(target, x, n, d) is the same piece moved so that x lies d [m] deep under the normal n.
+/// normalises it and is false when it is unusable. at(x) probes it: `depth` [m], > 0 inside;
+/// outward(), the unit normal there; covered(), the edge test. toward(target, x, n, d) is the same
+/// piece moved so that x lies d [m] deep under the normal n.
 template <class G, class Space>
 concept constraint_for = plain_value<G, Space> && std::default_initializable<G> &&
     requires(G g, const G c, const typename Space::vector v, typename Space::scalar s) {
   { c.stiffness } -> std::convertible_to<typename Space::scalar>;
   { g.prepare() } -> std::same_as<bool>;
-  { c.outward() } -> std::same_as<typename Space::vector>;
-  { c.depth(v) } -> std::same_as<typename Space::scalar>;
-  { c.covers(v) } -> std::same_as<bool>;
+  { c.at(v).depth } -> std::convertible_to<typename Space::scalar>;
+  { c.at(v).outward() } -> std::convertible_to<typename Space::vector>;
+  { c.at(v).covered() } -> std::same_as<bool>;
   { c.toward(c, v, v, s) } -> std::same_as<G>;
   requires noexcept(g.prepare());
-  requires noexcept(c.depth(v));
-  requires noexcept(c.covers(v));
+  requires noexcept(c.at(v));
 };
 
-/// What a device reports after holding a force: where it is, how long the tick was, and the force
-/// it really held (saturated, rounded, gravity compensation taken out).
+/// local() is the constraint that is felt, target() the environment's newest. One that `moves` also
+/// takes news with update(), ends the contact with release(), and ages: weight() is how far the contact
+/// counts, in [0, 1], and last_weight() how far it did. A tick asks what is new, moves the local model with
+/// approach() or sync(), and says that it has seen(). (constraint_geometry/followed.hpp)
+template <class S, class Space>
+concept supply_for = requires(part_at<S, Space> s, const part_at<S, Space> c,
+                              const typename Space::vector v, typename Space::scalar d) {
+  typename S::constraint_type;
+  { S::moves } -> std::convertible_to<bool>;
+  { c.local() } -> std::same_as<const typename S::constraint_type&>;
+  { c.target() } -> std::same_as<const typename S::constraint_type&>;
+  requires !S::moves || requires {
+    { s.update(c.target()) } -> std::same_as<bool>;
+    { s.release() } -> std::same_as<void>;
+    { c.published() } -> std::same_as<bool>;
+    { c.changed() } -> std::same_as<bool>;
+    { c.refused() } -> std::same_as<bool>;
+    { c.current() } -> std::same_as<bool>;
+    { c.stale() } -> std::same_as<bool>;
+    { c.together() } -> std::same_as<bool>;
+    { c.weight() } -> std::same_as<typename Space::scalar>;
+    { c.last_weight() } -> std::same_as<typename Space::scalar>;
+    { s.grow_older(d) } -> std::same_as<void>;
+    { s.seen(d) } -> std::same_as<void>;
+    { s.approach(true, v, v, d) } -> std::same_as<void>;
+    { s.sync() } -> std::same_as<void>;
+  };
+};
+
+/// step() returns the unit normal to use after dt [s] on the way from one unit normal to another.
+template <class N, class Space>
+concept normal_interpolation_for = plain_value<part_at<N, Space>, Space> &&
+    requires(part_at<N, Space> n, const typename Space::vector v, typename Space::scalar s) {
+  { n.step(v, v, s) } -> std::same_as<typename Space::vector>;
+  requires noexcept(n.step(v, v, s));
+};
+
+/// adopt() takes a new stiffness [N/m] and the longest tick [s]; force() gives the desired force
+/// [N] ≥ 0 from a depth [m] and the outward speed [m/s]; depth() is its inverse.
+template <class L, class Space>
+concept contact_law_for = plain_value<part_at<L, Space>, Space> &&
+    requires(part_at<L, Space> l, const part_at<L, Space> c, typename Space::scalar s) {
+  { l.adopt(s, s) } -> std::same_as<void>;
+  { c.force(s, s) } -> std::same_as<typename Space::scalar>;
+  { c.depth(s, s) } -> std::same_as<typename Space::scalar>;
+  requires noexcept(l.adopt(s, s));
+  requires noexcept(c.force(s, s));
+  requires noexcept(c.depth(s, s));
+};
+
+/// What a shaper may look at beside the port.
 template <class Space>
-struct device_sample {
-  typename Space::coordinates position{};  ///< [m]
-  typename Space::coordinates held{};      ///< [N]
-  typename Space::scalar dt{};             ///< [s]
-  bool valid = false;                      ///< false: nothing was read, the rest says nothing
+struct contact_state {
+  typename Space::vector normal;  ///< outward, of the local model, along which the force will act
+  typename Space::scalar stiffness;     ///< K of the target [N/m]
+  typename Space::scalar depth;         ///< in the local model, ≤ 0 outside [m]
+  typename Space::scalar target_depth;  ///< in the environment's newest constraint [m]
+  typename Space::scalar
+      local_force;      ///< what the contact law gives at `depth`, along `normal` [N]
+  bool target_changed;  ///< a new constraint arrived since the last tick
 };
 
-/// exchange() commands a force [N] and returns the newest sample. Simulated, replayed or real.
-template <class D, class Space>
-concept haptic_device_for = requires(D d, const typename Space::vector v) {
-  { d.exchange(v) } -> std::same_as<device_sample<Space>>;
-  requires noexcept(d.exchange(v));
+/// shape() takes the desired force, the contact and the port, and answers as a force bound does.
+/// `needs_local_model` says that it compares with a local model that can move.
+template <class H, class Space, class State = port_state<Space, detail::some_damping<Space>>>
+concept shaper_for = plain_value<part_at<H, Space>, Space> &&
+    requires(part_at<H, Space> h, const typename Space::vector f, const contact_state<Space> c,
+             const State s) {
+  { H::needs_local_model } -> std::convertible_to<bool>;
+  requires std::same_as<decltype(h.shape(f, c, s)), share<typename Space::scalar>> ||
+      std::same_as<decltype(h.shape(f, c, s)), typename Space::vector>;
+  requires noexcept(h.shape(f, c, s));
+};
+
+/// exchange() commands an effort and returns the newest sample. Simulated, replayed or real.
+template <class D, class P>
+concept haptic_device_for = requires(D d, const typename P::effort f) {
+  { d.exchange(f) } -> std::same_as<device_sample<P>>;
+  requires noexcept(d.exchange(f));
 };
 
 }  // namespace v0

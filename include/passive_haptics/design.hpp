@@ -4,21 +4,20 @@
 // All of it is constexpr, in double, and no part of a tick.
 //
 //   passivity::     no passive hand can ever draw energy from the device
-//     colgate_schenkel   K < 2 (b − |B|)/T           a fixed virtual wall; any H(z); delay
+//     colgate_schenkel   K < 2 (b − |D|)/T           a fixed virtual wall; any H(z); delay
 //     delayed_wall       the exact kernel            delay AND virtual damping, less conservative
-//     coupling           K_c < 2 (b − |B_c|)/T       a virtual coupling to a fixed wall
+//     coupling           K_c < 2 (b − |D_c|)/T       a virtual coupling to a fixed wall
 //     adams_hannaford    b > sin²(θ/2)/Re(1/Z_c)     a virtual coupling to ANY passive world
 //     abbott_okamura     K ≤ min(2b/T, 2f_c/Δ)       encoder steps, paid for by dry friction
-//     diolaiti           β ≥ ½ + D, σ ≥ ½            the same with delay
+//     diolaiti           β ≥ ½ + k, σ ≥ ½            the same with delay
 //   stability::     the device alone comes to rest; a hand may still draw energy
-//     gil_hulin          K < (b + B)/(T/2 + t_d)     virtual damping helps here, and hurts above
+//     gil_hulin          K < (b + D)/(T/2 + t_d)     virtual damping helps here, and hurts above
 //
 // Never mix the two. All of them take the world as fixed: a surface that moves or a stiffness that
 // changes breaks every one of them, and needs a bound.
 
 #include <passive_haptics/design/frequency.hpp>
-#include <passive_haptics/event.hpp>
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/parameter.hpp>
 
 #include <limits>
 
@@ -32,15 +31,15 @@ namespace design {
 struct loop {
   double damping = 0.0;          ///< b of the device [N·s/m], a lower bound
   double period = 1e-3;          ///< T [s], the longest
-  int delay = 0;                 ///< D = t_d/T, from sample to force, rounded up [ticks]
-  double virtual_damping = 0.0;  ///< B (of a coupling: B_c) [N·s/m]
+  int delay = 0;                 ///< k = t_d/T, from sample to force, rounded up [ticks]
+  double virtual_damping = 0.0;  ///< D (of a coupling: D_c) [N·s/m]
   double friction = 0.0;         ///< f_c, dry friction of the device [N], a lower bound
   double quantum = 0.0;          ///< Δ, step of the position sensor [m]
 
   [[nodiscard]] constexpr double half_period_and_delay() const noexcept {
     return period * (0.5 + delay);
   }
-  [[nodiscard]] constexpr parameter_fault<double> check() const noexcept {
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
     const auto finite = [](double x) { return kernels::is_finite(x); };
     if (!(damping >= 0.0) || !finite(damping)) return {"damping", damping, "finite and ≥ 0 N·s/m"};
     if (!(period > 0.0) || !finite(period)) return {"period", period, "finite and > 0 s"};
@@ -73,11 +72,11 @@ inline constexpr double nothing_is_safe = -std::numeric_limits<double>::infinity
 /// −∞ says that a constant is out of its range, or something is no number.
 namespace passivity {
 
-/// Largest K of a fixed wall H(z) = z⁻ᴰ (K + B (1 − z⁻¹)/T):   b > K (T/2 + t_d) + |B|
+/// Largest K of a fixed wall H(z) = z⁻ᵏ (K + D (1 − z⁻¹)/T):   b > K (T/2 + t_d) + |D|
 /// Colgate and Schenkel (1994, 1997), confirmed in two secondary sources and derived in § 2(g).
-/// Exact for D = 0 or B = 0, sufficient otherwise. Assumes exact positions and ticks of one length;
+/// Exact for k = 0 or D = 0, sufficient otherwise. Assumes exact positions and ticks of one length;
 /// of the hand only that it is passive. A wall that only pushes is no worse (proof with
-/// virtual_coupling in contact.hpp, for D = 0 and B ≥ 0).
+/// contact/virtual_coupling.hpp, for k = 0 and D ≥ 0).
 [[nodiscard]] constexpr double colgate_schenkel(const loop& l) noexcept {
   if (l.check() || l.quantum > 0.0) return 0.0;
   const double left = l.damping - kernels::magnitude(l.virtual_damping);
@@ -99,9 +98,9 @@ template <class H>
   });
 }
 
-/// Damping [N·s/m] that a fixed wall K, B needs at one frequency, after D ticks of delay:
-///     K T/2 · sin((2D + 1)θ/2)/sin(θ/2) − B cos((D + 1)θ)
-/// The first factor is the Dirichlet kernel, 2D + 1 at θ = 0, which gives K (T/2 + t_d). (§ 2(g) 2)
+/// Damping [N·s/m] that a fixed wall K, D needs at one frequency, after k ticks of delay:
+///     K T/2 · sin((2k + 1)θ/2)/sin(θ/2) − D cos((k + 1)θ)
+/// The first factor is the Dirichlet kernel, 2k + 1 at θ = 0, which gives K (T/2 + t_d). (§ 2(g) 2)
 [[nodiscard]] constexpr double needed_damping(const loop& l, double stiffness,
                                               frequency w) noexcept {
   const double kernel = cos_sin((2 * l.delay + 1) * w.angle / 2.0).im / cos_sin(w.angle / 2.0).im;
@@ -117,25 +116,25 @@ template <class H>
   return detail::margin(l, grid, [&](frequency w) { return needed_damping(l, stiffness, w); });
 }
 
-/// Largest K_c of a virtual coupling K_c, B_c to a fixed wall of any stiffness:
-/// K_c < 2(b − |B_c|)/T, and with delay as above. It is felt as 1/(1/K_c + 1/K) ≤ K_c. (§ 2(g) 1)
+/// Largest K_c of a virtual coupling K_c, D_c to a fixed wall of any stiffness:
+/// K_c < 2(b − |D_c|)/T, and with delay as above. It is felt as 1/(1/K_c + 1/K) ≤ K_c. (§ 2(g) 1)
 [[nodiscard]] constexpr double coupling(const loop& l) noexcept {
   return colgate_schenkel(l);
 }
 
 /// Margin of a virtual coupling Z_c(z), from velocity Δx/T [m/s] to force [N], to EVERY world that
 /// is passive in discrete time, Σ F v T ≥ 0 with v the backward difference: spring, mass, damper.
-///     b > sin²((D + 1)θ/2)/Re(1/Z_c),   Re(1/Z_c) > 0                            0 < θ ≤ π
-/// e.g. [=](frequency w) { return B_c + K_c * T / w.difference(); }, which for B_c ≥ 0 and D = 0
-/// gives K_c < 2(b − B_c)/T.
+///     b > sin²((k + 1)θ/2)/Re(1/Z_c),   Re(1/Z_c) > 0                            0 < θ ≤ π
+/// e.g. [=](frequency w) { return D_c + K_c * T / w.difference(); }, which for D_c ≥ 0 and k = 0
+/// gives K_c < 2(b − D_c)/T.
 ///
 /// This is Llewellyn's criterion of Adams and Hannaford (1999) for an impedance display, with the
 /// two-port [[Z_d, ZOH], [−1, 1/Z_c]]: 2 Re Z_d Re(1/Z_c) ≥ |ZOH| (1 − cos arg ZOH). As remembered,
 /// theirs has ZOH = (1 + z⁻¹)/2, which lets a pure spring pass up to 8b/T; the exact sampled device
-/// is unstable above 2b/T. Here Re Z_d = b and ZOH = z⁻¹⁻ᴰ. Proof (ours): b > −Re{z⁻¹⁻ᴰ Z} is
+/// is unstable above 2b/T. Here Re Z_d = b and ZOH = z⁻¹⁻ᵏ. Proof (ours): b > −Re{z⁻¹⁻ᵏ Z} is
 /// Colgate's condition for H = Z (1 − z⁻¹)/T. With Y = 1/Z it says that Y lies outside the circle
-/// around −z⁻¹⁻ᴰ/(2b) through 0; Y = 1/Z_c + 1/Z_world may be anything with Re Y ≥ Re(1/Z_c), and
-/// the circle's rightmost point is (1 − cos((D + 1)θ))/(2b).
+/// around −z⁻¹⁻ᵏ/(2b) through 0; Y = 1/Z_c + 1/Z_world may be anything with Re Y ≥ Re(1/Z_c), and
+/// the circle's rightmost point is (1 − cos((k + 1)θ))/(2b).
 template <class Z>
 [[nodiscard]] constexpr double adams_hannaford(const loop& l, Z coupling_impedance,
                                                frequency_grid grid = {}) noexcept {
@@ -170,11 +169,11 @@ template <class Z>
 /// Whether the device, left alone, comes to rest. Says nothing of the energy that a hand can draw.
 namespace stability {
 
-/// Largest K of a linear spring and damper against a free mass: K < (b + B)/(T/2 + t_d)
+/// Largest K of a linear spring and damper against a free mass: K < (b + D)/(T/2 + t_d)
 /// Gil and others, Hulin and others (form from memory). The true limit comes from the poles of the
-/// sampled device; the mass hardly matters. Measured on the exact device, m = 0.05 to 0.5 kg, D = 0
-/// to 5: for B = 0 and b ≤ 0.3 N·s/m the true limit is above the formula, by less than 1 %. With
-/// virtual damping it is BELOW: by up to 5 % at B = 1 and 27 % at B = 5 N·s/m. No guarantee, then.
+/// sampled device; the mass hardly matters. Measured on the exact device, m = 0.05 to 0.5 kg, k = 0
+/// to 5: for D = 0 and b ≤ 0.3 N·s/m the true limit is above the formula, by less than 1 %. With
+/// virtual damping it is BELOW: by up to 5 % at D = 1 and 27 % at D = 5 N·s/m. No guarantee, then.
 [[nodiscard]] constexpr double gil_hulin(const loop& l) noexcept {
   if (l.check() || l.quantum > 0.0) return 0.0;
   return kernels::larger(l.damping + l.virtual_damping, 0.0) / l.half_period_and_delay();

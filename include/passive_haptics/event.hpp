@@ -2,7 +2,6 @@
 #pragma once
 // What one tick has to tell its caller, and how much a type promises.
 
-#include <algorithm>
 #include <cstdint>
 
 namespace passive_haptics {
@@ -14,6 +13,7 @@ enum class event : std::uint8_t {
   nominal,          ///< all is well
   debt,             ///< the ledger is negative: the hand has been fed more than it paid
   late_tick,        ///< dt is longer than loop_limits::longest_tick: the bound assumed less
+  repeated_sample,  ///< the sensor is slower than the loop: its motions are booked too short
   no_target,        ///< the environment has published nothing yet: force zero
   rejected_target,  ///< the published constraint is unusable: the last good one stays
   stale_target,     ///< no good constraint for too long: the contact is fading out
@@ -30,6 +30,8 @@ enum class event : std::uint8_t {
       return "debt";
     case event::late_tick:
       return "late tick";
+    case event::repeated_sample:
+      return "repeated sample";
     case event::no_target:
       return "no target";
     case event::stale_target:
@@ -45,8 +47,15 @@ enum class event : std::uint8_t {
 }
 
 [[nodiscard]] constexpr event worse(event a, event b) noexcept {
-  return std::max(a, b);
+  return a < b ? b : a;
 }
+
+namespace detail {
+/// A force that is no number, where it is rare enough not to be in the way of the others.
+[[nodiscard, gnu::cold, gnu::noinline]] constexpr event unusable(event so_far) noexcept {
+  return worse(so_far, event::rejected_target);
+}
+}  // namespace detail
 
 /// How far a policy, or a composition, is passive at the device port.
 ///   strict       E1 ≥ 0 for every motion, every environment, every schedule of updates
@@ -65,18 +74,6 @@ enum class guarantee : std::uint8_t { none, conditional, strict };
   }
   return "unknown guarantee";
 }
-
-/// Why a parameter is refused. Converts to true when there IS a fault:
-///     static_assert(!bound.check());
-///     if (const auto fault = model.check()) complain(fault.parameter, fault.value, fault.remedy);
-template <class Scalar>
-struct parameter_fault {
-  const char* parameter = nullptr;  ///< its name, null when all is well
-  Scalar value{};                   ///< the value refused
-  const char* remedy = "";          ///< the range allowed
-
-  constexpr explicit operator bool() const noexcept { return parameter != nullptr; }
-};
 
 }  // namespace v0
 }  // namespace passive_haptics

@@ -4,7 +4,7 @@
 //
 //     ph::exchange<ph::half_space<scene>> inbox;         // shared
 //     inbox.publish(plane);                              // slow thread, 20-100 Hz
-//     if (const auto* plane = inbox.take()) touch.retarget(*plane);      // haptic thread, 1 kHz
+//     if (const auto* plane = inbox.take()) touch.update(*plane);  // haptic thread, 1 kHz
 //
 // Wait-free for one writer and one reader: three slots, one atomic byte. The writer fills its slot
 // and swaps it with the middle one; the reader, when the middle one is new, swaps it with its own.

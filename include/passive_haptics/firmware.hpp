@@ -5,18 +5,39 @@
 //   hardware_space<float, 1>   space<float, 1>, if the FPU computes floats and NaN is still NaN
 //   space<float, 1>            the same without that question: for cores that compute in software
 //
-// Two and three degrees of freedom need vectors: include eigen_space.hpp, too. The flags to use,
+// Two and three degrees of freedom need vectors: include port/eigen_space.hpp, too. The flags to use,
 // how to tick from an interrupt, PlatformIO, Arduino, Zephyr and FreeRTOS: docs/firmware.md.
 
-#include <passive_haptics/bounds.hpp>
-#include <passive_haptics/contact.hpp>
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/contacts.hpp>
+#include <passive_haptics/contact/damped_spring.hpp>
+#include <passive_haptics/contact/given_force.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/contact/virtual_coupling.hpp>
+#include <passive_haptics/energy_observer/no_observer.hpp>
+#include <passive_haptics/energy_observer/quantised_energy.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/exchange.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/force_bound/actuator_limit.hpp>
+#include <passive_haptics/force_bound/bound_chain.hpp>
+#include <passive_haptics/force_bound/energy_bounding.hpp>
+#include <passive_haptics/force_bound/energy_tank.hpp>
+#include <passive_haptics/force_bound/passivity_controller.hpp>
+#include <passive_haptics/force_bound/reachable_bound.hpp>
+#include <passive_haptics/force_bound/sector_bound.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/local_model.hpp>
-#include <passive_haptics/motion.hpp>
-#include <passive_haptics/normals.hpp>
-#include <passive_haptics/observers.hpp>
-#include <passive_haptics/supply.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
+#include <passive_haptics/normal_interpolation/turn_limited.hpp>
+#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/mass_observer.hpp>
+#include <passive_haptics/shaper/force_rate_limit.hpp>
+#include <passive_haptics/shaper/reference_energy.hpp>
+#include <passive_haptics/shaper/set_position_modulation.hpp>
+#include <passive_haptics/shaper/stiffness_augmentation.hpp>
+#include <passive_haptics/shaper/thesis_rule.hpp>
 #include <passive_haptics/version.hpp>
 
 namespace passive_haptics {

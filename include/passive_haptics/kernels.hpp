@@ -8,8 +8,9 @@
 //   2.17   strict_force_bound        √(4 B E1)
 //   2.27   depth_bound               f/K
 //   L6     outward_reach             how far the device can come out in the next tick
-//   § 9    reachable_force_bound     largest force whose work over that reach the ledger covers
-//   § 9    reachable_outflow         most energy a force can hand over within that reach
+//   2(a′)  reachable_force_bound     largest force whose work over that reach the ledger covers
+//   2(a′)  reachable_outflow         most energy a force can hand over within that reach
+//   2(a′)  reachable_share, reachable_work             the same two in joules, for any port
 //   § 9    sampled_stiffness, sampled_damping          what a sampled mass can take
 //   -      spendable, sure_gain, sum_rounded_down     rounding costs force, never the promise
 //   2.30   half_angle_turn           cos φ and sin φ of a small turn, without cos and sin
@@ -68,10 +69,21 @@ template <real S>
   return a < S(0) ? S(-a) : a;
 }
 
+/// The largest finite number, and the smallest normal one. In brackets: some compilers' headers make
+/// macros of these two names.
+template <class S>
+[[nodiscard]] constexpr S largest() noexcept {
+  return (std::numeric_limits<S>::max)();
+}
+template <real S>
+[[nodiscard]] constexpr S smallest() noexcept {
+  return (std::numeric_limits<S>::min)();
+}
+
 /// Neither NaN nor an infinity.
 template <real S>
 [[nodiscard]] constexpr bool is_finite(S x) noexcept {
-  return magnitude(x) <= std::numeric_limits<S>::max();
+  return magnitude(x) <= largest<S>();
 }
 
 /// √x for x ≥ 0, also in a constant expression (where Newton's iteration descends until it stalls).
@@ -118,7 +130,7 @@ template <real S>
 template <real S>
 [[nodiscard]] constexpr S spendable(S E1) noexcept {
   using limits = std::numeric_limits<S>;
-  return E1 * (S(1) - S(4) * rounding<S>()) - limits::min() / limits::epsilon();
+  return E1 * (S(1) - S(4) * rounding<S>()) - smallest<S>() / limits::epsilon();
 }
 
 /// f_max = √(4 B E1) [N], rounded towards zero; zero for a ledger in debt. The clamp stays inside
@@ -127,7 +139,7 @@ template <real S>
 [[nodiscard]] constexpr S strict_force_bound(S E1, S B) noexcept {
   const S credit = spendable(E1);
   if (!(credit > S(0))) return S(0);
-  return square_root(smaller(S(4) * B * credit, std::numeric_limits<S>::max()));
+  return square_root(smaller(S(4) * B * credit, largest<S>()));
 }
 
 /// The factor that brings a force whose worst outflow is `outflow` [J] down to what E1 [J] covers:
@@ -138,7 +150,10 @@ template <real S>
   if (outflow <= credit) return S(1);
   if (!(credit > S(0))) return S(0);
   const S share = credit / outflow;
-  return share >= std::numeric_limits<S>::min() ? square_root(share) : S(0);
+  if (!(share >= smallest<S>())) return S(0);
+  const S scale = square_root(share);
+  if (!(scale > S(0))) __builtin_unreachable();  // the root of what is positive: for the compiler
+  return scale;
 }
 
 /// dissipated − work [J], less what rounding can have done to either: never more than in exact
@@ -168,7 +183,7 @@ template <real S>
 ///     x(n+1) − x(n) = Δx·T/T₀ + double integral of a(t),   |a| ≤ (|f| + F_other)/m
 /// `outward` is the travel along the force in the last tick [m], which lasted T₀ [s]; `held` and
 /// `next` are the force magnitudes over the last and the next tick; `other` bounds all else that
-/// pushes. Exact for the double integrator, rounded up but for `outward`; with T₀ = T it is L6.
+/// pushes. Exact for the double integrator, rounded up but for `outward`. (L6)
 template <real S>
 [[nodiscard]] constexpr S outward_reach(S outward, S held, S next, S other, S m, S T0,
                                         S T) noexcept {
@@ -180,10 +195,10 @@ template <real S>
 /// The largest force F [N] with F s − B s² ≤ E1 for every 0 ≤ s ≤ δ:
 ///     δ ≤ 0: any force      δ < √(E1/B): E1/δ + B δ      else: √(4 B E1)
 /// rounded towards zero. The two branches meet where s = δ is itself the worst case (AM-GM), so it
-/// is continuous. (§ 9)
+/// is continuous. (§ 2(a′))
 template <real S>
 [[nodiscard]] constexpr S reachable_force_bound(S E1, S B, S reach) noexcept {
-  if (!(reach > S(0))) return std::numeric_limits<S>::max();
+  if (!(reach > S(0))) return largest<S>();
   const S credit = spendable(E1);
   if (B * reach * reach < credit) {
     return (credit / reach + B * reach) * (S(1) - rounding<S>());
@@ -200,13 +215,35 @@ template <real S>
   return f * reach - B * reach * reach;
 }
 
+/// max of η' − η'²/(4W) over 0 ≤ η' ≤ η [J]: the most that an effort of worst outflow W [J] can hand
+/// out when η [J] is the most work it can do; W itself from η = 2W on. (reachable_outflow in joules)
+template <real S>
+[[nodiscard]] constexpr S reachable_work(S W, S reach) noexcept {
+  if (!(reach > S(0)) || !(W > S(0))) return S(0);
+  if (reach >= S(2) * W) return W;
+  return reach - reach * reach / (S(4) * W);
+}
+
+/// The largest share s of an effort with s η' − η'²/(4W) ≤ E1 for every 0 ≤ η' ≤ η:
+///     η ≤ 0: all of it      η² < 4 W E1: E1/η + η/(4W)      else: √(E1/W)
+/// rounded towards zero, at most 1. (reachable_force_bound in joules)
+template <real S>
+[[nodiscard]] constexpr S reachable_share(S E1, S W, S reach) noexcept {
+  if (!(reach > S(0))) return S(1);
+  const S credit = spendable(E1);
+  if (credit > S(0) && reach * reach < S(4) * credit * W) {
+    return smaller(S(1), (credit / reach + reach / (S(4) * W)) * (S(1) - rounding<S>()));
+  }
+  return strict_scale(E1, W);
+}
+
 /// K_s = min(K, κ m/T²) [N/m]: the stiffness that a mass sampled every T can be held with. (§ 9)
 template <real S>
 [[nodiscard]] constexpr S sampled_stiffness(S K, S fraction, S m, S T) noexcept {
   return smaller(K, fraction * m / (T * T));
 }
 
-/// B_s = min(2 ζ √(K_s m), β m/T) [N·s/m]: damping ratio ζ, kept below what sampling allows. (§ 9)
+/// D_s = min(2 ζ √(K_s m), β m/T) [N·s/m]: damping ratio ζ, kept below what sampling allows. (§ 9)
 template <real S>
 [[nodiscard]] constexpr S sampled_damping(S K, S ratio, S fraction, S m, S T) noexcept {
   return smaller(S(2) * ratio * square_root(K * m), fraction * m / T);

@@ -36,20 +36,13 @@ class compensated_sum {
 
 namespace detail {
 
-/// What a tick has brought, `dissipated` − h·Δx [J], in exact arithmetic at least.
-template <class Space>
-[[nodiscard, gnu::always_inline]] constexpr typename Space::scalar sure_gain(
-    typename Space::scalar dissipated, const typename Space::vector& held,
-    const typename Space::vector& displacement) noexcept {
-  using scalar = typename Space::scalar;
-  scalar work = Space::component(held, 0) * Space::component(displacement, 0);
-  scalar passed = kernels::magnitude(work);
-  for (int i = 1; i < Space::dof; ++i) {
-    const scalar along = Space::component(held, i) * Space::component(displacement, i);
-    work += along;
-    passed += kernels::magnitude(along);
-  }
-  return kernels::sure_gain(dissipated, work, passed);
+/// What a tick has brought, `dissipated` − held·Δx [J], in exact arithmetic at least.
+template <class Port>
+[[nodiscard, gnu::always_inline]] constexpr typename Port::scalar sure_gain(
+    typename Port::scalar dissipated, const typename Port::effort& held,
+    const typename Port::motion& motion) noexcept {
+  const auto work = Port::work(held, motion);
+  return kernels::sure_gain(dissipated, work.joules, work.passed);
 }
 
 /// E += gain, rounded down.

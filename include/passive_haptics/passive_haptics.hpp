@@ -1,16 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The core, whole: everything a haptic loop needs, nothing of devices, environments or simulation.
-// A one-degree-of-freedom scene that wants no Eigen includes local_model.hpp and its parts instead.
+// The core, whole: everything a haptic loop needs, nothing of devices, environments or simulation. A
+// loop with one degree of freedom that wants no Eigen includes local_model.hpp and its parts instead.
+//
+//   compositions.hpp        start here: touch, force_guard
+//   local_model.hpp         one contact on one device
+//   passive_port.hpp        one device, whatever pushes on it; its pieces in port/
+//   energy_observer/        counts the energy that the hand and the device exchange
+//   force_bound/            limits the force by that energy
+//   normal_interpolation/   limits how fast the contact normal turns
+//   constraint_geometry/    pieces of the world, and who moves them
+//   contact/                depth to force; several contacts; a force of your own
+//   shaper/                 what looks at the contact before the bound does
+//   exchange.hpp            news from another thread
+//   laws.hpp                what a part of your own must obey; not in here
 
-#include <passive_haptics/bounds.hpp>
-#include <passive_haptics/contact.hpp>
-#include <passive_haptics/eigen_space.hpp>
+#include <passive_haptics/compositions.hpp>
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/constraint_geometry/segment.hpp>
+#include <passive_haptics/constraint_geometry/triangle.hpp>
+#include <passive_haptics/contact/contacts.hpp>
+#include <passive_haptics/contact/damped_spring.hpp>
+#include <passive_haptics/contact/given_force.hpp>
+#include <passive_haptics/contact/local_contact.hpp>
+#include <passive_haptics/contact/shaped.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/contact/virtual_coupling.hpp>
+#include <passive_haptics/energy_observer/no_observer.hpp>
+#include <passive_haptics/energy_observer/quantised_energy.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/exchange.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/force_bound/actuator_limit.hpp>
+#include <passive_haptics/force_bound/bound_chain.hpp>
+#include <passive_haptics/force_bound/energy_bounding.hpp>
+#include <passive_haptics/force_bound/energy_tank.hpp>
+#include <passive_haptics/force_bound/parallel_passivity_controller.hpp>
+#include <passive_haptics/force_bound/passivity_controller.hpp>
+#include <passive_haptics/force_bound/reachable_bound.hpp>
+#include <passive_haptics/force_bound/sector_bound.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/local_model.hpp>
-#include <passive_haptics/motion.hpp>
-#include <passive_haptics/normals.hpp>
-#include <passive_haptics/observers.hpp>
-#include <passive_haptics/supply.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
+#include <passive_haptics/normal_interpolation/turn_limited.hpp>
+#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/port/joint_space.hpp>
+#include <passive_haptics/port/mass_observer.hpp>
+#include <passive_haptics/shaper/force_rate_limit.hpp>
+#include <passive_haptics/shaper/reference_energy.hpp>
+#include <passive_haptics/shaper/set_position_modulation.hpp>
+#include <passive_haptics/shaper/stiffness_augmentation.hpp>
+#include <passive_haptics/shaper/thesis_rule.hpp>
 #include <passive_haptics/version.hpp>

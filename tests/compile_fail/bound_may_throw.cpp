@@ -3,16 +3,18 @@
 //
 // limit() runs in the haptic loop and must say that it never throws.
 
-#include <passive_haptics/bounds.hpp>
-#include <passive_haptics/contact.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/local_model.hpp>
-#include <passive_haptics/normals.hpp>
-#include <passive_haptics/observers.hpp>
-#include <passive_haptics/supply.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;
+
 using wall = ph::half_space<scene>;
 
 #ifdef POSITIVE_CONTROL
@@ -20,15 +22,17 @@ constexpr bool quiet = true;
 #else
 constexpr bool quiet = false;
 #endif
-struct mine : ph::no_bound<scene> {
-  constexpr float limit(float desired, const auto& /*state*/) const noexcept(quiet) {
-    return desired;
-  }
+
+struct mine : ph::no_bound {
+  template <ph::port P>
+  struct on : ph::no_bound::on<P> {
+    using ph::no_bound::on<P>::on;
+    constexpr float limit(float desired, const auto& /*state*/) const noexcept(quiet) {
+      return desired;
+    }
+  };
 };
 
-ph::local_model model{scene{},
-                      ph::following<wall>{},
-                      ph::snap<scene>{},
-                      ph::spring<scene>{},
-                      ph::reduced_energy<scene>{},
-                      mine{}};
+ph::local_model model{scene{},          ph::followed<wall>{}, ph::turn_at_once{},
+                      ph::spring{},     ph::reduced_energy{}, mine{},
+                      ph::loop_limits{}};

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // EXPECT: passive_haptics: the constraint does not model constraint_for
 //
-// depth() runs in the haptic loop and must say that it never throws.
+// at() runs in the haptic loop and must say that it never throws.
 
-#include <passive_haptics/bounds.hpp>
-#include <passive_haptics/contact.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/local_model.hpp>
-#include <passive_haptics/normals.hpp>
-#include <passive_haptics/observers.hpp>
-#include <passive_haptics/supply.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;
+
 using wall = ph::half_space<scene>;
 
 #ifdef POSITIVE_CONTROL
@@ -20,16 +22,19 @@ constexpr bool quiet = true;
 #else
 constexpr bool quiet = false;
 #endif
+
 struct mine : wall {
-  constexpr float depth(float x) const noexcept(quiet) { return x; }
+  struct probe {
+    float depth;
+    constexpr float outward() const noexcept { return 1; }
+    constexpr bool covered() const noexcept { return true; }
+  };
+  constexpr probe at(const float& x) const noexcept(quiet) { return {x}; }
   constexpr mine toward(const mine& target, float /*x*/, float /*n*/, float /*d*/) const noexcept {
     return target;
   }
 };
 
-ph::local_model model{scene{},
-                      ph::following<mine>{},
-                      ph::snap<scene>{},
-                      ph::spring<scene>{},
-                      ph::reduced_energy<scene>{},
-                      ph::strict_bound<scene>{}};
+ph::local_model model{scene{},          ph::followed<mine>{}, ph::turn_at_once{},
+                      ph::spring{},     ph::reduced_energy{}, ph::strict_bound{},
+                      ph::loop_limits{}};

@@ -3,18 +3,20 @@
 //
 // A constraint crosses threads, so it is trivially copyable: no heap, no Eigen member.
 
-#include <passive_haptics/bounds.hpp>
-#include <passive_haptics/contact.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/local_model.hpp>
-#include <passive_haptics/normals.hpp>
-#include <passive_haptics/observers.hpp>
-#include <passive_haptics/supply.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 
 #include <vector>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;
+
 using wall = ph::half_space<scene>;
 
 #ifdef POSITIVE_CONTROL
@@ -29,9 +31,6 @@ struct mine : wall {
   }
 };
 
-ph::local_model model{scene{},
-                      ph::following<mine>{},
-                      ph::snap<scene>{},
-                      ph::spring<scene>{},
-                      ph::reduced_energy<scene>{},
-                      ph::strict_bound<scene>{}};
+ph::local_model model{scene{},          ph::followed<mine>{}, ph::turn_at_once{},
+                      ph::spring{},     ph::reduced_energy{}, ph::strict_bound{},
+                      ph::loop_limits{}};

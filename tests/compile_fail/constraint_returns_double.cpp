@@ -1,35 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // EXPECT: passive_haptics: the constraint does not model constraint_for
 //
-// depth() must return the scalar of the space, not something that converts to it.
+// The edge test answers yes or no, not with something that converts to it.
 
-#include <passive_haptics/bounds.hpp>
-#include <passive_haptics/contact.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/local_model.hpp>
-#include <passive_haptics/normals.hpp>
-#include <passive_haptics/observers.hpp>
-#include <passive_haptics/supply.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;
+
 using wall = ph::half_space<scene>;
 
 #ifdef POSITIVE_CONTROL
-using result = float;
+using answer = bool;
 #else
-using result = double;
+using answer = double;
 #endif
+
 struct mine : wall {
-  constexpr result depth(float x) const noexcept { return x; }
+  struct probe {
+    float depth;
+    constexpr float outward() const noexcept { return 1; }
+    constexpr answer covered() const noexcept { return true; }
+  };
+  constexpr probe at(const float& x) const noexcept { return {x}; }
   constexpr mine toward(const mine& target, float /*x*/, float /*n*/, float /*d*/) const noexcept {
     return target;
   }
 };
 
-ph::local_model model{scene{},
-                      ph::following<mine>{},
-                      ph::snap<scene>{},
-                      ph::spring<scene>{},
-                      ph::reduced_energy<scene>{},
-                      ph::strict_bound<scene>{}};
+ph::local_model model{scene{},          ph::followed<mine>{}, ph::turn_at_once{},
+                      ph::spring{},     ph::reduced_energy{}, ph::strict_bound{},
+                      ph::loop_limits{}};

@@ -3,28 +3,34 @@
 //
 // force() must return the scalar of the space, not something that converts to it.
 
-#include <passive_haptics/bounds.hpp>
-#include <passive_haptics/contact.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/local_model.hpp>
-#include <passive_haptics/normals.hpp>
-#include <passive_haptics/observers.hpp>
-#include <passive_haptics/supply.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;
+
 using wall = ph::half_space<scene>;
 
 #ifdef POSITIVE_CONTROL
-using result = float;
+using number = float;
 #else
-using result = double;
+using number = double;
 #endif
-struct mine : ph::spring<scene> {
-  constexpr result force(float depth, float /*outward_speed*/) const noexcept {
-    return stiffness * depth;
-  }
+
+struct mine : ph::spring {
+  template <class Space>
+  struct on : ph::spring::on<Space> {
+    using ph::spring::on<Space>::on;
+    constexpr number force(float depth, float /*outward_speed*/) const noexcept { return depth; }
+  };
 };
 
-ph::local_model model{scene{}, ph::following<wall>{},       ph::snap<scene>{},
-                      mine{},  ph::reduced_energy<scene>{}, ph::strict_bound<scene>{}};
+ph::local_model model{scene{},          ph::followed<wall>{}, ph::turn_at_once{},
+                      mine{},           ph::reduced_energy{}, ph::strict_bound{},
+                      ph::loop_limits{}};

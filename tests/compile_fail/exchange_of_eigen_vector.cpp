@@ -3,14 +3,15 @@
 //
 // Eigen's vectors have a copy constructor of their own: they stay in their thread.
 
-#include <passive_haptics/eigen_space.hpp>
 #include <passive_haptics/exchange.hpp>
+#include <passive_haptics/port/eigen_space.hpp>
 
 namespace ph = passive_haptics;
-using scene = ph::space<float, 3>;
+
+using room = ph::space<float, 3>;
 
 #ifdef POSITIVE_CONTROL
-ph::exchange<scene::coordinates> positions;
+ph::exchange<room::coordinates> positions;
 #else
-ph::exchange<scene::vector> positions;
+ph::exchange<room::vector> positions;
 #endif

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EXPECT: a law for bounds that only reduce
+// EXPECT: passive_haptics: a law for bounds that only reduce
 //
-// force_rate_limit may hold a force above the desired one, so it does not claim to reduce.
+// per_axis_bound may turn a force, so it answers with another one and not with a share.
 
-#include <passive_haptics/bounds.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/laws.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;
 
 #ifdef POSITIVE_CONTROL
-using bound = ph::strict_bound<scene>;
+using bound = ph::strict_bound;
 #else
-using bound = ph::force_rate_limit<scene>;
+using bound = ph::per_axis_bound;
 #endif
 bool reduces = ph::laws::scales_down<scene>(bound{});

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EXPECT: strict_bound: Latency counts ticks and cannot be negative
+// EXPECT: passive_haptics: late_loop_limits: Latency counts ticks and cannot be negative
+//
+// A command is held when it is given, or later.
 
-#include <passive_haptics/bounds.hpp>
+#include <passive_haptics/port/loop_limits.hpp>
 
 namespace ph = passive_haptics;
 
@@ -10,4 +12,4 @@ constexpr int latency = 1;
 #else
 constexpr int latency = -1;
 #endif
-ph::strict_bound<ph::space<float, 1>, latency> bound;
+ph::late_loop_limits<latency> limits;

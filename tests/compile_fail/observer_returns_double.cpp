@@ -1,28 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // EXPECT: passive_haptics: the observer does not model energy_observer_for
 //
-// value() must return the scalar of the space, not something that converts to it.
+// value() must return the scalar of the port, not something that converts to it.
 
-#include <passive_haptics/bounds.hpp>
-#include <passive_haptics/contact.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/energy_observer/no_observer.hpp>
+#include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/local_model.hpp>
-#include <passive_haptics/normals.hpp>
-#include <passive_haptics/observers.hpp>
-#include <passive_haptics/supply.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;
+
 using wall = ph::half_space<scene>;
 
 #ifdef POSITIVE_CONTROL
-using result = float;
+using number = float;
 #else
-using result = double;
+using number = double;
 #endif
-struct mine : ph::no_observer<scene> {
-  constexpr result value() const noexcept { return 0; }
+
+struct mine : ph::no_observer {
+  template <ph::port P>
+  struct on : ph::no_observer::on<P> {
+    using ph::no_observer::on<P>::on;
+    constexpr number value() const noexcept { return 0; }
+  };
 };
 
-ph::local_model model{scene{}, ph::following<wall>{}, ph::snap<scene>{}, ph::spring<scene>{},
-                      mine{},  ph::no_bound<scene>{}};
+ph::local_model model{scene{}, ph::followed<wall>{}, ph::turn_at_once{}, ph::spring{},
+                      mine{},  ph::no_bound{},       ph::loop_limits{}};

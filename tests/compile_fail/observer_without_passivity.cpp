@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // EXPECT: passive_haptics: the observer does not model energy_observer_for
 //
-// Every policy states what it promises; a model promises the least of its parts.
+// Every observer states what it promises; a port promises the least of its parts.
 
-#include <passive_haptics/bounds.hpp>
-#include <passive_haptics/contact.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/energy_observer/no_observer.hpp>
+#include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/local_model.hpp>
-#include <passive_haptics/normals.hpp>
-#include <passive_haptics/observers.hpp>
-#include <passive_haptics/supply.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;
+
 using wall = ph::half_space<scene>;
 
 struct mine {
@@ -20,7 +22,8 @@ struct mine {
   static constexpr ph::guarantee passivity = ph::guarantee::none;
 #endif
   static constexpr bool counts = true;
-  ph::isotropic_damping<scene> damping{1};
+  static constexpr bool exact = true;
+  ph::isotropic_damping::on<scene> b{ph::isotropic_damping{1}};
   constexpr bool update(float /*dx*/, float /*held*/, float /*dt*/) noexcept {
     return true;
   }
@@ -28,10 +31,10 @@ struct mine {
   constexpr float value() const noexcept {
     return 0;
   }
-  constexpr ph::parameter_fault<float> check() const noexcept {
-    return {};
+  constexpr const auto& damping() const noexcept {
+    return b;
   }
 };
 
-ph::local_model model{scene{}, ph::following<wall>{}, ph::snap<scene>{}, ph::spring<scene>{},
-                      mine{},  ph::no_bound<scene>{}};
+ph::local_model model{scene{}, ph::followed<wall>{}, ph::turn_at_once{}, ph::spring{},
+                      mine{},  ph::no_bound{},       ph::loop_limits{}};

@@ -3,8 +3,8 @@
 //
 // A slope needs motion along the force.
 
-#include <passive_haptics/bounds/sector.hpp>
-#include <passive_haptics/eigen_space.hpp>
+#include <passive_haptics/force_bound/sector_bound.hpp>
+#include <passive_haptics/port/eigen_space.hpp>
 
 namespace ph = passive_haptics;
 
@@ -13,4 +13,4 @@ constexpr int dof = 1;
 #else
 constexpr int dof = 2;
 #endif
-ph::sector_bound<ph::space<float, dof>> slope;
+ph::part_at<ph::sector_bound, ph::space<float, dof>> slope(ph::sector_bound{});

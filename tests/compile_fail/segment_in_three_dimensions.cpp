@@ -3,8 +3,7 @@
 //
 // A segment has two dimensions; in three there is triangle.
 
-#include <passive_haptics/eigen_space.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/segment.hpp>
 
 namespace ph = passive_haptics;
 

@@ -3,22 +3,26 @@
 //
 // A bound that spends energy needs an observer that counts it.
 
-#include <passive_haptics/bounds.hpp>
-#include <passive_haptics/contact.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/energy_observer/no_observer.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/local_model.hpp>
-#include <passive_haptics/normals.hpp>
-#include <passive_haptics/observers.hpp>
-#include <passive_haptics/supply.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;
+
 using wall = ph::half_space<scene>;
 
 #ifdef POSITIVE_CONTROL
-using observer = ph::reduced_energy<scene>;
+using observer = ph::reduced_energy;
 #else
-using observer = ph::no_observer<scene>;
+using observer = ph::no_observer;
 #endif
-ph::local_model model{scene{},    ph::following<wall>{},    ph::snap<scene>{}, ph::spring<scene>{},
-                      observer{}, ph::strict_bound<scene>{}};
+
+ph::local_model model{scene{},    ph::followed<wall>{}, ph::turn_at_once{}, ph::spring{},
+                      observer{}, ph::strict_bound{},   ph::loop_limits{}};

@@ -3,8 +3,7 @@
 //
 // A triangle has three dimensions; in two there is segment.
 
-#include <passive_haptics/eigen_space.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/triangle.hpp>
 
 namespace ph = passive_haptics;
 

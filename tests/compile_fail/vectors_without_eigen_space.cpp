@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EXPECT: (incomplete type|undefined template).*space<float, 3>
+// EXPECT: passive_haptics: vectors are Eigen's: include <passive_haptics/port/eigen_space.hpp>
 //
 // Two and more degrees of freedom are in a header of their own.
 
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
 #ifdef POSITIVE_CONTROL
-#include <passive_haptics/eigen_space.hpp>
+#include <passive_haptics/port/eigen_space.hpp>
 #endif
 
 namespace ph = passive_haptics;

@@ -16,11 +16,12 @@ int main() {
   float narrowed = x;  // -Wconversion -Werror would refuse this line, and the one before
   ph::local_model wall{
       scene{},
-      ph::rigid{ph::half_space<scene>{.point = {0, 0, 0}, .normal = {0, 0, 1}, .stiffness = 500}},
-      ph::snap<scene>{},
-      ph::spring<scene>{},
-      ph::reduced_energy<scene>{.damping = 1, .energy = 0.001F},
-      ph::strict_bound<scene>{}};
+      ph::fixed{ph::half_space<scene>{.point = {0, 0, 0}, .normal = {0, 0, 1}, .stiffness = 500}},
+      ph::turn_at_once{},
+      ph::spring{},
+      ph::reduced_energy{.damping = 1, .loan = 0.001},
+      ph::strict_bound{},
+      ph::loop_limits{.longest_tick = 0.001}};
   const auto out = wall.tick({0, 0, narrowed}, 0.001F);
   std::printf("passive_haptics %d.%d.%d: %.2f N\n", ph::version_major, ph::version_minor,
               ph::version_patch, static_cast<double>(out.force(2)));

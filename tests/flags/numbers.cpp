@@ -39,7 +39,7 @@ void try_bounds(findings& found) {
         std::sqrt(4.0 * static_cast<double>(b) / static_cast<double>(T) * static_cast<double>(E));
     const double steps = static_cast<double>(random.bits() % 64U) - 48.0;
     const auto near = static_cast<float>(std::fmin(most * (1.0 + steps * 0x1p-24), 1e16));
-    const ph::isotropic_damping<f1> damping{b};
+    const ph::part_at<ph::isotropic_damping, f1> damping(static_cast<double>(b));
     for (const float asked : {near, 1e4F}) {
       const float force = asked * damping.affordable(asked, E, T);
       found.strict += exact::covered(force, E, b, T) ? 0 : 1;
@@ -57,14 +57,14 @@ void try_bounds(findings& found) {
 /// Steps on a grid on which float differences are exact; truth in double, whose own rounding is
 /// nine digits below what is looked for.
 void try_ledger(findings& found) {
-  auto ledger = thesis_ledger<f1>();
+  auto ledger = at<f1>(thesis_ledger());
   sim::random_source random(2);
   ph::compensated_sum<double> truth;
   float held = 0.0F;
   double passed = 0.0;
   for (int n = 0; n < 200000; ++n) {
     const float dx = std::ldexp(std::round(static_cast<float>(random.uniform(-64.0, 64.0))), -20);
-    ledger.update(dx, held, 1e-3F);
+    (void)ledger.update(dx, held, 1e-3F);
     const double way = static_cast<double>(dx), force = static_cast<double>(held);
     const double damped = static_cast<double>(0.03F) * way * way / static_cast<double>(1e-3F);
     truth += damped;
@@ -80,11 +80,12 @@ void try_ledger(findings& found) {
 template <class Space, class Bound>
 double least_energy(const Bound& bound) {
   const ph::local_model model{Space{},
-                              ph::following<ph::half_space<Space>>{},
-                              ph::rotate_limited<Space>{.rate = 4},
-                              ph::spring<Space>{},
-                              thesis_ledger<Space>(),
-                              bound};
+                              ph::followed<ph::half_space<Space>>{},
+                              ph::turn_limited{.rate = 4},
+                              ph::spring{},
+                              thesis_ledger(),
+                              bound,
+                              thesis_loop};
   double least = 0.0;
   for (const auto by :
        {sim::adversary::nyquist, sim::adversary::greedy, sim::adversary::kitchen_sink}) {
@@ -99,11 +100,11 @@ bool sound(const char* mode) {
   try_bounds(found);
   try_ledger(found);
   for (const double e :
-       {least_energy<f1>(ph::strict_bound<f1>{}), least_energy<d1>(ph::strict_bound<d1>{}),
-        least_energy<f3>(ph::strict_bound<f3>{}), least_energy<d3>(ph::strict_bound<d3>{})}) {
+       {least_energy<f1>(ph::strict_bound{}), least_energy<d1>(ph::strict_bound{}),
+        least_energy<f3>(ph::strict_bound{}), least_energy<d3>(ph::strict_bound{})}) {
     found.attack = e >= found.attack ? found.attack : e;
   }
-  found.unbounded = least_energy<d1>(ph::no_bound<d1>{});
+  found.unbounded = least_energy<d1>(ph::no_bound{});
   const bool holds =
       found.strict == 0 && found.reach == 0 && found.ledger == 0 && found.attack >= -1e-12;
   // Upwards, and with the excess precision of an x87, the formula without margin is safe, too.

@@ -162,8 +162,8 @@ inline const char* boot(input bytes) noexcept {
   if (report.how && report.attempts > 0 && report.echoed != image.size()) {
     return "loaded without all of the echo";
   }
-  if (!line.far().in_range) return "a word out of range";
-  return line.far().last == falcon::leg_words{} ? nullptr : "a force while booting";
+  if (!line.peer().in_range) return "a word out of range";
+  return line.peer().last == falcon::leg_words{} ? nullptr : "a force while booting";
 }
 
 /// No force but in `homed`, no word out of range, no sample that is not finite, whatever is
@@ -174,7 +174,7 @@ inline const char* device(input bytes) noexcept {
   reader forces(bytes.first(half));
   const falcon::settings<double> setup{.ramp = 0.002, .settle = 2, .most_misses = 4};
   falcon::device<line_type> grip{falcon::cautious_gain<double>, setup, bytes.subspan(half)};
-  const auto& far = grip.line().far();
+  const auto& box = grip.line().peer();
   falcon::boot_options options;
   options.policy = falcon::firmware_policy::assume_running;
   if (!grip.open() || !grip.boot({}, options).how) return "does not start";
@@ -192,15 +192,15 @@ inline const char* device(input bytes) noexcept {
       }
     }
     if (!std::isfinite(sample.dt) || sample.dt < 0.0) return "time that runs backwards";
-    if (!far.in_range) return "a word out of range";
-    const bool force = far.last != falcon::leg_words{};
-    if (force && far.attached() && grip.where() != falcon::state::homed) {
+    if (!box.in_range) return "a word out of range";
+    const bool force = box.last != falcon::leg_words{};
+    if (force && box.attached() && grip.where() != falcon::state::homed) {
       return "a force outside of homed";
     }
-    if (force && far.attached() && !sample.valid) return "a force without a position";
+    if (force && box.attached() && !sample.valid) return "a force without a position";
   }
   (void)grip.close();
-  if (far.attached() && far.last != falcon::leg_words{}) return "a force after closing";
+  if (box.attached() && box.last != falcon::leg_words{}) return "a force after closing";
   return nullptr;
 }
 

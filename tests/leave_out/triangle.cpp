@@ -7,12 +7,15 @@ using scene = ph::space<double, 3>;
 
 scene::vector facet_force(const scene::vector& position, double dt) {
   static ph::exchange<ph::triangle<scene>> mailbox;
-  static ph::local_model facet{scene{},
-                               ph::following<ph::triangle<scene>>{},
-                               ph::rotate_limited<scene>{.rate = 4},
-                               ph::spring<scene>{},
-                               ph::reduced_energy<scene>{.damping = 0.3},
-                               ph::thesis_bound<scene>{}};
-  if (const auto* next = mailbox.take()) static_cast<void>(facet.retarget(*next));
-  return facet.tick(position, dt).force;
+  static ph::passive_port facets{
+      scene{},
+      ph::contacts{ph::local_contact{ph::followed<ph::triangle<scene>>{},
+                                     ph::turn_limited{.rate = 4},
+                                     ph::shaped{ph::spring{}, ph::thesis_rule{}}}},
+      ph::reduced_energy{.damping = 0.3}, ph::no_bound{},
+      ph::watched_loop_limits<>{.longest_tick = 0.001}};
+  if (const auto* next = mailbox.take()) {
+    static_cast<void>(facets.source().contact<0>().update(*next));
+  }
+  return facets.tick(position, dt).force;
 }

@@ -7,20 +7,26 @@
 #include <cstdlib>
 #include <limits>
 
-template <class Model>
-void loop(Model& model, bool allocate) noexcept [[clang::nonblocking]] {
-  using space = typename Model::space_type;
-  using scalar = typename Model::scalar;
+template <class Port>
+void run_loop(Port& model, bool allocate) noexcept [[clang::nonblocking]] {
+  using space = typename Port::port_type;
+  using scalar = typename Port::scalar;
   for (int n = 0; n < 300; ++n) {
-    typename space::vector x = space::zero();
+    typename space::pose x = space::zero();
     space::component(x, space::dof - 1) =
         n % 97 == 96 ? std::numeric_limits<scalar>::quiet_NaN() : scalar(1e-5) * scalar(50 - n);
     if (n % 33 == 0) {
-      if constexpr (requires { model.retarget(model.target()); }) {
-        static_cast<void>(model.retarget(model.target()));
+      if constexpr (requires { model.update(model.target()); }) {
+        static_cast<void>(model.update(model.target()));
+      }
+      if constexpr (requires { model.source().update(x); }) {
+        static_cast<void>(model.source().update(x * scalar(100)));
       }
     }
     static_cast<void>(model.tick(x, n % 50 == 49 ? scalar(2e-3) : scalar(1e-3)));
+    if constexpr (Port::latency == 0) {
+      if (n == 200) static_cast<void>(model.set(ph::loop_limits{.longest_tick = 0.002}));
+    }
     if (allocate) {
       void* volatile block = std::malloc(16);
       std::free(block);
@@ -33,7 +39,7 @@ int main(int count, char** /*arguments*/) {
   int unsound = 0;
   const auto run = [&](auto model) {
     if (model.check()) ++unsound;
-    loop(model, count > 1);
+    run_loop(model, count > 1);
     ++models;
   };
   each_model<float>(run);

@@ -10,7 +10,8 @@ import re
 import subprocess
 import sys
 
-ROOTS = ["firmware.hpp", "passive_haptics.hpp", "laws.hpp", "design.hpp"]
+ROOTS = ["firmware.hpp", "passive_haptics.hpp", "compositions.hpp", "port/measure_latency.hpp",
+         "laws.hpp", "design.hpp"]
 OWN = re.compile(r"#include <passive_haptics/(.*)>")
 OTHER = re.compile(r"#include <(.*)>")
 
@@ -45,6 +46,18 @@ def body(text):
     return re.sub(r"\n{3,}", "\n\n", "\n".join(kept)).strip("\n"), others
 
 
+def needs_eigen(include, name):
+    """Whether a header has no use without Eigen: it includes Eigen, or such a header, on no condition."""
+    depth = 0
+    for line in (include / "passive_haptics" / name).read_text(encoding="utf-8").splitlines():
+        depth += line.startswith("#if") - line.startswith("#endif")
+        own = OWN.match(line)
+        if not depth and (line.startswith("#include <Eigen/") or
+                          own and needs_eigen(include, own.group(1))):
+            return True
+    return False
+
+
 def version(include):
     text = (include / "passive_haptics" / "version.hpp").read_text(encoding="utf-8")
     return ".".join(re.findall(r"version_(?:major|minor|patch) = (\d+)", text))
@@ -76,9 +89,8 @@ def main():
     for name in order:
         text, others = body((include / "passive_haptics" / name).read_text(encoding="utf-8"))
         standard |= {other for other in others if not other.startswith("Eigen/")}
-        needs_eigen = [other for other in others if other.startswith("Eigen/")]
-        eigen |= set(needs_eigen)
-        if needs_eigen:
+        eigen |= {other for other in others if other.startswith("Eigen/")}
+        if text and needs_eigen(include, name):
             text = f"#if __has_include(<Eigen/Core>)\n{text}\n#endif  // Eigen"
         parts.append(f"// ---- {name}\n\n{text}\n")
     if eigen != {"Eigen/Core"}:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A local model in a loop with the mock Falcon: driver, packets, arms and hand, in virtual time.
-#include "scenes.hpp"
+#include "support/scenes.hpp"
 #include <passive_haptics/falcon/device.hpp>
 #include <passive_haptics/falcon/mock.hpp>
 
@@ -30,5 +30,5 @@ bool make_ready(falcon_device<Hand>& device) {
 /// The body of the mock Falcon: where it truly is, what its motors did.
 template <class Hand>
 const auto& body_of(const falcon_device<Hand>& device) {
-  return device.line().far().mechanism().body();
+  return device.line().peer().mechanism().body();
 }

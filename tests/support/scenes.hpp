@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The spaces that the tests run in, and short ways to compose.
+// The spaces that the tests run in, short ways to compose, and a port in one tick for asking a bound
+// or a shaper by itself.
 #include <passive_haptics/passive_haptics.hpp>
 
 #include <cmath>
@@ -16,17 +17,19 @@ using f2 = ph::space<float, 2>;
 using f3 = ph::space<float, 3>;
 
 /// A device as in the thesis: b = 0.03 N·s/m, T = 1 ms, so B = 30 N/m.
-template <class Space>
-constexpr auto thesis_ledger() {
-  return ph::reduced_energy<Space>{.damping = typename Space::scalar(0.03)};
+template <class Space = d1>
+constexpr ph::reduced_energy thesis_ledger() {
+  return {.damping = 0.03};
 }
+/// Its loop; nothing that a test does is too fast to be believed.
+inline constexpr ph::loop_limits thesis_loop{.longest_tick = 1e-3, .top_speed = 100.0};
 
 /// A model of a surface that the environment moves, everything else as given.
-template <class Space, class Contact, class Observer, class Bound>
-constexpr auto following_half_space(const Contact& contact, const Observer& observer,
-                                    const Bound& bound, ph::loop_limits<Space> limits = {}) {
+template <class Space, class Law, class Observer, class Bound, class Limits = ph::loop_limits>
+constexpr auto following_half_space(const Law& law, const Observer& observer, const Bound& bound,
+                                    const Limits& limits = thesis_loop) {
   return ph::local_model{
-      Space{}, ph::following<ph::half_space<Space>>{}, ph::snap<Space>{}, contact, observer, bound,
+      Space{}, ph::followed<ph::half_space<Space>>{}, ph::turn_at_once{}, law, observer, bound,
       limits};
 }
 
@@ -34,4 +37,55 @@ constexpr auto following_half_space(const Contact& contact, const Observer& obse
 template <class Space>
 constexpr ph::half_space<Space> wall(typename Space::scalar stiffness) {
   return {typename Space::scalar(0), typename Space::scalar(-1), stiffness};
+}
+
+/// What computes at a port.
+template <class Port, class Part>
+constexpr ph::part_at<Part, Port> at(const Part& part) {
+  return ph::part_at<Part, Port>(part);
+}
+
+/// A port in one tick, with all that its port_state refers to. Unless told otherwise it is the
+/// thesis's, quiet and with an empty ledger.
+template <class Port, class Damping = ph::isotropic_damping, int Latency = 0, bool Exact = true>
+struct situation {
+  using damping_type = ph::part_at<Damping, Port>;
+  using state_type = ph::port_state<Port, damping_type, Latency, Exact>;
+  using scalar = typename Port::scalar;
+
+  damping_type damping{Damping{0.03}};
+  scalar energy{};
+  scalar dt = scalar(1e-3);
+  scalar longest_tick = scalar(1e-3);
+  typename Port::stored_effort held = Port::zero();
+  typename Port::motion travel = Port::zero();
+  scalar travel_error{};
+  bool motion_known = true;
+  typename state_type::commands commanded{};  ///< newest first
+
+  [[nodiscard]] constexpr state_type port() const noexcept {
+    return {.damping = damping,
+            .commanded = commanded,
+            .energy = energy,
+            .dt = dt,
+            .longest_tick = longest_tick,
+            .held = held,
+            .travel = travel,
+            .travel_error = travel_error,
+            .motion_known = motion_known};
+  }
+};
+
+/// What a bound leaves of an effort.
+template <class Bound, class Port, class Damping, int Latency, bool Exact>
+constexpr typename Port::effort allowed(Bound& bound, const typename Port::effort& desired,
+                                        const situation<Port, Damping, Latency, Exact>& now) {
+  return ph::detail::applied<Port>(bound, desired, now.port()).force;
+}
+/// And what a shaper makes of it.
+template <class Shaper, class Space, class Damping, int Latency, bool Exact>
+constexpr typename Space::vector allowed(Shaper& shaper, const typename Space::vector& desired,
+                                         const ph::contact_state<Space>& contact,
+                                         const situation<Space, Damping, Latency, Exact>& now) {
+  return ph::detail::applied<Space>(shaper, desired, contact, now.port()).force;
 }

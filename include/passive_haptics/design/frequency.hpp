@@ -68,7 +68,7 @@ inline constexpr double pi = 3.141592653589793;
 }
 
 /// One frequency: what H(z), given as a callable of this, is written with.
-///     [](design::frequency w) { return K + B * w.difference() / T; }
+///     [](design::frequency w) { return K + D * w.difference() / T; }
 struct frequency {
   double angle = pi;  ///< θ = ωT [rad], in (0, π]; π is the Nyquist frequency
 

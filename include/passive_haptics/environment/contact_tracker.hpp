@@ -37,8 +37,8 @@ class contact_tracker {
     if (!closest) return std::nullopt;
     if (triangle_ >= 0 && triangle_ < static_cast<int>(surface.size())) {
       const auto held = point_on(surface, nodes, triangle_, x);
-      const bool near = held && held->distance <= closest->distance + margin_;
-      if (near && (held->depth > 0.0) == (closest->depth > 0.0)) return held;
+      const bool close_enough = held && held->distance <= closest->distance + margin_;
+      if (close_enough && (held->depth > 0.0) == (closest->depth > 0.0)) return held;
     }
     triangle_ = closest->triangle;
     return closest;

@@ -95,7 +95,7 @@ class deformable_body {
       volume += signed_volume(mesh, t);
     }
     centre_ /= volume;
-    for (const auto& node : rest_) extent_ = std::max(extent_, (node - centre_).norm());
+    for (const auto& node : rest_) extent_ = (std::max)(extent_, (node - centre_).norm());
   }
 
   /// One update of the slow loop. Loads the contact of the LAST update, the one the local model
@@ -124,7 +124,7 @@ class deformable_body {
                 found->weights,
                 found->triangle,
                 found->depth,
-                std::min(stiffness, options_.max_stiffness),
+                (std::min)(stiffness, options_.max_stiffness),
                 true};
     return contact_;
   }

@@ -79,7 +79,7 @@ struct mesh_fault {
     for (const int b : tetrahedron) {
       const auto edge =
           mesh.nodes.at(static_cast<std::size_t>(a)) - mesh.nodes.at(static_cast<std::size_t>(b));
-      longest = std::max(longest, edge.norm());
+      longest = (std::max)(longest, edge.norm());
     }
   }
   return signed_volume(mesh, tetrahedron) / (longest * longest * longest);

@@ -6,13 +6,13 @@
 // so that neither garbage nor an endless stream can do more than raise a mesh_error.
 
 #include <passive_haptics/environment/mesh.hpp>
+#include <passive_haptics/kernels.hpp>
 
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <istream>
-#include <limits>
 #include <streambuf>
 #include <string>
 #include <string_view>
@@ -58,9 +58,9 @@ class msh_lines {
   /// that hold it: a false count costs nothing.
   [[nodiscard]] std::int64_t count(std::string_view what) {
     const std::int64_t value = integer(what);
-    if (value < 0 || value > std::numeric_limits<int>::max()) {
-      fail(sentence(what, " ", value, " is not between 0 and ", std::numeric_limits<int>::max()),
-           damaged);
+    constexpr int most = kernels::largest<int>();
+    if (value < 0 || value > most) {
+      fail(sentence(what, " ", value, " is not between 0 and ", most), damaged);
     }
     return value;
   }

@@ -55,7 +55,7 @@ struct connected_parts {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const auto& x : held) centre += x / static_cast<double>(held.size());
   double extent = 0.0;
-  for (const auto& x : held) extent = std::max(extent, (x - centre).norm());
+  for (const auto& x : held) extent = (std::max)(extent, (x - centre).norm());
   if (!(extent > 0.0)) extent = 1.0;
 
   Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();  // RᵀR

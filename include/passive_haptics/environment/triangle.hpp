@@ -32,7 +32,7 @@ using triangle = std::array<Eigen::Vector3d, 3>;  ///< corners [m], counter-cloc
 /// True when the triangle has no usable normal: twice its area ≤ 1e-9 of its longest edge squared,
 /// or a corner that is not finite. (A17)
 [[nodiscard]] inline bool is_degenerate(const triangle& t) {
-  const double longest = std::max(
+  const double longest = (std::max)(
       {(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
   return !(2.0 * area_vector(t).norm() > 1e-9 * longest) ||
          !(longest < std::numeric_limits<double>::infinity());

@@ -181,7 +181,7 @@ class bootloader {
     while (report_.echoed < image_.size()) {
       if (const result go = begin(boot_step::image, report_.echoed, image_.size()); !go) return go;
       const auto part = image_.subspan(report_.echoed);
-      const auto sent = part.first(std::min(chunk, part.size()));
+      const auto sent = part.first((std::min)(chunk, part.size()));
       if (const result done = send(sent); !done) return done;
       if (const result same = compare_echo(sent); !same) return same;
     }

@@ -7,14 +7,14 @@
 //   sample ◀─ held force ◀─ position ◀─ forward ◀─ angles ◀─ jump? homed? ◀─ packet ◀─
 //
 // A is that of the last reply. The answer to a packet shows where the grip was when its force BEGAN
-// to be held, so a force computed from it is a tick late: compose bounds with latency 1. `held` in a
-// sample is the force of the packet before, from the words really sent.
+// to be held, so a force computed from it is a tick late: compose with late_loop_limits<1>. `held` in
+// a sample is the force of the packet before, from the words really sent.
 // Whenever an exchange ends without a usable position, the motors are sent zero at once.
 
 #include <passive_haptics/concepts.hpp>
-#include <passive_haptics/eigen_space.hpp>
 #include <passive_haptics/falcon/boot.hpp>
 #include <passive_haptics/falcon/reply_guard.hpp>
+#include <passive_haptics/port/eigen_space.hpp>
 
 #include <optional>
 #include <utility>
@@ -46,9 +46,9 @@ requires(Space::dof == 3) class device {
   ~device() { (void)close(); }
 
   /// The first setting that is out of its range, if any. Such a device does not open.
-  [[nodiscard]] parameter_fault<scalar> check() const noexcept {
+  [[nodiscard]] parameter_fault check() const noexcept {
     if (!(gain_ > scalar(0)) || !kernels::is_finite(gain_)) {
-      return {"gain", gain_, "finite and > 0 counts per N·m"};
+      return {"gain", static_cast<double>(gain_), "finite and > 0 counts per N·m"};
     }
     return setup_.check();
   }

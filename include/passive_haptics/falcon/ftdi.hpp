@@ -66,7 +66,7 @@ constexpr std::size_t strip_status(std::span<byte> transfer, line_status& last) 
   std::size_t kept = 0;
   for (std::size_t at = 0; at + status_size <= transfer.size(); at += usb_packet) {
     last = {transfer[at], transfer[at + 1]};
-    const std::size_t end = std::min(at + usb_packet, transfer.size());
+    const std::size_t end = (std::min)(at + usb_packet, transfer.size());
     for (std::size_t i = at + status_size; i < end; ++i) transfer[kept++] = transfer[i];
   }
   return kept;
@@ -111,7 +111,7 @@ class sender {
     while (filled + usb_packet <= transfer.size()) {
       transfer[filled++] = lines.modem;
       transfer[filled++] = lines.line;
-      const std::size_t n = std::min(count_, payload_size);
+      const std::size_t n = (std::min)(count_, payload_size);
       for (std::size_t i = 0; i < n; ++i) {
         transfer[filled++] = bytes_[first_];
         first_ = (first_ + 1) % capacity;

@@ -56,7 +56,7 @@ inline std::string_view serial_of(libusb_device_handle* handle,
   for (int i = 0; i < n; ++i) {
     text[static_cast<std::size_t>(i)] = static_cast<char>(bytes[static_cast<std::size_t>(i)]);
   }
-  return {text.data(), static_cast<std::size_t>(std::max(n, 0))};
+  return {text.data(), static_cast<std::size_t>((std::max)(n, 0))};
 }
 
 /// Calls `visit` with every Falcon, until it returns true.

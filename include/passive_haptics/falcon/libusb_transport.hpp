@@ -90,7 +90,7 @@ class libusb_transport {
       while (out_.busy && !lost_ && now() < deadline) pump(deadline);
       if (const result bad = trouble(); !bad) return bad;
       if (out_.busy) return {code::timeout};
-      const auto part = bytes.first(std::min(bytes.size(), out_.buffer.size()));
+      const auto part = bytes.first((std::min)(bytes.size(), out_.buffer.size()));
       std::copy(part.begin(), part.end(), out_.buffer.begin());
       out_.transfer->length = static_cast<int>(part.size());
       if (const result done = submit(out_); !done) return done;
@@ -109,7 +109,7 @@ class libusb_transport {
       }
       pump(deadline);
     }
-    const std::size_t n = std::min(into.size(), count_);
+    const std::size_t n = (std::min)(into.size(), count_);
     for (std::size_t i = 0; i < n; ++i) into[i] = received_[(first_ + i) % received_.size()];
     first_ = (first_ + n) % received_.size();
     count_ -= n;
@@ -176,7 +176,7 @@ class libusb_transport {
   /// Lets libusb work until something happens, or until then.
   void pump(nanoseconds until) noexcept {
     const auto left = std::chrono::duration_cast<std::chrono::microseconds>(until - now());
-    const auto wait = std::max(left, std::chrono::microseconds(0));
+    const auto wait = (std::max)(left, std::chrono::microseconds(0));
     timeval limit{};
     limit.tv_sec = static_cast<decltype(limit.tv_sec)>(wait.count() / 1'000'000);
     limit.tv_usec = static_cast<decltype(limit.tv_usec)>(wait.count() % 1'000'000);
@@ -212,7 +212,7 @@ class libusb_transport {
     libusb_transport& self = *s.owner;
     s.busy = false;
     self.finish(*t);
-    self.take(std::span(s.buffer).first(static_cast<std::size_t>(std::max(t->actual_length, 0))));
+    self.take(std::span(s.buffer).first(static_cast<std::size_t>((std::max)(t->actual_length, 0))));
     if (t->status == LIBUSB_TRANSFER_COMPLETED && !self.closing_) (void)self.submit(s);
   }
 

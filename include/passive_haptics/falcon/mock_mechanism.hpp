@@ -8,9 +8,9 @@
 // torques' work, F·Δp = τ·Δθ (force_over), so the energy meter of the body is exact for the motors.
 // Mass, damping and homing angles are made up: nobody has published a Falcon's.
 
-#include <passive_haptics/eigen_space.hpp>
 #include <passive_haptics/falcon/force.hpp>
 #include <passive_haptics/falcon/packet.hpp>
+#include <passive_haptics/port/eigen_space.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct mock_parameters {
   double out_angle = 0.96;              ///< a leg is homed when it has been beyond this [rad]
   double in_angle = 0.10;               ///< and after that below this
 
-  [[nodiscard]] parameter_fault<double> check() const noexcept {
+  [[nodiscard]] parameter_fault check() const noexcept {
     if (const auto fault = body.check()) return fault;
     if (!(gain > 0.0) || !kernels::is_finite(gain)) {
       return {"gain", gain, "finite and > 0 counts per N·m"};
@@ -68,7 +68,7 @@ class mock_mechanism {
   /// Lets time pass [s].
   void elapse(double time) noexcept {
     while (time > 0.0) {
-      const double step = std::min(time, parameters_.body.period);
+      const double step = (std::min)(time, parameters_.body.period);
       (void)body_.set_period(step);
       move();
       time -= step;

@@ -111,7 +111,7 @@ class packet_link {
   [[nodiscard]] result await_silence() noexcept {
     const nanoseconds end = line_.now() + patience;
     while (line_.now() < end) {
-      const arrival came = take(std::min(end, line_.now() + silence));
+      const arrival came = take((std::min)(end, line_.now() + silence));
       if (came.how.what == code::timeout) return {};
       if (!came.how) return came.how;
       counts_.stale += came.packets;

@@ -80,7 +80,7 @@ class recording_transport {
   }
 
   transfer read(std::span<byte> into, nanoseconds deadline) noexcept {
-    const auto part = into.first(std::min(into.size(), ftdi::usb_packet));
+    const auto part = into.first((std::min)(into.size(), ftdi::usb_packet));
     const transfer got = line_.read(part, deadline);
     keep(wire_row::call::read, got.how, got.stamp, part.first(got.bytes));
     return got;
@@ -145,12 +145,12 @@ class replay_transport {
   transfer read(std::span<byte> into, nanoseconds deadline) noexcept {
     if (at_ < rows_.size() && rows_[at_].what != wire_row::call::read) {
       diverge();
-      now_ = std::max(now_, deadline);
+      now_ = (std::max)(now_, deadline);
       return {{code::timeout}, 0, now_};
     }
     const wire_row* row = next(wire_row::call::read);
     if (row == nullptr) return {{code::unplugged}, 0, now_};
-    const std::size_t n = std::min<std::size_t>(into.size(), row->count);
+    const std::size_t n = (std::min<std::size_t>)(into.size(), row->count);
     std::copy_n(row->bytes.begin(), n, into.begin());
     return {row->how, n, row->stamp};
   }
@@ -172,7 +172,7 @@ class replay_transport {
       const wire_row& row = rows_[at_++];
       if (skipped) diverge();
       if (row.what != what) continue;
-      now_ = std::max(now_, row.stamp);
+      now_ = (std::max)(now_, row.stamp);
       lines_ = row.lines;
       return &row;
     }

@@ -9,6 +9,7 @@
 // four are there for people: the motor words or encoder counts of a packet, and its flags.
 
 #include <passive_haptics/falcon/recording.hpp>
+#include <passive_haptics/kernels.hpp>
 
 #include <charconv>
 
@@ -94,12 +95,12 @@ class row_reader {
 };
 
 [[nodiscard]] inline bool parse_row(std::string_view line, wire_row& row) noexcept {
-  constexpr long long far = std::numeric_limits<long long>::max();
+  constexpr auto most = kernels::largest<std::int64_t>();
   row_reader read(line);
-  row.stamp = nanoseconds(read.number<std::int64_t>(0, far));
+  row.stamp = nanoseconds(read.number<std::int64_t>(0, most));
   row.what = read.call();
   row.how.what = read.number<code>(0, static_cast<int>(code::log_full));
-  row.how.value = read.number<std::int64_t>(-far, far);
+  row.how.value = read.number<std::int64_t>(-most, most);
   row.lines.modem = read.number<byte>(0, 255);
   row.lines.line = read.number<byte>(0, 255);
   row.count = read.hexadecimal(row.bytes);

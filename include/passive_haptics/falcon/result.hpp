@@ -190,7 +190,7 @@ inline const char* describe(const result& r, std::span<char> text) noexcept {
   if (text.empty()) return "";
   std::size_t length = 0;
   const auto append = [&](std::string_view part) {
-    const std::size_t n = std::min(part.size(), text.size() - 1 - length);
+    const std::size_t n = (std::min)(part.size(), text.size() - 1 - length);
     std::copy_n(part.begin(), n, text.begin() + static_cast<std::ptrdiff_t>(length));
     length += n;
   };

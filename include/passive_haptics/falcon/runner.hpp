@@ -86,12 +86,12 @@ class runner {
       ++so_far.ticks;
       box_.publish({device_.latest(), so_far});
       if (device_.latest().what == code::unplugged) break;
-      due = std::max(due + period_, clock::now());  // what was missed is not made up for
+      due = (std::max)(due + period_, clock::now());  // what was missed is not made up for
       std::this_thread::sleep_until(due);
       const auto begin = clock::now();
       const nanoseconds took = begin - std::exchange(last, begin);
       so_far.late += took > period_ + period_ / 2 ? 1U : 0U;
-      so_far.longest = std::max(so_far.longest, took);
+      so_far.longest = (std::max)(so_far.longest, took);
     }
     (void)device_.exchange(vector(vector::Zero()));
     running_ = false;

@@ -2,9 +2,9 @@
 #pragma once
 // What a Falcon is told before it starts, and what it tells afterwards.
 
-#include <passive_haptics/event.hpp>
 #include <passive_haptics/falcon/force.hpp>
 #include <passive_haptics/falcon/packet_link.hpp>
+#include <passive_haptics/parameter.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -52,17 +52,20 @@ struct settings {
   nanoseconds reply = std::chrono::milliseconds(5);
   point<S> origin{};  ///< taken off positions [m], in the frame of falcon/geometry.hpp
 
-  [[nodiscard]] constexpr parameter_fault<S> check() const noexcept {
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    const auto refused = [](const char* parameter, auto value, const char* remedy) {
+      return parameter_fault{parameter, static_cast<double>(value), remedy};
+    };
     const auto positive = [](S x) { return x > S(0) && kernels::is_finite(x); };
-    if (!positive(force_limit)) return {"force_limit", force_limit, "finite and > 0 N"};
-    if (!positive(ramp)) return {"ramp", ramp, "finite and > 0 s"};
-    if (!positive(tick)) return {"tick", tick, "finite and > 0 s"};
-    if (largest_step < 1) return {"largest_step", S(largest_step), "≥ 1 count"};
-    if (settle < 1) return {"settle", S(settle), "≥ 1 reply"};
-    if (most_misses < 1) return {"most_misses", S(most_misses), "≥ 1"};
-    if (reply <= nanoseconds(0)) return {"reply", S(reply.count()), "> 0 ns"};
+    if (!positive(force_limit)) return refused("force_limit", force_limit, "finite and > 0 N");
+    if (!positive(ramp)) return refused("ramp", ramp, "finite and > 0 s");
+    if (!positive(tick)) return refused("tick", tick, "finite and > 0 s");
+    if (largest_step < 1) return refused("largest_step", largest_step, "≥ 1 count");
+    if (settle < 1) return refused("settle", settle, "≥ 1 reply");
+    if (most_misses < 1) return refused("most_misses", most_misses, "≥ 1");
+    if (reply <= nanoseconds(0)) return refused("reply", reply.count(), "> 0 ns");
     for (const S x : origin.value) {
-      if (!kernels::is_finite(x)) return {"origin", x, "finite"};
+      if (!kernels::is_finite(x)) return refused("origin", x, "finite");
     }
     return {};
   }

@@ -103,9 +103,9 @@ class in_memory_transport {
       }
       if (first_ != end_) break;
       if (now_ >= deadline) return {{code::timeout}, 0, now_};
-      pass(std::min(step, deadline - now_));
+      pass((std::min)(step, deadline - now_));
     }
-    const std::size_t n = std::min(into.size(), end_ - first_);
+    const std::size_t n = (std::min)(into.size(), end_ - first_);
     std::copy_n(received_.begin() + static_cast<std::ptrdiff_t>(first_), n, into.begin());
     first_ += n;
     return {{}, n, now_};
@@ -120,8 +120,9 @@ class in_memory_transport {
     far_.elapse(passed);
   }
 
-  [[nodiscard]] FarSide& far() noexcept { return far_; }
-  [[nodiscard]] const FarSide& far() const noexcept { return far_; }
+  /// The far side itself.
+  [[nodiscard]] FarSide& peer() noexcept { return far_; }
+  [[nodiscard]] const FarSide& peer() const noexcept { return far_; }
 
  private:
   [[nodiscard]] result reachable() const noexcept {

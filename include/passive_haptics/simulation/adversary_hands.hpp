@@ -24,7 +24,7 @@ struct striking_hand {
     return tapping ? taps.force(t, x, v) : clamp_norm<Space>(push, taps.limit);
   }
   [[nodiscard]] constexpr double mass() const noexcept { return taps.mass(); }
-  [[nodiscard]] constexpr parameter_fault<double> check() const noexcept { return taps.check(); }
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return taps.check(); }
 };
 
 static_assert(hand_for<striking_hand<space<float, 1>>, space<float, 1>>);

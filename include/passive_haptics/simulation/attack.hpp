@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// One run of challenge.hpp: who does what, and the loop of world, sample, model and device. Compiled
-// once per Space.
+// One run of challenge.hpp: who does what in the loop of a simulation. Compiled once per Space.
 
 #include <passive_haptics/simulation/adversary.hpp>
 #include <passive_haptics/simulation/circumstances.hpp>
 #include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 #include <passive_haptics/simulation/subject.hpp>
 
@@ -36,7 +36,8 @@ struct spectator {
 
 inline constexpr double nothing_known = std::numeric_limits<double>::quiet_NaN();
 
-struct run_result {
+/// What a run has shown.
+struct run_outcome {
   double least_energy = 0.0;
   double largest_force = 0.0;
 };
@@ -159,55 +160,49 @@ void act(Device& device, int& ticks_left, bool only_taps, const surface_state<Sp
           : typename physical<Space>::vector(random.direction<Space>() * (most * random.uniform()));
 }
 
-/// The loop of a run: world, sample, model, device. move(device, command, period) is the hand.
+/// A run: world, sensor and clock as they are planned; move(device, command, period) is the hand.
 template <class Space, class Device>
-run_result play(const subject<Space>& model, Device& device, erratic_surface<Space>& surface,
-                const circumstances& world, const plan& how, random_source& random,
-                const spectator<Space>& watch, auto move) noexcept {
+run_outcome play(const subject<Space>& model, Device& device, erratic_surface<Space>& surface,
+                 const circumstances& world, const plan& how, random_source& random,
+                 const spectator<Space>& watch, auto move) noexcept {
   const erratic_clock clock{world.longest_tick, how.jitter, how.overruns};
   erratic_sensor sensor{how.dropouts};
-  run_result result;
-  auto sample = device.exchange(Space::zero());
-  for (int tick = 0; tick < world.ticks; ++tick) {
-    const double time = device.time();
-    const auto position = device.position();
-    if (surface.update(time, position)) model.retarget(surface.now());
-    const bool lost = sensor.loses_one(random);
-    const typename Space::vector command = model.tick(lost ? device_sample<Space>{} : sample);
+  bool lost = false;
+  const auto before = [&](auto& now) noexcept {
+    if (surface.update(now.time, now.position)) model.update(surface.now());
+    lost = sensor.loses_one(random);
+    if (lost) now.sample = {};
+  };
+  const auto act = [&](const auto& now) noexcept {
     const double period = clock.next(random);
     if (how.jitter || how.overruns) device.set_period(period);
-    move(device, command, period);
-    sample = device.exchange(command);
-    const auto force = to_physical<Space>(command);
-    if (!physical<Space>::is_finite(force)) return {nothing_known, result.largest_force};
-
-    const double rubbed = world.friction > 0.0 ? device.meter().total().friction : 0.0;
-    const double energy = device.meter().value() + rubbed;
-    const double least = world.friction > 0.0 ? energy : device.meter().minimum();
-    if (!(least >= result.least_energy)) result.least_energy = least;  // so written, NaN counts
-    result.largest_force = std::fmax(result.largest_force, physical<Space>::norm(force));
-    if (watch.see != nullptr) {
-      watch.see(watch.who, {tick, time, position, surface.now(), lost, force, energy});
-    }
-  }
-  return result;
+    move(device, now.force, period);
+  };
+  const auto show = [&](const auto& now) noexcept {
+    if (watch.see == nullptr) return;
+    const double energy = device.meter().value() + device.meter().friction();
+    watch.see(watch.who, {now.tick, now.time, now.position, surface.now(), lost,
+                          to_physical<Space>(now.force), energy});
+  };
+  const auto seen = run(device, model, world.ticks, before, act, show);
+  return {seen.least_energy, seen.largest_force};
 }
 
-/// The surface a run begins with: the model's own if it is rigid, any through the origin if not.
+/// The surface a run begins with: the model's own if that never moves, any through the origin if not.
 template <class Space>
 [[nodiscard]] surface_state<Space> first_surface(const subject<Space>& model,
                                                  const circumstances& world,
                                                  random_source& random) noexcept {
   surface_state<Space> surface{physical<Space>::zero(), random.direction<Space>(),
                                random.uniform(world.softest, world.stiffest)};
-  if (!model.brings_its_own(surface)) model.retarget(surface);
+  if (!model.brings_its_own(surface)) model.update(surface);
   return surface;
 }
 
 /// One run.
 template <class Space>
-run_result attack(const subject<Space>& model, adversary by, const circumstances& world,
-                  std::uint64_t seed, const spectator<Space>& watch = {}) noexcept {
+run_outcome attack(const subject<Space>& model, adversary by, const circumstances& world,
+                   std::uint64_t seed, const spectator<Space>& watch = {}) noexcept {
   using state = typename physical<Space>::vector;
   if (world.check()) return {nothing_known, 0.0};
   random_source random(seed);

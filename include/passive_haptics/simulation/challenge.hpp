@@ -7,6 +7,9 @@
 //     }
 //     double E = sim::replay(model, v.by, {}, v.worst_seed, [](const auto& now) { ... });
 //
+// Any passive port will do. Where it has not just one contact, say how a surface is laid on it:
+//     sim::challenge_all(corner, {}, 1000, 1, [](auto& port, const auto& surface) { ... });
+//
 // The judge is the exact port energy of the simulation, dry friction included, and never the model's
 // own observer. Seeds make every run repeatable. A model that survives has survived these runs: that
 // is a test, the proof is in its bound. Two adversaries are hands whose force is limited; to the
@@ -45,7 +48,7 @@ verdict judge(const subject<Space>& model, adversary by, const circumstances& wo
   verdict result{.by = by, .runs = runs, .worst_seed = first_seed};
   for (int run = 0; run < runs; ++run) {
     const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(run);
-    const run_result now = attack(model, by, world, seed);
+    const run_outcome now = attack(model, by, world, seed);
     result.mean_energy += now.least_energy / runs;
     result.largest_force = std::fmax(result.largest_force, now.largest_force);
     if (!(now.least_energy >= result.least_energy) &&
@@ -59,37 +62,35 @@ verdict judge(const subject<Space>& model, adversary by, const circumstances& wo
 
 }  // namespace detail
 
-/// `runs` runs of one adversary, with seeds first_seed, first_seed + 1, ... The model is as
-/// local_model: space_type, constraint_type, tick(sample).force, and retarget(constraint), or
-/// target() if its surface never moves; each run works on a fresh copy. `make(point, normal, K)`
-/// lays the constraint of a surface.
-template <class Model, class Make = usual_constraint<Model>>
+/// `runs` runs of one adversary, with seeds first_seed, first_seed + 1, ...; each works on a fresh
+/// copy of the model. Any passive port will do: `lay` says how a surface is laid on it (subject.hpp).
+template <class Model, lay_for<Model> Lay = usual_lay<Model>>
 [[nodiscard]] verdict challenge(const Model& model, adversary by, const circumstances& world = {},
                                 int runs = 1000, std::uint64_t first_seed = 1,
-                                const Make& make = {}) noexcept {
-  under_test<Model, Make> tested{model, model, make};
-  return detail::judge(subject<typename Model::space_type>(tested), by, world, runs, first_seed);
+                                const Lay& lay = {}) noexcept {
+  under_test<Model, Lay> tested{model, model, lay};
+  return detail::judge(subject<space_of<Model>>(tested), by, world, runs, first_seed);
 }
 
 /// Every adversary in turn, `runs` runs each.
-template <class Model, class Make = usual_constraint<Model>>
+template <class Model, lay_for<Model> Lay = usual_lay<Model>>
 [[nodiscard]] std::array<verdict, all_adversaries.size()> challenge_all(
     const Model& model, const circumstances& world = {}, int runs = 1000,
-    std::uint64_t first_seed = 1, const Make& make = {}) noexcept {
+    std::uint64_t first_seed = 1, const Lay& lay = {}) noexcept {
   std::array<verdict, all_adversaries.size()> verdicts{};
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    verdicts[i] = challenge(model, all_adversaries[i], world, runs, first_seed, make);
+    verdicts[i] = challenge(model, all_adversaries[i], world, runs, first_seed, lay);
   }
   return verdicts;
 }
 
 /// One run again: the least port energy [J] of that seed, to the last bit on the same machine and
 /// build. `watch(moment)` is called every tick.
-template <class Model, class Watch, class Make = usual_constraint<Model>>
+template <class Model, class Watch, lay_for<Model> Lay = usual_lay<Model>>
 double replay(const Model& model, adversary by, const circumstances& world, std::uint64_t seed,
-              Watch watch, const Make& make = {}) noexcept {
-  using Space = typename Model::space_type;
-  under_test<Model, Make> tested{model, model, make};
+              Watch watch, const Lay& lay = {}) noexcept {
+  using Space = space_of<Model>;
+  under_test<Model, Lay> tested{model, model, lay};
   const detail::spectator<Space> spectator{
       &watch, [](void* who, const moment<Space>& now) { (*static_cast<Watch*>(who))(now); }};
   return detail::attack(subject<Space>(tested), by, world, seed, spectator).least_energy;

@@ -5,7 +5,7 @@
 //   send(packet, now) ─▶ lost? ─▶ arrives at now + delay + U(0, jitter) ─▶ take(now)
 //                         twice?
 
-#include <passive_haptics/event.hpp>
+#include <passive_haptics/parameter.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
 #include <array>
@@ -23,7 +23,7 @@ struct channel_parameters {
   double duplication = 0.0;  ///< probability that a packet is sent twice
   bool in_order = false;     ///< a queue: no packet overtakes one that was sent before it
 
-  [[nodiscard]] constexpr parameter_fault<double> check() const noexcept {
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(delay >= 0.0) || !kernels::is_finite(delay)) return {"delay", delay, "finite and ≥ 0 s"};
     if (!(jitter >= 0.0) || !kernels::is_finite(jitter)) {
       return {"jitter", jitter, "finite and ≥ 0 s"};
@@ -72,9 +72,7 @@ class channel {
 
   [[nodiscard]] constexpr std::size_t in_flight() const noexcept { return count_; }
   [[nodiscard]] constexpr std::uint64_t lost() const noexcept { return lost_; }  ///< copies
-  [[nodiscard]] constexpr parameter_fault<double> check() const noexcept {
-    return parameters_.check();
-  }
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return parameters_.check(); }
 
  private:
   struct in_transit {

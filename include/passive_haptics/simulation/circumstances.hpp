@@ -73,7 +73,7 @@ inline constexpr std::array all_adversaries{
 }
 
 /// The truth about the device, and how wild the world is. The model must have been told no more
-/// damping, mass and friction, no less hand force, latency and longest tick.
+/// damping, mass and friction, no less hand force and longest tick, and just this latency.
 struct circumstances {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -91,7 +91,7 @@ struct circumstances {
   double jump = 2e-3;             ///< farthest the surface jumps, either way [m]
   int ticks = 600;                ///< of a run
 
-  [[nodiscard]] parameter_fault<double> check() const noexcept {
+  [[nodiscard]] parameter_fault check() const noexcept {
     if (!(softest > 0.0)) return {"softest", softest, "> 0 N/m"};
     if (!(stiffest >= softest) || !kernels::is_finite(stiffest)) {
       return {"stiffest", stiffest, "finite and ≥ softest"};

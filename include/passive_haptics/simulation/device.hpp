@@ -30,6 +30,7 @@ namespace simulation {
 template <class Space, class Hand = no_hand<Space>>
 class device {
  public:
+  using space_type = Space;
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
   using state = typename physical<Space>::vector;
@@ -81,7 +82,7 @@ class device {
   }
 
   /// The first parameter that is out of its range, if any.
-  [[nodiscard]] parameter_fault<double> check() const noexcept {
+  [[nodiscard]] parameter_fault check() const noexcept {
     if (const auto fault = parameters_.check()) return fault;
     return hand_.check();
   }

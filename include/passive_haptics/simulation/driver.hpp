@@ -6,7 +6,7 @@
 //   driver              refuses what is no number, saturates, delays: returns the force REALLY held
 //   driven_time         how much of a period the force lasts before the watchdog drops it
 
-#include <passive_haptics/event.hpp>
+#include <passive_haptics/parameter.hpp>
 #include <passive_haptics/simulation/components.hpp>
 
 #include <array>
@@ -40,7 +40,7 @@ struct device_parameters {
   int latency = 0;                                   ///< periods from a command to its holding
   double watchdog = infinity;                        ///< a force is held no longer than this [s]
 
-  [[nodiscard]] parameter_fault<double> check() const noexcept {
+  [[nodiscard]] parameter_fault check() const noexcept {
     const auto finite = [](double x) { return kernels::is_finite(x); };
     if (!(mass > 0.0) || !finite(mass)) return {"mass", mass, "finite and > 0 kg"};
     if (!(damping >= 0.0) || !finite(damping)) return {"damping", damping, "finite and ≥ 0 N·s/m"};

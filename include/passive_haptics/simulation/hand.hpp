@@ -11,7 +11,7 @@
 //
 // A hand that is a velocity source, stronger than any actuator, is prescribed_motion.hpp.
 
-#include <passive_haptics/event.hpp>
+#include <passive_haptics/parameter.hpp>
 #include <passive_haptics/simulation/components.hpp>
 
 #include <concepts>
@@ -27,15 +27,15 @@ template <class H, class Space>
 concept hand_for = requires(const H h, const typename physical<Space>::vector v, double t) {
   { h.force(t, v, v) } -> std::same_as<typename physical<Space>::vector>;
   { h.mass() } -> std::same_as<double>;
-  { h.check() } -> std::same_as<parameter_fault<double>>;
+  { h.check() } -> std::same_as<parameter_fault>;
   requires noexcept(h.force(t, v, v));
   requires noexcept(h.mass());
 };
 
 namespace detail {
 /// "finite and ≥ 0", and for a limit infinity too.
-[[nodiscard]] constexpr parameter_fault<double> hand_fault(double stiffness, double damping,
-                                                           double mass, double limit) noexcept {
+[[nodiscard]] constexpr parameter_fault hand_fault(double stiffness, double damping, double mass,
+                                                   double limit) noexcept {
   if (!(stiffness >= 0.0 && kernels::is_finite(stiffness))) {
     return {"hand stiffness", stiffness, "finite and ≥ 0 N/m"};
   }
@@ -56,7 +56,7 @@ struct no_hand {
     return physical<Space>::zero();
   }
   [[nodiscard]] constexpr double mass() const noexcept { return 0.0; }
-  [[nodiscard]] constexpr parameter_fault<double> check() const noexcept { return {}; }
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
 };
 
 template <class Space>
@@ -72,7 +72,7 @@ struct constant_hand {
     return clamp_norm<Space>(push, limit);
   }
   [[nodiscard]] constexpr double mass() const noexcept { return own_mass; }
-  [[nodiscard]] constexpr parameter_fault<double> check() const noexcept {
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
     return detail::hand_fault(0.0, 0.0, own_mass, limit);
   }
 };
@@ -106,7 +106,7 @@ struct impedance_hand {
     return clamp_norm<Space>(vector(stiffness * (x_h - x) + damping * (v_h - v)), limit);
   }
   [[nodiscard]] constexpr double mass() const noexcept { return own_mass; }
-  [[nodiscard]] constexpr parameter_fault<double> check() const noexcept {
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
     return detail::hand_fault(stiffness, damping, own_mass, limit);
   }
 };
@@ -130,7 +130,7 @@ struct tapping_hand {
     return n * (depth > 0.0 ? limit : -limit);
   }
   [[nodiscard]] constexpr double mass() const noexcept { return own_mass; }
-  [[nodiscard]] constexpr parameter_fault<double> check() const noexcept {
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = detail::hand_fault(0.0, 0.0, own_mass, limit)) return fault;
     const double length = physical<Space>::norm(vector(normal));
     if (!(length > 0.999 && length < 1.001)) return {"hand normal", length, "of length 1"};

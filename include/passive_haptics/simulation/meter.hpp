@@ -9,7 +9,9 @@
 //
 //     residual = Δ(½ m v²) + damping + friction + stops − actuator − hand − load = 0
 
-#include <passive_haptics/observers.hpp>
+#include <passive_haptics/ledger.hpp>
+
+#include <initializer_list>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -47,6 +49,7 @@ class port_energy_meter {
   [[nodiscard]] double value() const noexcept { return port_; }       ///< E [J]
   [[nodiscard]] double minimum() const noexcept { return minimum_; }  ///< least E so far [J], ≤ 0
   [[nodiscard]] double hand_work() const noexcept { return hand_; }   ///< ∫ F_hand dx [J]
+  [[nodiscard]] double friction() const noexcept { return friction_; }  ///< ∫ f_c |v| dt [J]
   [[nodiscard]] energy_flows total() const noexcept {
     return {damping_, friction_, stops_, actuator_, hand_, load_};
   }

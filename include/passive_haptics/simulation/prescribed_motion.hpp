@@ -24,6 +24,7 @@ namespace simulation {
 template <class Space>
 class prescribed_motion {
  public:
+  using space_type = Space;
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
   using state = typename physical<Space>::vector;
@@ -79,7 +80,7 @@ class prescribed_motion {
     return true;
   }
 
-  [[nodiscard]] parameter_fault<double> check() const noexcept { return parameters_.check(); }
+  [[nodiscard]] parameter_fault check() const noexcept { return parameters_.check(); }
   /// The force that exchange(command) would hold [N].
   [[nodiscard]] vector upcoming(const vector& command) const noexcept {
     return driver_.upcoming(command);

@@ -7,8 +7,8 @@
 //   update_schedule   due(time): every 20-50 ms, at random (20-50 Hz), or at a fixed period
 //   one_update_late   answers with what it was given one update ago: a pipelined environment
 
-#include <passive_haptics/event.hpp>
-#include <passive_haptics/laws.hpp>
+#include <passive_haptics/laws/samples.hpp>
+#include <passive_haptics/parameter.hpp>
 #include <passive_haptics/simulation/components.hpp>
 
 #include <cstdint>
@@ -71,7 +71,7 @@ class update_schedule {
   }
   [[nodiscard]] constexpr double next() const noexcept { return next_; }  ///< due then [s]
 
-  [[nodiscard]] constexpr parameter_fault<double> check() const noexcept {
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(shortest_ > 0.0)) return {"shortest", shortest_, "> 0 s"};
     if (!(longest_ >= shortest_ && kernels::is_finite(longest_))) {
       return {"longest", longest_, "finite and ≥ shortest"};

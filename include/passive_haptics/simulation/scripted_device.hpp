@@ -37,6 +37,7 @@ struct scripted_fault {
 template <class Device, std::size_t Faults>
 class scripted_device {
  public:
+  using space_type = typename Device::space_type;
   using vector = typename Device::vector;
 
   scripted_device(const Device& device, const std::array<scripted_fault, Faults>& script) noexcept
@@ -51,6 +52,10 @@ class scripted_device {
     return sample;
   }
 
+  /// The truth, which no fault changes.
+  [[nodiscard]] const auto& position() const noexcept { return device_.position(); }
+  [[nodiscard]] double time() const noexcept { return device_.time(); }
+  [[nodiscard]] const auto& meter() const noexcept { return device_.meter(); }
   [[nodiscard]] Device& device() noexcept { return device_; }
   [[nodiscard]] const Device& device() const noexcept { return device_; }
   [[nodiscard]] std::int64_t tick() const noexcept { return tick_; }  ///< of the next exchange

@@ -46,29 +46,27 @@ damage go_round(const subject<Space>& model, Device& device, surface_state<Space
                 bool moves, const cycle& where, int ticks, auto act) noexcept {
   const auto first = surface.point;
   damage result;
-  auto sample = device.exchange(Space::zero());
-  for (int tick = 0; tick < ticks; ++tick) {
+  const auto world = [&](const auto& now) noexcept {
     const bool jumped = moves && where.jumped();
     const double K = jumped ? where.p.after_jump : where.p.stiffness;
     const typename physical<Space>::vector point =
         first + surface.normal * (jumped ? where.p.jump : 0.0);
-    if (moves && (tick == 0 || !(point == surface.point) || K != surface.stiffness)) {
-      surface.point = point;
-      surface.stiffness = K;
-      model.retarget(surface);
-    }
-    const typename Space::vector command = model.tick(sample);
-    if (!Space::is_finite(command)) return {-std::numeric_limits<double>::infinity(), 0.0};
-    act(device, surface, command);
-    sample = device.exchange(command);
-    const energy_flows total = device.meter().total();
-    const double energy = device.meter().value() + total.friction;
-    const double least = total.friction > 0.0 ? energy : device.meter().minimum();
-    if (!(least >= result.least)) result.least = least;
-    const double paid = total.damping + total.friction;
-    if (paid > 1e-9) result.share_left = kernels::smaller(result.share_left, energy / paid);
-  }
-  return result;
+    if (!moves || (now.tick > 0 && point == surface.point && K == surface.stiffness)) return;
+    surface.point = point;
+    surface.stiffness = K;
+    model.update(surface);
+  };
+  const auto hand = [&](const auto& now) noexcept { act(device, surface, now.force); };
+  const auto watch = [&](const auto&) noexcept {
+    const double rubbed = device.meter().friction();
+    const double paid = device.meter().total().damping + rubbed;
+    if (!(paid > 1e-9)) return;
+    result.share_left =
+        kernels::smaller(result.share_left, (device.meter().value() + rubbed) / paid);
+  };
+  result.least = run(device, model, ticks, world, hand, watch).least_energy;
+  if (result.least == result.least) return result;
+  return {-std::numeric_limits<double>::infinity(), 0.0};  // a force that is no number
 }
 
 /// (1+1) evolution strategy on the unit cube: half of the numbers mutate at a time, the step grows
@@ -167,24 +165,22 @@ search_result look_for_worst(const subject<Space>& model, const circumstances& w
 }  // namespace detail
 
 /// The worst cycle of a velocity source that so many runs of circumstances::ticks have found.
-template <class Model, class Make = usual_constraint<Model>>
+template <class Model, lay_for<Model> Lay = usual_lay<Model>>
 [[nodiscard]] search_result worst_motion(const Model& model, const circumstances& world = {},
                                          int evaluations = 2000, std::uint64_t seed = 1,
-                                         const Make& make = {}) noexcept {
-  under_test<Model, Make> tested{model, model, make};
-  return detail::look_for_worst(subject<typename Model::space_type>(tested), world, evaluations,
-                                seed, false);
+                                         const Lay& lay = {}) noexcept {
+  under_test<Model, Lay> tested{model, model, lay};
+  return detail::look_for_worst(subject<space_of<Model>>(tested), world, evaluations, seed, false);
 }
 
 /// The worst one found of a hand of at most circumstances::hand_force on a device of
 /// circumstances::mass: it stays inside what reachable_bound and its like assume.
-template <class Model, class Make = usual_constraint<Model>>
+template <class Model, lay_for<Model> Lay = usual_lay<Model>>
 [[nodiscard]] search_result worst_push(const Model& model, const circumstances& world = {},
                                        int evaluations = 2000, std::uint64_t seed = 1,
-                                       const Make& make = {}) noexcept {
-  under_test<Model, Make> tested{model, model, make};
-  return detail::look_for_worst(subject<typename Model::space_type>(tested), world, evaluations,
-                                seed, true);
+                                       const Lay& lay = {}) noexcept {
+  under_test<Model, Lay> tested{model, model, lay};
+  return detail::look_for_worst(subject<space_of<Model>>(tested), world, evaluations, seed, true);
 }
 
 }  // namespace simulation

@@ -1,22 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Any composed model as challenge.hpp and search.hpp see it. Adversaries are compiled once per
-// Space; per model there are only four short functions.
+// Any passive port as challenge.hpp and search.hpp see it. Adversaries are compiled once per Space;
+// per model there are only four short functions.
 //
 //   lay_constraint<C>   a constraint of type C through a point: half_space, segment, triangle
 //   under_test          a model, and the copy of it that a run works on
 //   subject<Space>      a reference to it that forgets its type
+//
+// A model is whatever has tick(sample), which answers with a force or with a result that has one, and
+// a space_type or port_type. How is a surface laid on it? The callable `lay` is one of
+//     lay_constraint<C>       the default: a constraint for update() of the model or of its source
+//     lay(point, normal, K)   the same with a constraint of your making
+//     lay(model, surface)     whatever you do: for several contacts, for a renderer
+// A model whose constraint never moves brings its own.
 
 #include <passive_haptics/concepts.hpp>
-#include <passive_haptics/geometry.hpp>
+#include <passive_haptics/constraint_geometry/segment.hpp>
+#include <passive_haptics/constraint_geometry/triangle.hpp>
 #include <passive_haptics/simulation/adversary_worlds.hpp>
+#include <passive_haptics/simulation/loop.hpp>
+
+#include <concepts>
 
 namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
 /// operator()(point [m], unit outward normal, K [N/m]): the constraint of type C through that point.
-/// Specialise it for a constraint of your own, or hand challenge() a callable of the same shape.
+/// Specialise it for a constraint of your own.
 template <class C>
 struct lay_constraint;
 
@@ -64,16 +75,84 @@ struct lay_constraint<triangle<Space>> {
   }
 };
 
-/// Where constraints come from unless the caller says otherwise.
+namespace detail {
+
 template <class Model>
-using usual_constraint = lay_constraint<typename Model::constraint_type>;
+[[nodiscard]] constexpr auto find_space() noexcept {
+  if constexpr (requires { typename Model::space_type; }) {
+    return typename Model::space_type{};
+  } else {
+    return typename Model::port_type{};
+  }
+}
+
+struct say_how {};
+template <class Model>
+[[nodiscard]] constexpr auto find_lay() noexcept {
+  if constexpr (requires { typename Model::constraint_type; }) {
+    return lay_constraint<typename Model::constraint_type>{};
+  } else if constexpr (requires { typename Model::source_type::constraint_type; }) {
+    return lay_constraint<typename Model::source_type::constraint_type>{};
+  } else {
+    return say_how{};
+  }
+}
+
+/// Who holds the constraint: the model, or its source.
+template <class Model>
+[[nodiscard]] constexpr auto& holder_of(Model& model) noexcept {
+  if constexpr (requires { model.target(); }) {
+    return model;
+  } else {
+    return model.source();
+  }
+}
+
+template <class Model, class Lay, class Space>
+concept laid_by_caller = requires(Model& m, const Lay& lay, const surface_state<Space>& surface) {
+  { lay(m, surface) } -> std::convertible_to<bool>;
+};
+template <class Model, class Lay, class Space>
+concept takes_constraint = requires(Model& m, const Lay& lay, typename Space::vector v,
+                                    typename Space::scalar K) {
+  m.update(lay(v, v, K));
+};
+template <class Model, class Lay, class Space>
+concept source_takes_constraint = requires(Model& m, const Lay& lay, typename Space::vector v,
+                                           typename Space::scalar K) {
+  m.source().update(lay(v, v, K));
+};
+template <class Model, class Lay, class Space>
+concept can_be_moved = laid_by_caller<Model, Lay, Space> || takes_constraint<Model, Lay, Space> ||
+    source_takes_constraint<Model, Lay, Space>;
+template <class Model, class Space>
+concept has_its_own = requires(const Model& m, typename Space::vector v) {
+  m.target().at(v);
+}
+|| requires(const Model& m, typename Space::vector v) {
+  m.source().target().at(v);
+};
+
+}  // namespace detail
+
+template <class Model>
+using space_of = decltype(detail::find_space<Model>());
+
+/// How a surface is laid on a model unless the caller says otherwise.
+template <class Model>
+using usual_lay = decltype(detail::find_lay<Model>());
+
+/// Is it known how? A model with several contacts, or with none, needs a lay(model, surface).
+template <class Lay, class Model>
+concept lay_for = detail::can_be_moved<Model, Lay, space_of<Model>> ||
+    (std::same_as<Lay, usual_lay<Model>>&& detail::has_its_own<Model, space_of<Model>>);
 
 /// The model as it was given, and the copy that the next run spoils.
-template <class Model, class Make>
+template <class Model, class Lay>
 struct under_test {
   const Model& original;
   Model now;
-  const Make& make;
+  const Lay& lay;
 };
 
 template <class Space>
@@ -81,9 +160,9 @@ class subject {
  public:
   using vector = typename Space::vector;
 
-  template <class Model, class Make>
-  explicit subject(under_test<Model, Make>& tested) noexcept
-      : tested_(&tested), verbs_(&verbs_of<under_test<Model, Make>>) {}
+  template <class Model, lay_for<Model> Lay>
+  explicit subject(under_test<Model, Lay>& tested) noexcept
+      : tested_(&tested), verbs_(&verbs_of<Model, Lay>) {}
 
   /// As it was given.
   void restart() const noexcept { verbs_->restart(tested_); }
@@ -92,8 +171,8 @@ class subject {
     return verbs_->tick(tested_, sample);
   }
   /// False: its constraint never moves, or it has refused this one.
-  bool retarget(const surface_state<Space>& next) const noexcept {
-    return verbs_->retarget(tested_, next);
+  bool update(const surface_state<Space>& next) const noexcept {
+    return verbs_->update(tested_, next);
   }
   /// Does it own a surface that never moves? Then `surface` becomes that one, at its point nearest
   /// the origin.
@@ -105,44 +184,57 @@ class subject {
   struct verbs {
     void (*restart)(void*);
     vector (*tick)(void*, const device_sample<Space>&);
-    bool (*retarget)(void*, const surface_state<Space>&);
+    bool (*update)(void*, const surface_state<Space>&);
     bool (*brings_its_own)(void*, surface_state<Space>&);
   };
 
-  template <class Tested>
-  static constexpr bool moves = requires(Tested& t, vector v, typename Space::scalar K) {
-    t.now.retarget(t.make(v, v, K));
-  };
+  template <class Model, class Lay>
+  static bool lay_on([[maybe_unused]] under_test<Model, Lay>& t,
+                     [[maybe_unused]] const surface_state<Space>& next) noexcept {
+    if constexpr (detail::laid_by_caller<Model, Lay, Space>) {
+      return static_cast<bool>(t.lay(t.now, next));
+    } else if constexpr (detail::can_be_moved<Model, Lay, Space>) {
+      const auto constraint = t.lay(to_port<Space>(next.point), to_port<Space>(next.normal),
+                                    static_cast<typename Space::scalar>(next.stiffness));
+      if constexpr (detail::takes_constraint<Model, Lay, Space>) {
+        return static_cast<bool>(t.now.update(constraint));
+      } else {
+        return static_cast<bool>(t.now.source().update(constraint));
+      }
+    } else {
+      return false;
+    }
+  }
 
-  template <class Tested>
+  template <class Model, class Lay>
+  static bool take_over([[maybe_unused]] const under_test<Model, Lay>& t,
+                        [[maybe_unused]] surface_state<Space>& surface) noexcept {
+    if constexpr (detail::can_be_moved<Model, Lay, Space>) {
+      return false;
+    } else {
+      const auto& fixed = detail::holder_of(t.now).target();
+      const auto seen = fixed.at(Space::zero());
+      surface.normal = to_physical<Space>(vector(seen.outward()));
+      surface.point = surface.normal * static_cast<double>(seen.depth);
+      surface.stiffness = static_cast<double>(fixed.stiffness);
+      return true;
+    }
+  }
+
+  template <class Model, class Lay>
   static constexpr verbs verbs_of{
       [](void* tested) {
-        auto& t = *static_cast<Tested*>(tested);
+        auto& t = *static_cast<under_test<Model, Lay>*>(tested);
         t.now = t.original;
       },
       [](void* tested, const device_sample<Space>& sample) -> vector {
-        return static_cast<Tested*>(tested)->now.tick(sample).force;
+        return detail::force_of(static_cast<under_test<Model, Lay>*>(tested)->now.tick(sample));
       },
-      []([[maybe_unused]] void* tested, [[maybe_unused]] const surface_state<Space>& next) {
-        if constexpr (moves<Tested>) {
-          auto& t = *static_cast<Tested*>(tested);
-          return static_cast<bool>(
-              t.now.retarget(t.make(to_port<Space>(next.point), to_port<Space>(next.normal),
-                                    static_cast<typename Space::scalar>(next.stiffness))));
-        } else {
-          return false;
-        }
+      [](void* tested, const surface_state<Space>& next) {
+        return lay_on(*static_cast<under_test<Model, Lay>*>(tested), next);
       },
-      []([[maybe_unused]] void* tested, [[maybe_unused]] surface_state<Space>& surface) {
-        if constexpr (moves<Tested>) {
-          return false;
-        } else {
-          const auto& fixed = static_cast<Tested*>(tested)->now.target();
-          surface.normal = to_physical<Space>(vector(fixed.outward()));
-          surface.point = surface.normal * static_cast<double>(fixed.depth(Space::zero()));
-          surface.stiffness = static_cast<double>(fixed.stiffness);
-          return true;
-        }
+      [](void* tested, surface_state<Space>& surface) {
+        return take_over(*static_cast<under_test<Model, Lay>*>(tested), surface);
       }};
 
   void* tested_;

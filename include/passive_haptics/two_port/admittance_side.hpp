@@ -11,28 +11,19 @@ namespace passive_haptics {
 inline namespace v0 {
 
 /// Parameters of the admittance side.
-template <class Space>
 struct admittance_parameters {
-  using scalar = typename Space::scalar;
+  double stiffness{};  ///< K [N/m]: f changes by at most K ‖Δp‖ on a step; 0: f is held over it
+  double drift_rate{};  ///< share of the position drift to make up for [1/s]; 0: none
+  double top_speed = std::numeric_limits<double>::infinity();  ///< of the tool [m/s]
+  double loan{};                                               ///< to start with [J]
+  double cap = std::numeric_limits<double>::infinity();        ///< most credit to keep [J] (L7)
 
-  scalar stiffness{};  ///< K [N/m]: f changes by at most K ‖Δp‖ on a step; 0: f is held over it
-  scalar drift_rate{};  ///< share of the position drift to make up for [1/s]; 0: none
-  scalar top_speed = std::numeric_limits<scalar>::max();  ///< of the tool [m/s]
-  scalar energy{};                                        ///< loan to start with [J]
-  scalar cap = std::numeric_limits<scalar>::max();        ///< most credit to keep [J] (L7)
-
-  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
-    if (!(stiffness >= scalar(0)) || !kernels::is_finite(stiffness)) {
-      return {"stiffness", stiffness, "finite and ≥ 0 N/m"};
-    }
-    if (!(drift_rate >= scalar(0)) || !kernels::is_finite(drift_rate)) {
-      return {"drift_rate", drift_rate, "finite and ≥ 0 1/s"};
-    }
-    if (!(top_speed > scalar(0))) return {"top_speed", top_speed, "> 0 m/s"};
-    if (!(energy >= scalar(0)) || !kernels::is_finite(energy)) {
-      return {"energy", energy, "finite and ≥ 0 J"};
-    }
-    if (!(cap >= scalar(0))) return {"cap", cap, "≥ 0 J"};
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::not_negative(stiffness)) return {"stiffness", stiffness, "finite and ≥ 0 N/m"};
+    if (!detail::not_negative(drift_rate)) return {"drift_rate", drift_rate, "finite and ≥ 0 1/s"};
+    if (!(top_speed > 0.0)) return {"top_speed", top_speed, "> 0 m/s"};
+    if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
+    if (!(cap >= 0.0)) return {"cap", cap, "≥ 0 J"};
     return {};
   }
 };
@@ -60,7 +51,7 @@ struct admittance_result {
 /// energy is Σ f(k)·Δp'(k), however active it is.
 /// Strict, K > 0: for every environment in continuous time whose force on the straight way changes
 /// by at most K per metre, and that moves by itself between steps only. The price is Colgate's: a
-/// motion costs K ‖Δp‖²/2 a step, in free space too, and someone must have paid it in: `energy`, or
+/// motion costs K ‖Δp‖²/2 a step, in free space too, and someone must have paid it in: the loan, or
 /// a hand that works against a force. settle() gives back what was not used.
 /// An environment with K > 0 that is told K = 0 receives up to K ‖Δp'‖²/2 a step unseen.
 ///
@@ -75,22 +66,29 @@ class admittance_side {
   using space_type = Space;
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
-  using parameters_type = admittance_parameters<Space>;
   using packet_type = port_packet<scalar, typename Space::coordinates>;
   static constexpr guarantee passivity = guarantee::strict;
 
   /// `start` [m] is where tool and hand both are at first.
-  constexpr explicit admittance_side(const parameters_type& parameters = {},
+  constexpr explicit admittance_side(const admittance_parameters& parameters = {},
                                      const vector& start = Space::zero()) noexcept
       : parameters_(parameters),
-        energy_(parameters.energy),
+        energy_(detail::number<scalar>(parameters.loan)),
         target_(start),
         followed_(start),
         position_(start),
         sound_(!parameters.check()) {}
 
-  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
-    return parameters_.check();
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return parameters_.check(); }
+  /// New parameters; ledger and position are kept, and a loan is not lent again. A fault changes
+  /// nothing.
+  constexpr parameter_fault set(const admittance_parameters& p) noexcept {
+    const auto fault = p.check();
+    if (fault) return fault;
+    parameters_ = p;
+    sound_ = true;
+    cut();
+    return fault;
   }
 
   /// A packet {E_in, position} from the other side. A position that is not finite is not taken
@@ -141,7 +139,8 @@ class admittance_side {
  private:
   [[nodiscard]] constexpr scalar value() const noexcept { return static_cast<scalar>(energy_); }
   constexpr void cut() noexcept {
-    if (value() > parameters_.cap) energy_ = parameters_.cap;
+    const scalar cap = detail::number<scalar>(parameters_.cap);
+    if (value() > cap) energy_ = cap;
   }
 
   /// What the hand did since the last step, and some of the drift.
@@ -149,16 +148,17 @@ class admittance_side {
     const vector goal = target_;
     const vector followed = followed_;
     const vector here = position_;
-    const scalar some = kernels::smaller(parameters_.drift_rate * dt, scalar(1));
+    const scalar some =
+        kernels::smaller(detail::number<scalar>(parameters_.drift_rate) * dt, scalar(1));
     const vector wanted = goal - followed + (followed - here) * some;
     const scalar length = Space::norm(wanted);
-    const scalar most = parameters_.top_speed * dt;
+    const scalar most = detail::number<scalar>(parameters_.top_speed) * dt;
     return length > most ? vector(wanted * (most / length)) : wanted;
   }
 
   /// K ‖Δp‖²/2 [J], the most that a force of that slope can add to −f·Δp on the way.
   [[nodiscard]] constexpr scalar leak(const vector& motion) const noexcept {
-    return parameters_.stiffness * Space::dot(motion, motion) / scalar(2);
+    return detail::number<scalar>(parameters_.stiffness) * Space::dot(motion, motion) / scalar(2);
   }
 
   /// The motion nearest to `wanted` with −f·Δp ≤ E1; if there is a leak, then shortened to what
@@ -198,7 +198,7 @@ class admittance_side {
     return {moved, vector(goal - here), value(), what, limited};
   }
 
-  parameters_type parameters_;
+  admittance_parameters parameters_;
   Ledger energy_{};                     ///< E1 [J]
   Ledger promised_{};                   ///< E_in [J], never falls
   received_energy<scalar> received_{};  ///< E_in_rx [J]

@@ -2,7 +2,7 @@
 #pragma once
 // The energy observer of a device port that is one end of a two-port.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/two_port/packet.hpp>
 
 #include <limits>
@@ -16,70 +16,109 @@ inline namespace v0 {
 /// E_in is promised to the other side, so it is no credit here; the damping stays here and is
 /// promised to nobody. share = 1 is the published bookkeeping (§ 2(d)).
 ///
-/// Drops into local_model or impedance_side; with strict_bound E1 ≥ 0 by lemma L3, because a tick
+/// Drops into any passive_port and impedance_side; with strict_bound E1 ≥ 0 by lemma L3, because a tick
 /// changes E1 by ΔxᵀBΔx − f·Δx when f·Δx > 0 and never lowers it otherwise.
 ///
 /// The price: what the hand puts in comes back over the channel or not at all. Pressed slowly from
 /// an empty ledger, strict_bound shows at most 2B (1 − share) N/m, B = b/T (lemma L4 with the
 /// promised part gone): for share = 1 nothing but what the damping and the other side have paid.
-template <class Space, class Damping = isotropic_damping<Space>,
-          class Ledger = typename Space::scalar>
-struct two_port_energy {
-  using scalar = typename Space::scalar;
-  using vector = typename Space::vector;
+template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
+struct basic_two_port_energy {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bool counts = true;
+  static constexpr bool exact = true;
 
-  Damping damping{};                                ///< b [N·s/m], a lower bound
-  scalar share = scalar(1);                         ///< promised of what the hand puts in, 0 to 1
-  scalar cap = std::numeric_limits<scalar>::max();  ///< most credit to keep [J] (L7)
-  Ledger energy{};                                  ///< E1 [J]; its first value is the loan
-  Ledger promised{};                                ///< E_in [J], never falls
-  received_energy<scalar> received{};               ///< E_in_rx [J]
+  Damping damping{};   ///< b [N·s/m], a lower bound
+  double share = 1.0;  ///< promised of what the hand puts in, 0 to 1
+  double loan{};       ///< E1 at the start [J]
+  double cap = std::numeric_limits<double>::infinity();  ///< most credit to keep [J] (L7)
 
-  constexpr bool update(const vector& displacement, const vector& held, scalar dt) noexcept {
-    const scalar gain =
-        detail::sure_gain<Space>(damping.dissipated(displacement, dt), held, displacement);
-    const scalar gave = Space::dot(held, displacement);
-    const scalar passed_on = gave < scalar(0) ? share * -gave : scalar(0);
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (const auto fault = damping.check()) return fault;
+    if (!(share >= 0.0 && share <= 1.0)) return {"share", share, "in [0, 1]"};
+    if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
+    if (!(cap >= 0.0)) return {"cap", cap, "≥ 0 J"};
+    return {};
+  }
+  template <port P>
+  class on;
+};
+
+using two_port_energy = basic_two_port_energy<>;
+
+template <class Damping, ledger_sum Sum>
+template <port P>
+class basic_two_port_energy<Damping, Sum>::on {
+ public:
+  using scalar = typename P::scalar;
+  using motion = typename P::motion;
+  using effort = typename P::effort;
+  using damping_type = part_at<Damping, P>;
+
+  constexpr explicit on(const basic_two_port_energy& p) noexcept : damping_(p.damping) {
+    set(p);
+    reset();
+  }
+  constexpr void set(const basic_two_port_energy& p) noexcept {
+    damping_ = damping_type(p.damping);
+    share_ = detail::number<scalar>(p.share);
+    loan_ = detail::number<scalar>(p.loan);
+    cap_ = detail::number<scalar>(p.cap);
+  }
+  [[nodiscard]] constexpr basic_two_port_energy parameters() const noexcept {
+    return {.damping = damping_.parameters(),
+            .share = static_cast<double>(share_),
+            .loan = static_cast<double>(loan_),
+            .cap = static_cast<double>(cap_)};
+  }
+  /// Both sides together, or not at all: a side that starts anew alone spends again what it has spent.
+  constexpr void reset() noexcept {
+    energy_ = loan_;
+    promised_ = scalar(0);
+    received_ = {};
+  }
+
+  constexpr bool update(const motion& dx, const effort& held, scalar dt) noexcept {
+    const scalar gain = detail::sure_gain<P>(damping_.dissipated(dx, dt), held, dx);
+    const scalar gave = P::work(held, dx).joules;
+    const scalar passed_on = gave < scalar(0) ? share_ * -gave : scalar(0);
     if (!kernels::is_finite(value() + gain - passed_on)) return false;
-    detail::book(energy, gain);
-    detail::book(energy, -passed_on);
-    detail::book(promised, passed_on);
+    detail::book(energy_, gain);
+    detail::book(energy_, -passed_on);
+    detail::book(promised_, passed_on);
     cut();
     return true;
   }
   /// A tick that nobody saw promises nothing and costs the worst that `held` can have done.
-  constexpr void forfeit(const vector& held, scalar T) noexcept {
-    energy = detail::written_off(value(), damping.worst_outflow(held, T));
+  constexpr void forfeit(const effort& held, scalar T) noexcept {
+    energy_ = detail::written_off(value(), damping_.worst_outflow(held, T));
   }
   /// Takes the other side's E_in [J] from a packet, in whatever order they come.
   constexpr void receive(scalar other) noexcept {
-    energy += received.gain(other);
+    energy_ += received_.gain(other);
     cut();
   }
 
-  [[nodiscard]] constexpr scalar value() const noexcept { return static_cast<scalar>(energy); }
+  [[nodiscard]] constexpr scalar value() const noexcept { return static_cast<scalar>(energy_); }
+  [[nodiscard]] constexpr const damping_type& damping() const noexcept { return damping_; }
   /// E_in to send [J].
-  [[nodiscard]] constexpr scalar outgoing() const noexcept { return static_cast<scalar>(promised); }
-
-  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
-    if (const auto fault = damping.check()) return fault;
-    if (!(share >= scalar(0) && share <= scalar(1))) return {"share", share, "in [0, 1]"};
-    if (!(cap >= scalar(0))) return {"cap", cap, "≥ 0 J"};
-    if (!(value() >= scalar(0)) || !kernels::is_finite(value())) {
-      return {"energy", value(), "finite and ≥ 0 J at the start"};
-    }
-    return {};
+  [[nodiscard]] constexpr scalar outgoing() const noexcept {
+    return static_cast<scalar>(promised_);
   }
 
  private:
   constexpr void cut() noexcept {
-    if (value() > cap) energy = cap;
+    if (value() > cap_) energy_ = cap_;
   }
+
+  [[no_unique_address]] damping_type damping_;
+  scalar share_{}, loan_{}, cap_{};
+  detail::ledger_number<scalar, Sum> energy_{};    ///< E1 [J]
+  detail::ledger_number<scalar, Sum> promised_{};  ///< E_in [J], never falls
+  received_energy<scalar> received_{};             ///< E_in_rx [J]
 };
 
-static_assert(energy_observer_for<two_port_energy<space<float, 1>>, space<float, 1>>);
+static_assert(energy_observer_for<two_port_energy, space<float, 1>>);
 
 }  // namespace v0
 }  // namespace passive_haptics

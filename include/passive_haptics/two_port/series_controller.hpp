@@ -19,40 +19,58 @@ inline namespace v0 {
 /// Passive if f and v were constant over the sample together. They are not: f' is held during the
 /// NEXT displacement, and on a sampled stiff wall this bookkeeping sees no leak at all (lemma L2).
 /// impedance_side is the form that holds.
-template <class Space, class Ledger = typename Space::scalar>
-struct two_port_series_controller {
+struct two_port_series_parameters {
+  double min_speed = 1e-3;  ///< no action below [m/s]
+  double max_gain =
+      std::numeric_limits<double>::infinity();  ///< most α [N·s/m]; ≤ 0.5 m/T is stable
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::not_negative(min_speed)) return {"min_speed", min_speed, "finite and ≥ 0 m/s"};
+    if (!(max_gain >= 0.0)) return {"max_gain", max_gain, "≥ 0 N·s/m"};
+    return {};
+  }
+};
+
+template <class Space>
+class two_port_series_controller {
+ public:
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
-  static constexpr guarantee passivity = guarantee::none;
 
-  scalar min_speed = scalar(1e-3);                       ///< no action below [m/s]
-  scalar max_gain = std::numeric_limits<scalar>::max();  ///< most α [N·s/m]; ≤ 0.5 m/T is stable
-  Ledger in{};                                           ///< E_in [J]
-  Ledger out{};                                          ///< E_out [J]
-  received_energy<scalar> received{};                    ///< E_in_rx [J]
+  constexpr explicit two_port_series_controller(const two_port_series_parameters& p = {}) noexcept
+      : parameters_(p) {}
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return parameters_.check(); }
+  /// New parameters; the sums are kept. A fault changes nothing.
+  constexpr parameter_fault set(const two_port_series_parameters& p) noexcept {
+    const auto fault = p.check();
+    if (!fault) parameters_ = p;
+    return fault;
+  }
 
-  constexpr void receive(scalar other) noexcept { static_cast<void>(received.gain(other)); }
+  constexpr void receive(scalar other) noexcept { static_cast<void>(received_.gain(other)); }
+  [[nodiscard]] constexpr scalar in() const noexcept { return in_; }    ///< E_in [J]
+  [[nodiscard]] constexpr scalar out() const noexcept { return out_; }  ///< E_out [J]
 
   /// The force to command [N] for the force received [N] and the displacement [m] of the tick of
   /// length dt > 0 [s] that has just ended.
   [[nodiscard]] constexpr vector force(const vector& desired, const vector& displacement,
                                        scalar dt) noexcept {
+    const scalar min_speed = detail::number<scalar>(parameters_.min_speed);
+    const scalar max_gain = detail::number<scalar>(parameters_.max_gain);
     const scalar gave = Space::dot(desired, displacement);
-    (gave > scalar(0) ? out : in) += kernels::magnitude(gave);
+    (gave > scalar(0) ? out_ : in_) += kernels::magnitude(gave);
     const scalar square = Space::dot(displacement, displacement) / (dt * dt);
-    const scalar excess = static_cast<scalar>(out) - received.newest;
+    const scalar excess = out_ - received_.newest;
     if (!(excess > scalar(0)) || !(square > min_speed * min_speed)) return desired;
     const scalar alpha = kernels::smaller(excess / (dt * square), max_gain);
-    out += -alpha * square * dt;
+    out_ += -alpha * square * dt;
     return desired - displacement * (alpha / dt);
   }
-  [[nodiscard]] constexpr parameter_fault<scalar> check() const noexcept {
-    if (!(min_speed >= scalar(0)) || !kernels::is_finite(min_speed)) {
-      return {"min_speed", min_speed, "finite and ≥ 0 m/s"};
-    }
-    if (!(max_gain >= scalar(0))) return {"max_gain", max_gain, "≥ 0 N·s/m"};
-    return {};
-  }
+
+ private:
+  two_port_series_parameters parameters_;
+  scalar in_{}, out_{};
+  received_energy<scalar> received_{};  ///< E_in_rx [J]
 };
 
 }  // namespace v0

@@ -3,19 +3,23 @@
 // The scenes of two and three degrees of freedom.
 
 #include "scenes.hpp"
-#include <passive_haptics/eigen_space.hpp>
+#include <passive_haptics/constraint_geometry/triangle.hpp>
+#include <passive_haptics/contact/shaped.hpp>
+#include <passive_haptics/force_bound/actuator_limit.hpp>
+#include <passive_haptics/normal_interpolation/turn_limited.hpp>
+#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/shaper/thesis_rule.hpp>
 
 namespace composed {
 
-using plane_strict =
-    ph::local_model<flat, ph::following<ph::half_space<flat>>, ph::rotate_limited<flat>,
-                    ph::spring<flat>, ph::reduced_energy<flat>, ph::strict_bound<flat>>;
-using plane_reachable = ph::local_model<solid, ph::following<ph::half_space<solid>>,
-                                        ph::rotate_limited<solid>, ph::damped_spring<solid>,
-                                        ph::reduced_energy<solid>, ph::reachable_bound<solid>>;
+using plane_strict = ph::local_model<flat, ph::followed<ph::half_space<flat>>, ph::turn_limited,
+                                     ph::spring, ph::reduced_energy, ph::strict_bound>;
+using plane_reachable =
+    ph::local_model<solid, ph::followed<ph::half_space<solid>>, ph::turn_limited, ph::damped_spring,
+                    ph::reduced_energy, ph::reachable_bound>;
 using triangle_thesis =
-    ph::local_model<solid, ph::following<ph::triangle<solid>>, ph::rotate_limited<solid>,
-                    ph::spring<solid>, ph::reduced_energy<solid>, ph::thesis_bound<solid>>;
+    ph::local_model<solid, ph::followed<ph::triangle<solid>>, ph::turn_limited,
+                    ph::shaped<ph::spring, ph::thesis_rule>, ph::reduced_energy, ph::no_bound>;
 
 ph::tick_result<flat> plane_strict_tick(plane_strict& model, const flat::vector& x, real dt);
 ph::tick_result<solid> plane_reachable_tick(plane_reachable& model, const solid::vector& x,

@@ -50,7 +50,7 @@ class trial {
   static constexpr int dof = Subject::dof;
   using space = typename Subject::space;
   using vector = typename space::vector;
-  static constexpr bool moves = requires(decltype(Subject::model) m) { m.retarget({}); };
+  static constexpr bool moves = requires(decltype(Subject::model) m) { m.update({}); };
   static constexpr bool triangle = std::is_same_v<Subject, replay::composed_triangle_thesis>;
 
  public:
@@ -80,12 +80,12 @@ class trial {
     return s;
   }
   auto tick(const vector& x, real dt) { return Subject::call(subject_.model, x, dt); }
-  void retarget(const replay::surface& s) {
-    if constexpr (moves) subject_.retarget(s);
+  void update(const replay::surface& s) {
+    if constexpr (moves) subject_.update(s);
   }
 
   void in_contact() {
-    retarget(good());
+    update(good());
     (void)tick(inside(real(-0.001F)), T);
     (void)exceptions::taken();
     for (int n = 0; n < 20; ++n) (void)tick(inside(real(1e-5F) * real(n)), T);
@@ -139,9 +139,9 @@ class trial {
       if (kind == 3) {
         for (int i = 0; i < 3; ++i) s.a[i] = s.b[i] = s.c[i] = 0;
       }
-      retarget(good());
+      update(good());
       (void)tick(inside(real(0.0002F)), T);
-      check_(!subject_.retarget(s), Subject::scene, "an unusable surface is refused");
+      check_(!subject_.update(s), Subject::scene, "an unusable surface is refused");
       const auto out = tick(inside(real(0.00021F)), T);
       check_(out.what == event::rejected_target, Subject::scene, "an unusable surface is reported");
       check_(space::is_finite(out.force), Subject::scene, "the last good surface stays");
@@ -149,7 +149,7 @@ class trial {
   }
 
   void silence() {
-    retarget(good());
+    update(good());
     event worst = event::nominal;
     real force = 1;
     for (int n = 0; n < 200; ++n) {  // 40 ms; stale after 20, faded after 30
@@ -159,7 +159,7 @@ class trial {
     }
     check_(worst == event::stale_target, Subject::scene, "a silent environment is reported");
     check_(force == 0, Subject::scene, "the contact with it fades out");
-    retarget(good());
+    update(good());
     (void)tick(inside(real(-0.001F)), T);
     (void)tick(inside(real(0.0001F)), T);
     const auto out = tick(inside(real(0.0002F)), T);
@@ -169,7 +169,7 @@ class trial {
   void extremes() {
     replay::surface s = good();
     s.stiffness = std::bit_cast<replay::bits>(std::numeric_limits<float>::max());
-    retarget(s);
+    update(s);
     for (const real depth : {real(0.5F), real(0.45F), real(1e-40F), real(0), real(-0.1F)}) {
       const auto out = tick(inside(depth), T);
       check_(space::is_finite(out.force) && ph::kernels::is_finite(out.energy), Subject::scene,

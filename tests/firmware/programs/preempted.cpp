@@ -32,7 +32,7 @@ class player {
   /// One tick; at the end, from the start again.
   void step() {
     const replay::sample& s = recording_.samples[at_];
-    if (s.news >= 0) subject_.retarget(recording_.surfaces[s.news]);
+    if (s.news >= 0) subject_.update(recording_.surfaces[s.news]);
     using position = typename Subject::position;
     const auto x = replay::vector_of<position, Subject::dof>(s.x);
     const auto out = Subject::call(subject_.model, x, replay::real_of(s.dt));

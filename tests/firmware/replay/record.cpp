@@ -194,7 +194,7 @@ class session {
     sample s{{}, std::bit_cast<bits>(dt), news};
     for (int i = 0; i < 3; ++i) s.x[i] = std::bit_cast<bits>(at.x[i]);
     samples_.push_back(s);
-    if (news >= 0) subject_.retarget(surfaces_[static_cast<std::size_t>(news)]);
+    if (news >= 0) subject_.update(surfaces_[static_cast<std::size_t>(news)]);
     using position = typename Subject::position;
     const auto out = Subject::call(subject_.model, replay::vector_of<position, dof>(s.x), dt);
     place result;

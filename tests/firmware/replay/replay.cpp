@@ -80,7 +80,7 @@ void play(const recording& r) {
 
   for (std::uint32_t n = 0; n < r.ticks; ++n) {
     const replay::sample& s = r.samples[n];
-    if (s.news >= 0) subject.retarget(r.surfaces[s.news]);
+    if (s.news >= 0) subject.update(r.surfaces[s.news]);
     const auto x = replay::vector_of<position, Subject::dof>(s.x);
     std::uint32_t instructions = 0;
     const auto out = counted(Subject::call, subject.model, x, replay::real_of(s.dt), instructions);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Each scene twice, composed and by hand, behind one shape:
-//   scene, author   names        retarget(surface)   news from the environment
+//   scene, author   names                             update(surface)    news from the environment
 //   call            the tick, a plain function        argument(sample)   its position
 
-#include "../by_hand/scenes.h"
+#include "../by_hand/by_hand.h"
 #include "../composed/scenes_with_vectors.hpp"
 #include "parameters.hpp"
 #include "recording.hpp"
@@ -31,22 +31,15 @@ template <class Vector, int Dof>
 
 // ---------------------------------------------------------------------------------- composed
 
-template <class Space>
-[[nodiscard]] ph::loop_limits<Space> limits() {
-  return {.longest_tick = given::longest_tick, .top_speed = given::top_speed};
-}
-template <class Space>
-[[nodiscard]] ph::reduced_energy<Space> ledger() {
-  return {.damping = given::damping};
-}
-template <class Space>
-[[nodiscard]] ph::reachable_bound<Space> reach() {
-  return {.mass = given::mass, .hand_force = given::hand_force};
-}
+inline constexpr ph::loop_limits limits{.longest_tick = given::longest_tick,
+                                        .top_speed = given::top_speed};
+inline constexpr ph::reduced_energy ledger{.damping = given::damping};
+inline constexpr ph::reachable_bound reach{.mass = given::mass, .hand_force = given::hand_force};
+inline constexpr ph::turn_limited turning{.rate = given::rate};
+inline constexpr ph::damped_spring soft{.mass = given::mass};
 template <class Constraint>
-[[nodiscard]] ph::following<Constraint> followed() {
-  return ph::following<Constraint>{
-      ph::freshness<real>{.stale_after = given::stale_after, .fade = given::fade}};
+[[nodiscard]] ph::followed<Constraint> followed() {
+  return ph::followed<Constraint>{{.stale_after = given::stale_after, .fade = given::fade}};
 }
 
 template <class Model, class Function, Function* Tick>
@@ -60,8 +53,8 @@ struct composed_subject {
 
   Model model;
 
-  bool retarget(const surface& s) {
-    if constexpr (requires(Model m, constraint c) { m.retarget(c); }) {
+  bool update(const surface& s) {
+    if constexpr (requires(Model m, constraint c) { m.update(c); }) {
       constraint c{};
       if constexpr (requires { c.thickness; }) {
         c.a = vector_of<position, dof>(s.a);
@@ -72,7 +65,7 @@ struct composed_subject {
         c.normal = vector_of<position, dof>(s.b);
       }
       c.stiffness = real_of(s.stiffness);
-      return model.retarget(c);
+      return model.update(c);
     } else {
       return false;
     }
@@ -85,67 +78,45 @@ struct composed_wall_strict
   static constexpr const char* scene = "wall_strict";
   composed_wall_strict()
       : composed_subject{{space{},
-                          ph::rigid{ph::half_space<space>{0, 1, given::wall_stiffness}},
+                          ph::fixed{ph::half_space<space>{0, 1, given::wall_stiffness}},
                           {},
                           {},
-                          ledger<space>(),
+                          ledger,
                           {},
-                          limits<space>()}} {}
+                          limits}} {}
 };
 struct composed_wall_reachable
     : composed_subject<composed::wall_reachable, decltype(composed::wall_reachable_tick),
                        &composed::wall_reachable_tick> {
   static constexpr const char* scene = "wall_reachable";
   composed_wall_reachable()
-      : composed_subject{{space{},
-                          followed<constraint>(),
-                          {},
-                          ph::damped_spring<space>{.mass = given::mass},
-                          ledger<space>(),
-                          reach<space>(),
-                          limits<space>()}} {}
+      : composed_subject{{space{}, followed<constraint>(), {}, soft, ledger, reach, limits}} {}
 };
 struct composed_plane_strict
     : composed_subject<composed::plane_strict, decltype(composed::plane_strict_tick),
                        &composed::plane_strict_tick> {
   static constexpr const char* scene = "plane_strict";
   composed_plane_strict()
-      : composed_subject{{space{},
-                          followed<constraint>(),
-                          ph::rotate_limited<space>{.rate = given::rate},
-                          {},
-                          ledger<space>(),
-                          {},
-                          limits<space>()}} {}
+      : composed_subject{{space{}, followed<constraint>(), turning, {}, ledger, {}, limits}} {}
 };
 struct composed_plane_reachable
     : composed_subject<composed::plane_reachable, decltype(composed::plane_reachable_tick),
                        &composed::plane_reachable_tick> {
   static constexpr const char* scene = "plane_reachable";
   composed_plane_reachable()
-      : composed_subject{{space{}, followed<constraint>(),
-                          ph::rotate_limited<space>{.rate = given::rate},
-                          ph::damped_spring<space>{.mass = given::mass}, ledger<space>(),
-                          reach<space>(), limits<space>()}} {}
+      : composed_subject{{space{}, followed<constraint>(), turning, soft, ledger, reach, limits}} {}
 };
 struct composed_triangle_thesis
     : composed_subject<composed::triangle_thesis, decltype(composed::triangle_thesis_tick),
                        &composed::triangle_thesis_tick> {
   static constexpr const char* scene = "triangle_thesis";
   composed_triangle_thesis()
-      : composed_subject{{space{},
-                          followed<constraint>(),
-                          ph::rotate_limited<space>{.rate = given::rate},
-                          {},
-                          ledger<space>(),
-                          {},
-                          limits<space>()}} {}
+      : composed_subject{{space{}, followed<constraint>(), turning, {}, ledger, {}, limits}} {}
 };
 
 // ----------------------------------------------------------------------------------- by hand
 
 inline constexpr ::loop by_hand_loop{given::longest_tick, given::top_speed};
-inline constexpr ::freshness by_hand_rule{given::stale_after, given::fade};
 inline constexpr ::reach by_hand_reach{given::mass, given::hand_force};
 
 template <class State, int Dof, class Position, class Function, Function* Tick>
@@ -168,19 +139,20 @@ struct by_hand_wall_strict
                       &by_hand_wall_strict_tick> {
   static constexpr const char* scene = "wall_strict";
   by_hand_wall_strict() {
-    by_hand_wall_strict_start(&model, {0, 1, given::wall_stiffness}, given::damping, by_hand_loop);
+    wall_strict_start(&model, {0, 1, given::wall_stiffness}, given::damping, by_hand_loop);
   }
-  bool retarget(const surface&) { return false; }
+  bool update(const surface&) { return false; }
 };
 struct by_hand_wall_reachable
     : by_hand_subject<::wall_reachable, 1, real, decltype(by_hand_wall_reachable_tick),
                       &by_hand_wall_reachable_tick> {
   static constexpr const char* scene = "wall_reachable";
   by_hand_wall_reachable() {
-    by_hand_wall_reachable_start(&model, by_hand_rule, given::damping, by_hand_reach, by_hand_loop);
+    wall_reachable_start(&model, given::stale_after, given::fade, given::damping, by_hand_reach,
+                         by_hand_loop);
   }
-  bool retarget(const surface& s) {
-    return by_hand_wall_reachable_retarget(&model, plane_of<plane1, real, 1>(s));
+  bool update(const surface& s) {
+    return wall_reachable_update(&model, plane_of<plane1, real, 1>(s));
   }
 };
 struct by_hand_plane_strict
@@ -188,11 +160,12 @@ struct by_hand_plane_strict
                       &by_hand_plane_strict_tick> {
   static constexpr const char* scene = "plane_strict";
   by_hand_plane_strict() {
-    by_hand_plane_strict_start(&model, by_hand_rule, given::rate, given::damping, by_hand_loop);
+    plane_strict_start(&model, given::stale_after, given::fade, given::rate, given::damping,
+                       by_hand_loop);
   }
-  bool retarget(const surface& s) {
+  bool update(const surface& s) {
     const auto plane = plane_of<plane2, vec2, 2>(s);
-    return by_hand_plane_strict_retarget(&model, &plane);
+    return plane_strict_update(&model, &plane);
   }
 };
 struct by_hand_plane_reachable
@@ -200,12 +173,12 @@ struct by_hand_plane_reachable
                       &by_hand_plane_reachable_tick> {
   static constexpr const char* scene = "plane_reachable";
   by_hand_plane_reachable() {
-    by_hand_plane_reachable_start(&model, by_hand_rule, given::rate, given::damping, by_hand_reach,
-                                  by_hand_loop);
+    plane_reachable_start(&model, given::stale_after, given::fade, given::rate, given::damping,
+                          by_hand_reach, by_hand_loop);
   }
-  bool retarget(const surface& s) {
+  bool update(const surface& s) {
     const auto plane = plane_of<plane3, vec3, 3>(s);
-    return by_hand_plane_reachable_retarget(&model, &plane);
+    return plane_reachable_update(&model, &plane);
   }
 };
 struct by_hand_triangle_thesis
@@ -213,16 +186,17 @@ struct by_hand_triangle_thesis
                       &by_hand_triangle_thesis_tick> {
   static constexpr const char* scene = "triangle_thesis";
   by_hand_triangle_thesis() {
-    by_hand_triangle_thesis_start(&model, by_hand_rule, given::rate, given::damping, by_hand_loop);
+    triangle_thesis_start(&model, given::stale_after, given::fade, given::rate, given::damping,
+                          by_hand_loop);
   }
-  bool retarget(const surface& s) {
+  bool update(const surface& s) {
     const triangle3 next{vector_of<vec3, 3>(s.a),
                          vector_of<vec3, 3>(s.b),
                          vector_of<vec3, 3>(s.c),
                          real_of(s.stiffness),
-                         REAL_MAX,
+                         real_max,
                          {}};
-    return by_hand_triangle_thesis_retarget(&model, &next);
+    return triangle_thesis_update(&model, &next);
   }
 };
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Compositions with a name, for the first hour and for class members:
+//
+//   touch<Space>   make_touch(device, longest_tick)   a surface that the environment publishes: settles,
+//                                                     stiff, passive for the device and hand stated
+//   force_guard<Port>  make_force_guard(damping, T)  force in, force out: strictly passive
+//
+//     class hand_loop {
+//       ph::touch<scene> touch_ = ph::make_touch<scene>({.mass = 0.1, .damping = 0.03,
+//                                                        .hand_force = 5.0, .force_limit = 9.0}, 0.0011);
+
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/damped_spring.hpp>
+#include <passive_haptics/contact/given_force.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/force_bound/actuator_limit.hpp>
+#include <passive_haptics/force_bound/bound_chain.hpp>
+#include <passive_haptics/force_bound/reachable_bound.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
+#include <passive_haptics/local_model.hpp>
+#include <passive_haptics/normal_interpolation/turn_limited.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// What a promise is made of: the device and the hand on it.
+struct known_device {
+  double mass{};         ///< smallest apparent mass, over all directions and poses [kg]
+  double damping{};      ///< b, a lower bound: half of what you identified [N·s/m]
+  double hand_force{};   ///< the most that hand, load and dry friction push with [N]
+  double force_limit{};  ///< what the motors hold [N]
+};
+
+/// What we recommend for a device of known mass: conditional, like reachable_bound.
+template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
+using touch = local_model<Space, followed<Constraint>, turn_limited, damped_spring, reduced_energy,
+                          bound_chain<reachable_bound, actuator_limit>, Limits>;
+
+/// The normal turns by at most `turn_rate` [rad/s]; the longest tick is that of YOUR loop [s].
+template <class Space, class Constraint = half_space<Space>>
+[[nodiscard]] constexpr touch<Space, Constraint> make_touch(const known_device& device,
+                                                            double longest_tick,
+                                                            double turn_rate = 2.0) noexcept {
+  return {Space{},
+          followed<Constraint>{},
+          turn_limited{.rate = turn_rate},
+          damped_spring{.mass = device.mass, .force_limit = device.force_limit},
+          reduced_energy{.damping = device.damping},
+          bound_chain{reachable_bound{.mass = device.mass, .hand_force = device.hand_force},
+                      actuator_limit{.most = device.force_limit}},
+          loop_limits{.longest_tick = longest_tick}};
+}
+
+/// For a force that you have already: strict, so soft where the ledger is empty.
+template <port P, class Damping = isotropic_damping, class Limits = loop_limits>
+using force_guard =
+    passive_port<P, given_force, basic_reduced_energy<Damping>, strict_bound, Limits>;
+
+template <port P, class Damping = isotropic_damping>
+[[nodiscard]] constexpr force_guard<P, Damping> make_force_guard(
+    const std::type_identity_t<Damping>& damping, double longest_tick) noexcept {
+  return {P{}, given_force{}, basic_reduced_energy<Damping>{.damping = damping}, strict_bound{},
+          loop_limits{.longest_tick = longest_tick}};
+}
+
+}  // namespace v0
+}  // namespace passive_haptics

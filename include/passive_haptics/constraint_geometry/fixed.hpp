@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Supplies: who owns the constraint and who moves it.
+//
+//   fixed      one constraint, known from the start, never moving: no second copy, no age
+//   followed   the environment publishes, the local model follows as fast as the bound allows
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+namespace detail {
+/// What prepare() refuses, in words.
+template <class Constraint>
+[[nodiscard]] constexpr parameter_fault constraint_fault(Constraint c) noexcept {
+  if (!(c.stiffness > 0) || !kernels::is_finite(c.stiffness)) {
+    return {"stiffness", static_cast<double>(c.stiffness), "finite and > 0 N/m"};
+  }
+  if (c.prepare()) return {};
+  return {"constraint", 0.0, "finite, with a normal or an area > 0"};
+}
+}  // namespace detail
+
+/// One constraint for good: ph::fixed{ph::half_space<scene>{…}}.
+template <class Constraint>
+class fixed {
+ public:
+  using constraint_type = Constraint;
+  using scalar = typename Constraint::scalar;
+  static constexpr bool moves = false;
+
+  constexpr fixed() noexcept = default;
+  constexpr explicit fixed(const Constraint& c) noexcept : constraint_(c) {
+    static_cast<void>(constraint_.prepare());  // check() says what prepare() refuses
+  }
+  [[nodiscard]] constexpr const Constraint& local() const noexcept { return constraint_; }
+  [[nodiscard]] constexpr const Constraint& target() const noexcept { return constraint_; }
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    return detail::constraint_fault(constraint_);
+  }
+
+ private:
+  Constraint constraint_{};
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// How the nodes of a constraint follow the environment's: along the lines of Fig. 2.5, clamped and
+// projected (A22): unclamped, half of random cases leave the segment and some triangles flip.
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace detail {
+
+/// Is a call cheaper than its body once more? Where pointers have 32 bits, bytes are what is short.
+inline constexpr bool saves_bytes = sizeof(void*) <= 4;
+
+/// Where a node goes when its constraint's plane is to pass through p with unit normal n: where the
+/// line from→to meets the plane, no further than its ends, then straight onto the plane. (Fig. 2.5)
+template <class Space>
+[[nodiscard, gnu::always_inline]] constexpr typename Space::coordinates node_on_plane(
+    const typename Space::coordinates& from, const typename Space::coordinates& to,
+    const typename Space::coordinates& p, const typename Space::coordinates& n) noexcept {
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  const vector line = Space::difference(to, from);
+  const scalar across = Space::dot(line, n);
+  const scalar smallest = std::numeric_limits<scalar>::epsilon() * Space::norm(line);
+  scalar t(0);
+  if (across > smallest || across < -smallest) {
+    t = Space::dot(Space::difference(p, from), n) / across;
+    t = kernels::smaller(kernels::larger(t, scalar(0)), scalar(1));
+  }
+  const vector node = vector(from) + line * t;
+  return vector(node + vector(n) * Space::dot(Space::difference(p, node), n));
+}
+/// The same as a call. Coordinates, because a call hands them over in registers: there are three nodes.
+template <class Space>
+[[nodiscard, gnu::noinline]] constexpr typename Space::coordinates call_node_on_plane(
+    typename Space::coordinates from, typename Space::coordinates to,
+    typename Space::coordinates through, typename Space::coordinates normal) noexcept {
+  return node_on_plane<Space>(from, to, through, normal);
+}
+template <class Space>
+[[nodiscard, gnu::always_inline]] constexpr typename Space::coordinates follow_node(
+    const typename Space::coordinates& from, const typename Space::coordinates& to,
+    const typename Space::coordinates& through,
+    const typename Space::coordinates& normal) noexcept {
+  if constexpr (saves_bytes) {
+    return call_node_on_plane<Space>(from, to, through, normal);
+  } else {
+    return node_on_plane<Space>(from, to, through, normal);
+  }
+}
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Constraint geometry: the piece of the world that the environment publishes and the local model
+// keeps. Plain values, trivially copyable, so they cross threads as they are.
+//
+//   half_space   a plane and what lies behind it         any Dof; walls, tangent planes of meshes
+//   segment      two nodes                               Dof 2
+//   triangle     three nodes, with edge tests            Dof 3; the local model of the thesis
+//
+// Each one carries its stiffness, because the environment knows it. Who owns a constraint and who
+// moves it is said by a supply: fixed.hpp, followed.hpp.
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+namespace detail {
+template <class Scalar>
+[[nodiscard]] constexpr bool usable_stiffness(Scalar K) noexcept {
+  return K > Scalar(0) && kernels::is_finite(K);
+}
+}  // namespace detail
+
+/// All x with (p − x)·n ≥ 0. (2.18-2.19, A1-A3)
+template <class Space>
+struct half_space {
+  using space_type = Space;
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+
+  typename Space::coordinates point{};   ///< p, any point of the surface [m]
+  typename Space::coordinates normal{};  ///< n, outward, any length but zero
+  scalar stiffness{};                    ///< K [N/m], > 0
+
+  [[nodiscard]] constexpr bool prepare() noexcept {
+    const vector n = normal;
+    const scalar length = Space::norm(n);
+    if (!(length > scalar(0)) || !kernels::is_finite(length)) return false;
+    normal = vector(n / length);
+    return Space::is_finite(point) && Space::is_finite(normal) &&
+           detail::usable_stiffness(stiffness);
+  }
+
+  /// The plane as seen from x; it refers to the constraint.
+  struct probe {
+    scalar depth;  ///< (p − x)·n [m]
+    const half_space& plane;
+    [[nodiscard]] constexpr vector outward() const noexcept { return plane.normal; }
+    [[nodiscard]] static constexpr bool covered() noexcept { return true; }
+  };
+  [[nodiscard]] constexpr probe at(const vector& x) const noexcept {
+    return {Space::dot(Space::difference(point, x), normal), *this};
+  }
+
+  [[nodiscard]] constexpr half_space toward(const half_space& target, const vector& x,
+                                            const vector& n, scalar d) const noexcept {
+    return {vector(x + n * d), n, target.stiffness};
+  }
+};
+
+static_assert(constraint_for<half_space<space<float, 1>>, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

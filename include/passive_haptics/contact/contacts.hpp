@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Several contacts on one device: one port, one ledger, one bound on the sum of their forces.
+//
+//     ph::passive_port corner{scene{}, ph::contacts{floor, wall}, ph::reduced_energy{.damping = 0.03},
+//                             ph::strict_bound{}, ph::loop_limits{.longest_tick = 0.0011}};
+//     corner.source().contact<1>().update(plane);
+//
+// Why not one port for each: they would spend the same damping twice (docs/design/mathematics.md § 4).
+
+#include <passive_haptics/contact/local_contact.hpp>
+
+#include <utility>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+namespace detail {
+
+/// A tuple that is trivially copyable where its elements are.
+template <std::size_t I, class T>
+struct cell {
+  T value;
+};
+template <class Indices, class... T>
+struct cells;
+template <std::size_t... I, class... T>
+struct cells<std::index_sequence<I...>, T...> : cell<I, T>... {};
+template <class... T>
+using row = cells<std::index_sequence_for<T...>, T...>;
+
+template <std::size_t I, class T>
+[[nodiscard]] constexpr T& get(cell<I, T>& of) noexcept {
+  return of.value;
+}
+template <std::size_t I, class T>
+[[nodiscard]] constexpr const T& get(const cell<I, T>& of) noexcept {
+  return of.value;
+}
+
+}  // namespace detail
+
+/// The sum of what the sources ask for. What the bound leaves of it is shared out alike, so that each
+/// local model stands where its own part of the force says. Nothing is assumed of how many there are.
+template <class... Sources>
+struct contacts {
+  detail::row<Sources...> sources{};
+
+  constexpr contacts() noexcept = default;
+  constexpr explicit contacts(const Sources&... all) noexcept : sources{{all}...} {}
+
+  template <port Space>
+  class on;
+};
+
+template <class... Sources>
+template <port Space>
+class contacts<Sources...>::on {
+  using all = std::index_sequence_for<Sources...>;
+
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  using result_type = tick_result<Space>;
+  static constexpr bool asks_for_numbers = false;  // a sum may not be one
+  static_assert((source_for<Sources, Space> && ...),
+                "passive_haptics: the source does not model source_for: see concepts.hpp");
+
+  constexpr explicit on(const contacts& p) noexcept : on(p, all{}) {}
+
+  /// The I-th of them, to update or to release.
+  template <std::size_t I>
+  [[nodiscard]] constexpr auto& contact() noexcept {
+    return detail::get<I>(sources_);
+  }
+  template <std::size_t I>
+  [[nodiscard]] constexpr const auto& contact() const noexcept {
+    return detail::get<I>(sources_);
+  }
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    parameter_fault first;
+    for_each(*this, [&first](const auto& source) {
+      if (!first) first = detail::fault_in(source);
+    });
+    return first;
+  }
+  constexpr void begin(scalar longest_tick) noexcept {
+    for_each(*this, [longest_tick](auto& source) {
+      if constexpr (requires { source.begin(longest_tick); }) source.begin(longest_tick);
+    });
+  }
+  constexpr void reset() noexcept {
+    for_each(*this, [](auto& source) { detail::restart(source); });
+  }
+
+  struct request {
+    vector wanted;  ///< the sum [N]
+    bool nothing = true;
+    detail::row<typename part_at<Sources, Space>::request...> each;
+  };
+  template <bool Shortcut>
+  [[nodiscard]] constexpr request ask(const auto& motion, const auto& port, event& what) noexcept {
+    return asked<Shortcut>(motion, port, what, all{});
+  }
+  [[nodiscard]] constexpr result_type answered(const request& r,
+                                               const port_result<Space>& port) noexcept {
+    return shared_out(r, port, all{});
+  }
+  constexpr result_type refused(const port_result<Space>& port, scalar dt) noexcept {
+    for_each(*this, [&](auto& source) { static_cast<void>(source.refused(port, dt)); });
+    return {port.force, scalar(0), port.energy, port.what, false};
+  }
+
+ private:
+  template <std::size_t... I>
+  constexpr on(const contacts& p, std::index_sequence<I...>) noexcept
+      : sources_{{part_at<Sources, Space>(detail::get<I>(p.sources))}...} {}
+
+  template <class Self, class Act, std::size_t... I>
+  static constexpr void visit(Self& self, Act act, std::index_sequence<I...>) noexcept {
+    (act(detail::get<I>(self.sources_)), ...);
+  }
+  template <class Self, class Act>
+  static constexpr void for_each(Self& self, Act act) noexcept {
+    visit(self, act, all{});
+  }
+
+  /// What one source wants [N]; zero where it wants nothing.
+  [[nodiscard]] static constexpr vector wanted_by(const auto& one) noexcept {
+    return one.nothing ? Space::zero() : vector(one.wanted);
+  }
+
+  template <bool Shortcut, std::size_t... I>
+  [[nodiscard]] constexpr request asked(const auto& motion, const auto& port, event& what,
+                                        std::index_sequence<I...>) noexcept {
+    request r{Space::zero(),
+              true,
+              {{detail::get<I>(sources_).template ask<Shortcut>(motion, port, what)}...}};
+    ((r.wanted = vector(r.wanted + wanted_by(detail::get<I>(r.each))),
+      r.nothing = r.nothing && detail::get<I>(r.each).nothing),
+     ...);
+    return r;
+  }
+
+  template <std::size_t... I>
+  [[nodiscard]] constexpr result_type shared_out(const request& r, const port_result<Space>& port,
+                                                 std::index_sequence<I...>) noexcept {
+    scalar left(1);
+    if (port.limited) {
+      const scalar square = Space::dot(r.wanted, r.wanted);
+      left = square > scalar(0) ? Space::dot(port.force, r.wanted) / square : scalar(0);
+      left = kernels::smaller(kernels::larger(left, scalar(0)), scalar(1));
+    }
+    result_type sum{port.force, scalar(0), port.energy, port.what, port.limited};
+    const auto answer = [&](auto& source, const auto& one) {
+      const vector own = wanted_by(one);
+      const bool cut =
+          port.limited && !(own == Space::zero());  // who asks for nothing loses nothing
+      const port_result<Space> part{cut ? vector(own * left) : own, port.energy, port.what, cut};
+      const auto result = source.answered(one, part);
+      sum.limited = sum.limited || result.limited;
+      if constexpr (requires { result.depth; }) {
+        sum.depth = kernels::larger(sum.depth, result.depth);
+      }
+    };
+    (answer(detail::get<I>(sources_), detail::get<I>(r.each)), ...);
+    return sum;
+  }
+
+  detail::row<part_at<Sources, Space>...> sources_;
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

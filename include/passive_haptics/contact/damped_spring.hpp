@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The contact law that settles (the menu is in spring.hpp).
+//
+//   damped_spring     f* = K_s d − D_s max(0, v_out)   (§ 9); needs the device's mass
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// f* = max(0, K_s d − D_s max(0, v_out)) [N]: damping on the way OUT only, so it never adds force.
+///     K_s = min(K, κ m/T²)            what a mass sampled every T can be held with
+///     D_s = min(2ζ√(K_s m), β m/T)    [N·s/m]
+/// Static stiffness is K exactly, up to the cap κ m/T² (10 kN/m for 0.1 kg at 1 kHz). Source:
+/// docs/design/mathematics.md § 9; the defaults settle on an ideal device, κ = 0.3 does not.
+///
+/// With a `force_limit` F, deeper than F/K_s, the motors cannot give K_s d, and a damper of that
+/// stiffness would act only in the last millimetre. There the spring is the secant F/d:
+///     f* = max(0, F − min(D_s, 2ζ√(F m/d)) max(0, v_out))
+/// which lets a heavy device out at a speed it can be stopped from.
+struct damped_spring {
+  double mass{};                    ///< m, apparent mass of the device [kg], a lower bound
+  double stiffness_fraction = 0.1;  ///< κ, of m/T²
+  double damping_ratio = 1.0;       ///< ζ
+  double damping_fraction = 0.5;    ///< β, of m/T
+  double force_limit = std::numeric_limits<double>::infinity();  ///< F, what the motors hold [N]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
+    if (!(stiffness_fraction > 0.0 && stiffness_fraction <= 1.0)) {
+      return {"stiffness_fraction", stiffness_fraction, "in (0, 1]"};
+    }
+    if (!detail::not_negative(damping_ratio)) {
+      return {"damping_ratio", damping_ratio, "finite and ≥ 0"};
+    }
+    if (!(damping_fraction >= 0.0 && damping_fraction <= 1.0)) {
+      return {"damping_fraction", damping_fraction, "in [0, 1]"};
+    }
+    if (!(force_limit > 0.0)) return {"force_limit", force_limit, "> 0 N"};
+    return {};
+  }
+  template <class Space>
+  class on;
+};
+
+template <class Space>
+class damped_spring::on {
+ public:
+  using scalar = typename Space::scalar;
+
+  constexpr explicit on(const damped_spring& p) noexcept { set(p); }
+  /// The new ones count from the next adopt() on.
+  constexpr void set(const damped_spring& p) noexcept {
+    mass_ = detail::number<scalar>(p.mass);
+    stiffness_fraction_ = detail::number<scalar>(p.stiffness_fraction);
+    damping_ratio_ = detail::number<scalar>(p.damping_ratio);
+    damping_fraction_ = detail::number<scalar>(p.damping_fraction);
+    force_limit_ = detail::number<scalar>(p.force_limit);
+  }
+  [[nodiscard]] constexpr damped_spring parameters() const noexcept {
+    return {.mass = static_cast<double>(mass_),
+            .stiffness_fraction = static_cast<double>(stiffness_fraction_),
+            .damping_ratio = static_cast<double>(damping_ratio_),
+            .damping_fraction = static_cast<double>(damping_fraction_),
+            .force_limit = static_cast<double>(force_limit_)};
+  }
+
+  constexpr void adopt(scalar K, scalar T) noexcept {
+    stiffness_ = kernels::sampled_stiffness(K, stiffness_fraction_, mass_, T);
+    damping_ = kernels::sampled_damping(stiffness_, damping_ratio_, damping_fraction_, mass_, T);
+  }
+  [[nodiscard]] constexpr scalar stiffness() const noexcept { return stiffness_; }  ///< K_s [N/m]
+  [[nodiscard]] constexpr scalar damping() const noexcept { return damping_; }  ///< D_s [N·s/m]
+
+  [[nodiscard]] constexpr scalar force(scalar depth, scalar outward_speed) const noexcept {
+    if (!(depth > scalar(0))) return scalar(0);
+    const scalar pressed = stiffness_ * depth;
+    if (pressed > force_limit_) return saturated(depth, outward_speed);
+    return kernels::larger(pressed - resistance(outward_speed), scalar(0));
+  }
+  /// Below the force limit the inverse of force(), above it F/K_s.
+  [[nodiscard]] constexpr scalar depth(scalar force, scalar outward_speed) const noexcept {
+    return force > scalar(0) ? kernels::depth_bound(force + resistance(outward_speed), stiffness_)
+                             : scalar(0);
+  }
+
+ private:
+  [[nodiscard]] constexpr scalar saturated(scalar depth, scalar outward_speed) const noexcept {
+    const scalar secant =
+        scalar(2) * damping_ratio_ * kernels::square_root(force_limit_ * mass_ / depth);
+    const scalar speed = kernels::larger(outward_speed, scalar(0));
+    return kernels::larger(force_limit_ - kernels::smaller(damping_, secant) * speed, scalar(0));
+  }
+  [[nodiscard]] constexpr scalar resistance(scalar outward_speed) const noexcept {
+    return damping_ * kernels::larger(outward_speed, scalar(0));
+  }
+
+  scalar mass_{}, stiffness_fraction_{}, damping_ratio_{}, damping_fraction_{}, force_limit_{};
+  scalar stiffness_{}, damping_{};
+};
+
+static_assert(contact_law_for<damped_spring, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

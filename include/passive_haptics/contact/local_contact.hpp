@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The local model of the thesis, without its energy: one contact that asks a port for force.
+//
+//   motion ─▶ probe ─▶ normal ─▶ law ─▶ shapers ─▶ wanted force ─▶ (the port's bound) ─▶ follow
+//             depth in  n_LM →   f* = K d…                                              own piece
+//             both      n_VE                                                            at depth f/K
+
+#include <passive_haptics/contact/shaped.hpp>
+
+#include <utility>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// What a port with contacts returns. Trivial to log.
+template <class Space>
+struct tick_result {
+  typename Space::vector force;   ///< on the device [N]
+  typename Space::scalar depth;   ///< penetration in the local model [m], 0 outside
+  typename Space::scalar energy;  ///< E1 [J]
+  event what = event::nominal;    ///< the worst that happened
+  bool limited = false;           ///< shaper or bound changed the desired force
+};
+
+namespace detail {
+template <class Law, class Space>
+inline constexpr bool is_shaped = requires(part_at<Law, Space> law) {
+  law.shapers();
+};
+
+template <class Law>
+[[nodiscard]] constexpr bool wants_local_model() noexcept {
+  if constexpr (requires { Law::needs_local_model; }) return Law::needs_local_model;
+  return false;
+}
+}  // namespace detail
+
+/// A surface that a supply brings, turned by a normal interpolation, pressed back by a contact law:
+///     ph::local_contact{ph::followed<ph::half_space<scene>>{}, ph::turn_limited{.rate = 2.0},
+///                       ph::damped_spring{.mass = 0.1}}
+/// Models source_for<Space>. It holds no energy and promises nothing.
+template <class Space, class Supply, class Normals, class Law>
+class local_contact {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  using constraint_type = typename Supply::constraint_type;
+  using law_type = part_at<Law, Space>;
+  using normals_type = part_at<Normals, Space>;
+  using result_type = tick_result<Space>;
+  using supply_type = Supply;
+  static constexpr bool asks_for_numbers = true;
+
+  static_assert(constraint_for<constraint_type, Space>,
+                "passive_haptics: the constraint does not model constraint_for: see concepts.hpp");
+  static_assert(supply_for<Supply, Space>,
+                "passive_haptics: the supply does not model supply_for: see concepts.hpp");
+  static_assert(normal_interpolation_for<Normals, Space>,
+                "passive_haptics: the normal interpolation does not model "
+                "normal_interpolation_for: see concepts.hpp");
+  static_assert(
+      contact_law_for<Law, Space>,
+      "passive_haptics: the contact law does not model contact_law_for: see concepts.hpp");
+  static_assert(Supply::moves || !detail::wants_local_model<Law>(),
+                "passive_haptics: this shaper compares with a local model that can move: "
+                "use followed instead of fixed");
+
+  constexpr local_contact() noexcept : local_contact(Supply{}, Normals{}, Law{}) {}
+  constexpr local_contact(const Supply& supply, const Normals& normals, const Law& law) noexcept
+      : supply_(supply), normals_(normals), law_(law) {}
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (const auto fault = detail::fault_in(normals_)) return fault;
+    if (const auto fault = detail::fault_in(law_)) return fault;
+    return detail::fault_in(supply_);
+  }
+  template <class Parameters>
+  static constexpr int takers = detail::takers<Parameters, Normals, Space> +
+                                detail::takers<Parameters, Law, Space> +
+                                static_cast<int>(requires(Supply s, Parameters p) { s.set(p); });
+  template <class Parameters>
+  constexpr void take(const Parameters& p) noexcept {
+    if constexpr (detail::takers < Parameters, Normals, Space >> 0) {
+      detail::take<Normals, Space>(normals_, p);
+    } else if constexpr (detail::takers<Parameters, Law, Space> > 0) {
+      detail::take<Law, Space>(law_, p);
+    } else {
+      supply_.set(p);
+    }
+  }
+  constexpr void reset() noexcept {
+    detail::restart(supply_);
+    detail::restart(law_);
+    beside_ = {};
+  }
+  /// The longest tick of the loop [s], which the law's stiffness depends on.
+  constexpr void begin(scalar longest_tick) noexcept {
+    if (supply_.target().stiffness > scalar(0)) {
+      law_.adopt(supply_.target().stiffness, longest_tick);
+    }
+  }
+
+  /// Hands over the environment's newest constraint, from the haptic thread. False: it is unusable
+  /// and the last good one stays; the next tick says so too.
+  template <class Owner = Supply>
+  requires(Owner::moves) constexpr bool update(const constraint_type& next) noexcept {
+    return supply_.update(next);
+  }
+  /// Nothing is there any more: the contact fades, as it does when data are stale, and ends.
+  template <class Owner = Supply>
+  requires(Owner::moves) constexpr void release() noexcept { supply_.release(); }
+
+  [[nodiscard]] constexpr const constraint_type& local() const noexcept { return supply_.local(); }
+  [[nodiscard]] constexpr const constraint_type& target() const noexcept {
+    return supply_.target();
+  }
+  [[nodiscard]] constexpr const law_type& law() const noexcept { return law_; }
+
+  /// What is asked of the port, and what answered() needs to know of it.
+  struct request {
+    vector wanted;         ///< [N]
+    bool nothing;          ///< no contact: what is not the weight says nothing
+    vector desired;        ///< by the law, before any shaper [N]
+    bool in_local;         ///< in contact with the local model, which so can be followed
+    bool turning;          ///< the normal is still on its way
+    scalar weight;         ///< how far the contact counts
+    scalar felt;           ///< depth of the desired force [m]
+    scalar outward_speed;  ///< [m/s]
+    vector here;           ///< [m]
+    vector normal;
+  };
+
+  /// `what` becomes worse if the supply has bad news. `Shortcut`: a bound that only reduces has no say
+  /// where nothing is asked.
+  template <bool Shortcut>
+  [[nodiscard, gnu::always_inline]] constexpr request ask(const auto& motion, const auto& port,
+                                                          event& what) noexcept {
+    using state = std::remove_cvref_t<decltype(port)>;
+    const vector here = motion.position;
+    const scalar weight = presence(port.dt, what);
+    const auto newest = supply_.target().at(here);
+    const bool behind = weight > scalar(0) && newest.depth > scalar(0);
+    const bool in_target = behind && newest.covered();
+    const bool from_the_side = pass_beside(behind && !in_target);
+    [[maybe_unused]] const law_type before = law_;  // with the stiffness up to now
+    if (fresh()) law_.adopt(supply_.target().stiffness, port.longest_tick);
+    if constexpr (Shortcut && shapers_keep_zero<state>()) {
+      if (!in_target) return nothing_asked(weight);
+    }
+
+    const auto own = in_own(here, newest.depth, in_target && !from_the_side);
+    const vector goal = newest.outward();
+    const vector normal = turned(goal, own.touched, here, port.dt);
+    const scalar speed = motion.along(normal);
+    scalar felt = in_target ? newest.depth : scalar(0);
+    scalar asked = in_target ? weight * law_.force(felt, speed) : scalar(0);
+    const scalar both = scalar(2) * asked + felt;  // twice: a unit normal may be an ulp too long
+    if (!kernels::is_finite(both)) [[unlikely]] {
+      asked = felt = scalar(0);
+      what = detail::unusable(what);
+    }
+    const vector desired = Space::scaled(normal, asked);
+    vector wanted = desired;
+    if constexpr (detail::is_shaped<Law, Space>) {
+      const contact_state<Space> contact{normal,       supply_.target().stiffness,      own.depth,
+                                         newest.depth, local_force(before, own, speed), fresh()};
+      wanted = detail::applied<Space>(law_.shapers(), desired, contact, port).force;
+      if constexpr (!shapers_reduce<state>()) {
+        if (!Space::is_finite(wanted)) [[unlikely]] {
+          wanted = Space::zero();
+          what = detail::unusable(what);
+        }
+      }
+    }
+    return {wanted, false, desired, own.touched, in_target && !(normal == goal),
+            weight, felt,  speed,   here,        normal};
+  }
+
+  /// Puts the local model where the force that is left says it is.
+  [[gnu::always_inline]] constexpr result_type answered(const request& r,
+                                                        const port_result<Space>& port) noexcept {
+    if (r.nothing) {
+      if constexpr (Supply::moves) {
+        supply_.sync();
+        supply_.seen(r.weight);
+      }
+      return {port.force, scalar(0), port.energy, port.what, false};
+    }
+    const bool limited = detail::is_shaped<Law, Space> ? !(port.force == r.desired) : port.limited;
+    scalar felt = r.felt;
+    if constexpr (Supply::moves) {
+      if (limited) {
+        felt = law_.depth(Space::dot(port.force, r.normal), r.outward_speed);
+        if (!kernels::is_finite(felt)) felt = scalar(0);  // more than K d over a K next to nothing
+      }
+      if (limited || r.turning) {
+        supply_.approach(r.in_local, r.here, r.normal, felt);
+      } else {
+        supply_.sync();
+      }
+      supply_.seen(r.weight);
+    }
+    return {port.force, felt, port.energy, port.what, limited};
+  }
+
+  /// A tick that nobody could believe, of length dt [s].
+  constexpr result_type refused(const port_result<Space>& port, scalar dt) noexcept {
+    if constexpr (Supply::moves) supply_.grow_older(dt);
+    return {port.force, scalar(0), port.energy, port.what, false};
+  }
+
+ private:
+  struct no_memory {};
+  template <class State>
+  [[nodiscard]] static constexpr bool shapers_reduce() noexcept {
+    if constexpr (detail::is_shaped<Law, Space>) {
+      return detail::reduces<typename Law::sequence_type, Space, contact_state<Space>, State>();
+    } else {
+      return true;
+    }
+  }
+  /// Shapers that only reduce, and remember nothing, have no say where nothing is asked.
+  template <class State>
+  [[nodiscard]] static constexpr bool shapers_keep_zero() noexcept {
+    if constexpr (detail::is_shaped<Law, Space>) {
+      using shapers = typename Law::sequence_type;
+      return shapers_reduce<State>() &&
+             detail::keeps_nothing<shapers, Space, contact_state<Space>, State>();
+    } else {
+      return true;
+    }
+  }
+
+  /// How far the contact counts at all: 1, less as a silent environment fades, 0 before
+  /// its first word.
+  [[nodiscard]] constexpr scalar presence(scalar dt, event& what) noexcept {
+    if constexpr (Supply::moves) {
+      if (supply_.refused()) what = worse(what, event::rejected_target);
+      if (!supply_.published()) [[unlikely]] {
+        what = worse(what, event::no_target);
+        return scalar(0);
+      }
+      if (!supply_.changed()) supply_.grow_older(dt);
+      if (supply_.current()) [[likely]] {
+        return scalar(1);
+      }
+      if (supply_.stale()) what = worse(what, event::stale_target);
+      return supply_.weight();
+    } else {
+      return scalar(1);
+    }
+  }
+  [[nodiscard]] constexpr bool fresh() const noexcept {
+    if constexpr (Supply::moves) return supply_.changed();
+    return false;
+  }
+  /// Notes whether x is behind the surface, but outside its edges; returns whether it was.
+  [[nodiscard]] constexpr bool pass_beside([[maybe_unused]] bool now) noexcept {
+    if constexpr (Supply::moves) return std::exchange(beside_, now);
+    return false;
+  }
+  [[nodiscard]] constexpr request nothing_asked(scalar weight) const noexcept {
+    const vector none = Space::zero();
+    return {none, true, none, false, false, weight, scalar(0), scalar(0), none, none};
+  }
+
+  /// x in the local model: how deep, and is it touched there?
+  struct local_touch {
+    scalar depth;  ///< [m]
+    bool touched;
+  };
+  /// A contact that has come from the side, or has only just appeared, is an update (A18).
+  [[nodiscard, gnu::always_inline]] constexpr local_touch in_own(const vector& x, scalar depth,
+                                                                 bool touched) const noexcept {
+    if constexpr (Supply::moves) {
+      if (!supply_.together()) {
+        const auto own = supply_.local().at(x);
+        depth = own.depth;
+        touched = depth > scalar(0) && own.covered();
+      }
+      return {depth, touched && supply_.last_weight() > scalar(0)};
+    } else {
+      return {depth, false};
+    }
+  }
+  [[nodiscard, gnu::always_inline]] constexpr vector turned(const vector& goal, bool touched,
+                                                            const vector& x,
+                                                            scalar dt) const noexcept {
+    if constexpr (Supply::moves) {
+      if (touched && !supply_.together()) {
+        return normals_.step(supply_.local().at(x).outward(), goal, dt);
+      }
+    }
+    return goal;
+  }
+  /// What the local model would push with, by the law as it was in the last tick [N].
+  [[nodiscard]] constexpr scalar local_force([[maybe_unused]] const law_type& before,
+                                             [[maybe_unused]] const local_touch& own,
+                                             [[maybe_unused]] scalar speed) const noexcept {
+    if constexpr (Law::needs_local_model) {
+      if (own.touched) return supply_.last_weight() * before.force(own.depth, speed);
+    }
+    return scalar(0);
+  }
+
+  Supply supply_;
+  [[no_unique_address]] normals_type normals_;
+  [[no_unique_address]] law_type law_;
+  /// Behind the surface, but outside its edges: only what moves can be met that way.
+  [[no_unique_address]] std::conditional_t<Supply::moves, bool, no_memory> beside_{};
+};
+
+/// The space is that of the constraint.
+template <class Supply, class Normals, class Law>
+local_contact(Supply, Normals, Law)
+    -> local_contact<typename Supply::constraint_type::space_type, Supply, Normals, Law>;
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A contact law and what shapes its force before the port's bound sees it.
+//
+//   ph::shaped{ph::spring{}, ph::force_rate_limit{.rate = 100.0}}
+//
+//   shaper/thesis_rule.hpp              the rule of the thesis             NOT passive by itself
+//   shaper/force_rate_limit.hpp         no jumps at updates
+//   shaper/stiffness_augmentation.hpp   begin soft, grow stiff
+//   shaper/set_position_modulation.hpp  PSPM: the jump of the surface
+//   shaper/reference_energy.hpp         PO/PC that repays all the way out
+//
+// A shaper may look at the contact and at the ledger, and promises nothing: the bound answers for
+// whatever is asked of it.
+
+#include <passive_haptics/port/composing.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// The law, then the shapers in the order given.
+template <class Law, class... Shapers>
+struct shaped {
+  using sequence_type = detail::sequence<Shapers...>;
+  static constexpr bool needs_local_model = (Shapers::needs_local_model || ...);
+  static constexpr bool needs_ledger = (Shapers::needs_ledger || ...);
+
+  Law law{};
+  sequence_type shapers{};
+
+  constexpr shaped() noexcept = default;
+  constexpr explicit shaped(const Law& l, const Shapers&... others) noexcept
+      : law(l), shapers(others...) {}
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    const auto fault = detail::fault_in(law);
+    return fault ? fault : shapers.check();
+  }
+  template <class Space>
+  class on;
+};
+
+template <class Law, class... Shapers>
+template <class Space>
+class shaped<Law, Shapers...>::on : public part_at<Law, Space> {
+  using law_part = part_at<Law, Space>;
+  using shaper_part = part_at<sequence_type, Space>;
+  static_assert((shaper_for<Shapers, Space> && ...),
+                "passive_haptics: the shaper does not model shaper_for: see concepts.hpp");
+
+ public:
+  template <class Parameters>
+  static constexpr int takers =
+      detail::takers<Parameters, Law, Space> + detail::takers<Parameters, sequence_type, Space>;
+
+  constexpr explicit on(const shaped& p) noexcept : law_part(p.law), shapers_(p.shapers) {}
+  constexpr void set(const shaped& p) noexcept {
+    detail::take<Law, Space>(*this, p.law);
+    shapers_.set(p.shapers);
+  }
+  [[nodiscard]] constexpr shaped parameters() const noexcept {
+    shaped p;
+    if constexpr (requires { law_part::parameters(); }) p.law = law_part::parameters();
+    p.shapers = shapers_.parameters();
+    return p;
+  }
+  constexpr void reset() noexcept { shapers_.reset(); }
+  template <class Parameters>
+  constexpr void take(const Parameters& p) noexcept {
+    if constexpr (detail::takers < Parameters, Law, Space >> 0) {
+      detail::take<Law, Space>(*this, p);
+    } else {
+      detail::take<sequence_type, Space>(shapers_, p);
+    }
+  }
+  [[nodiscard]] constexpr const shaper_part& shapers() const noexcept { return shapers_; }
+  [[nodiscard]] constexpr shaper_part& shapers() noexcept { return shapers_; }
+
+ private:
+  [[no_unique_address]] shaper_part shapers_;
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

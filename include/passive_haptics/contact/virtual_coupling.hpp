@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The contact law that a fixed wall needs no ledger for (the menu is in spring.hpp).
+//
+//   virtual_coupling  f* = max(0, K_f d − D_c v_out)   (§ 2(g)); 1/K_f = 1/K_c + 1/K
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// f* = max(0, K_f d − D_c v_out) [N], d > 0, with 1/K_f = 1/K_c + 1/K: a spring K_c and a damper
+/// D_c side by side between the device and a massless proxy that the wall K holds. With K_c
+/// infinite it is the Kelvin-Voigt wall K, D_c.
+///
+/// Simplified. The proxy's own equation gives f/d = K (K_c + D_c s)/(K + K_c + D_c s): the same
+/// static stiffness, but a damping that falls from D_c (K/(K + K_c))² at low frequencies to
+/// nothing. Here D_c acts whole, whatever K is, which is exact on a rigid wall (K → ∞) and nowhere
+/// else.
+///
+/// Without any ledger it is passive on a surface that stays put, sampled every T and held, if
+///     K_f ≤ 2 (b − D_c)/T,      for which K_c ≤ 2 (b − D_c)/T is enough, whatever K is
+/// (§ 2(g); Colgate's condition). With Δ = the change of d in a tick, the tick books b Δ²/T + f Δ,
+/// and f Δ ≥ K_f/2 (change of max(d, 0)²) − K_f/2 Δ² − D_c/(2T) (Δ² + Δ'²), Δ' of the tick before;
+/// max(0, ·) and the surface keep the sign. Nothing is asked of the hand. Ticks that vary, delay
+/// and a surface that moves break it: then the bound has to answer. Nyquist motion in contact takes
+/// (K_f/2 + D_c/T − b/T) Δ² a tick.
+struct virtual_coupling {
+  double stiffness = std::numeric_limits<double>::infinity();  ///< K_c [N/m], may be infinite
+  double damping{};                                            ///< D_c [N·s/m]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!(stiffness > 0.0)) return {"stiffness", stiffness, "> 0 N/m"};
+    if (!detail::not_negative(damping)) return {"damping", damping, "finite and ≥ 0 N·s/m"};
+    return {};
+  }
+
+  template <class Space>
+  class on {
+   public:
+    using scalar = typename Space::scalar;
+
+    constexpr explicit on(const virtual_coupling& p) noexcept { set(p); }
+    /// A new stiffness counts from the next adopt() on.
+    constexpr void set(const virtual_coupling& p) noexcept {
+      stiffness_ = detail::number<scalar>(p.stiffness);
+      damping_ = detail::number<scalar>(p.damping);
+    }
+    [[nodiscard]] constexpr virtual_coupling parameters() const noexcept {
+      return {.stiffness = static_cast<double>(stiffness_),
+              .damping = static_cast<double>(damping_)};
+    }
+
+    constexpr void adopt(scalar K, scalar /*longest_tick*/) noexcept {
+      felt_ = K / (scalar(1) + K / stiffness_);
+    }
+    [[nodiscard]] constexpr scalar stiffness() const noexcept { return felt_; }  ///< K_f [N/m]
+
+    [[nodiscard]] constexpr scalar force(scalar depth, scalar outward_speed) const noexcept {
+      if (!(depth > scalar(0))) return scalar(0);
+      return kernels::larger(felt_ * depth - damping_ * outward_speed, scalar(0));
+    }
+    /// Zero for a force that the damper alone would give.
+    [[nodiscard]] constexpr scalar depth(scalar force, scalar outward_speed) const noexcept {
+      if (!(force > scalar(0))) return scalar(0);
+      return kernels::larger(kernels::depth_bound(force + damping_ * outward_speed, felt_),
+                             scalar(0));
+    }
+
+   private:
+    scalar stiffness_{}, damping_{};
+    scalar felt_{};
+  };
+};
+
+static_assert(contact_law_for<virtual_coupling, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

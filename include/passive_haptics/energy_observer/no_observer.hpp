@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// No ledger.
+//
+//   no_observer   counts nothing   with no_bound only, or a bound that needs no ledger
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// Counts nothing, promises nothing. For comparison, and for worlds proved passive otherwise.
+struct no_observer {
+  static constexpr guarantee passivity = guarantee::none;
+  static constexpr bool counts = false;
+  static constexpr bool exact = true;
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
+
+  template <port P>
+  class on {
+   public:
+    using scalar = typename P::scalar;
+    using motion = typename P::motion;
+    using effort = typename P::effort;
+
+    /// Answers for the damping that nobody has stated.
+    struct unknown_damping {
+      static constexpr bool rubs = false;
+      [[nodiscard]] constexpr scalar worst_outflow(const effort& /*f*/,
+                                                   scalar /*T*/) const noexcept {
+        return scalar(0);
+      }
+    };
+
+    constexpr explicit on(const no_observer& /*p*/) noexcept {}
+    constexpr bool update(const motion& /*dx*/, const effort& /*held*/, scalar /*dt*/) noexcept {
+      return true;
+    }
+    constexpr void forfeit(const effort& /*held*/, scalar /*T*/) noexcept {}
+    [[nodiscard]] constexpr scalar value() const noexcept { return scalar(0); }
+    [[nodiscard]] constexpr const unknown_damping& damping() const noexcept { return damping_; }
+
+   private:
+    [[no_unique_address]] unknown_damping damping_{};
+  };
+};
+
+static_assert(energy_observer_for<no_observer, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The ledger of the thesis, for positions that are exact.
+//
+//   reduced_energy   E1 += Δxᵀ(b/dt)Δx − f_held·Δx     (2.9, 2.16)
+//   capped_energy    the same, and never more credit than it is told to keep
+//
+// Not offered: pairing the NEW force with the last displacement. It flips the sign of the energy
+// that the zero-order hold leaks and makes the observer blind (lemma L2).
+
+#include <passive_haptics/concepts.hpp>
+
+#include <limits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// The number a ledger is kept in: the port's scalar, or a sum that carries on what rounding cuts off.
+enum class ledger_sum : std::uint8_t { plain, compensated };
+
+namespace detail {
+template <class Scalar, ledger_sum Sum>
+using ledger_number = std::conditional_t<Sum == ledger_sum::plain, Scalar, compensated_sum<Scalar>>;
+}  // namespace detail
+
+/// The reduced energy E1 [J] that has flowed from the hand into the device and is not yet spent:
+///     E1(n) = E1(n−1) + Δxᵀ(b/dt)Δx − f_held·Δx                                    (2.9, 2.16)
+/// exact for a zero-order hold but for the damping, which it never overstates (lemma L1), and for
+/// rounding, which only lowers it (docs/design/stability.md). `dt` is the measured length of the
+/// tick. A negative E1 is a debt: it is kept, it is visible, it is repaid. With a loan the guarantee
+/// becomes E ≥ −loan (A8).
+template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
+struct basic_reduced_energy {
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bool counts = true;
+  static constexpr bool exact = true;
+
+  Damping damping{};  ///< b [N·s/m], a lower bound
+  double loan{};      ///< E1 at the start [J]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (const auto fault = damping.check()) return fault;
+    if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
+    return {};
+  }
+  template <port P>
+  class on;
+};
+
+using reduced_energy = basic_reduced_energy<>;
+
+template <class Damping, ledger_sum Sum>
+template <port P>
+class basic_reduced_energy<Damping, Sum>::on {
+ public:
+  using scalar = typename P::scalar;
+  using motion = typename P::motion;
+  using effort = typename P::effort;
+  using damping_type = part_at<Damping, P>;
+  static_assert(damping_for<Damping, P>,
+                "passive_haptics: the damping does not model damping_for: see concepts.hpp");
+
+  constexpr explicit on(const basic_reduced_energy& p) noexcept
+      : damping_(p.damping), loan_(detail::number<scalar>(p.loan)), energy_(loan_) {}
+  constexpr void set(const basic_reduced_energy& p) noexcept {
+    damping_ = damping_type(p.damping);
+    loan_ = detail::number<scalar>(p.loan);
+  }
+  [[nodiscard]] constexpr basic_reduced_energy parameters() const noexcept {
+    return {.damping = damping_.parameters(), .loan = static_cast<double>(loan_)};
+  }
+
+  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held,
+                                               scalar dt) noexcept {
+    const scalar gain = detail::sure_gain<P>(damping_.dissipated(dx, dt), held, dx);
+    if (!kernels::is_finite(value() + gain)) [[unlikely]] {
+      return false;
+    }
+    detail::book(energy_, gain);
+    return true;
+  }
+
+  /// A tick passed and nobody saw the motion: write off the worst that `held` can have done, down
+  /// to an empty ledger. Any bound that kept its promise has covered exactly that.
+  constexpr void forfeit(const effort& held, scalar T) noexcept {
+    energy_ = detail::written_off(value(), damping_.worst_outflow(held, T));
+  }
+
+  /// To the loan, as at the start.
+  constexpr void reset() noexcept { energy_ = loan_; }
+
+  [[nodiscard]] constexpr scalar value() const noexcept { return static_cast<scalar>(energy_); }
+  [[nodiscard]] constexpr const damping_type& damping() const noexcept { return damping_; }
+
+ protected:
+  constexpr void keep_at_most(scalar most) noexcept {
+    if (value() > most) energy_ = most;  // only ever lowers: a debt stays (L7)
+  }
+
+ private:
+  [[no_unique_address]] damping_type damping_;
+  scalar loan_;
+  detail::ledger_number<scalar, Sum> energy_;  ///< E1 [J]
+};
+
+/// reduced_energy with two ways of forgetting credit, which costs no proof (L7): it keeps at most
+/// `cap`, and nothing once no force has been held for `reset_after`.
+template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
+struct basic_capped_energy {
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bool counts = true;
+  static constexpr bool exact = true;
+
+  Damping damping{};                                     ///< b [N·s/m], a lower bound
+  double loan{};                                         ///< E1 at the start [J]
+  double cap = std::numeric_limits<double>::infinity();  ///< most credit to keep [J] (A9)
+  double reset_after =
+      std::numeric_limits<double>::infinity();  ///< force-free time that voids it [s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!(cap >= 0.0)) return {"cap", cap, "≥ 0 J"};
+    if (!(reset_after >= 0.0)) return {"reset_after", reset_after, "≥ 0 s"};
+    return basic_reduced_energy<Damping, Sum>{damping, loan}.check();
+  }
+  template <port P>
+  class on;
+};
+
+using capped_energy = basic_capped_energy<>;
+
+template <class Damping, ledger_sum Sum>
+template <port P>
+class basic_capped_energy<Damping, Sum>::on
+    : public basic_reduced_energy<Damping, Sum>::template on<P> {
+  using plain = basic_reduced_energy<Damping, Sum>;
+  using ledger = typename plain::template on<P>;
+
+ public:
+  using typename ledger::effort, typename ledger::motion, typename ledger::scalar;
+
+  constexpr explicit on(const basic_capped_energy& p) noexcept
+      : ledger(plain{p.damping, p.loan}),
+        cap_(detail::number<scalar>(p.cap)),
+        reset_after_(detail::number<scalar>(p.reset_after)) {}
+  constexpr void set(const basic_capped_energy& p) noexcept {
+    ledger::set(plain{p.damping, p.loan});
+    cap_ = detail::number<scalar>(p.cap);
+    reset_after_ = detail::number<scalar>(p.reset_after);
+  }
+  [[nodiscard]] constexpr basic_capped_energy parameters() const noexcept {
+    const plain p = ledger::parameters();
+    return {.damping = p.damping,
+            .loan = p.loan,
+            .cap = static_cast<double>(cap_),
+            .reset_after = static_cast<double>(reset_after_)};
+  }
+
+  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held,
+                                               scalar dt) noexcept {
+    if (!ledger::update(dx, held, dt)) return false;
+    idle_ = held == P::zero() ? idle_ + dt : scalar(0);
+    this->keep_at_most(idle_ >= reset_after_ ? scalar(0) : cap_);
+    return true;
+  }
+  constexpr void reset() noexcept {
+    ledger::reset();
+    idle_ = scalar(0);
+  }
+
+ private:
+  scalar cap_, reset_after_;
+  scalar idle_{};  ///< force-free time so far [s]
+};
+
+static_assert(energy_observer_for<reduced_energy, space<float, 1>>);
+static_assert(energy_observer_for<capped_energy, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Limits that need no ledger.
+//
+//   actuator_limit    |f| ≤ what the motors give      always, with motors
+//   motor_limits      |fᵢ| ≤ what motor i gives       joints, or motors along the axes
+//   no_bound          f = f*                          for comparison, and for worlds proved otherwise
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// f = f*. Loses energy at every tick in contact (lemma L2): K Δx²/2 against b Δx²/T.
+struct no_bound {
+  static constexpr guarantee passivity = guarantee::none;
+  static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
+
+  template <port P>
+  struct on {
+    constexpr explicit on(const no_bound& /*p*/) noexcept {}
+    [[nodiscard]] constexpr share<typename P::scalar> limit(const typename P::effort& /*desired*/,
+                                                            const auto& /*state*/) const noexcept {
+      return {typename P::scalar(1)};
+    }
+  };
+};
+
+/// |f| ≤ `most` [N], direction kept: what the motors can hold. Without it (or a device that reports
+/// the force it held) the ledger would book a force that was never there (A28).
+struct actuator_limit {
+  static constexpr guarantee passivity = guarantee::none;
+  static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
+
+  double most{};  ///< largest force [N]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (detail::not_negative(most)) return {};
+    return {"most", most, "finite and ≥ 0 N"};
+  }
+
+  template <port Space>
+  class on {
+   public:
+    using scalar = typename Space::scalar;
+    static_assert(
+        requires { typename Space::geometry; },
+        "passive_haptics: actuator_limit bounds the length of a force: joints need "
+        "motor_limits");
+
+    constexpr explicit on(const actuator_limit& p) noexcept
+        : most_(detail::number<scalar>(p.most)) {}
+    [[nodiscard]] constexpr actuator_limit parameters() const noexcept {
+      return {static_cast<double>(most_)};
+    }
+    [[nodiscard]] constexpr share<scalar> limit(const typename Space::effort& desired,
+                                                const auto& /*state*/) const noexcept {
+      const scalar force = Space::norm(desired);
+      return {force > most_ ? most_ / force : scalar(1)};
+    }
+
+   private:
+    scalar most_;
+  };
+};
+
+/// |fᵢ| ≤ mostᵢ for every axis or joint, direction kept: the weakest motor decides.
+template <int Dof>
+struct motor_limits {
+  static constexpr guarantee passivity = guarantee::none;
+  static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
+
+  std::array<double, static_cast<std::size_t>(Dof)> most{};  ///< [N]; joints: [N·m]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    for (const double f : most) {
+      if (!detail::not_negative(f)) return {"most", f, "every axis finite and ≥ 0 N"};
+    }
+    return {};
+  }
+
+  template <port P>
+  class on {
+   public:
+    using scalar = typename P::scalar;
+    static_assert(P::dof == Dof,
+                  "passive_haptics: motor_limits needs one number for each axis of the port");
+
+    constexpr explicit on(const motor_limits& p) noexcept {
+      for (std::size_t i = 0; i < most_.size(); ++i) most_[i] = detail::number<scalar>(p.most[i]);
+    }
+    [[nodiscard]] constexpr motor_limits parameters() const noexcept {
+      motor_limits p;
+      for (std::size_t i = 0; i < most_.size(); ++i) p.most[i] = static_cast<double>(most_[i]);
+      return p;
+    }
+    [[nodiscard]] constexpr share<scalar> limit(const typename P::effort& desired,
+                                                const auto& /*state*/) const noexcept {
+      scalar least(1);
+      for (int i = 0; i < Dof; ++i) {
+        const scalar f = kernels::magnitude(P::component(desired, i));
+        const scalar allowed = most_[static_cast<std::size_t>(i)];
+        if (f * least > allowed) least = allowed / f;
+      }
+      return {least};
+    }
+
+   private:
+    std::array<scalar, static_cast<std::size_t>(Dof)> most_{};
+  };
+};
+
+static_assert(force_bound_for<no_bound, space<float, 1>>);
+static_assert(force_bound_for<actuator_limit, space<float, 1>>);
+static_assert(force_bound_for<motor_limits<1>, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The energy bounding algorithm (EBA): the force changes by no more than the damper pays for, and
+// what the force could do later is put aside as the energy of a spring, f²/(2 c2). No ledger: the
+// last force and the last displacement are all it looks at.
+//
+//   energy_bounding        f − f_held bounded, |f|² bounded   the published window; ≤ b/T N/m, and
+//                                                             a force that falls no faster either
+//   tight_energy_bounding  the two bounds as one              twice as stiff, falls at once; with
+//                                                             c2 = 2b/T it is memoryless_bound
+//
+// For comparison with the literature; memoryless_bound is simpler and strict_bound shows more. Not
+// offered with latency.
+
+#include <passive_haptics/concepts.hpp>
+
+#include <limits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+namespace detail {
+/// The smallest damping of any axis [N·s/m].
+template <class Space>
+[[nodiscard]] constexpr typename Space::scalar least_damping(const auto& damping) noexcept {
+  typename Space::scalar least = damping.along_axis(0);
+  for (int i = 1; i < Space::dof; ++i) least = kernels::smaller(least, damping.along_axis(i));
+  return least;
+}
+
+/// The largest share of `force` that a spring of stiffness c2 [N/m] can put aside when the last tick
+/// brought what it did:  f²/(2 c2) ≤ h²/(2 c2) + Δxᵀ(b/dt)Δx − h·Δx,  with h² at most `promised`
+/// [N²] where it was put aside.
+template <class Space>
+[[nodiscard]] constexpr share<typename Space::scalar> put_aside(const typename Space::vector& force,
+                                                                typename Space::scalar c2,
+                                                                typename Space::scalar promised,
+                                                                const auto& state) noexcept {
+  using scalar = typename Space::scalar;
+  const scalar before = kernels::smaller(Space::dot(state.held, state.held), promised);
+  const scalar credit = before / (scalar(2) * c2) + state.gain();
+  const scalar cost = Space::dot(force, force) / (scalar(2) * c2);
+  if (cost <= credit) return {scalar(1)};
+  return {kernels::strict_scale(credit, cost)};
+}
+}  // namespace detail
+
+/// The force nearest to the desired one with, h being the force held over the last tick,
+///     (h − f)·Δx ≤ min(c1 ‖Δx‖², Δxᵀ(b/dt)Δx)       and       ‖f + c2 Δx‖² ≤ ‖h‖² + c2² ‖Δx‖²
+/// A half-space and a ball: always the same few lines, in any number of dimensions (§ 2(b), proof
+/// there). In one, with F = −f the reaction, it is the published window (Kim, Ryu, 2004 and 2010;
+/// law from memory) multiplied through by Δx:
+///     F = F_held + β Δx,    γ_min ≤ β ≤ min(c1, γ_max),    γ = c2 − r ∓ √(c2² + r²),  r = F_held/Δx
+/// But for Δx = 0, where the published law freezes the force and the limit of the window, proved
+/// just as well, is |f| ≤ |h|. The published algorithm bounds each axis by itself; the vector form
+/// is ours.
+///
+/// Proof: −h·Δx = (f − h)·Δx − f·Δx. The half-space says that the damper, over the MEASURED dt, pays
+/// for the first term; the ball is −f·Δx ≥ (‖f‖² − ‖h‖²)/(2 c2). So E ≥ ‖f‖²/(2 c2) for ever. The
+/// window is not empty for c2 ≤ c1 and c2 ≤ b/T (f = h − c2 Δx is in it), and as c2 ≤ b/T the
+/// energy put aside is twice what f can cost in the next tick: zero is always safe, too, and a tick
+/// of up to twice longest_tick, or a force held of up to √2 times the command, costs nothing. What
+/// is held beyond the command lends nothing: a motor a little too strong cannot wind the force up.
+///
+/// Assumes, those two apart, what memoryless_bound does; the direction of the force held is free.
+/// The price: at most b/T N/m, half of what the others show; and NOT `only_reduces`: while the
+/// device moves out, a force falls by no more than c1 per metre, so it goes on pushing after the
+/// contact is lost, the way it pushed before. It starts none: from zero, nothing desired is nothing
+/// returned; and it ends at once where the device stops or turns back, and after a lost sample or a
+/// late tick.
+struct energy_bounding {
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bound_traits traits{.needs_ledger = true};
+
+  double slope = kernels::largest<double>();    ///< c1 [N/m], > 0; more than b/dt is b/dt
+  double storage = kernels::largest<double>();  ///< c2 [N/m], > 0; at most c1 and b/T
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(slope)) return {"slope", slope, "finite and > 0 N/m"};
+    if (!detail::positive(storage)) return {"storage", storage, "finite and > 0 N/m"};
+    return {};
+  }
+  template <port Space>
+  class on;
+};
+
+template <port Space>
+class energy_bounding::on {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::effort;
+  static_assert(
+      requires { typename Space::geometry; },
+      "passive_haptics: energy_bounding measures lengths in a space: joints need "
+      "strict_bound");
+
+  constexpr explicit on(const energy_bounding& p) noexcept { set(p); }
+  constexpr void set(const energy_bounding& p) noexcept {
+    slope_ = detail::number<scalar>(p.slope);
+    storage_ = detail::number<scalar>(p.storage);
+  }
+  [[nodiscard]] constexpr energy_bounding parameters() const noexcept {
+    return {.slope = static_cast<double>(slope_), .storage = static_cast<double>(storage_)};
+  }
+  constexpr void reset() noexcept { last_squared_ = kernels::largest<scalar>(); }
+
+  [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) noexcept {
+    vector force = Space::zero();
+    if (state.motion_known && state.dt <= state.longest_tick) {
+      const scalar B = detail::least_damping<Space>(state.damping) / state.longest_tick;
+      const scalar c2 = kernels::smaller(storage_, kernels::smaller(slope_, B));
+      const vector closest = nearest(desired, c2, state);
+      const auto left = detail::put_aside<Space>(closest, c2, last_squared_, state);
+      force = left.factor == scalar(1) ? closest : vector(closest * left.factor);
+    }
+    last_squared_ = Space::dot(force, force);
+    return force;
+  }
+
+ private:
+  /// Projects on the ball; where that leaves the half-space, on the disc in which they meet.
+  [[nodiscard]] constexpr vector nearest(const vector& desired, scalar c2,
+                                         const auto& state) const noexcept {
+    const vector held = state.held;
+    const vector travel = state.travel;
+    const scalar square = Space::dot(travel, travel);
+    const vector centre = travel * -c2;
+    const scalar radius_squared = Space::dot(held, held) + c2 * c2 * square;
+    const vector free = in_ball(desired, centre, radius_squared);
+
+    const scalar paid =
+        kernels::smaller(slope_ * square, state.damping.dissipated(travel, state.dt));
+    const auto beyond = [&](const vector& f) {
+      return Space::dot(vector(held - f), travel) - paid;
+    };
+    if (!(beyond(free) > scalar(0)) || !(square > scalar(0))) return free;
+
+    const vector middle = centre + travel * (beyond(centre) / square);
+    const vector on_plane = desired + travel * (beyond(desired) / square);
+    const vector aside = middle - centre;
+    return in_ball(on_plane, middle, radius_squared - Space::dot(aside, aside));
+  }
+
+  [[nodiscard]] static constexpr vector in_ball(const vector& f, const vector& centre,
+                                                scalar radius_squared) noexcept {
+    const vector out = f - centre;
+    const scalar square = Space::dot(out, out);
+    if (square <= radius_squared) return f;
+    if (!(radius_squared > scalar(0))) return centre;
+    return centre + out * kernels::square_root(radius_squared / square);
+  }
+
+  scalar slope_{}, storage_{};
+  scalar last_squared_ = kernels::largest<scalar>();  ///< |f|² of the last command [N²]
+};
+
+/// ‖f‖² ≤ ‖h‖² + 2 c2 (Δxᵀ(b/dt)Δx − h·Δx), direction kept: the two inequalities of energy_bounding
+/// as one, with no surplus thrown away in between (§ 2(b), ours). With c2 = 2b/T and isotropic
+/// damping it is memoryless_bound; a smaller c2 is a softer wall, a spring of c2 N/m.
+///
+/// Proof: the right side is 2 c2 (S(n) + ΔE) with S = ‖h‖²/(2 c2), so E ≥ S for ever; it is never
+/// negative for c2 ≤ 2b/T, as S then covers the worst the held force can cost (L3).
+///
+/// Assumes what memoryless_bound does; the direction of the force held is free.
+struct tight_energy_bounding {
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bound_traits traits{.needs_ledger = true};
+
+  double storage = kernels::largest<double>();  ///< c2 [N/m], > 0; at most 2b/T
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (detail::positive(storage)) return {};
+    return {"storage", storage, "finite and > 0 N/m"};
+  }
+
+  template <port Space>
+  class on {
+   public:
+    using scalar = typename Space::scalar;
+    static_assert(
+        requires { typename Space::geometry; },
+        "passive_haptics: tight_energy_bounding measures lengths in a space: joints need "
+        "strict_bound");
+
+    constexpr explicit on(const tight_energy_bounding& p) noexcept
+        : storage_(detail::number<scalar>(p.storage)) {}
+    [[nodiscard]] constexpr tight_energy_bounding parameters() const noexcept {
+      return {static_cast<double>(storage_)};
+    }
+    [[nodiscard]] constexpr share<scalar> limit(const typename Space::effort& desired,
+                                                const auto& state) const noexcept {
+      if (!state.motion_known || state.dt > state.longest_tick) return {scalar(0)};
+      const scalar B = detail::least_damping<Space>(state.damping) / state.longest_tick;
+      return detail::put_aside<Space>(desired, kernels::smaller(storage_, scalar(2) * B),
+                                      kernels::largest<scalar>(), state);
+    }
+
+   private:
+    scalar storage_;
+  };
+};
+
+static_assert(force_bound_for<energy_bounding, space<float, 1>>);
+static_assert(force_bound_for<tight_energy_bounding, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Energy tanks: an action passes while the tank holds what it will let out.
+//
+//   energy_tank       ¼ fᵀB⁻¹f ≤ E1 − ε         strict_bound by another name, passive
+//   predicting_tank   T f·v ≤ E1 − ε            bold and NOT passive
+//   two_layer_tank    T f·v ≤ H, f_TLC = −d v   any force from above, a level kept by damping below;
+//                                               NOT passive
+//
+// Energy quanta from another port are not offered: one port, one tank.
+
+#include <passive_haptics/concepts.hpp>
+
+#include <cstdint>
+#include <limits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// What the next tick is taken to let out.
+enum class tank_outflow : std::uint8_t {
+  worst_case,  ///< ¼ fᵀB⁻¹f, whatever the motion
+  predicted,   ///< T max(0, f·v), if the motion goes on as it did
+};
+
+/// The force is scaled down until its outflow is at most E1 − ε. The tank is the observer's ledger;
+/// the observer's `cap` is the tank's size, and T is the longest tick. Source: the tank of Ferraguti
+/// et al. 2015 in the discrete form of docs/design/mathematics.md § 2(h).
+///
+/// Worst case: exactly strict_bound on a smaller ledger, so E1 ≥ 0 for every motion under the
+/// assumptions of strict_bound (no latency), and no force at all while E1 < ε. Predicted: pushes
+/// back with all of f* until it has seen the device turn round; NOT passive.
+template <tank_outflow Outflow = tank_outflow::worst_case>
+struct basic_energy_tank {
+  static constexpr guarantee passivity =
+      Outflow == tank_outflow::worst_case ? guarantee::strict : guarantee::none;
+  static constexpr bound_traits traits{.needs_ledger = true,
+                                       .exact_travel = Outflow == tank_outflow::predicted,
+                                       .latency = any_latency};
+
+  double reserve{};  ///< ε [J], never spent
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (detail::not_negative(reserve)) return {};
+    return {"reserve", reserve, "finite and ≥ 0 J"};
+  }
+  template <port P>
+  class on;
+};
+
+using energy_tank = basic_energy_tank<>;
+using predicting_tank = basic_energy_tank<tank_outflow::predicted>;
+
+template <tank_outflow Outflow>
+template <port P>
+class basic_energy_tank<Outflow>::on {
+ public:
+  using scalar = typename P::scalar;
+
+  constexpr explicit on(const basic_energy_tank& p) noexcept
+      : reserve_(detail::number<scalar>(p.reserve)) {}
+  [[nodiscard]] constexpr basic_energy_tank parameters() const noexcept {
+    return {static_cast<double>(reserve_)};
+  }
+  [[nodiscard]] constexpr share<scalar> limit(const typename P::effort& desired,
+                                              const auto& state) const noexcept {
+    const scalar level = state.credit() - reserve_;
+    if (Outflow == tank_outflow::worst_case || !state.motion_known) {
+      return {state.damping.affordable(desired, level, state.longest_tick)};
+    }
+    const scalar outflow = P::work(desired, state.travel).joules * (state.longest_tick / state.dt);
+    if (outflow <= kernels::larger(level, scalar(0))) return {scalar(1)};
+    return {kernels::larger(level, scalar(0)) / outflow};
+  }
+
+ private:
+  scalar reserve_;
+};
+
+/// An upper layer that asks for any force, over a tank that lets out at most what is in it:
+///     H ← min(H + Δxᵀ(b/dt)Δx − f_held·Δx, cap)
+///     f = s f* − d v,   T s f*·v ≤ H and s ‖f*‖ ≤ g H on the way out,
+///     d = min(max_damping, a max(0, H_d − H)),   v = Δx/dt
+/// The tank level controller −d v refills the tank at the cost of drag, in free space too. The way
+/// in is never blocked, it is what fills the tank. Source: Franken et al. 2011, form from memory
+/// (docs/design/mathematics.md § 2(h)), whose H has no damping credit; single port, no quanta.
+///
+/// NOT passive: the outflow is predicted from the last displacement, and −d v pushes the wrong way
+/// for the first tick after the motion turns. Put strict_bound behind it for the promise.
+/// max_damping ≤ 0.35 to 0.5 m/T, or the refill itself rings (series_passivity_controller).
+struct two_layer_tank {
+  static constexpr guarantee passivity = guarantee::none;
+  static constexpr bound_traits traits{.needs_ledger = true};
+
+  double wanted{};                                                   ///< H_d [J], the level to keep
+  double refill{};                                                   ///< a [N·s/(m J)]
+  double max_damping{};                                              ///< largest d [N·s/m]
+  double force_per_joule = std::numeric_limits<double>::infinity();  ///< g [N/J]
+  double cap = std::numeric_limits<double>::infinity();              ///< size of the tank [J]
+  double loan{};                                                     ///< H at the start [J]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::not_negative(wanted)) return {"wanted", wanted, "finite and ≥ 0 J"};
+    if (!detail::not_negative(refill)) return {"refill", refill, "finite and ≥ 0 N·s/(m J)"};
+    if (!detail::not_negative(max_damping)) {
+      return {"max_damping", max_damping, "finite and ≥ 0 N·s/m"};
+    }
+    if (!(force_per_joule > 0.0)) return {"force_per_joule", force_per_joule, "> 0 N/J"};
+    if (!(cap >= wanted)) return {"cap", cap, "≥ wanted"};
+    if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
+    return {};
+  }
+  template <port Space>
+  class on;
+};
+
+template <port Space>
+class two_layer_tank::on {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::effort;
+  static_assert(
+      requires { typename Space::geometry; },
+      "passive_haptics: two_layer_tank drags with one damping in all directions of a "
+      "space: joints need strict_bound");
+
+  constexpr explicit on(const two_layer_tank& p) noexcept {
+    set(p);
+    reset();
+  }
+  constexpr void set(const two_layer_tank& p) noexcept {
+    wanted_ = detail::number<scalar>(p.wanted);
+    refill_ = detail::number<scalar>(p.refill);
+    max_damping_ = detail::number<scalar>(p.max_damping);
+    force_per_joule_ = detail::number<scalar>(p.force_per_joule);
+    cap_ = detail::number<scalar>(p.cap);
+    loan_ = detail::number<scalar>(p.loan);
+  }
+  [[nodiscard]] constexpr two_layer_tank parameters() const noexcept {
+    return {.wanted = static_cast<double>(wanted_),
+            .refill = static_cast<double>(refill_),
+            .max_damping = static_cast<double>(max_damping_),
+            .force_per_joule = static_cast<double>(force_per_joule_),
+            .cap = static_cast<double>(cap_),
+            .loan = static_cast<double>(loan_)};
+  }
+  constexpr void reset() noexcept {
+    energy_ = loan_;
+    started_ = false;
+  }
+
+  [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) noexcept {
+    book(state);
+    started_ = true;
+    if (!state.motion_known) return Space::zero();  // its outflow cannot be predicted
+    const scalar lack = kernels::larger(wanted_ - energy_, scalar(0));
+    const scalar drag = kernels::smaller(refill_ * lack, max_damping_) / state.dt;
+    return desired * left(desired, state) - state.travel * drag;
+  }
+
+ private:
+  constexpr void book(const auto& state) noexcept {
+    const scalar written_off = kernels::smaller(energy_, scalar(0));
+    if (!state.motion_known) {
+      if (started_) energy_ = written_off;
+      return;
+    }
+    energy_ +=
+        state.damping.dissipated(state.travel, state.dt) - Space::dot(state.held, state.travel);
+    // a late tick may have lost its force part of the way
+    energy_ = kernels::smaller(energy_, state.dt > state.longest_tick ? written_off : cap_);
+  }
+  /// s: the whole way in, what the tank holds on the way out.
+  [[nodiscard]] constexpr scalar left(const vector& desired, const auto& state) const noexcept {
+    const scalar outflow = Space::dot(desired, state.travel) * (state.longest_tick / state.dt);
+    if (!(outflow > scalar(0))) return scalar(1);
+    const scalar needed = kernels::larger(outflow, Space::norm(desired) / force_per_joule_);
+    return needed > energy_ ? kernels::larger(energy_, scalar(0)) / needed : scalar(1);
+  }
+
+  scalar wanted_{}, refill_{}, max_damping_{}, force_per_joule_{}, cap_{}, loan_{};
+  scalar energy_{};       ///< H [J]
+  bool started_ = false;  ///< has there been a tick?
+};
+
+static_assert(force_bound_for<energy_tank, space<float, 1>>);
+static_assert(force_bound_for<two_layer_tank, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Time-domain passivity for a device that is told a velocity and tells the force of the hand on it.
+//
+//   parallel_passivity_controller   v = v* + β f   force in, velocity out       NOT passive
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// Parameters of the parallel controller.
+struct parallel_controller_parameters {
+  double max_mobility{};  ///< largest β [m/(N·s)], > 0
+  double threshold{};     ///< E_thr [J]; below zero it is a loan
+  double least_force{};   ///< no action below this [N]: the noise of the sensor
+  double loan{};          ///< E at the start [J]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(max_mobility)) {
+      return {"max_mobility", max_mobility, "finite and > 0 m/(N·s)"};
+    }
+    if (!kernels::is_finite(threshold)) return {"threshold", threshold, "finite, in J"};
+    if (!detail::not_negative(least_force)) {
+      return {"least_force", least_force, "finite and ≥ 0 N"};
+    }
+    if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
+    return {};
+  }
+};
+
+/// A leak in the velocity that repays what the port has lost (parallel form, admittance causality):
+/// for a device that is told a velocity and tells the force of the hand on it. Not a force bound and
+/// no part of a port; call it once per tick, last thing before the velocity goes out.
+///     E(n) = E(n−1) + dt v_held·f̄(n)
+///     v = v* + β f̄,   β = (E_thr − E − dt v*·f̄) / (dt ‖f̄‖²)  in [0, max_mobility]
+/// f̄(n) [N] is the MEAN force of the hand over the tick that has just ended, the one over which
+/// v_held was held: with it E is the energy at the port exactly, whatever the force did in between.
+/// A force sampled at the end of the tick understates it for a springy hand, k v²dt²/2 per tick; a
+/// force sampled at its start, which is the published pairing, overstates it by as much and never
+/// sees a sampled virtual mass go active (the dual of lemma L2). Source: Hannaford and Ryu 2002
+/// (β); the pairing is derived here.
+///
+/// NOT passive. While β is not capped, ‖f̄‖ ≥ least_force and all ticks are as long,
+///     E(n+1) ≥ E_thr + dt v·(f̄(n+1) − f̄(n))
+/// so a force that stays cannot draw energy, and one that turns round within a tick can. Assumes
+/// that the robot holds the velocity it was told, or that the one it held is given.
+template <class Space>
+class parallel_passivity_controller {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+
+  constexpr explicit parallel_passivity_controller(const parallel_controller_parameters& p) noexcept
+      : parameters_(p),
+        max_mobility_(detail::number<scalar>(p.max_mobility)),
+        threshold_(detail::number<scalar>(p.threshold)),
+        least_force_(detail::number<scalar>(p.least_force)) {
+    reset();
+  }
+  constexpr void reset() noexcept {
+    energy_ = detail::number<scalar>(parameters_.loan);
+    held_ = Space::zero();
+  }
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return parameters_.check(); }
+  [[nodiscard]] constexpr scalar energy() const noexcept { return energy_; }  ///< E [J]
+
+  /// The velocity to hold next [m/s], from the one that is desired, the mean force of the hand on
+  /// the device over the last tick [N] and the length of that tick [s]. Takes the velocity it
+  /// returned last to have been held.
+  [[nodiscard]] constexpr vector velocity(const vector& desired, const vector& force,
+                                          scalar dt) noexcept {
+    return velocity(desired, force, dt, held_);
+  }
+  /// The same for a robot that tells the velocity it really held [m/s]. A value that is not finite
+  /// or a dt ≤ 0 gives velocity zero and writes off all credit.
+  [[nodiscard]] constexpr vector velocity(const vector& desired, const vector& force, scalar dt,
+                                          const vector& held) noexcept {
+    const scalar gained = dt * Space::dot(held, force);
+    const scalar square = Space::dot(force, force);
+    const scalar predicted = energy_ + gained + dt * Space::dot(desired, force);
+    if (!(dt > scalar(0)) || !kernels::is_finite(predicted) || !kernels::is_finite(square)) {
+      energy_ = kernels::smaller(energy_, scalar(0));
+      held_ = Space::zero();
+      return Space::zero();
+    }
+    energy_ += gained;
+    vector next = desired;
+    if (predicted < threshold_ && square > scalar(0) && square >= least_force_ * least_force_) {
+      next += force * kernels::smaller((threshold_ - predicted) / (dt * square), max_mobility_);
+    }
+    held_ = next;
+    return next;
+  }
+
+ private:
+  parallel_controller_parameters parameters_;
+  scalar max_mobility_, threshold_, least_force_;
+  scalar energy_{};                     ///< E [J]
+  typename Space::coordinates held_{};  ///< [m/s]
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Time-domain passivity: count the energy, and damp when it has turned negative (PO/PC).
+//
+//   series_passivity_controller     f = f* − α v   position in, force out       NOT passive
+//
+// With a reference energy, which looks at the contact, it is a shaper: shaper/reference_energy.hpp.
+// Its dual, for devices that are told a velocity, is parallel_passivity_controller.hpp.
+//
+// They repay a deficit that has already happened, and only if the motion (the force) goes on as it
+// did. With a hand that damps they are hardly felt.
+//
+// Not offered: the published pairing of the NEW force with the last displacement. On a sampled wall
+// it counts the leak of the hold with the wrong sign and never acts (lemma L2; a test shows it).
+
+#include <passive_haptics/concepts.hpp>
+
+#include <cstdint>
+#include <limits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// Whether the damping of the device pays for the environment too.
+enum class damping_credit : std::uint8_t {
+  none,     ///< counts the environment alone; needs no observer
+  counted,  ///< acts only when device and environment together have lost
+};
+
+/// A damper that repays what the port has lost (series form, impedance causality):
+///     E(n) = E(n−1) − f_held·Δx [+ Δxᵀ(b/dt)Δx]
+///     f = f* − α v,   α = (E_thr − E) dt/‖Δx‖²  in [0, max_damping],   v = Δx/dt
+/// What α may not take is carried to the next tick. Keeps its own E, so no_observer will do unless
+/// the damping is counted. f may push inwards. Sources: Hannaford and Ryu 2002 (the idea and α);
+/// the pairing with the held force is docs/design/mathematics.md § 2(c).
+///
+/// NOT passive. Uncapped, E(n+1) = −f*·Δx(n+1) + E(n)(1 − Δx(n+1)/Δx(n)): the deficit is repaid if
+/// the motion goes on and DOUBLES if it turns round. A damper of α on a free mass m is stable for
+/// α < 2 m/T and overshoots above 0.343 m/T: take max_damping ≤ 0.35 to 0.5 m/T.
+template <damping_credit Credit = damping_credit::none>
+struct basic_series_controller {
+  static constexpr guarantee passivity = guarantee::none;
+  static constexpr bound_traits traits{.needs_ledger = Credit == damping_credit::counted};
+
+  double max_damping{};   ///< largest α [N·s/m], > 0
+  double threshold{};     ///< E_thr [J]; below zero it is a loan
+  double least_speed{};   ///< no action below this [m/s]
+  double least_travel{};  ///< nor for ‖Δx‖ below this [m]: one quantum of the encoder
+  double reset_after =
+      std::numeric_limits<double>::infinity();  ///< force-free time that voids E > 0 [s]
+  double loan{};                                ///< E at the start [J]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(max_damping)) {
+      return {"max_damping", max_damping, "finite and > 0 N·s/m"};
+    }
+    if (!kernels::is_finite(threshold)) return {"threshold", threshold, "finite, in J"};
+    if (!detail::not_negative(least_speed)) {
+      return {"least_speed", least_speed, "finite and ≥ 0 m/s"};
+    }
+    if (!detail::not_negative(least_travel)) {
+      return {"least_travel", least_travel, "finite and ≥ 0 m"};
+    }
+    if (!(reset_after >= 0.0)) return {"reset_after", reset_after, "≥ 0 s"};
+    if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
+    return {};
+  }
+  template <port Space>
+  class on;
+};
+
+using series_passivity_controller = basic_series_controller<>;
+using series_controller_with_damping = basic_series_controller<damping_credit::counted>;
+
+template <damping_credit Credit>
+template <port Space>
+class basic_series_controller<Credit>::on {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::effort;
+  static_assert(
+      requires { typename Space::geometry; },
+      "passive_haptics: series_passivity_controller damps alike in all directions of a "
+      "space: joints need strict_bound");
+
+  constexpr explicit on(const basic_series_controller& p) noexcept {
+    set(p);
+    reset();
+  }
+  constexpr void set(const basic_series_controller& p) noexcept {
+    max_damping_ = detail::number<scalar>(p.max_damping);
+    threshold_ = detail::number<scalar>(p.threshold);
+    least_speed_ = detail::number<scalar>(p.least_speed);
+    least_travel_ = detail::number<scalar>(p.least_travel);
+    reset_after_ = detail::number<scalar>(p.reset_after);
+    loan_ = detail::number<scalar>(p.loan);
+  }
+  [[nodiscard]] constexpr basic_series_controller parameters() const noexcept {
+    return {.max_damping = static_cast<double>(max_damping_),
+            .threshold = static_cast<double>(threshold_),
+            .least_speed = static_cast<double>(least_speed_),
+            .least_travel = static_cast<double>(least_travel_),
+            .reset_after = static_cast<double>(reset_after_),
+            .loan = static_cast<double>(loan_)};
+  }
+  constexpr void reset() noexcept {
+    energy_ = loan_;
+    idle_ = scalar(0);
+    started_ = false;
+  }
+
+  [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) noexcept {
+    return repaid(desired, state, scalar(0));
+  }
+
+  /// The force that repays until E is `kept` [J] above the threshold.
+  [[nodiscard]] constexpr vector repaid(const vector& desired, const auto& state,
+                                        scalar kept) noexcept {
+    book(state);
+    started_ = true;
+    const scalar square = Space::dot(state.travel, state.travel);
+    const scalar least = kernels::larger(least_speed_ * state.dt, least_travel_);
+    if (!(square > scalar(0)) || square < least * least) return desired;
+    const scalar wanted = threshold_ + kept;
+    if (!(energy_ < wanted)) return desired;
+    const scalar damping = kernels::smaller((wanted - energy_) * state.dt / square, max_damping_);
+    return desired - state.travel * (damping / state.dt);
+  }
+
+ private:
+  constexpr void book(const auto& state) noexcept {
+    const scalar written_off = kernels::smaller(energy_, scalar(0));
+    if (!state.motion_known) {
+      if (started_) energy_ = written_off;
+      return;
+    }
+    energy_ -= Space::dot(state.held, state.travel);
+    if constexpr (Credit == damping_credit::counted) {
+      energy_ += state.damping.dissipated(state.travel, state.dt);
+    }
+    if (state.dt > state.longest_tick) energy_ = kernels::smaller(energy_, written_off);
+    idle_ = Space::dot(state.held, state.held) > scalar(0) ? scalar(0) : idle_ + state.dt;
+    if (idle_ >= reset_after_) energy_ = kernels::smaller(energy_, scalar(0));
+  }
+
+  scalar max_damping_{}, threshold_{}, least_speed_{}, least_travel_{}, reset_after_{}, loan_{};
+  scalar energy_{};       ///< E [J]
+  scalar idle_{};         ///< force-free time so far [s]
+  bool started_ = false;  ///< has there been a tick?
+};
+
+static_assert(force_bound_for<series_passivity_controller, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

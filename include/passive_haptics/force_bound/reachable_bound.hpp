@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The bound that knows the device's mass: only what the coming ticks can reach must be covered.
+//
+//   reachable_bound        in newtons and metres, one mass for all directions      a space
+//   reachable_work_bound   in joules, any inertia                                  any port
+//
+// In a loop that is k ticks late, the k commands on their way are covered first, each over what its
+// own tick can reach.
+
+#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/inertia.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// F s − B s² ≤ E1 for every outward travel s ≤ δ that the next tick can reach (§ 2(a′)). A device
+/// of mass m that is moving in cannot turn round within a tick, so pressing is hardly bounded; a
+/// device moving out is bounded as strictly as it must be.
+///     δ₁ = outward_reach                              of the tick that begins now (L6)
+///     δ(j+1) = δ(j) + T²/2 (a(j) + a(j+1))            of the one after it, a = (force + F_other)/m
+/// A command of this tick is held in tick k + 1 of a loop that is k ticks late; those on their way,
+/// h(1) … h(k), have been promised already:
+///     Σ W(h(j), δ(j)) + W(f, δ(k+1)) ≤ E1,     W(f, δ) = max of f s − B s² over 0 ≤ s ≤ δ
+///
+/// Passive (E1 ≥ 0) under ALL of these:
+///   - the apparent mass is at least `mass` in every direction, in every pose: the smallest
+///     eigenvalue of the device's inertia, not its mass along the normal;
+///   - hand, load, dry friction and, of a mechanism, Coriolis forces together push with at most
+///     `hand_force`, and the damper with at most 2B|Δx|, Δx of the last tick and B of the axis that
+///     damps most, for k + 1 ticks (so b T/m ≤ 0.1; § 2(a′));
+///   - strict_bound's own: b a lower bound, ticks ≤ longest_tick, exact positions (or a ledger that
+///     knows how far they are off), held force known.
+/// Outside them (a velocity source as hand, a lighter device) it can lose energy, and tests show it.
+struct reachable_bound {
+  static constexpr guarantee passivity = guarantee::conditional;
+  static constexpr bound_traits traits{
+      .needs_ledger = true, .exact_travel = false, .latency = any_latency};
+
+  double mass{};        ///< smallest apparent mass of the device, over all directions [kg]
+  double hand_force{};  ///< largest force of everything but motors and damper [N]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
+    if (!detail::not_negative(hand_force)) return {"hand_force", hand_force, "finite and ≥ 0 N"};
+    return {};
+  }
+  template <port Space>
+  class on;
+};
+
+template <port Space>
+class reachable_bound::on {
+ public:
+  using scalar = typename Space::scalar;
+  using effort = typename Space::effort;
+  static_assert(
+      requires { typename Space::geometry; },
+      "passive_haptics: reachable_bound knows one mass for all directions of a space: "
+      "joints need reachable_work_bound");
+
+  constexpr explicit on(const reachable_bound& p) noexcept
+      : mass_(detail::number<scalar>(p.mass)), hand_force_(detail::number<scalar>(p.hand_force)) {}
+  [[nodiscard]] constexpr reachable_bound parameters() const noexcept {
+    return {.mass = static_cast<double>(mass_), .hand_force = static_cast<double>(hand_force_)};
+  }
+
+  template <class State>
+  [[nodiscard]] constexpr share<scalar> limit(const effort& desired,
+                                              const State& state) const noexcept {
+    const scalar credit = left_for_it(state);
+    const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
+    if (outflow <= kernels::spendable(credit))
+      return share{scalar(1)};  // by the worst motion of all
+    const scalar force = Space::norm(desired);
+    if (!(force > scalar(0))) return share{scalar(1)};
+    const scalar B = state.damping.per_tick(desired, state.longest_tick);
+    scalar most = kernels::reachable_force_bound(
+        credit, B, reach<State::latency + 1>(desired, force, force, state));
+    if constexpr (State::damping_type::rubs) {
+      if (credit < scalar(0)) return share{scalar(0)};  // friction is no licence to go on spending
+      most =
+          (state.damping.friction() + most) * (scalar(1) - scalar(4) * kernels::rounding<scalar>());
+    }
+    return share{most < force ? most / force : scalar(1)};
+  }
+
+ private:
+  /// E1 less the worst of what is on its way to the motors [J].
+  template <class State>
+  [[nodiscard]] constexpr scalar left_for_it(const State& state) const noexcept {
+    scalar credit = state.energy;
+    if constexpr (State::latency > 0) promise<1>(credit, state);
+    return credit;
+  }
+  template <int J, class State>
+  constexpr void promise(scalar& credit, const State& state) const noexcept {
+    const effort h = coming<J>(state);
+    const scalar force = Space::norm(h);
+    if (force > scalar(0)) {
+      scalar beyond = force;
+      if constexpr (State::damping_type::rubs) beyond -= state.damping.friction();
+      const scalar B = state.damping.per_tick(h, state.longest_tick);
+      credit -= kernels::reachable_outflow(beyond, B, reach<J>(h, force, force, state)) *
+                (scalar(1) + kernels::rounding<scalar>());
+    }
+    if constexpr (J < State::latency) promise<J + 1>(credit, state);
+  }
+
+  /// The command that is held in the J-th coming tick [N].
+  template <int J, class State>
+  [[nodiscard]] static constexpr effort coming(const State& state) noexcept {
+    return state.commanded[static_cast<std::size_t>(State::latency - J)];
+  }
+
+  /// δ(J) along `direction`, of length `length` [m]; `last` is the force in tick J [N].
+  template <int J, class State>
+  [[nodiscard]] constexpr scalar reach(const effort& direction, scalar length, scalar last,
+                                       const State& state) const noexcept {
+    const scalar T = state.longest_tick;
+    scalar moved = Space::norm(state.travel);
+    if constexpr (!State::exact) moved += state.travel_error;
+    const scalar other = hand_force_ + scalar(2) * most_damped(state.damping, T) * moved;
+    if constexpr (J == 1) {
+      if (!state.motion_known) return kernels::largest<scalar>();  // at any speed
+      scalar outward = Space::dot(state.travel, direction) / length +
+                       kernels::rounding<scalar>() * Space::norm(state.travel);
+      if constexpr (!State::exact) outward += state.travel_error;
+      return kernels::outward_reach(outward, Space::norm(state.held), last, other, mass_, state.dt,
+                                    T);
+    } else {
+      const scalar before = Space::norm(coming<J - 1>(state));
+      return reach<J - 1>(direction, length, before, state) +
+             kernels::outward_reach(scalar(0), before, last, other, mass_, T, T);
+    }
+  }
+
+  /// B of the axis that damps most, so that no damper holds more than B|Δx| [N/m].
+  [[nodiscard]] static constexpr scalar most_damped(const auto& damping, scalar T) noexcept {
+    scalar b = damping.along_axis(0);
+    for (int i = 1; i < Space::dof; ++i) b = kernels::larger(b, damping.along_axis(i));
+    return b / T;
+  }
+
+  scalar mass_, hand_force_;
+};
+
+/// The same law in joules, for any port and any inertia: a wrench, a gripper, joints. With
+/// ‖f‖ = √(fᵀM⁻¹f) and W = ¼fᵀB⁻¹f, the most work that f can do in the tick that begins now is
+///     η₁ = f·Δx T/T₀ + ‖f‖ ((‖held‖ + F) T₀T + (‖h(1)‖ + F) T²)/2,     F = hand + 2‖(b/T)Δx‖
+///     η(j+1) = η(j) + ‖f‖ ((‖h(j)‖ + F) + (‖h(j+1)‖ + F)) T²/2
+/// and the share s of f that is left hands out no more than E1 over it, s η' − η'²/(4W) ≤ E1 for
+/// every 0 ≤ η' ≤ η:
+///     s = E1/η + η/(4W) where η² < 4 W E1,  √(E1/W) elsewhere                 (§ 2(a′), in joules)
+/// One degree of freedom with one mass gives reachable_bound's numbers.
+///
+/// Passive under its assumptions, put so: M is a lower bound of the inertia in every pose, in the
+/// sense of xᵀMx; hand, load, friction and, of a mechanism, Coriolis forces have a norm of at most
+/// `hand`.
+template <class Inertia>
+struct basic_reachable_work_bound {
+  static constexpr guarantee passivity = guarantee::conditional;
+  static constexpr bound_traits traits{
+      .needs_ledger = true, .exact_travel = true, .latency = any_latency};
+
+  Inertia inertia{};  ///< a lower bound
+  double hand{};      ///< largest norm of everything but motors and damper [√J/s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (const auto fault = inertia.check()) return fault;
+    if (!detail::not_negative(hand)) return {"hand", hand, "finite and ≥ 0 √J/s"};
+    return {};
+  }
+  template <port P>
+  class on;
+};
+template <int Dof>
+using reachable_work_bound = basic_reachable_work_bound<diagonal_inertia<Dof>>;
+
+template <class Inertia>
+template <port P>
+class basic_reachable_work_bound<Inertia>::on {
+ public:
+  using scalar = typename P::scalar;
+  using effort = typename P::effort;
+  static_assert(inertia_for<Inertia, P>,
+                "passive_haptics: the inertia does not model inertia_for: see concepts.hpp");
+
+  constexpr explicit on(const basic_reachable_work_bound& p) noexcept
+      : inertia_(p.inertia), hand_(detail::number<scalar>(p.hand)) {}
+  [[nodiscard]] constexpr basic_reachable_work_bound parameters() const noexcept {
+    return {.inertia = inertia_.parameters(), .hand = static_cast<double>(hand_)};
+  }
+
+  template <class State>
+  [[nodiscard]] constexpr share<scalar> limit(const effort& desired,
+                                              const State& state) const noexcept {
+    static_assert(!State::damping_type::rubs,
+                  "passive_haptics: reachable_work_bound is proved for viscous damping: count dry "
+                  "friction into `hand` instead of crediting it");
+    scalar credit = state.energy;
+    if constexpr (State::latency > 0) promise<1>(credit, state);
+    const scalar W = state.damping.worst_outflow(desired, state.longest_tick);
+    if (W <= kernels::spendable(credit)) return share{scalar(1)};
+    const scalar norm = inertia_.norm(desired);
+    if (!(norm > scalar(0))) return share{scalar(1)};
+    return share{
+        kernels::reachable_share(credit, W, reach<State::latency + 1>(desired, norm, norm, state))};
+  }
+
+ private:
+  template <int J, class State>
+  constexpr void promise(scalar& credit, const State& state) const noexcept {
+    const effort h = coming<J>(state);
+    const scalar norm = inertia_.norm(h);
+    if (norm > scalar(0)) {
+      const scalar W = state.damping.worst_outflow(h, state.longest_tick);
+      credit -= kernels::reachable_work(W, reach<J>(h, norm, norm, state)) *
+                (scalar(1) + kernels::rounding<scalar>());
+    }
+    if constexpr (J < State::latency) promise<J + 1>(credit, state);
+  }
+  template <int J, class State>
+  [[nodiscard]] static constexpr effort coming(const State& state) noexcept {
+    return state.commanded[static_cast<std::size_t>(State::latency - J)];
+  }
+
+  /// η(J) of an effort of that norm [J]; `last` is the norm of what is held in tick J.
+  template <int J, class State>
+  [[nodiscard]] constexpr scalar reach(const effort& f, scalar norm, scalar last,
+                                       const State& state) const noexcept {
+    const scalar T = state.longest_tick;
+    const scalar up = scalar(1) + kernels::rounding<scalar>();
+    const effort damper = state.damping.force(state.travel, T);
+    const scalar other = hand_ + scalar(2) * inertia_.norm(damper);
+    if constexpr (J == 1) {
+      if (!state.motion_known) return kernels::largest<scalar>();
+      const auto work = P::work(f, state.travel);
+      const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
+      const scalar pushed =
+          (inertia_.norm(state.held) + other) * state.dt * T + (last + other) * T * T;
+      return outward * T / state.dt + norm * pushed / scalar(2) * up;
+    } else {
+      const scalar before = inertia_.norm(coming<J - 1>(state));
+      return reach<J - 1>(f, norm, before, state) +
+             norm * (before + last + scalar(2) * other) * T * T / scalar(2) * up;
+    }
+  }
+
+  part_at<Inertia, P> inertia_;
+  scalar hand_;
+};
+
+static_assert(force_bound_for<reachable_bound, space<float, 1>>);
+static_assert(force_bound_for<reachable_work_bound<1>, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The bound on the slope: the force moves only as the hand moves, and falls steeper than it rose.
+//
+//   sector_bound   0 ≤ df/dx ≤ β pressing, β ≤ df/dx ≤ 2b/T releasing   one degree of freedom; no
+//                                                                       jumps at all, soft
+
+#include <passive_haptics/concepts.hpp>
+
+#include <limits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// With F ≥ 0 the size of the force and s the travel of the last tick against it [m]:
+///     pressing  (s ≥ 0):   F_held             ≤ F ≤ F_held + β s
+///     releasing (s < 0):   F_held − (2b/T)|s| ≤ F ≤ F_held − β |s|         never below zero
+/// so the path in the plane of position and force turns clockwise, and |ΔF| ≤ (2b/T)|Δx|: no update
+/// of the environment is ever felt as a jump. Inspired by the input-to-state-stable approach
+/// (Jafari, Ryu), whose own law is not confirmed; law and proof are ours (§ 2(f)).
+///
+/// Proof, with F = F_held + σ s:  (b/dt)s² + F_held s = ½(F_held + F)s + (b/dt − σ/2)s². As σ ≤ 2b/T
+/// ≤ 2b/dt the last term is not negative, and the one before is at least (F² − F_held²)/(2β) on both
+/// branches. So E ≥ F²/(2β), and as β ≤ 2b/T that covers the worst the next tick can do: less than
+/// the window, down to zero, is safe as well. The lower edges are for the feel alone.
+///
+/// Assumes what memoryless_bound does. What is held beyond the last command lends nothing: a motor a
+/// little too strong cannot wind the force up. Not offered with latency. The price: at most 2b/T N/m;
+/// and it does NOT only reduce: a contact that is lost, or fades because the environment is silent,
+/// goes on pushing until the hand yields. A lost sample or a late tick ends it at once. One degree of
+/// freedom: the proof needs the motion to be along the force.
+struct sector_bound {
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bound_traits traits{.needs_ledger = true};
+
+  double slope = kernels::largest<double>();  ///< β [N/m], > 0; more than 2b/T is 2b/T
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (detail::positive(slope)) return {};
+    return {"slope", slope, "finite and > 0 N/m"};
+  }
+  template <port P>
+  class on;
+};
+
+template <port P>
+class sector_bound::on {
+  static_assert(P::dof == 1,
+                "passive_haptics: sector_bound: its proof is for one degree of freedom");
+
+ public:
+  using scalar = typename P::scalar;
+
+  constexpr explicit on(const sector_bound& p) noexcept { set(p); }
+  constexpr void set(const sector_bound& p) noexcept { slope_ = detail::number<scalar>(p.slope); }
+  [[nodiscard]] constexpr sector_bound parameters() const noexcept {
+    return {static_cast<double>(slope_)};
+  }
+  constexpr void reset() noexcept { last_ = kernels::largest<scalar>(); }
+
+  [[nodiscard]] constexpr typename P::effort limit(const typename P::effort& desired,
+                                                   const auto& state) noexcept {
+    if (!state.motion_known || state.dt > state.longest_tick) return last_ = scalar(0);
+    const scalar steepest = scalar(2) * state.damping.along_axis(0) / state.longest_tick;
+    const scalar gentlest = kernels::smaller(slope_, steepest);
+    const bool backwards =
+        state.held < scalar(0) || (state.held == scalar(0) && desired < scalar(0));
+    const scalar side = backwards ? scalar(-1) : scalar(1);
+
+    const scalar held = kernels::smaller(state.held * side, last_);
+    const scalar against = -state.travel * side;
+    const scalar most = kernels::larger(held + gentlest * against, scalar(0));
+    const scalar least =
+        against < scalar(0) ? kernels::larger(held + steepest * against, scalar(0)) : held;
+    last_ = kernels::smaller(kernels::larger(desired * side, least), most);
+    return side * last_;
+  }
+
+ private:
+  scalar slope_{};
+  scalar last_ = kernels::largest<scalar>();  ///< F of the last command [N]
+};
+
+static_assert(force_bound_for<sector_bound, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

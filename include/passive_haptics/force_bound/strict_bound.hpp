@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The force bounding approach (FBA): the worst motion of the next tick, ¼ fᵀB⁻¹f, is paid for before
+// the force is commanded. What pays is the difference:
+//
+//   strict_bound      |f| ≤ √(4 B E1)         all that was ever saved: fewest cuts, late bursts
+//                     |f| ≤ f_c + √(4 B E1)   with damping_and_friction, where f_c is sure
+//   memoryless_bound  |f| ≤ |f_held − 2B Δx|  the last force and the last tick only: no bank, so no
+//                                             bursts and no drift; feels like a spring of 2b/T
+//   per_axis_bound    |fᵢ| ≤ √(4 Bᵢ Eᵢ)       one ledger per axis: one axis cannot spend what
+//                                             another saved; turns the force
+//
+// B = b/T per tick. T is always the LONGEST tick the loop can produce, the credit uses the measured
+// one: that pair survives jitter (docs/design/mathematics.md § 3).
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// ¼ fᵀB⁻¹f ≤ E1 at every tick (2.15-2.17): the worst motion of the next tick cannot empty the
+/// ledger, so E1 ≥ 0 for ever, by induction, whatever the environment does.
+///
+/// In a loop that is k ticks late the force commanded at n is held during [n+k, n+k+1) and what is in
+/// flight is promised already: ¼ fᵀB⁻¹f ≤ E1 − ¼ Σ_{j=1..k} f(n−j)ᵀB⁻¹f(n−j). (§ 3)
+///
+/// Assumes: b is a lower bound, every tick ≤ longest_tick, positions exact (or the ledger a
+/// quantised_energy), the held force known. The price (lemma L4): pressed slowly from an empty
+/// ledger it shows at most 2b/T N/m.
+struct strict_bound {
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bound_traits traits{
+      .needs_ledger = true, .exact_travel = false, .latency = any_latency};
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
+
+  template <port P>
+  struct on {
+    constexpr explicit on(const strict_bound& /*p*/) noexcept {}
+    [[nodiscard]] constexpr share<typename P::scalar> limit(const typename P::effort& desired,
+                                                            const auto& state) const noexcept {
+      return {state.damping.affordable(desired, state.credit(), state.longest_tick)};
+    }
+  };
+};
+
+/// ¼ fᵀB⁻¹f ≤ ¼ hᵀB⁻¹h + Δxᵀ(b/dt)Δx − h·Δx, h the force held over the last tick: what h had been
+/// promised, and what the tick brought. For ticks of one length the right side is a square, and
+///     fᵀB⁻¹f ≤ wᵀB⁻¹w,   w = h − 2B Δx                                  (§ 2(a), C1)
+/// The conservative of the two variants that the thesis mentions without a formula is this one or
+/// per_axis_bound; the form and the proof are ours. It reads no ledger, only the damping.
+///
+/// Proof: S(h) = ¼ hᵀB⁻¹h with B = b/T, T the longest tick, is the most that h can cost (L3), and
+/// the tick of measured length dt ≤ T brought ΔE ≥ Δxᵀ(b/dt)Δx − h·Δx (L1). The law says
+/// S(f) ≤ S(h) + ΔE, tick after tick, so E ≥ S ≥ 0 for ever; its right side is never negative,
+/// because b/dt ≥ B. With friction f_c the same holds with S = (|h| − f_c)₊²/(4B) and f_c|Δx| more in
+/// ΔE. In a loop k ticks late the force that the last tick paid for is held k + 1 ticks after it: the
+/// ticks fall into k + 1 chains, each with a storage of its own, and nothing else changes.
+///
+/// Assumes what strict_bound does, and exact positions: it reads Δx itself. The force really held may
+/// be smaller than the command: shorter in the same direction, or, with isotropic damping, shorter in
+/// any. A force held that is LARGER than commanded costs more than was promised and, with no ledger,
+/// is not remembered as a debt. The price: no bank at all, so a spring of 2b/T N/m at any speed, of
+/// 2b/T/(k + 1) with latency; and after a lost sample or a late tick the force starts again from zero.
+struct memoryless_bound {
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bound_traits traits{.needs_ledger = true, .latency = any_latency};
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
+
+  template <port P>
+  struct on {
+    using scalar = typename P::scalar;
+    constexpr explicit on(const memoryless_bound& /*p*/) noexcept {}
+    [[nodiscard]] constexpr share<scalar> limit(const typename P::effort& desired,
+                                                const auto& state) const noexcept {
+      const scalar T = state.longest_tick;
+      scalar credit(0);
+      if (state.motion_known && state.dt <= T) {
+        credit = state.damping.worst_outflow(state.held, T) + state.gain();
+      }
+      return {state.damping.affordable(desired, credit, T)};
+    }
+  };
+};
+
+/// |fᵢ| ≤ √(4 Bᵢ Eᵢ) for each axis i of the frame that the damping is given in, each with a ledger
+/// of its own:  Eᵢ += (bᵢ/dt) Δxᵢ² − hᵢ Δxᵢ.  strict_bound on every axis (§ 2(a), C2; the form and
+/// the proof are ours), so every Eᵢ ≥ 0, and so is their sum, the energy at the port.
+///
+/// The direction of the force is not kept: in a chain, nothing in front of it keeps its promise
+/// because of it; it keeps its own, wherever it stands, when what follows only reduces.
+///
+/// Assumes what memoryless_bound does and no latency, and that no component of the force really held
+/// is larger than commanded; one that is puts its axis into a debt that is kept and repaid. Dry
+/// friction is not credited: a bound on its total says nothing about one axis. The price: a bank on
+/// one axis is of no use to another; a lost sample voids all credit, and there is no loan to start
+/// with.
+struct per_axis_bound {
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bound_traits traits{.needs_ledger = true};
+
+  double cap =
+      std::numeric_limits<double>::infinity();  ///< most credit to keep on an axis [J] (L7)
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!(cap >= 0.0)) return {"cap", cap, "≥ 0 J"};
+    return {};
+  }
+  template <port P>
+  class on;
+};
+
+template <port P>
+class per_axis_bound::on {
+ public:
+  using scalar = typename P::scalar;
+  using effort = typename P::effort;
+
+  constexpr explicit on(const per_axis_bound& p) noexcept {
+    set(p);
+    reset();
+  }
+  constexpr void set(const per_axis_bound& p) noexcept { cap_ = detail::number<scalar>(p.cap); }
+  [[nodiscard]] constexpr per_axis_bound parameters() const noexcept {
+    return {static_cast<double>(cap_)};
+  }
+  constexpr void reset() noexcept { energy_ = P::zero(); }
+
+  [[nodiscard]] constexpr effort limit(const effort& desired, const auto& state) noexcept {
+    effort force = desired;
+    for (int i = 0; i < P::dof; ++i) {
+      scalar& saved = P::component(energy_, i);
+      saved = booked(saved, i, state);
+      const scalar B = state.damping.along_axis(i) / state.longest_tick;
+      const scalar most = kernels::strict_force_bound(saved, B);
+      scalar& along = P::component(force, i);
+      along = kernels::smaller(kernels::larger(along, -most), most);
+    }
+    return force;
+  }
+
+ private:
+  /// Eᵢ after the last tick. A tick that was late counts as the worse of held to its end and
+  /// dropped at the worst moment; one that nobody saw leaves nothing but debts.
+  [[nodiscard]] constexpr scalar booked(scalar before, int i, const auto& state) const noexcept {
+    if (!state.motion_known) return kernels::smaller(before, scalar(0));
+    const scalar b = state.damping.along_axis(i);
+    const scalar held = P::component(state.held, i);
+    const scalar travel = P::component(state.travel, i);
+    const scalar work = held * travel;
+    scalar after = kernels::sum_rounded_down(
+        before, kernels::sure_gain(b * travel * travel / state.dt, work, kernels::magnitude(work)));
+    if (state.dt > state.longest_tick) {
+      const scalar worst = kernels::worst_outflow(held, b / state.longest_tick);
+      after = kernels::smaller(after, detail::written_off(before, worst));
+    }
+    return kernels::smaller(after, cap_);
+  }
+
+  scalar cap_{};
+  typename P::stored_effort energy_{};  ///< Eᵢ [J]
+};
+
+static_assert(force_bound_for<strict_bound, space<float, 1>>);
+static_assert(force_bound_for<memoryless_bound, space<float, 1>>);
+static_assert(force_bound_for<per_axis_bound, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

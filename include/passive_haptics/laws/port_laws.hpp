@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The laws of what belongs to a port (the menu is in laws.hpp).
+
+#include <passive_haptics/contact/given_force.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/laws/samples.hpp>
+#include <passive_haptics/passive_port.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace laws {
+
+/// worst_outflow(f, T) is at least f·Δx − dissipated(Δx, T), whatever Δx: the conjugate, never less.
+template <class P, class Damping>
+[[nodiscard]] constexpr bool covers_the_worst_motion(const Damping& parameters,
+                                                     int ticks = 400) noexcept {
+  using scalar = typename P::scalar;
+  const part_at<Damping, P> damping(parameters);
+  samples random(11);
+  const scalar T = scalar(0.001);
+  for (int i = 0; i < enough(ticks); ++i) {
+    const typename P::effort f = random.vector<P>() * scalar(5);
+    const scalar exponent = random.number<scalar>();
+    const typename P::motion dx =
+        random.vector<P>() * (exponent * exponent * scalar(0.1) * kernels::magnitude(exponent));
+    const scalar handed_out = P::work(f, dx).joules - damping.dissipated(dx, T);
+    const scalar worst = damping.worst_outflow(f, T);
+    const scalar size = kernels::magnitude(P::work(f, dx).passed) + worst;
+    const scalar slack = scalar(64) * std::numeric_limits<scalar>::epsilon() * size;
+    if (handed_out > worst + slack) return false;
+  }
+  return true;
+}
+
+/// What affordable() leaves of a force costs at most the energy it was given.
+template <class P, class Damping>
+[[nodiscard]] constexpr bool affords_what_is_there(const Damping& parameters,
+                                                   int ticks = 400) noexcept {
+  using scalar = typename P::scalar;
+  const part_at<Damping, P> damping(parameters);
+  samples random(12);
+  const scalar T = scalar(0.001);
+  for (int i = 0; i < enough(ticks); ++i) {
+    const scalar exponent = random.number<scalar>();
+    const scalar E = exponent * exponent * exponent * scalar(0.01);
+    const typename P::effort f = random.vector<P>() * scalar(5);
+    const scalar left = damping.affordable(f, E, T);
+    if (!(left >= scalar(0) && left <= scalar(1))) return false;
+    const scalar worst = damping.worst_outflow(typename P::effort(f * left), T);
+    if (worst > kernels::larger(E, scalar(0))) return false;
+  }
+  return true;
+}
+
+/// ‖s f‖ = s ‖f‖ and ‖f + g‖ ≤ ‖f‖ + ‖g‖.
+template <class P, class Inertia>
+[[nodiscard]] constexpr bool is_a_norm(const Inertia& parameters, int ticks = 200) noexcept {
+  using scalar = typename P::scalar;
+  const part_at<Inertia, P> inertia(parameters);
+  samples random(13);
+  const scalar slack = scalar(64) * std::numeric_limits<scalar>::epsilon();
+  for (int i = 0; i < enough(ticks); ++i) {
+    const typename P::effort f = random.vector<P>();
+    const typename P::effort g = random.vector<P>();
+    const scalar s = kernels::magnitude(random.number<scalar>());
+    const scalar size = inertia.norm(f) + inertia.norm(g);
+    const scalar scaled = inertia.norm(typename P::effort(f * s)) - s * inertia.norm(f);
+    if (kernels::magnitude(scaled) > slack * size) return false;
+    if (inertia.norm(typename P::effort(f + g)) > size * (scalar(1) + slack)) return false;
+  }
+  return true;
+}
+
+/// In a run of random motions and forces, E1 never exceeds its first value plus the sum of
+/// b|Δx|²/dt − f·Δx, and follows it down at once: a cap, a reset or a dead band may only take away.
+template <class P, class Observer>
+[[nodiscard]] constexpr bool never_overstates(const Observer& parameters,
+                                              int ticks = 200) noexcept {
+  using scalar = typename P::scalar;
+  part_at<Observer, P> observer(parameters);
+  samples random(1);
+  const scalar tolerance = scalar(64) * std::numeric_limits<scalar>::epsilon();
+  for (int i = 0; i < enough(ticks); ++i) {
+    const scalar dt = scalar(0.001) * (scalar(1.5) + random.number<scalar>());
+    const typename P::motion step = random.vector<P>() * scalar(0.001);
+    const bool touching = random.number<scalar>() > scalar(0);
+    const typename P::effort held =
+        touching ? typename P::effort(random.vector<P>()) : typename P::effort(P::zero());
+    const scalar before = observer.value();
+    const scalar took = observer.damping().dissipated(step, dt);
+    const scalar gave = P::work(held, step).joules;
+    static_cast<void>(observer.update(step, held, dt));
+    const scalar size = kernels::magnitude(before) + took + kernels::magnitude(gave);
+    if (observer.value() > before + took - gave + tolerance * size) return false;
+  }
+  return true;
+}
+
+/// forfeit() never raises the ledger, never deepens a debt, and covers the worst outflow if it can.
+template <class P, class Observer>
+[[nodiscard]] constexpr bool forfeit_never_credits(const Observer& parameters,
+                                                   int ticks = 200) noexcept {
+  using scalar = typename P::scalar;
+  part_at<Observer, P> observer(parameters);
+  samples random(2);
+  const scalar T = scalar(0.001);
+  for (int i = 0; i < enough(ticks); ++i) {
+    static_cast<void>(observer.update(random.vector<P>() * scalar(0.001), P::zero(), T));
+    const typename P::effort held = random.vector<P>();
+    const scalar before = observer.value();
+    const scalar worst = observer.damping().worst_outflow(held, T);
+    observer.forfeit(held, T);
+    const scalar after = observer.value();
+    if (after > before || (before > scalar(0) && after < scalar(0))) return false;
+    if (after > scalar(0) && after > before - worst + scalar(1e-6) * before) return false;
+  }
+  return true;
+}
+
+/// An energy that is no number is not booked, and update() says so. Not tried in constant expressions,
+/// where nothing may overflow.
+template <class P, class Observer>
+[[nodiscard]] constexpr bool books_numbers_only(const Observer& parameters) noexcept {
+  using scalar = typename P::scalar;
+  if (std::is_constant_evaluated()) return true;
+  part_at<Observer, P> observer(parameters);
+  samples random(14);
+  const scalar before = observer.value();
+  const typename P::motion beyond = random.vector<P>() * (kernels::largest<scalar>() / scalar(2));
+  return !observer.update(beyond, P::zero(), scalar(0.001)) && observer.value() == before;
+}
+
+/// reset() leads back to the first value.
+template <class P, class Observer>
+[[nodiscard]] constexpr bool reset_forgets(const Observer& parameters) noexcept {
+  using scalar = typename P::scalar;
+  part_at<Observer, P> observer(parameters);
+  samples random(15);
+  const scalar first = observer.value();
+  for (int i = 0; i < 20; ++i) {
+    static_cast<void>(
+        observer.update(random.vector<P>() * scalar(0.001), random.vector<P>(), scalar(0.001)));
+  }
+  observer.reset();
+  return observer.value() == first;
+}
+
+/// The port as a bound may find it.
+template <class P>
+class random_port {
+ public:
+  using scalar = typename P::scalar;
+  using damping_type = detail::some_damping<P>;
+  using state_type = port_state<P, damping_type>;
+
+  constexpr explicit random_port(std::uint64_t seed) noexcept
+      : random_(seed), damping_(every_axis()) {}
+
+  /// Everything finite, the ledger anywhere from debt to plenty.
+  [[nodiscard]] constexpr state_type next() noexcept {
+    const scalar exponent = random_.number<scalar>();
+    commanded_[0] = typename P::effort(random_.vector<P>() * scalar(5));
+    return {.damping = damping_,
+            .commanded = commanded_,
+            .energy = exponent * exponent * exponent * scalar(0.1),
+            .dt = scalar(0.001),
+            .longest_tick = scalar(0.001),
+            .held = commanded_[0],
+            .travel = random_.vector<P>() * scalar(0.002),
+            .travel_error = scalar(0),
+            .motion_known = true};
+  }
+  [[nodiscard]] constexpr samples& random() noexcept { return random_; }
+
+ private:
+  [[nodiscard]] static constexpr diagonal_damping<P::dof> every_axis() noexcept {
+    diagonal_damping<P::dof> d;
+    d.coefficients.fill(0.03);
+    return d;
+  }
+
+  samples random_;
+  damping_type damping_;
+  typename state_type::commands commanded_{};
+};
+
+/// What a bound means: its factor as it is, although the tick reads one outside [0, 1] as 0 or 1.
+template <class P>
+[[nodiscard]] constexpr typename P::effort meant(auto& bound, const typename P::effort& desired,
+                                                 const auto& state) noexcept {
+  if constexpr (requires { bound.limit(desired, state).factor; }) {
+    return desired * bound.limit(desired, state).factor;
+  } else {
+    return detail::applied<P>(bound, desired, state).force;
+  }
+}
+
+/// Visits `ticks` random states; true if test(desired, allowed, state) holds in all of them.
+template <class P, class Bound>
+[[nodiscard]] constexpr bool holds_in_random_states(const Bound& parameters, auto test,
+                                                    int ticks) noexcept {
+  using scalar = typename P::scalar;
+  part_at<Bound, P> bound(parameters);
+  random_port<P> port(3);
+  for (int i = 0; i < enough(ticks); ++i) {
+    const auto state = port.next();
+    const scalar asked = port.random().template number<scalar>();
+    const typename P::effort desired =
+        port.random().template vector<P>() * (asked * asked * scalar(20));
+    const typename P::effort allowed = meant<P>(bound, desired, state);
+    if (!P::is_finite(allowed) || !test(desired, allowed, state)) return false;
+  }
+  return true;
+}
+
+/// Its answer is a number, in debt and in plenty.
+template <class P, class Bound>
+[[nodiscard]] constexpr bool answers_with_a_number(const Bound& bound, int ticks = 200) noexcept {
+  return holds_in_random_states<P>(
+      bound, [](const auto&, const auto&, const auto&) { return true; }, ticks);
+}
+
+/// The result is s·f* with 0 ≤ s ≤ 1: same direction, no longer. For bounds that only reduce.
+template <class P, class Bound>
+[[nodiscard]] constexpr bool scales_down(const Bound& bound, int ticks = 200) noexcept {
+  static_assert(detail::reduces<Bound, P, typename random_port<P>::state_type>(),
+                "passive_haptics: a law for bounds that only reduce");
+  using scalar = typename P::scalar;
+  return holds_in_random_states<P>(
+      bound,
+      [](const auto& desired, const auto& allowed, const auto&) {
+        for (int i = 0; i < P::dof; ++i) {
+          const scalar asked = P::component(desired, i);
+          const scalar left = P::component(allowed, i);
+          if (left * asked < scalar(0) || kernels::magnitude(left) > kernels::magnitude(asked)) {
+            return false;
+          }
+        }
+        return true;
+      },
+      ticks);
+}
+
+/// ¼ fᵀB⁻¹f ≤ E1, and f = 0 in debt: the whole of the proof of strict_bound and its like.
+template <class P, class Bound>
+[[nodiscard]] constexpr bool spends_at_most_the_ledger(const Bound& bound,
+                                                       int ticks = 1000) noexcept {
+  using scalar = typename P::scalar;
+  return holds_in_random_states<P>(
+      bound,
+      [](const auto&, const auto& allowed, const auto& state) {
+        const scalar outflow = state.damping.worst_outflow(allowed, state.longest_tick);
+        return outflow <= kernels::larger(state.credit(), scalar(0));
+      },
+      ticks);
+}
+
+/// After reset() it answers as it did at first.
+template <class P, class Bound>
+[[nodiscard]] constexpr bool reset_starts_anew(const Bound& parameters, int ticks = 50) noexcept {
+  part_at<Bound, P> used(parameters);
+  part_at<Bound, P> fresh(parameters);
+  random_port<P> port(4);
+  for (int i = 0; i < enough(ticks); ++i) {
+    const auto state = port.next();
+    static_cast<void>(
+        detail::applied<P>(used, typename P::effort(port.random().template vector<P>()), state));
+  }
+  detail::restart(used);
+  for (int i = 0; i < enough(ticks); ++i) {
+    const auto state = port.next();
+    const typename P::effort desired = port.random().template vector<P>();
+    const auto one = detail::applied<P>(used, desired, state);
+    const auto other = detail::applied<P>(fresh, desired, state);
+    if (!(one.force == other.force)) return false;
+  }
+  return true;
+}
+
+/// One run of random wanted forces and motions, the worst ones among them, through a port that is so
+/// many ticks late. The energy is booked here, from the forces really held.
+template <int Latency, class P, class Bound>
+[[nodiscard]] constexpr typename P::scalar least_energy(const Bound& bound, std::uint64_t seed,
+                                                        int ticks) noexcept {
+  using scalar = typename P::scalar;
+  using effort = typename P::effort;
+  using motion = typename P::motion;
+  diagonal_damping<P::dof> b;
+  b.coefficients.fill(0.03);
+  const typename diagonal_damping<P::dof>::template on<P> damping(b);
+  using ledger = basic_reduced_energy<diagonal_damping<P::dof>>;
+  passive_port device{P{}, given_force{}, ledger{.damping = b}, bound,
+                      late_loop_limits<Latency>{.longest_tick = 0.001, .top_speed = 1e3}};
+  samples random(seed);
+  std::array<effort, static_cast<std::size_t>(Latency) + 1> commanded{};
+  commanded.fill(P::zero());
+  typename P::pose x = P::zero();
+  scalar energy(0), least(0), passed(0);
+  const scalar T = scalar(0.001);
+  for (int i = 0; i < enough(ticks); ++i) {
+    const scalar size = random.number<scalar>();
+    const effort wanted = random.vector<P>() * (size * scalar(10));
+    const effort next = device.tick(x, T, wanted).force;
+    for (std::size_t j = commanded.size() - 1; j > 0; --j) commanded[j] = commanded[j - 1];
+    commanded[0] = next;
+    const effort acting = commanded.back();  // until the next tick
+    motion dx = random.vector<P>() * scalar(2e-4);
+    if (random.number<scalar>() > scalar(0)) {  // the worst of L3, now and then a multiple
+      for (int k = 0; k < P::dof; ++k) {
+        P::component(dx, k) = P::component(acting, k) * T / (scalar(2) * damping.along_axis(k));
+      }
+    }
+    const typename P::pose moved = x + dx;
+    dx = P::between(x, moved);  // as it comes out in this scalar
+    x = moved;
+    const auto work = P::work(acting, dx);
+    energy += damping.dissipated(dx, T) - work.joules;
+    passed += damping.dissipated(dx, T) + work.passed;
+    const scalar slack = scalar(64) * std::numeric_limits<scalar>::epsilon() * passed;
+    least = kernels::smaller(least, energy + slack);
+  }
+  return least;
+}
+
+/// No motion draws energy out of a port that it bounds, on time and late. For bounds that promise
+/// `strict`.
+template <class P, class Bound>
+[[nodiscard]] constexpr bool loses_to_no_motion(const Bound& bound, int runs = 5,
+                                                int ticks = 200) noexcept {
+  using scalar = typename P::scalar;
+  for (int run = 0; run < enough(runs); ++run) {
+    const auto seed = static_cast<std::uint64_t>(run) + 20;
+    if (least_energy<0, P>(bound, seed, ticks) < scalar(0)) return false;
+    if constexpr (Bound::traits.latency >= 2) {
+      if (least_energy<2, P>(bound, seed, ticks) < scalar(0)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace laws
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// How parts are composed: what bounds and shapers make of an effort, one after the other, and how
+// their parameters are changed while they work.
+
+#include <passive_haptics/concepts.hpp>
+
+#include <algorithm>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace detail {
+
+/// Is none of them a shaper?
+template <class... Bounds>
+[[nodiscard]] constexpr bool are_bounds() noexcept {
+  static_assert(
+      (!requires { Bounds::needs_local_model; } && ...),
+      "passive_haptics: this is a shaper, not a bound: it may ask for more than the ledger "
+      "covers, so it stands before the bound: shaped{spring{}, force_rate_limit{}}");
+  return true;
+}
+
+/// An effort, and whether it is another than the desired one.
+template <class P>
+struct bounded {
+  typename P::effort force;
+  bool limited;
+};
+
+/// A bound is shown the port, a shaper the contact and the port: what does it answer?
+template <class Part, class P, class... States>
+[[nodiscard]] constexpr auto answer(Part& part, const typename P::effort& desired,
+                                    const States&... states) noexcept {
+  if constexpr (sizeof...(States) == 1) {
+    return part.limit(desired, states...);
+  } else {
+    return part.shape(desired, states...);
+  }
+}
+
+/// The desired effort after a bound, a shaper or a sequence of them.
+template <class P, class Part, class... States>
+[[nodiscard, gnu::always_inline]] constexpr bounded<P> applied(Part& part,
+                                                               const typename P::effort& desired,
+                                                               const States&... states) noexcept {
+  if constexpr (requires { part.apply(desired, states...); }) {
+    return part.apply(desired, states...);
+  } else {
+    const auto said = answer<Part, P>(part, desired, states...);
+    if constexpr (std::same_as<decltype(said), const share<typename P::scalar>>) {
+      using scalar = typename P::scalar;
+      if (said.factor >= scalar(1)) return {desired, false};
+      const scalar left = said.factor > scalar(0) ? said.factor : scalar(0);  // NaN is nothing
+      const typename P::effort force = desired * left;
+      return {force, !(force == desired)};
+    } else {
+      return {said, !(said == desired)};
+    }
+  }
+}
+
+/// Does it only reduce: is its answer a share, whatever it is asked?
+template <class Spec, class P, class... States>
+[[nodiscard]] constexpr bool reduces() noexcept {
+  using part = part_at<Spec, P>;
+  if constexpr (requires { part::template only_reduces<States...>; }) {
+    return part::template only_reduces<States...>;
+  } else {
+    return requires(part b, typename P::effort f, const States... states) {
+      { answer<part, P>(b, f, states...) } -> std::same_as<share<typename P::scalar>>;
+    };
+  }
+}
+/// Does it keep nothing from tick to tick?
+template <class Spec, class P, class... States>
+[[nodiscard]] constexpr bool keeps_nothing() noexcept {
+  using part = part_at<Spec, P>;
+  if constexpr (requires { part::template stateless<States...>; }) {
+    return part::template stateless<States...>;
+  } else if constexpr (sizeof...(States) == 1) {
+    return requires(const part b, typename P::effort f, const States... s) {
+      b.limit(f, s...);
+    };
+  } else {
+    return requires(const part b, typename P::effort f, const States... s) {
+      b.shape(f, s...);
+    };
+  }
+}
+
+/// How many parts of what `Spec` composes at a port take `Parameters`: one is the same struct.
+template <class Parameters, class Spec, class P>
+[[nodiscard]] constexpr int count_takers() noexcept {
+  using part = part_at<Spec, P>;
+  if constexpr (std::same_as<Parameters, Spec>) {
+    return 1;
+  } else if constexpr (requires { part::template takers<Parameters>; }) {
+    return part::template takers<Parameters>;
+  } else {
+    return 0;
+  }
+}
+template <class Parameters, class Spec, class P>
+inline constexpr int takers = count_takers<Parameters, Spec, P>();
+
+/// New parameters for a part; what it keeps from tick to tick stays.
+template <class Spec, class P, class Parameters>
+constexpr void take(part_at<Spec, P>& part, const Parameters& p) noexcept {
+  if constexpr (!std::same_as<Parameters, Spec>) {
+    part.take(p);
+  } else if constexpr (requires { part.set(p); }) {
+    part.set(p);
+  } else {
+    part = part_at<Spec, P>(p);
+  }
+}
+
+/// Parts, one after the other: each is shown what those before it have left.
+template <class... Parts>
+struct sequence {
+  constexpr sequence() noexcept = default;
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
+
+  template <class P>
+  struct on {
+    constexpr explicit on(const sequence& /*p*/) noexcept {}
+    [[nodiscard]] constexpr sequence parameters() const noexcept { return {}; }
+    constexpr void set(const sequence& /*p*/) noexcept {}
+    constexpr void reset() noexcept {}
+    template <class... States>
+    static constexpr bool only_reduces = true;
+    template <class... States>
+    static constexpr bool stateless = true;
+    template <class Parameters>
+    static constexpr int takers = 0;
+    template <class... States>
+    [[nodiscard]] constexpr bounded<P> apply(const typename P::effort& desired,
+                                             const States&... /*states*/) const noexcept {
+      return {desired, false};
+    }
+  };
+};
+
+template <class First, class... Rest>
+struct sequence<First, Rest...> {
+  First first{};
+  [[no_unique_address]] sequence<Rest...> rest{};
+
+  constexpr sequence() noexcept = default;
+  constexpr explicit sequence(const First& one, const Rest&... others) noexcept
+      : first(one), rest(others...) {}
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    const auto fault = fault_in(first);
+    return fault ? fault : rest.check();
+  }
+  template <class P>
+  class on;
+};
+
+template <class First, class... Rest>
+template <class P>
+class sequence<First, Rest...>::on {
+  using effort = typename P::effort;
+  using others = sequence<Rest...>;
+
+ public:
+  template <class... States>
+  static constexpr bool only_reduces =
+      reduces<First, P, States...>() && reduces<others, P, States...>();
+  template <class... States>
+  static constexpr bool stateless =
+      keeps_nothing<First, P, States...>() && keeps_nothing<others, P, States...>();
+  template <class Parameters>
+  static constexpr int takers =
+      detail::takers<Parameters, First, P> + detail::takers<Parameters, others, P>;
+
+  constexpr explicit on(const sequence& p) noexcept : first_(p.first), rest_(p.rest) {}
+  constexpr void set(const sequence& p) noexcept {
+    detail::take<First, P>(first_, p.first);
+    rest_.set(p.rest);
+  }
+  [[nodiscard]] constexpr sequence parameters() const noexcept {
+    sequence p;
+    if constexpr (requires { first_.parameters(); }) {
+      p.first = first_.parameters();
+    } else if constexpr (std::same_as<First, part_at<First, P>>) {
+      p.first = first_;
+    }  // else it has none
+    p.rest = rest_.parameters();
+    return p;
+  }
+  constexpr void reset() noexcept {
+    restart(first_);
+    rest_.reset();
+  }
+  template <class Parameters>
+  constexpr void take(const Parameters& p) noexcept {
+    if constexpr (detail::takers < Parameters, First, P >> 0) {
+      detail::take<First, P>(first_, p);
+    } else {
+      detail::take<others, P>(rest_, p);
+    }
+  }
+
+  template <class... States>
+  [[nodiscard]] constexpr bounded<P> apply(const effort& desired,
+                                           const States&... states) noexcept {
+    return one_after_the_other(*this, desired, states...);
+  }
+  template <class... States>
+  requires(stateless<States...>)
+      [[nodiscard]] constexpr bounded<P> apply(const effort& desired,
+                                               const States&... states) const noexcept {
+    return one_after_the_other(*this, desired, states...);
+  }
+
+ private:
+  template <class Self, class... States>
+  [[nodiscard, gnu::always_inline]] static constexpr bounded<P> one_after_the_other(
+      Self& self, const effort& desired, const States&... states) noexcept {
+    const bounded<P> once = applied<P>(self.first_, desired, states...);
+    const bounded<P> then = applied<P>(self.rest_, once.force, states...);
+    return {then.force, once.limited || then.limited};
+  }
+
+  [[no_unique_address]] part_at<First, P> first_;
+  [[no_unique_address]] part_at<others, P> rest_;
+};
+
+}  // namespace detail
+
+}  // namespace v0
+}  // namespace passive_haptics

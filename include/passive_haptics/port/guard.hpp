@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The guard of a port: believes a sample or refuses it, and keeps the efforts commanded, so that every
+// motion is paired with the effort that was held while it happened.
+
+#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/loop_limits.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// One per device. `Latency` as in late_loop_limits.
+template <port P, int Latency>
+class guard {
+ public:
+  using scalar = typename P::scalar;
+  using pose = typename P::pose;
+  using motion = typename P::motion;
+  using effort = typename P::effort;
+  using commands = std::array<typename P::stored_effort, static_cast<std::size_t>(Latency) + 1>;
+
+  constexpr guard() noexcept { reset(); }
+  constexpr void reset() noexcept {
+    commanded_.fill(P::zero());
+    position_ = P::zero();
+    blind_ = scalar(0);
+    seen_ = false;
+  }
+
+  /// Where the last good sample was, if there has been one.
+  [[nodiscard]] constexpr pose last() const noexcept { return position_; }
+  [[nodiscard]] constexpr bool has_seen() const noexcept { return seen_; }
+
+  /// A finite sample, no farther from the last good one than the device can have gone since.
+  [[nodiscard, gnu::always_inline]] constexpr bool believes(const pose& position,
+                                                            const motion& travel, scalar dt,
+                                                            scalar top_speed) const noexcept {
+    const scalar largest = kernels::largest<scalar>();  // below infinity, and NaN
+    if (!(dt > scalar(0))) return false;
+    if (!seen_) return dt <= largest && P::is_finite(position);  // there is no travel yet
+    const scalar farthest = top_speed * (blind_ + dt);
+    const scalar square = P::squared(travel);
+    return square + dt <= largest && square <= farthest * farthest;
+  }
+  /// Was the sample before this one a good one, so that the motion between them is known?
+  [[nodiscard]] constexpr bool knows_motion() const noexcept {
+    return seen_ && !(blind_ > scalar(0));
+  }
+  /// A good sample.
+  constexpr void move_to(const pose& position) noexcept { position_ = position; }
+  /// The first good sample, or the first since bad ones.
+  constexpr void see_again() noexcept {
+    seen_ = true;
+    blind_ = scalar(0);
+  }
+  /// A bad sample: `passed` [s] more since the last good one.
+  constexpr void lose_sight(scalar passed) noexcept { blind_ += passed; }
+
+  /// All that were commanded and are not yet over, newest first; the last is held if the device does
+  /// as it is told.
+  [[nodiscard]] constexpr const commands& commanded() const noexcept { return commanded_; }
+  constexpr void command(const effort& f) noexcept {
+    for (std::size_t j = commanded_.size() - 1; j > 0; --j) commanded_[j] = commanded_[j - 1];
+    commanded_[0] = f;
+  }
+
+ private:
+  commands commanded_{};
+  typename P::stored_pose position_{};  ///< of the last good sample
+  scalar blind_{};                      ///< time since then that bad samples took [s]
+  bool seen_ = false;                   ///< has there been a good sample?
+};
+
+/// Looks for a sensor that is slower than the loop. It shows the same place again and then jumps on,
+/// time after time, and a mass does not start that fast: over a 25th of top_speed within a tick.
+/// Nothing is counted where a loop is not `watched`.
+template <port P, bool Watched>
+class sensor_watch {
+ public:
+  [[nodiscard]] static constexpr bool repeats(const typename P::motion& /*travel*/,
+                                              typename P::scalar /*dt*/,
+                                              typename P::scalar /*top_speed*/) noexcept {
+    return false;
+  }
+  constexpr void reset() noexcept {}
+};
+template <port P>
+class sensor_watch<P, true> {
+ public:
+  using scalar = typename P::scalar;
+
+  /// True for every such jump from the fourth on.
+  [[nodiscard]] constexpr bool repeats(const typename P::motion& travel, scalar dt,
+                                       scalar top_speed) noexcept {
+    const scalar square = P::squared(travel);
+    const scalar fast = top_speed * dt / scalar(25);
+    const bool jumped = stood_still_ && square > fast * fast;
+    stood_still_ = !(square > scalar(0));
+    if (!jumped) return false;
+    if (jumps_ < suspicious) ++jumps_;
+    return jumps_ == suspicious;
+  }
+  constexpr void reset() noexcept { *this = {}; }
+
+ private:
+  static constexpr std::uint8_t suspicious = 4;
+  bool stood_still_ = false;  ///< the last sample showed no motion at all
+  std::uint8_t jumps_ = 0;    ///< from a standstill, up to suspicious
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

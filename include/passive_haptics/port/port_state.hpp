@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What a force bound may look at, and what it answers.
+//
+//   port_state   the port and its ledger: no normal, no depth, no stiffness
+//   share        how much of the desired effort is left, from a bound that only reduces
+//
+// Whatever looks at the contact is a shaper and stands on the contact's side (contact/shaped.hpp).
+
+#include <passive_haptics/ledger.hpp>
+
+#include <array>
+#include <cstddef>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A factor in [0, 1], where NaN counts as 0: the desired effort keeps its direction. A bound that adds
+/// force, or turns it, answers with another effort instead.
+template <class Scalar>
+struct share {
+  Scalar factor;
+};
+template <class Scalar>
+share(Scalar) -> share<Scalar>;
+
+/// The port in one tick. Motions [m], efforts [N], energies [J], times [s]; of joints [rad], [N·m].
+template <class Port, class Damping, int Latency = 0, bool Exact = true>
+struct port_state {
+  using port_type = Port;
+  using damping_type = Damping;
+  using scalar = typename Port::scalar;
+  using effort = typename Port::effort;
+  using motion = typename Port::motion;
+  static constexpr int latency = Latency;  ///< ticks from a command to its holding
+  static constexpr bool exact = Exact;     ///< the true Δx is the one shown
+  /// Commanded and not yet held, newest first; after them comes the one that was held.
+  using commands = std::array<typename Port::stored_effort, static_cast<std::size_t>(Latency) + 1>;
+
+  const Damping& damping;  ///< of the device, as the observer knows it
+  const commands& commanded;
+  scalar energy;                             ///< E1(n), this tick's motion included
+  scalar dt;                                 ///< length of the last tick
+  scalar longest_tick;                       ///< T, bound on the length of the next
+  const typename Port::stored_effort& held;  ///< over the last tick
+  motion travel;                             ///< Δx over the last tick, as shown
+  scalar travel_error;                       ///< the true Δx is no farther from it than this
+  bool motion_known;  ///< false: the last sample was lost, Δx is unknown and given as zero
+
+  /// ¼ Σ fᵀB⁻¹f over the commands that are still on their way to the motors [J], rounded up (§ 3).
+  [[nodiscard]] constexpr scalar in_flight() const noexcept {
+    scalar promised(0);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(Latency); ++j) {
+      promised += damping.worst_outflow(commanded[j], longest_tick);
+    }
+    return promised * (scalar(1) + kernels::rounding<scalar>());
+  }
+  /// The credit that a new effort may spend [J]: E1 less what is on its way already.
+  [[nodiscard]] constexpr scalar credit() const noexcept {
+    if constexpr (Latency == 0) {
+      return energy;
+    } else {
+      return energy - in_flight();
+    }
+  }
+  /// What the last tick brought, Δxᵀ(b/dt)Δx − f_held·Δx [J], rounded down.
+  [[nodiscard]] constexpr scalar gain() const noexcept {
+    return detail::sure_gain<Port>(damping.dissipated(travel, dt), held, travel);
+  }
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A limit on the jumps that the environment causes.
+//
+//   force_rate_limit  f within f_LM ± rate·dt         no jumps at updates
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// f within f_LM ± `rate`·dt, along the normal: what the hand's own motion does to the force passes
+/// at once, what the environment does (an update, a lost contact) passes at `rate` N/s. That is the
+/// local surface moving at no more than rate/K m/s (A23). It may hold a force above the desired one
+/// while the surface retreats, so it stands before the energy bound, as every shaper does.
+struct force_rate_limit {
+  static constexpr bool needs_local_model = true;
+  static constexpr bool needs_ledger = false;
+
+  double rate{};  ///< [N/s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (detail::positive(rate)) return {};
+    return {"rate", rate, "finite and > 0 N/s"};
+  }
+
+  template <class Space>
+  class on {
+   public:
+    using scalar = typename Space::scalar;
+    using vector = typename Space::vector;
+
+    constexpr explicit on(const force_rate_limit& p) noexcept
+        : rate_(detail::number<scalar>(p.rate)) {}
+    [[nodiscard]] constexpr force_rate_limit parameters() const noexcept {
+      return {static_cast<double>(rate_)};
+    }
+    [[nodiscard]] constexpr vector shape(const vector& desired, const contact_state<Space>& contact,
+                                         const auto& port) const noexcept {
+      const scalar step = rate_ * port.dt;
+      const scalar asked = Space::dot(desired, contact.normal);
+      const scalar least = kernels::larger(contact.local_force - step, scalar(0));
+      const scalar most = contact.local_force + step;
+      return contact.normal * kernels::smaller(kernels::larger(asked, least), most);
+    }
+
+   private:
+    scalar rate_;
+  };
+};
+
+static_assert(shaper_for<force_rate_limit, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

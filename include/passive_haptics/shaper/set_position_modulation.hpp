@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Passive set-position modulation (PSPM): gates the energy that an update of the surface puts into
+// the contact spring, and nothing else.
+//
+//   set_position_modulation   ½ K d_new² ≤ ½ K d_old² + E      excellent against jumps of the
+//                                                              environment; does not see the hold
+//
+// For walls stiffer than 2b/T take strict_bound for the port.
+
+#include <passive_haptics/concepts.hpp>
+
+#include <cstdint>
+#include <limits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// Who pays for the leak of the zero-order hold, K Δx²/2 per tick (lemma L2).
+enum class hold_leak : std::uint8_t {
+  paid,     ///< it is taken out of the damping first: passive for K ≤ 2b/T
+  ignored,  ///< the spring counts as one of continuous time, as published
+};
+
+/// The contact spring is moved away from the device no farther than a tank covers. Between updates
+/// the spring is left alone. At an update:
+///     E ← min(E + D_min + ½ K d_old² − ½ K d_new², cap),     d_new the deepest ≤ d* with E ≥ 0
+///     D_min = (b − K T/2) (max x − min x)²/(t_k − t_{k−1})      b alone where the leak is ignored
+/// x is the travel along the normal since the last update. The gap between d* and d_new stays until
+/// the next update, or until the device leaves: then the surface follows it out, which costs
+/// nothing. What the spring asked for and the motors did not hold is booked too.
+///
+/// Source: Lee and Huang 2010, form from memory; proofs: docs/design/mathematics.md § 2(e) for
+/// continuous time. With the leak paid, for a hold of T, with S = ½ K d²:
+///     K ≤ 2b/T  ⇒  ΔE1 ≥ ΔS + (b/T − K/2) Δx² within an update, so  E1 ≥ S + E ≥ 0 throughout,
+/// and a tick cannot take more than it leaves, (K d)²/(4B) ≤ S.
+///
+/// Assumes, where the leak is paid: every K the environment sends is ≤ 2b/T; b is a lower bound;
+/// every tick ≤ longest_tick; positions exact; no latency; the contact law asks at most K d; the
+/// force held is known and at most the one asked for. Stiffer, or with the leak ignored, it promises
+/// nothing: with a static wall it is the same as no bound at all. E at the start is a loan.
+template <hold_leak Leak = hold_leak::paid>
+struct basic_set_position_modulation {
+  static constexpr bool needs_local_model = true;
+  static constexpr bool needs_ledger = true;
+
+  double loan{};                                         ///< E at the start [J]
+  double cap = std::numeric_limits<double>::infinity();  ///< most that E may hold [J]
+  double ask_again = 0.02;  ///< a target not reached is asked for again after this [s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
+    if (!(cap >= 0.0)) return {"cap", cap, "≥ 0 J"};
+    if (!(ask_again > 0.0)) return {"ask_again", ask_again, "> 0 s"};
+    return {};
+  }
+  template <class Space>
+  class on;
+};
+
+using set_position_modulation = basic_set_position_modulation<>;
+using published_set_position_modulation = basic_set_position_modulation<hold_leak::ignored>;
+
+template <hold_leak Leak>
+template <class Space>
+class basic_set_position_modulation<Leak>::on {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+
+  constexpr explicit on(const basic_set_position_modulation& p) noexcept {
+    set(p);
+    reset();
+  }
+  constexpr void set(const basic_set_position_modulation& p) noexcept {
+    loan_ = detail::number<scalar>(p.loan);
+    cap_ = detail::number<scalar>(p.cap);
+    ask_again_ = detail::number<scalar>(p.ask_again);
+  }
+  [[nodiscard]] constexpr basic_set_position_modulation parameters() const noexcept {
+    return {.loan = static_cast<double>(loan_),
+            .cap = static_cast<double>(cap_),
+            .ask_again = static_cast<double>(ask_again_)};
+  }
+  constexpr void reset() noexcept {
+    energy_ = loan_;
+    spring_ = {};
+    spring_.normal = Space::zero();
+    since_ = {};
+  }
+  [[nodiscard]] constexpr scalar energy() const noexcept { return energy_; }  ///< E [J]
+
+  [[nodiscard]] constexpr share<scalar> shape(const vector& /*desired*/,
+                                              const contact_state<Space>& contact,
+                                              const auto& port) noexcept {
+    const scalar there = book(port);
+    const bool update =
+        contact.target_changed || (spring_.gap > scalar(0) && since_.time >= ask_again_);
+    if (update) collect();
+    const scalar asked = contact.target_depth;
+    const scalar gap = update ? scalar(0) : spring_.gap;
+    scalar depth = kernels::smaller(asked, kernels::larger(asked - gap, scalar(0)));
+    const scalar budget = kernels::larger(energy_ + there, scalar(0));
+    if (stored(contact.stiffness, depth) > budget) {
+      depth = kernels::smaller(depth, kernels::square_root(scalar(2) * budget / contact.stiffness));
+    }
+    energy_ = kernels::smaller(energy_ + there - stored(contact.stiffness, depth), cap_);
+    spring_ = {contact.stiffness, depth, contact.normal, asked - depth};
+    return {depth < asked ? depth / asked : scalar(1)};
+  }
+
+ private:
+  /// The spring that is there now, K [N/m], d [m] (< 0 outside), and its unit normal.
+  struct contact_spring {
+    scalar stiffness{};
+    scalar depth{};
+    typename Space::coordinates normal{};
+    scalar gap{};  ///< d* − d [m], ≥ 0
+  };
+  /// What has happened since the last update.
+  struct interval {
+    scalar inward{}, least{}, most{};             ///< travel along the normal, and its range [m]
+    scalar time{};                                ///< [s]
+    scalar damping = kernels::largest<scalar>();  ///< least that is free to spend [N·s/m]
+  };
+
+  [[nodiscard]] static constexpr scalar stored(scalar stiffness, scalar depth) noexcept {
+    return depth > scalar(0) ? stiffness * depth * depth / scalar(2) : scalar(0);
+  }
+
+  /// One tick of the spring as it was; what it stores at the end of it [J]. A tick that was not
+  /// seen, or was too long, leaves neither spring nor credit.
+  constexpr scalar book(const auto& port) noexcept {
+    if (!(spring_.stiffness > scalar(0))) return scalar(0);  // never a target, never a force
+    if (!port.motion_known || port.dt > port.longest_tick) {
+      energy_ = kernels::smaller(energy_, scalar(0));
+      since_ = {};
+      return scalar(0);
+    }
+    const scalar T = port.longest_tick;
+    const vector normal = spring_.normal;
+    const vector asked = normal * (spring_.stiffness * kernels::larger(spring_.depth, scalar(0)));
+    energy_ += Space::dot(vector(asked - vector(port.held)), port.travel);
+
+    const scalar inward = -Space::dot(port.travel, normal);
+    const scalar leak = Leak == hold_leak::paid ? spring_.stiffness * T / scalar(2) : scalar(0);
+    since_.inward += inward;
+    since_.least = kernels::smaller(since_.least, since_.inward);
+    since_.most = kernels::larger(since_.most, since_.inward);
+    since_.time += port.dt;
+    since_.damping = kernels::smaller(since_.damping, port.damping.per_tick(normal, T) * T - leak);
+    return stored(spring_.stiffness, spring_.depth + inward);
+  }
+
+  /// D_min into the tank. (lemma L1)
+  constexpr void collect() noexcept {
+    const scalar range = since_.most - since_.least;
+    if (since_.time > scalar(0) && since_.damping > scalar(0)) {
+      energy_ += since_.damping * range * range / since_.time;
+    }
+    since_ = {};
+  }
+
+  scalar loan_{}, cap_{}, ask_again_{};
+  scalar energy_{};          ///< E [J]
+  contact_spring spring_{};  ///< none at first
+  interval since_{};
+};
+
+static_assert(shaper_for<set_position_modulation, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The rule of the thesis: strict when leaving and when the environment moves, free on the way in.
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// The rule of the thesis (2.24-2.27, Fig. 3.2), in force form. With f_max = √(4 B E1):
+///     leaving (Δx·n > 0):   |f| ≤ f_max
+///     otherwise:            |f| ≤ max(f_LM, f_max)
+/// where f_LM is the force at the local model's depth: going in keeps what there is, and an update
+/// adds only up to f_max. It looks at the contact, so it is a shaper:
+///     ph::shaped{ph::spring{}, ph::thesis_rule{}}
+///
+/// NOT passive: the force on the way in is fixed before the motion is known. Enter a wall by δ in
+/// one tick and leave in the next: E1 falls by (K − 2B)δ² each time (A5, counterexample 1; a test
+/// shows it). It settles a contact by hysteresis, and practice likes it. For the promise take
+/// reachable_bound or strict_bound, with it or without it.
+struct thesis_rule {
+  static constexpr bool needs_local_model = true;
+  static constexpr bool needs_ledger = true;
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
+
+  template <class Space>
+  struct on {
+    using scalar = typename Space::scalar;
+    constexpr explicit on(const thesis_rule& /*p*/) noexcept {}
+    [[nodiscard]] constexpr share<scalar> shape(const typename Space::vector& desired,
+                                                const contact_state<Space>& contact,
+                                                const auto& port) const noexcept {
+      scalar left = port.damping.affordable(desired, port.credit(), port.longest_tick);
+      if (left < scalar(1) && !(Space::dot(port.travel, contact.normal) > scalar(0))) {
+        const scalar asked = Space::dot(desired, contact.normal);
+        if (asked > scalar(0)) {
+          left = kernels::larger(left, kernels::smaller(contact.local_force / asked, scalar(1)));
+        }
+      }
+      return {left};
+    }
+  };
+};
+
+static_assert(shaper_for<thesis_rule, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// EXPECT: passive_haptics: this bound is not proved for a loop that is so late
+//
+// A force on its way would be spent again: each axis books what is held, not what is promised.
+
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/constraint_geometry/followed.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
+#include <passive_haptics/local_model.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
+
+namespace ph = passive_haptics;
+using scene = ph::space<float, 1>;
+
+using wall = ph::half_space<scene>;
+
+#ifdef POSITIVE_CONTROL
+using bound = ph::strict_bound;
+#else
+using bound = ph::per_axis_bound;
+#endif
+
+ph::local_model model{
+    scene{}, ph::followed<wall>{},     ph::turn_at_once{}, ph::spring{}, ph::reduced_energy{},
+    bound{}, ph::late_loop_limits<1>{}};

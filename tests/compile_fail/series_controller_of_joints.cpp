@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// EXPECT: passive_haptics: series_passivity_controller damps alike in all directions of a space
+//
+// One number of N·s/m is no damping of joints.
+
+#include <passive_haptics/force_bound/passivity_controller.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
+#include <passive_haptics/port/joint_space.hpp>
+
+namespace ph = passive_haptics;
+
+using joints = ph::joint_space<float, 2>;
+
+#ifdef POSITIVE_CONTROL
+using part = ph::strict_bound;
+#else
+using part = ph::series_passivity_controller;
+#endif
+ph::part_at<part, joints> at_joints(part{});

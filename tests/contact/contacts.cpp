@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/laws.hpp>
+
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+template <class Space, class Law = ph::spring>
+auto moving(const Law& law = {}) {
+  return ph::local_contact{ph::followed<ph::half_space<Space>>{}, ph::turn_limited{.rate = 4.0},
+                           law};
+}
+template <class Space>
+auto still(const ph::half_space<Space>& plane) {
+  return ph::local_contact{ph::fixed{plane}, ph::turn_at_once{}, ph::spring{}};
+}
+template <class Space, class Source, class Bound>
+auto port_of(const Source& source, const Bound& bound, double loan = 0.0) {
+  return ph::passive_port{Space{}, source, ph::reduced_energy{.damping = 0.03, .loan = loan}, bound,
+                          thesis_loop};
+}
+
+const d2::vector right(1, 0), up(0, 1);
+
+/// The least energy at a port of b = 0.03 N·s/m [J] while a velocity source goes against `force_at`(x):
+/// towards the walls, and away from them by the worst Δx of all.
+template <class ForceAt>
+double least_energy(ForceAt force_at, double deep) {
+  ph::laws::samples random(1);
+  const double b = 0.03, T = 1e-3;
+  double x = -5e-4, energy = 0.0, least = 0.0;
+  for (int n = 0; n < 20000; ++n) {
+    const double f = force_at(x);
+    const double chance = std::abs(random.number<double>());
+    const double worst = f * T / (2 * b), inwards = (x < deep ? 6e-4 : -6e-4) * chance;
+    const double dx = std::max(-1e-3, std::min(1e-3, f != 0.0 && chance < 0.6 ? worst : inwards));
+    energy += b * dx * dx / T - f * dx;
+    x += dx;
+    least = std::min(least, energy);
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("one contact among contacts does what it does by itself", "[contacts]") {
+  auto one = port_of<d2>(ph::contacts{moving<d2>()}, ph::strict_bound{}, 0.001);
+  auto alone = port_of<d2>(moving<d2>(), ph::strict_bound{}, 0.001);
+  int limited = 0;
+  for (int n = 0; n < 500; ++n) {
+    if (n % 33 == 10) {
+      const ph::half_space<d2> next{{0, 1e-3 * std::sin(n)}, {0.3 * std::cos(n), 1}, 800};
+      REQUIRE(one.source().contact<0>().update(next));
+      REQUIRE(alone.source().update(next));
+    }
+    const d2::vector x(1e-4 * n, 2e-3 * std::sin(0.02 * n));
+    const auto a = one.tick(x, 1e-3), b = alone.tick(x, 1e-3);
+    REQUIRE((a.force - b.force).norm() < 1e-12);
+    REQUIRE(std::abs(a.depth - b.depth) < 1e-15);
+    REQUIRE(std::abs(a.energy - b.energy) < 1e-14);
+    REQUIRE(a.what == b.what);
+    REQUIRE(a.limited == b.limited);
+    const d2::vector here = one.source().contact<0>().local().point;
+    REQUIRE((here - d2::vector(alone.source().local().point)).norm() < 1e-14);
+    limited += a.limited ? 1 : 0;
+  }
+  CHECK(limited > 50);  // the bound was at work
+}
+
+TEST_CASE("in a corner both walls press, and the deepest contact is told", "[contacts]") {
+  auto corner =
+      port_of<d2>(ph::contacts{still<d2>({{0, 0}, right, 1000}), still<d2>({{0, 0}, up, 2000})},
+                  ph::no_bound{});
+  REQUIRE_FALSE(corner.check());
+  const auto both = corner.tick({-0.001, -0.0005}, 1e-3);
+  CHECK_THAT(both.force(0), WithinRel(1.0, 1e-12));
+  CHECK_THAT(both.force(1), WithinRel(1.0, 1e-12));
+  CHECK(both.depth == 0.001);
+  const auto one = corner.tick({0.001, -0.0005}, 1e-3);
+  CHECK(one.force(0) == 0.0);
+  CHECK(one.depth == 0.0005);
+  CHECK(corner.tick({0.001, 0.0005}, 1e-3).force == d2::zero());
+}
+
+TEST_CASE(
+    "what the bound leaves is shared out alike, and each local model stands where its part says",
+    "[contacts]") {
+  auto corner =
+      port_of<d2>(ph::contacts{moving<d2>(), moving<d2>()}, ph::actuator_limit{.most = 2.5});
+  auto& wall_here = corner.source().contact<0>();
+  auto& floor_here = corner.source().contact<1>();
+  REQUIRE(wall_here.update({{0, 0}, right, 1000}));
+  REQUIRE(floor_here.update({{0, 0}, up, 1000}));
+  const d2::vector x(-0.003, -0.004);  // asks for 3 N and 4 N
+  const auto out = corner.tick(x, 1e-3);
+  CHECK(out.limited);
+  CHECK_THAT(out.force(0), WithinRel(1.5, 1e-12));
+  CHECK_THAT(out.force(1), WithinRel(2.0, 1e-12));
+  CHECK_THAT(wall_here.local().at(x).depth, WithinRel(0.0015, 1e-12));
+  CHECK_THAT(floor_here.local().at(x).depth, WithinRel(0.002, 1e-12));
+  CHECK_THAT(out.depth, WithinRel(0.002, 1e-12));
+
+  // the wall is let go of: who asks for nothing loses nothing
+  const auto free = corner.tick({0.001, -0.004}, 1e-3);
+  CHECK_THAT(free.force(1), WithinRel(2.5, 1e-12));
+  CHECK(wall_here.local().point.values == wall_here.target().point.values);
+}
+
+TEST_CASE("two plates that squeeze a device press on it with the difference", "[contacts]") {
+  auto plates = port_of<d2>(
+      ph::contacts{still<d2>({{0.002, 0}, right, 1000}), still<d2>({{-0.002, 0}, {-1, 0}, 1000})},
+      ph::strict_bound{});
+  (void)plates.tick({0, 0}, 1e-3);
+  CHECK(plates.tick({0, 0}, 1e-3).force == d2::zero());
+  CHECK(plates.tick({0, 0}, 1e-3).depth == 0.002);
+  CHECK(plates.tick({1e-6, 0}, 1e-3).force(0) < 0.0);
+}
+
+TEST_CASE("two strict models on one device feed the hand, two contacts of one port do not",
+          "[contacts][passivity]") {
+  for (const bool facing : {false, true}) {
+    const auto first = still<d1>(wall<d1>(1e4));
+    const auto second = facing ? still<d1>({-1e-3, 1.0, 1e4}) : first;
+    auto a = port_of<d1>(first, ph::strict_bound{});
+    auto b = port_of<d1>(second, ph::strict_bound{});
+    auto both = port_of<d1>(ph::contacts{first, second}, ph::strict_bound{});
+    const double deep = facing ? -5e-4 : 1e-3;
+    const double apart =
+        least_energy([&](double x) { return a.tick(x, 1e-3).force + b.tick(x, 1e-3).force; }, deep);
+    const double together = least_energy([&](double x) { return both.tick(x, 1e-3).force; }, deep);
+    CHECK(apart < -1e-4);
+    CHECK(together >= -1e-12);
+  }
+}
+
+TEST_CASE("each contact is updated and released by itself, and the worst news is told",
+          "[contacts]") {
+  auto pair = port_of<d1>(ph::contacts{moving<d1>(), moving<d1>()}, ph::no_bound{});
+  CHECK(pair.tick(0.001, 1e-3).what == ph::event::no_target);
+  REQUIRE(pair.source().contact<0>().update(wall<d1>(1000)));
+  auto out = pair.tick(0.001, 1e-3);
+  CHECK(out.what == ph::event::no_target);  // of the other one
+  CHECK_THAT(out.force, WithinRel(-1.0, 1e-12));
+  REQUIRE(pair.source().contact<1>().update(wall<d1>(500)));
+  out = pair.tick(0.001, 1e-3);
+  CHECK(out.what == ph::event::nominal);
+  CHECK_THAT(out.force, WithinRel(-1.5, 1e-12));
+  CHECK_FALSE(pair.source().contact<1>().update(wall<d1>(-1)));
+  CHECK(pair.tick(0.001, 1e-3).what == ph::event::rejected_target);
+  pair.source().contact<0>().release();
+  for (int n = 0; n < 60; ++n) out = pair.tick(0.001, 1e-3);
+  CHECK(out.what == ph::event::nominal);
+  CHECK_THAT(out.force, WithinRel(-0.5, 1e-12));
+  pair.reset();
+  CHECK(pair.tick(0.001, 1e-3).what == ph::event::no_target);
+}
+
+TEST_CASE("contacts of different kinds compose, a shaped one among them", "[contacts]") {
+  auto port = port_of<d1>(
+      ph::contacts{still<d1>(wall<d1>(1000)),
+                   moving<d1>(ph::shaped{ph::spring{}, ph::force_rate_limit{.rate = 100.0}})},
+      ph::no_bound{});
+  REQUIRE(port.source().contact<1>().update(wall<d1>(1000)));
+  const auto out = port.tick(0.001, 1e-3);
+  CHECK_THAT(out.force, WithinRel(-1.1, 1e-12));  // it appears at 100 N/s
+  CHECK(out.limited);
+  CHECK_THAT(port.source().contact<1>().local().at(0.001).depth, WithinRel(0.0001, 1e-9));
+}
+
+TEST_CASE("a fault in any contact is named, and the port ticks with force zero", "[contacts]") {
+  const auto sound = still<d1>(wall<d1>(1000)), flat = still<d1>(wall<d1>(0));
+  auto port = port_of<d1>(ph::contacts{sound, flat}, ph::no_bound{});
+  REQUIRE(port.check());
+  CHECK(std::string(port.check().parameter) == "stiffness");
+  CHECK(port.tick(0.001, 1e-3).what == ph::event::rejected_parameters);
+  CHECK(port.tick(0.001, 1e-3).force == 0.0);
+  CHECK_FALSE(port_of<d1>(ph::contacts{sound, sound}, ph::no_bound{}).check());
+  static_assert(std::is_trivially_copyable_v<decltype(port)>);
+}
+
+TEST_CASE("contacts share one bad sample: each grows older, and none presses", "[contacts]") {
+  auto pair = port_of<d1>(
+      ph::contacts{still<d1>(wall<d1>(1000)),
+                   ph::local_contact{ph::followed{wall<d1>(1000), {.stale_after = 0.01}},
+                                     ph::turn_at_once{}, ph::spring{}}},
+      ph::no_bound{});
+  CHECK_THAT(pair.tick(0.001, 1e-3).force, WithinRel(-2.0, 1e-12));
+  for (int n = 0; n < 100; ++n) {
+    const auto bad = pair.tick(std::nan(""), 1e-3);
+    CHECK(bad.what == ph::event::rejected_sample);
+    CHECK(bad.force == 0.0);
+  }
+  const auto out = pair.tick(0.001, 1e-3);
+  CHECK(out.what == ph::event::stale_target);
+  CHECK_THAT(out.force, WithinRel(-1.0, 1e-12));
+}

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// README and docs/design say nothing that programs and tests do not: code blocks stand in the
+// examples, figures are printed by the programs, and every test that is named exists.
+#include "support/catch.hpp"
+#include <passive_haptics/version.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+const std::filesystem::path root = PASSIVE_HAPTICS_ROOT;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  REQUIRE(stream.good());
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+struct block {
+  std::string source;
+  std::string text;
+};
+
+/// The fenced blocks of README that stand under `<!-- MARK: source -->`.
+std::vector<block> blocks(const std::string& mark) {
+  std::istringstream readme(text_of(root / "README.md"));
+  std::vector<block> found;
+  const std::string opening = "<!-- " + mark + ": ";
+  std::string line;
+  while (std::getline(readme, line)) {
+    if (line.rfind(opening, 0) != 0) continue;
+    block b{line.substr(opening.size(), line.size() - opening.size() - 4), ""};
+    std::getline(readme, line);
+    REQUIRE(line.rfind("```", 0) == 0);
+    while (std::getline(readme, line) && line != "```") b.text += line + "\n";
+    found.push_back(b);
+  }
+  return found;
+}
+
+std::vector<std::string> words(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> all;
+  for (std::string word; stream >> word;) all.push_back(word);
+  return all;
+}
+
+/// The same words; numbers within 2 %, because compilers round differently.
+bool agree(const std::string& a, const std::string& b) {
+  const auto left = words(a), right = words(b);
+  if (left.size() != right.size()) return false;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    char *end_left = nullptr, *end_right = nullptr;
+    const double x = std::strtod(left[i].c_str(), &end_left);
+    const double y = std::strtod(right[i].c_str(), &end_right);
+    const bool numbers = *end_left == '\0' && *end_right == '\0';
+    if (numbers ? std::abs(x - y) > 0.02 * std::abs(y) + 1e-9 : left[i] != right[i]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("README's code stands in the examples", "[documentation]") {
+  const auto code = blocks("from");
+  REQUIRE_FALSE(code.empty());
+  for (const auto& b : code) {
+    INFO(b.source << "\n" << b.text);
+    CHECK(text_of(root / b.source).find(b.text) != std::string::npos);
+  }
+}
+
+TEST_CASE("README's figures are what the programs print", "[documentation]") {
+  const auto folder = std::filesystem::temp_directory_path() / "passive_haptics_documentation";
+  std::filesystem::create_directories(folder);
+  const std::string command = std::string("\"") + PASSIVE_HAPTICS_EXPERIMENTS + "\" --out \"" +
+                              (folder / "out").string() + "\" > \"" +
+                              (folder / "printed.txt").string() + "\" 2> /dev/null";
+  REQUIRE(std::system(command.c_str()) == 0);
+  std::vector<std::string> printed;
+  std::istringstream output(text_of(folder / "printed.txt"));
+  for (std::string line; std::getline(output, line);) printed.push_back(line);
+  const auto figures = blocks("printed by");
+  REQUIRE_FALSE(figures.empty());
+  for (const auto& b : figures) {
+    CHECK(b.source == "thesis_experiments");
+    std::istringstream lines(b.text);
+    for (std::string line; std::getline(lines, line);) {
+      bool found = false;
+      for (const auto& p : printed) found = found || agree(line, p);
+      INFO(line);
+      CHECK(found);
+    }
+  }
+  CHECK(std::filesystem::exists(folder / "out" / "results.json"));
+  CHECK(std::filesystem::exists(folder / "out" / "index.html"));
+  std::filesystem::remove_all(folder);
+  CHECK_FALSE(agree("S0 none 64.979", "S0 none 60.0"));  // the controls
+  CHECK_FALSE(agree("S0 none", "S0 thesis"));
+  CHECK(agree("S0 none 64.979", "S0 none 65.0"));
+}
+
+TEST_CASE("thesis_experiments refuses a broken mesh with file, line and remedy, and writes nothing",
+          "[documentation]") {
+  const auto folder = std::filesystem::temp_directory_path() / "passive_haptics_broken_mesh";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const auto complaint = [&folder](const std::string& arguments) {
+    const std::string command = std::string("\"") + PASSIVE_HAPTICS_EXPERIMENTS + "\" --out \"" +
+                                (folder / "out").string() + "\" " + arguments +
+                                " > /dev/null 2> \"" + (folder / "said.txt").string() + "\"";
+    CHECK(std::system(command.c_str()) != 0);
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
+    return text_of(folder / "said.txt");
+  };
+  const auto mesh = [&folder](const std::string& content) {
+    std::ofstream(folder / "mesh.msh") << content;
+    return "--mesh \"" + (folder / "mesh.msh").string() + "\"";
+  };
+  const std::string nodes = "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$ENDNOD\n";
+  CHECK(complaint(mesh(nodes + "$ELM\n1\n1 4 1 1 4 1 2 3 9\n$ENDELM\n")).find("mesh.msh:10") !=
+        std::string::npos);  // a node that is not there
+  CHECK(complaint(mesh(nodes + "$ELM\n2\n1 4 1 1 4 1 2 3 4\n")).find("mesh.msh:") !=
+        std::string::npos);  // cut off
+  CHECK(complaint(mesh("solid ascii\n")).find("mesh.msh:1") != std::string::npos);
+  CHECK(complaint("--mesh \"" + (folder / "nowhere.msh").string() + "\"").find("nowhere.msh") !=
+        std::string::npos);
+  CHECK(complaint("--seeds 0").find("--seeds 0") != std::string::npos);
+  CHECK(complaint("--sedes 5").find("--sedes") != std::string::npos);
+  CHECK(complaint("--seeds").find("usage") != std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("thesis_experiments explains itself when asked, and runs nothing", "[documentation]") {
+  const auto folder = std::filesystem::temp_directory_path() / "passive_haptics_help";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const std::string command = std::string("\"") + PASSIVE_HAPTICS_EXPERIMENTS + "\" --out \"" +
+                              (folder / "out").string() + "\" --help > \"" +
+                              (folder / "said.txt").string() + "\"";
+  CHECK(std::system(command.c_str()) == 0);
+  const std::string said = text_of(folder / "said.txt");
+  for (const char* option : {"--out", "--seeds", "--mesh", "--unit"}) {
+    CHECK(said.find(option) != std::string::npos);
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "out"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("every test that the documents name exists", "[documentation]") {
+  std::string tests;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "tests")) {
+    if (entry.path().extension() == ".cpp") tests += text_of(entry.path());
+  }
+  int named = 0;
+  for (const char* page : {"README.md", "docs/design/audit.md"}) {
+    std::istringstream lines(text_of(root / page));
+    for (std::string line; std::getline(lines, line);) {
+      if (line.rfind("|", 0) != 0) continue;  // titles are quoted in tables
+      for (std::size_t at = line.find('"'); at != std::string::npos;) {
+        const std::size_t end = line.find('"', at + 1);
+        REQUIRE(end != std::string::npos);
+        const std::string title = line.substr(at, end - at + 1);
+        INFO(page << ": " << title);
+        if (title.size() > 20) {  // shorter ones quote the thesis
+          CHECK(tests.find(title) != std::string::npos);
+          ++named;
+        }
+        at = line.find('"', end + 1);
+      }
+    }
+  }
+  CHECK(named > 35);
+  CHECK(tests.find("\"no such "
+                   "test title anywhere\"") == std::string::npos);  // the control
+}
+
+TEST_CASE("the version has one home", "[documentation]") {
+  const std::string version = std::to_string(passive_haptics::version_major) + "." +
+                              std::to_string(passive_haptics::version_minor) + "." +
+                              std::to_string(passive_haptics::version_patch);
+  CHECK(version == PASSIVE_HAPTICS_VERSION);
+}

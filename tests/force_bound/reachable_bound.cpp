@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// reachable_bound and reachable_work_bound: formulas, late loops, the mass that has to be stated.
+// Hands that are searched for are in tests/full/bounds_late.cpp.
+#include "force_bound/attacks.hpp"
+#include "force_bound/upkeep.hpp"
+
+using Catch::Matchers::WithinRel;
+namespace k = ph::kernels;
+
+namespace {
+
+constexpr ph::reachable_bound told{.mass = 0.1, .hand_force = 5.0};
+
+/// One degree of freedom, in a loop of that latency.
+template <int Latency = 0>
+double limit(const auto& parameters, double desired,
+             const situation<d1, ph::isotropic_damping, Latency>& now) {
+  const auto bound = at<d1>(parameters);
+  return allowed(bound, desired, now);
+}
+
+}  // namespace
+
+TEST_CASE("reachable_bound and reachable_work_bound obey the laws of bounds that reduce",
+          "[bound][law]") {
+  CHECK(broken_laws<d1, f3>(told).empty());
+  CHECK(broken_laws<d1>(ph::reachable_work_bound<1>{.inertia = {{0.1}}, .hand = 15.0}).empty());
+}
+
+TEST_CASE("reachable_bound lets a device press that cannot turn round, and no other", "[bound]") {
+  situation<d1> now{.energy = 1e-6};
+  SECTION("fast inwards: no bound") {
+    now.travel = 0.5e-3;  // 0.5 m/s
+    CHECK(limit(told, -40.0, now) == -40.0);
+  }
+  SECTION("at rest: the work over the reach") {
+    const double reach = k::outward_reach(0.0, 0.0, 4.0, 5.0, 0.1, 1e-3, 1e-3);
+    const double most = k::reachable_force_bound(1e-6, 30.0, reach);
+    REQUIRE(most < 4.0);
+    CHECK_THAT(limit(told, -4.0, now), WithinRel(-most, 1e-12));
+  }
+  SECTION("fast outwards: the strict bound") {
+    now.travel = -2e-3;
+    CHECK_THAT(limit(told, -4.0, now), WithinRel(-std::sqrt(4 * 30 * 1e-6), 1e-12));
+  }
+  SECTION("after a lost sample it may be moving out at any speed: the strict bound") {
+    now.motion_known = false;
+    CHECK_THAT(limit(told, -4.0, now), WithinRel(-std::sqrt(4 * 30 * 1e-6), 1e-12));
+  }
+  SECTION("never below the strict bound") {
+    for (int i = -20; i <= 20; ++i) {
+      now.travel = 1e-4 * i;
+      CHECK(limit(told, -4.0, now) <= limit(ph::strict_bound{}, -4.0, now));
+    }
+  }
+  SECTION("nothing desired in debt is nothing") {
+    now.energy = -1.0;
+    CHECK(limit(told, 0.0, now) == 0.0);
+    CHECK(limit(told, -4.0, now) == 0.0);
+  }
+}
+
+TEST_CASE("reachable_bound with friction lets out what no reachable travel can spend",
+          "[bound][friction]") {
+  // F s − B s² − f_c s ≤ E for 0 ≤ s ≤ δ: the F of § 2(a′), plus f_c
+  sim::random_source random(17);
+  int bent = 0;
+  const auto bound = at<d1>(told);
+  for (int i = 0; i < 300; ++i) {
+    const double fc = random.uniform(0.0, 0.5);
+    const double E = std::pow(10.0, random.uniform(-8.0, -3.0));
+    const double held = random.uniform(0.0, 2.0), travel = random.uniform(-1e-4, 1e-3);
+    const situation<d1, ph::damping_and_friction> now{
+        .damping = at<d1>(ph::damping_and_friction{0.03, fc}),
+        .energy = E,
+        .held = held,
+        .travel = travel};
+    const double asked = random.uniform(0.0, 20.0);
+    const double f = allowed(bound, asked, now);
+    const double B = 30.0;
+    const double delta =
+        k::outward_reach(travel, held, asked, 5.0 + 2 * B * std::abs(travel), 0.1, 1e-3, 1e-3);
+    const auto spent = [&](double force) {
+      double most = 0.0;
+      for (int n = 0; n <= 2000; ++n) {
+        const double s = delta * n / 2000;
+        most = std::max(most, force * s - B * s * s - fc * s);
+      }
+      return most;
+    };
+    REQUIRE(f <= asked);
+    if (!(delta > 0.0)) continue;
+    REQUIRE(spent(f) <= E * (1 + 1e-12));
+    if (f < asked) {
+      ++bent;
+      REQUIRE(spent(f * 1.001 + 1e-6) > E);  // and not a thousandth more
+    }
+  }
+  CHECK(bent > 50);
+}
+
+TEST_CASE("reachable_outflow is the most that a force can hand over within its reach",
+          "[kernels]") {
+  for (const double B : {3.0, 30.0, 300.0}) {
+    for (const double f : {0.01, 1.0, 20.0}) {
+      for (const double reach : {-1e-3, 0.0, 1e-6, 1e-4, 1e-2, 1.0}) {
+        double most = 0.0;
+        for (int i = 0; i <= 10000; ++i) {
+          const double s = std::clamp(reach, 0.0, f / B) * i / 10000.0;
+          most = std::max(most, f * s - B * s * s);
+        }
+        const double said = k::reachable_outflow(f, B, reach);
+        CHECK(said >= most * (1 - 1e-12));
+        CHECK(said <= most * (1 + 1e-6));
+      }
+      CHECK(k::reachable_outflow(f, B, 1e9) == k::worst_outflow(f, B));
+      CHECK(k::reachable_outflow(-f, B, 1.0) == 0.0);
+      // What reachable_force_bound allows costs just what there is.
+      const double F = k::reachable_force_bound(1e-3, B, 1e-3);
+      CHECK(k::reachable_outflow(F, B, 1e-3) <= 1e-3);
+      CHECK_THAT(k::reachable_outflow(F, B, 1e-3), WithinRel(1e-3, 1e-9));
+    }
+  }
+}
+
+TEST_CASE("reachable_bound in a late loop pays for what is in flight", "[bound]") {
+  situation<d1, ph::isotropic_damping, 1> now{.energy = 1e-5, .travel = -1e-4};
+  const double first = -limit(told, -10.0, now);
+  CHECK(first > 0.0);
+  now.commanded = {-first, 0.0};
+  const double second = -limit(told, -10.0, now);  // the same again, `first` being on its way
+  CHECK(second < 0.5 * first);
+  SECTION("pressing costs nothing, in flight or not") {
+    now.commanded = {};
+    now.travel = 1e-3;
+    now.energy = 0.0;
+    CHECK(limit(told, -10.0, now) == -10.0);
+    now.commanded = {-10.0, 0.0};
+    CHECK(limit(told, -10.0, now) == -10.0);
+  }
+  SECTION("after a lost sample it is the strict bound with latency") {
+    now.commanded = {};
+    now.motion_known = false;
+    const double most = -limit(told, -10.0, now);
+    CHECK_THAT(most, WithinRel(std::sqrt(4 * 30 * 1e-5), 1e-9));
+    now.commanded = {-most, 0.0};
+    CHECK(-limit(told, -10.0, now) < 1e-6);
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("reachable_work_bound is reachable_bound in one degree of freedom",
+                       "[bound]", ((int Latency), Latency), 0, 1, 2, 3) {
+  sim::random_source random(29);
+  int cut = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double mass = std::pow(10.0, random.uniform(-2.0, 0.5)), hand = random.uniform(0.0, 10.0);
+    const ph::reachable_bound one{.mass = mass, .hand_force = hand};
+    const ph::reachable_work_bound<1> other{.inertia = {{mass}}, .hand = hand / std::sqrt(mass)};
+    situation<d1, ph::isotropic_damping, Latency> now{
+        .energy = random.chance(0.1) ? -1e-5 : std::pow(10.0, random.uniform(-8.0, -2.0)),
+        .dt = random.uniform(0.5e-3, 1.5e-3),
+        .held = random.uniform(-2.0, 2.0),
+        .travel = random.uniform(-2e-4, 1e-3),
+        .motion_known = random.chance(0.95)};
+    for (double& f : now.commanded) f = random.uniform(-2.0, 2.0) * std::abs(random.uniform());
+    const double desired = -20.0 * random.uniform();
+    const double f = limit(one, desired, now);
+    REQUIRE_THAT(limit(other, desired, now), WithinRel(f, 1e-9));
+    cut += f < 0.0 && f > desired ? 1 : 0;
+  }
+  CHECK(cut > 200);
+}
+
+namespace {
+
+/// A force-limited hand in a loop that is really `late` ticks late, while the model is told
+/// `Latency` and nothing but positions; the least port energy.
+template <int Latency, class Bound>
+double tapped_late(const Bound& bound, int late, std::uint64_t seed) {
+  const ph::late_loop_limits<Latency> limits{.longest_tick = 1e-3, .top_speed = 100.0};
+  auto model = following_half_space<d1>(ph::spring{}, thesis_ledger(), bound, limits);
+  sim::random_source random(seed);
+  const double K = random.uniform(500.0, 20000.0);
+  (void)model.update(wall<d1>(K));
+  sim::device<d1, sim::tapping_hand<d1>> device({.mass = 0.1, .start = -1e-3, .latency = late},
+                                                {.surface = 0.0, .normal = -1.0, .limit = 5.0});
+  double x = -1e-3;
+  for (int n = 0; n < 1500; ++n) {
+    if (n % 35 == 0) (void)model.update({random.uniform(-2e-3, 2e-3), -1.0, K});
+    x = device.exchange(model.tick(x, 1e-3).force).position;
+  }
+  return device.meter().minimum();
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG(
+    "reachable_bound loses nothing to a tapping hand in a loop as late as stated",
+    "[bound][passivity]", ((int Latency), Latency), 0, 1, 2, 3) {
+  double as_stated = 0.0, later = 0.0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    as_stated = std::min(as_stated, tapped_late<Latency>(told, Latency, seed));
+    later = std::min(later, tapped_late<Latency>(told, Latency + 1, seed));
+  }
+  CHECK(as_stated >= -1e-12);
+  CHECK(later < -1e-2);  // the control: really one tick later than stated
+}
+
+TEST_CASE("reachable_work_bound does so, too", "[bound][passivity]") {
+  const ph::reachable_work_bound<1> work{.inertia = {{0.1}}, .hand = 5.0 / std::sqrt(0.1)};
+  CHECK(tapped_late<2>(work, 2, 1) >= -1e-12);
+  CHECK(tapped_late<2>(work, 3, 1) < -1e-2);  // the control
+}
+
+namespace {
+
+/// M = diag(0.1, 1), a wall at 45° and a hand of 5 N that pushes and pulls at random, not along the
+/// wall's normal n but along M⁻¹n: the worst port energy.
+double worst_across(const auto& bound) {
+  const double T = 1e-3, b = 0.03, F = 5.0, c = std::sqrt(0.5);
+  const d2::vector m(0.1, 1.0), n(-c, -c);
+  const d2::vector hand = n.cwiseQuotient(m).normalized();
+  double worst = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const double K = seed % 2 == 0 ? 1e4 : 1e5;
+    ph::local_model model{d2{},
+                          ph::fixed{ph::half_space<d2>{{0.0, 0.0}, n, K}},
+                          ph::turn_at_once{},
+                          ph::spring{},
+                          ph::reduced_energy{.damping = b},
+                          bound,
+                          thesis_loop};
+    sim::random_source random(seed);
+    d2::vector x = d2::zero(), v = d2::zero();
+    double E = 0.0, push = -F;
+    for (int tick = 0; tick < 3000; ++tick) {
+      const d2::vector f = model.tick(x, T).force;
+      if (random.chance(0.15)) push = random.chance(0.5) || x.dot(n) > 1e-3 ? -F : F;
+      for (int i = 0; i < 2; ++i) {  // exact for a constant force, but for the damper, as in L1
+        const double rate = b / m(i), steady = (push * hand(i) + f(i)) / b, rest = v(i) - steady;
+        const double dx = steady * T - rest * std::expm1(-rate * T) / rate;
+        E += b * dx * dx / T - f(i) * dx;
+        x(i) += dx;
+        v(i) = steady + rest * std::exp(-rate * T);
+      }
+      worst = std::min(worst, E);
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("reachable_bound needs the smallest mass of all directions, not the one along the normal",
+          "[bound][passivity]") {
+  const double along_normal = 1.0 / (0.5 / 0.1 + 0.5 / 1.0);
+  CHECK(worst_across(ph::reachable_bound{.mass = along_normal, .hand_force = 5.0}) < -1e-4);
+  CHECK(worst_across(ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}) >= -1e-12);
+  // in joules the hand is measured by the mass it may find: 5 N along the lightest axis
+  const ph::reachable_work_bound<2> work{.inertia = {{0.1, 1.0}}, .hand = 5.0 / std::sqrt(0.1)};
+  CHECK(worst_across(work) >= -1e-12);
+}
+
+TEST_CASE("parameters of bounds are refused with their name", "[bound]") {
+  const double nan = std::nan("");
+  CHECK_FALSE(ph::reachable_bound{.mass = 0.1, .hand_force = 0}.check());
+  CHECK(refused(ph::reachable_bound{.hand_force = 5}) == "mass");
+  CHECK(refused(ph::reachable_bound{.mass = 1, .hand_force = -1}) == "hand_force");
+  CHECK(refused(ph::reachable_bound{.mass = 1, .hand_force = nan}) == "hand_force");
+  CHECK(refused(ph::actuator_limit{.most = nan}) == "most");
+  CHECK(refused(ph::force_rate_limit{.rate = 0}) == "rate");
+  using work = ph::reachable_work_bound<2>;
+  CHECK_FALSE(work{.inertia = {{0.1, 1.0}}, .hand = 0.0}.check());
+  CHECK(refused(work{.inertia = {{0.1, 0.0}}, .hand = 1.0}) == "masses");
+  CHECK(refused(work{.inertia = {{0.1, 1.0}}, .hand = nan}) == "hand");
+}
+
+TEST_CASE("a bad parameter of reachable_bound in a late loop is refused with its name", "[bound]") {
+  const ph::late_loop_limits<1> limits{.longest_tick = 1e-3, .top_speed = 100.0};
+  const ph::reachable_bound lighter{.mass = 0.02, .hand_force = 5.0}, none{.hand_force = 5.0};
+  auto model = following_half_space<d1>(ph::spring{}, thesis_ledger(), told, limits);
+  CHECK_FALSE(model.check());
+  check_upkeep(model, told, lighter, none);
+  CHECK(std::string(model.set(none).parameter) == "mass");
+  CHECK(std::string(model.set(ph::reachable_bound{.mass = 0.1, .hand_force = -1.0}).parameter) ==
+        "hand_force");
+}

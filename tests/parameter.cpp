@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+using ph::detail::number;
+
+template <class S>
+bool same(S a, S b) {
+  return a == b && std::signbit(a) == std::signbit(b);
+}
+
+}  // namespace
+
+TEST_CASE("a parameter that is finite and not zero is so in float, too", "[parameter]") {
+  using limits = std::numeric_limits<float>;
+  static_assert(number<float>(0.03) == 0.03F);
+  static_assert(number<float>(1e300) == limits::max());
+  static_assert(number<float>(-1e300) == -limits::max());
+  static_assert(number<float>(1e-300) == limits::min());
+  static_assert(number<float>(-1e-300) == -limits::min());
+  CHECK(number<float>(1e-40) == limits::min());  // a subnormal float would do, and be slow
+  CHECK(number<float>(double(limits::max())) == limits::max());
+  CHECK(number<float>(double(limits::min())) == limits::min());
+  CHECK(same(number<float>(0.0), 0.0F));
+  CHECK(same(number<float>(-0.0), -0.0F));
+  static_assert(static_cast<float>(1e-300) == 0.0F);  // the control: what the language does
+}
+
+TEST_CASE("a parameter that is no number, or infinite, stays what it is", "[parameter]") {
+  CHECK(std::isnan(number<float>(std::nan(""))));
+  CHECK(number<float>(infinite) == std::numeric_limits<float>::infinity());
+  CHECK(number<float>(-infinite) == -std::numeric_limits<float>::infinity());
+  CHECK(std::isnan(number<double>(std::nan(""))));
+  CHECK(number<double>(infinite) == infinite);
+}
+
+TEST_CASE("a parameter is itself in double and wider", "[parameter]") {
+  for (const double x : {0.0, 1e-300, -1e300, 0.1, 5e-324}) {
+    CHECK(same(number<double>(x), x));
+    CHECK(same(static_cast<double>(number<long double>(x)), x));
+  }
+}
+
+TEST_CASE("what check() has passed is still in its range at a port of floats", "[parameter]") {
+  const auto sound = [](const auto& part) {
+    using parameters = std::remove_cvref_t<decltype(part)>;
+    REQUIRE_FALSE(part.check());
+    return !ph::part_at<parameters, f1>(part).parameters().check();
+  };
+  for (const double x : {1e-300, 1e-45, 0.1, 1e39, 1e300}) {
+    CHECK(sound(ph::isotropic_damping{x}));
+    CHECK(sound(ph::diagonal_damping<1>{{x}}));
+    CHECK(sound(ph::damping_and_friction{x, x}));
+    CHECK(sound(ph::isotropic_inertia{x}));
+    CHECK(sound(ph::reduced_energy{.damping = x, .loan = x}));
+    CHECK(sound(ph::quantised_energy{.damping = x, .quantum = x, .window = x}));
+    CHECK(sound(ph::reachable_bound{.mass = x, .hand_force = x}));
+    CHECK(sound(ph::actuator_limit{.most = x}));
+    CHECK(sound(ph::turn_limited{.rate = x}));
+    CHECK(sound(ph::damped_spring{.mass = x, .force_limit = infinite}));
+    CHECK(sound(ph::virtual_coupling{.stiffness = x, .damping = x}));
+    CHECK(sound(ph::force_rate_limit{.rate = x}));
+    CHECK(sound(ph::mass_observer{.mass = x, .quantum = x}));
+    CHECK(sound(ph::freshness{.stale_after = x, .fade = x}));
+    CHECK(sound(ph::loop_limits{.longest_tick = x, .top_speed = x}));
+  }
+}
+
+TEST_CASE("a fault is true when there is one, and names parameter, value and remedy",
+          "[parameter]") {
+  constexpr auto fault = ph::reachable_bound{.mass = -0.5, .hand_force = 5.0}.check();
+  static_assert(fault);
+  CHECK(std::string(fault.parameter) == "mass");
+  CHECK(fault.value == -0.5);
+  CHECK(std::string(fault.remedy) == "finite and > 0 kg");
+  static_assert(!ph::reachable_bound{.mass = 0.5, .hand_force = 5.0}.check());
+  static_assert(!ph::parameter_fault{});
+}

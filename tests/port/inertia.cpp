@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+
+using Catch::Matchers::WithinRel;
+
+TEST_CASE("an inertia measures an effort by what it can accelerate", "[inertia]") {
+  const auto one = at<d3>(ph::isotropic_inertia{0.25});
+  const ph::diagonal_inertia<3> three{{0.25, 1.0, 4.0}};
+  const auto own = at<d3>(three);
+  const auto alike = at<d3>(ph::diagonal_inertia<3>{{0.25, 0.25, 0.25}});
+  const d3::vector f(1, 2, 2);
+  CHECK_THAT(one.norm(f), WithinRel(6.0, 1e-12));  // |f|/√m
+  CHECK_THAT(alike.norm(f), WithinRel(6.0, 1e-12));
+  CHECK_THAT(own.norm(f), WithinRel(3.0, 1e-12));  // √(4 + 4 + 1)
+  CHECK(one.norm(d3::zero()) == 0.0);
+  CHECK(at<ph::joint_space<double, 3>>(three).norm(f) == own.norm(f));
+  CHECK(at<f1>(ph::isotropic_inertia{0.25}).norm(-3.0F) == 6.0F);
+}
+
+TEST_CASE("an inertia is refused with its name, and gives its parameters back", "[inertia]") {
+  const auto refused = [](const auto& inertia) {
+    const auto fault = inertia.check();
+    return std::string(fault ? fault.parameter : "");
+  };
+  CHECK(refused(ph::isotropic_inertia{0.1}).empty());
+  CHECK(refused(ph::diagonal_inertia<2>{{0.1, 0.2}}).empty());
+  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    CHECK(refused(ph::isotropic_inertia{bad}) == "mass");
+    CHECK(refused(ph::diagonal_inertia<2>{{0.1, bad}}) == "masses");
+  }
+  CHECK(at<f1>(ph::isotropic_inertia{0.25}).parameters().mass == 0.25);
+  CHECK(at<f2>(ph::diagonal_inertia<2>{{0.25, 0.5}}).parameters().masses[1] == 0.5);
+}
+
+TEST_CASE("M₁₁ − |M₁₂| on the diagonal is nowhere above a coupled inertia, its own diagonal is",
+          "[inertia]") {
+  Eigen::Matrix2d M;
+  M << 0.2, 0.08, 0.08, 0.15;
+  const auto below = at<d2>(ph::diagonal_inertia<2>{{0.12, 0.07}});
+  const auto diagonal = at<d2>(ph::diagonal_inertia<2>{{0.2, 0.15}});
+  bool above = false;
+  for (int i = 0; i < 360; ++i) {
+    const double angle = 0.01745329251994 * i;
+    const d2::vector f(std::cos(angle), std::sin(angle));
+    const double det = M(0, 0) * M(1, 1) - M(0, 1) * M(1, 0);
+    const double square =
+        (M(1, 1) * f(0) * f(0) - 2 * M(0, 1) * f(0) * f(1) + M(0, 0) * f(1) * f(1)) / det;
+    CHECK(below.norm(f) >= std::sqrt(square));  // never says that it accelerates less than it does
+    above = above || diagonal.norm(f) < std::sqrt(square);
+  }
+  CHECK(above);
+}

@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Nothing of its own: it is what precompiled.hpp is compiled for.
