@@ -25,8 +25,7 @@ constexpr bool obeyed_in_one_dimension() {
          obeys<normals, S>(ph::turn_at_once{}, ph::turn_limited{50.0}) &&
          obeys<contact_law, S>(ph::spring{}, ph::damped_spring{.mass = 0.1}, ph::virtual_coupling{},
                                ph::virtual_coupling{.stiffness = 2000.0, .damping = 0.02}) &&
-         obeys<constraint, S>(ph::half_space<S>{0.5F, -3.0F, 100.0F}) &&
-         laws::turns_at_most<S>(ph::turn_limited{50.0}, 50) &&
+         obeys<constraint, S>(wall<S>(100)) && laws::turns_at_most<S>(ph::turn_limited{50.0}, 50) &&
          laws::turns_at_most<S>(ph::turn_at_once{}, 3200) &&
          laws::keeps_the_newest<S>(ph::followed<ph::half_space<S>>{}, wall<S>(100));
 }

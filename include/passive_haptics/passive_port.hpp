@@ -64,6 +64,9 @@ class passive_port {
   static_assert(Observer::counts || !Bound::traits.needs_ledger,
                 "passive_haptics: this bound spends energy that no_observer does not count: "
                 "use reduced_energy");
+  static_assert(Observer::counts || !detail::spends_ledger<source_type>(),
+                "passive_haptics: this shaper spends energy that no_observer does not count: "
+                "use reduced_energy");
   static_assert(
       Observer::exact || !assumptions_of<Bound>().exact_travel,
       "passive_haptics: this bound reads the motion itself and takes it as exact, and this "

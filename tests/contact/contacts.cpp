@@ -197,3 +197,17 @@ TEST_CASE("contacts share one bad sample: each grows older, and none presses", "
   CHECK(out.what == ph::event::stale_target);
   CHECK_THAT(out.force, WithinRel(-1.0, 1e-12));
 }
+
+TEST_CASE("parameters of one contact among contacts change while it runs, checked", "[contacts]") {
+  ph::passive_port port{
+      d1{},
+      ph::contacts{
+          ph::local_contact{ph::followed{wall<d1>(1000)}, ph::turn_at_once{}, ph::spring{}},
+          ph::local_contact{ph::followed{wall<d1>(1000)}, ph::turn_limited{.rate = 4.0},
+                            ph::damped_spring{.mass = 0.1}}},
+      thesis_ledger(), ph::strict_bound{}, thesis_loop};
+  CHECK_FALSE(port.set(ph::damped_spring{.mass = 0.2}));
+  CHECK(port.source().contact<1>().law().parameters().mass == 0.2);
+  CHECK(std::string(port.set(ph::damped_spring{.mass = -1.0}).parameter) == "mass");
+  CHECK(port.source().contact<1>().law().parameters().mass == 0.2);  // a fault changes nothing
+}

@@ -63,6 +63,7 @@ class contacts<Sources...>::on {
   using vector = typename Space::vector;
   using result_type = tick_result<Space>;
   static constexpr bool asks_for_numbers = false;  // a sum may not be one
+  static constexpr bool needs_ledger = (detail::spends_ledger<part_at<Sources, Space>>() || ...);
   static_assert((source_for<Sources, Space> && ...),
                 "passive_haptics: the source does not model source_for: see concepts.hpp");
 
@@ -94,6 +95,13 @@ class contacts<Sources...>::on {
     for_each(*this, [](auto& source) { detail::restart(source); });
   }
 
+  template <class Parameters>
+  static constexpr int takers = (detail::takers<Parameters, Sources, Space> + ... + 0);
+  template <class Parameters>
+  constexpr void take(const Parameters& p) noexcept {
+    hand_over(p, all{});
+  }
+
   struct request {
     vector wanted;  ///< the sum [N]
     bool nothing = true;
@@ -117,6 +125,15 @@ class contacts<Sources...>::on {
   constexpr on(const contacts& p, std::index_sequence<I...>) noexcept
       : sources_{{part_at<Sources, Space>(detail::get<I>(p.sources))}...} {}
 
+  template <class Parameters, std::size_t... I>
+  constexpr void hand_over(const Parameters& p, std::index_sequence<I...>) noexcept {
+    const auto one = [&p]<class Source>(part_at<Source, Space>& part) {
+      if constexpr (detail::takers<Parameters, Source, Space> == 1) {
+        detail::take<Source, Space>(part, p);
+      }
+    };
+    (one.template operator()<Sources>(detail::get<I>(sources_)), ...);
+  }
   template <class Self, class Act, std::size_t... I>
   static constexpr void visit(Self& self, Act act, std::index_sequence<I...>) noexcept {
     (act(detail::get<I>(self.sources_)), ...);

@@ -51,6 +51,7 @@ class local_contact {
   using result_type = tick_result<Space>;
   using supply_type = Supply;
   static constexpr bool asks_for_numbers = true;
+  static constexpr bool needs_ledger = detail::spends_ledger<Law>();  ///< a shaper of it does
 
   static_assert(constraint_for<constraint_type, Space>,
                 "passive_haptics: the constraint does not model constraint_for: see concepts.hpp");

@@ -11,6 +11,13 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
+/// Does a source or a law spend what an observer must have counted?
+template <class Part>
+[[nodiscard]] constexpr bool spends_ledger() noexcept {
+  if constexpr (requires { Part::needs_ledger; }) return Part::needs_ledger;
+  return false;
+}
+
 /// Is none of them a shaper?
 template <class... Bounds>
 [[nodiscard]] constexpr bool are_bounds() noexcept {

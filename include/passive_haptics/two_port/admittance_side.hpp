@@ -165,7 +165,7 @@ class admittance_side {
   /// E1 covers. Rounding errors are on the safe side.
   [[nodiscard]] constexpr vector affordable(const vector& wanted,
                                             const vector& force) const noexcept {
-    constexpr scalar rounding = scalar(8) * std::numeric_limits<scalar>::epsilon();
+    const scalar rounding = scalar(8) * std::numeric_limits<scalar>::epsilon();
     const scalar credit = kernels::larger(value(), scalar(0));
     const scalar asked = -Space::dot(force, wanted);
     vector moved = wanted;
