@@ -72,6 +72,36 @@ TEST_CASE("a runner ends by itself when the device is unplugged", "[falcon][thre
   CHECK(news->reading.where == state::fault);
 }
 
+TEST_CASE("a runner that an unplug has ended says so at start(), and starts once it is back",
+          "[falcon][threads]") {
+  grip device{k, short_ramp};
+  begin(device);
+  auto& peer = device.line().peer();
+  peer.unplug_after = peer.calls + 100;
+  std::atomic<long> calls{0};
+  falcon::runner touch{device,
+                       [&calls](const auto&) {
+                         ++calls;
+                         return d3::vector(0, 0, 1);
+                       },
+                       quick};
+  REQUIRE(touch.start());
+  CHECK(touch.start());  // the control: it runs, so there is nothing to do
+  while (touch.running()) std::this_thread::yield();
+  CHECK(touch.start().what == code::unplugged);
+  CHECK_FALSE(touch.running());
+  peer.unplug_after = -1;
+  peer.plugged = true;
+  begin(device);
+  const long before = calls;
+  REQUIRE(touch.start());
+  CHECK(touch.running());
+  while (touch.running() && calls == before) std::this_thread::yield();
+  CHECK(calls > before);
+  touch.stop();
+  CHECK(device.where() != state::fault);
+}
+
 TEST_CASE("a runner counts ticks that are late", "[falcon][threads]") {
   grip device{k, short_ramp};
   begin(device);

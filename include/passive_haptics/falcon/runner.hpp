@@ -49,8 +49,13 @@ class runner {
   runner& operator=(const runner&) = delete;
   ~runner() { stop(); }
 
+  /// Does nothing while it runs. After an unplug: unplugged, until the device is open again.
   result start() noexcept {
-    if (thread_.joinable()) return {};
+    if (thread_.joinable()) {
+      if (running_) return {};
+      thread_.join();  // it has ended by itself
+    }
+    if (device_.latest().what == code::unplugged) return {code::unplugged};
     stop_ = false;
     running_ = true;
     try {
