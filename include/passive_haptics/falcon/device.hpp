@@ -115,7 +115,8 @@ requires(Space::dof == 3) class device {
     now_.stamp = answer.stamp;
     now_.counts = link_.counts();
     now_.lines = line_.lines();
-    const code why = answer.how ? look(answer.packet) : miss(answer.how);
+    code why = answer.how ? look(answer.packet) : miss(answer.how);
+    if (why == code::ok && !(dt > scalar(0))) why = code::clock_backwards;
     if (now_.where != state::fault) now_.what = why;
     if (why != code::ok) {
       lose_position();
@@ -247,7 +248,7 @@ requires(Space::dof == 3) class device {
   }
 
   void climb(scalar dt) noexcept {
-    const scalar step = kernels::smaller(dt, setup_.tick) / setup_.ramp;
+    const scalar step = kernels::larger(scalar(0), kernels::smaller(dt, setup_.tick)) / setup_.ramp;
     now_.strength = kernels::smaller(scalar(1), now_.strength + step);
   }
 

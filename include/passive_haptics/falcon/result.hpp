@@ -47,6 +47,7 @@ enum class code : std::uint8_t {
   log_unreadable,    ///< line `value` of a recording is not one
   log_unwritable,    ///< the file of a recording cannot be written
   no_thread,         ///< the system gave none
+  clock_backwards,   ///< no time has passed since the question before, or less than none
   log_full,          ///< the recorder's memory is full, the rest was not recorded
 };
 
@@ -115,6 +116,8 @@ enum class code : std::uint8_t {
       return "the recording cannot be written";
     case code::no_thread:
       return "the system gave no thread";
+    case code::clock_backwards:
+      return "the transport's clock stood still or stepped back";
     case code::log_full:
       return "the recording is full";
   }
@@ -160,6 +163,8 @@ enum class code : std::uint8_t {
       return "recover(), or close() and open() again";
     case code::bad_setting:
       return "see check()";
+    case code::clock_backwards:
+      return "give the transport a steady clock";
     case code::log_full:
       return "give the recorder more rows";
     case code::ok:

@@ -29,7 +29,8 @@ struct [[nodiscard]] transfer {
 /// control() sends a request to the chip. write() sends all bytes or fails. read() returns the bytes
 /// that came, at least one, the chip's status bytes taken out; with nothing until the deadline it is
 /// a timeout, and a deadline that is not later than now() takes only what is there. lines() is the
-/// status that came last. None of them throws; after open() none allocates.
+/// status that came last. now() is steady: a sample before which it has not gone forward is refused.
+/// None of them throws; after open() none allocates.
 template <class T>
 concept transport = requires(T t, const T c, request r, std::uint16_t value,
                              std::span<const byte> out, std::span<byte> in, nanoseconds deadline) {
