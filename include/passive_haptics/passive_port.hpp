@@ -234,7 +234,7 @@ class passive_port {
   [[nodiscard, gnu::always_inline]] constexpr detail::bounded<P> bounded(const effort& wanted,
                                                                          const state_type& state,
                                                                          event& what) noexcept {
-    const auto allowed = detail::applied<P>(bound_, wanted, state);
+    auto allowed = detail::applied<P>(bound_, wanted, state);
     if constexpr (!always_numbers) {
       if (!P::is_finite(allowed.force)) [[unlikely]] {
         what = worse(what, event::rejected_sample);
