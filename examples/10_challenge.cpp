@@ -28,13 +28,14 @@ struct trusting_bound {
 };
 
 auto wall_with(const auto& bound) {
-  return ph::local_model{scene{},
-                         ph::followed<ph::half_space<scene>>{},
-                         ph::turn_at_once{},
-                         ph::spring{},
-                         ph::reduced_energy{.damping = 0.03},
-                         bound,
-                         ph::loop_limits{.longest_tick = 1e-3}};
+  return ph::local_model{
+      scene{},
+      ph::followed<ph::half_space<scene>>{},
+      ph::turn_at_once{},
+      ph::spring{},
+      ph::reduced_energy{.damping = 0.03},
+      bound,
+      ph::loop_limits{.longest_tick = 1e-3, .watchdog = 1e-3}};  // the driver drops a force then
 }
 
 void tell(const sim::verdict& v) {

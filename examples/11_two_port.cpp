@@ -20,9 +20,10 @@ constexpr auto stored_at = [](double tool) { return force_at(tool) * -tool / 2; 
 
 void press(bool controlled) {
   std::puts(controlled ? "two-port, lent 0.0010 J:" : "bare:");
-  ph::impedance_side hand_end{scene{}, ph::two_port_energy{.damping = 1.0, .share = 0.5},
-                              ph::strict_bound{},
-                              ph::loop_limits{.longest_tick = T, .top_speed = 100.0}};
+  ph::impedance_side hand_end{
+      scene{}, ph::two_port_energy{.damping = 1.0, .share = 0.5}, ph::strict_bound{},
+      ph::loop_limits{
+          .longest_tick = T, .top_speed = 100.0, .workspace = 10.0}};  // `bare` goes far
   ph::admittance_side<scene> tool_end{{.stiffness = K, .drift_rate = 20.0, .loan = loan}};
   sim::channel<packet> up({.delay = 0.025, .loss = 0.1}, 1), down({.delay = 0.025, .loss = 0.1}, 2);
   sim::device<scene, sim::impedance_hand<scene>> device({.damping = 1.0},

@@ -49,8 +49,8 @@ TEST_CASE("parts without state cost no bytes", "[local_model][compile-time]") {
       decltype(ph::local_model{d1{}, ph::fixed{wall<d1>(1)}, ph::turn_at_once{}, ph::spring{},
                                ph::no_observer{}, ph::actuator_limit{}, thesis_loop});
   static_assert(sizeof(strict) == sizeof(bare) + sizeof(double));
-  // plane 3, spring 1, limits 2, force, position, blind time, and the flags
-  static_assert(sizeof(bare) == sizeof(double) * (3 + 1 + 2 + 1 + 1 + 1) + sizeof(double));
+  // plane 3, spring 1, limits 4, force, position, blind time, and the flags
+  static_assert(sizeof(bare) == sizeof(double) * (3 + 1 + 4 + 1 + 1 + 1) + sizeof(double));
   SUCCEED();
 }
 

@@ -27,15 +27,15 @@ static inline void half_space_reachable_start(struct half_space_reachable* w,
 }
 
 __attribute__((cold, noinline)) static struct answer3 half_space_reachable_refuse(
-    struct half_space_reachable* w, real dt) {
-  const real T = w->loop.longest_tick;
+    struct half_space_reachable* w, real dt, uint8_t what) {
+  const real lost = time_lost(dt, w->loop.longest_tick);
   struct device3* d = &w->device;
-  uint8_t what = rejected_parameters;
   if (d->sound) {
-    w->ledger.energy = written_off(&w->ledger, square3(d->held), T);
-    what = rejected_sample;
+    w->ledger.energy = written_off(&w->ledger, square3(d->held), held_for(&w->loop, lost));
+  } else {
+    what = rejected_parameters;
   }
-  d->blind += time_lost(dt, T);
+  d->blind += lost;
   d->held.x = d->held.y = d->held.z = 0;
   return no_force3(w->ledger.energy, what);
 }
@@ -50,17 +50,20 @@ __attribute__((flatten)) static inline struct answer3 half_space_reachable_tick(
   const real square = square3(travel);
   if (!d->sound ||
       !(d->seen ? near_enough(&w->loop, d->blind, square, dt) : positive(dt) && finite3(x))) {
-    return half_space_reachable_refuse(w, dt);
+    return half_space_reachable_refuse(w, dt, rejected_sample);
   }
+  if (!within(&w->loop, square3(x))) return half_space_reachable_refuse(w, dt, outside_workspace);
   const bool known = d->seen && !(d->blind > 0);
   if (known) {
     const real work = dot3(d->held, travel), passed = passed3(d->held, travel);
-    const bool booked = dt > T ? book_late(l, square, work, passed, square3(d->held), dt, T)
-                               : book(l, square, work, passed, dt);
-    if (!booked) return half_space_reachable_refuse(w, dt);
+    const bool booked =
+        dt > w->loop.watchdog
+            ? book_cut_short(l, square, work, passed, square3(d->held), dt, w->loop.watchdog)
+            : book(l, square, work, passed, dt);
+    if (!booked) return half_space_reachable_refuse(w, dt, rejected_sample);
   } else {
     travel = sub3(x, x);
-    l->energy = written_off(l, square3(d->held), T);
+    l->energy = written_off(l, square3(d->held), held_for(&w->loop, dt));
     d->seen = true;
     d->blind = 0;
   }

@@ -9,6 +9,7 @@ enum what { /* rising severity, as passive_haptics::event */
             no_target,
             rejected_target,
             stale_target,
+            outside_workspace,
             rejected_sample,
             rejected_parameters
 };
@@ -37,7 +38,7 @@ static inline real sum_rounded_down(real a, real b) {
 }
 
 struct loop {
-  real longest_tick, top_speed;
+  real longest_tick, top_speed, workspace, watchdog;
 };
 
 /* Is the sample no farther from the last good one than the device can have gone? NaN is not. */
@@ -47,6 +48,13 @@ static inline bool near_enough(const struct loop* l, real blind, real travel_squ
 }
 static inline bool positive(real dt) {
   return dt > 0 && dt <= real_max;
+}
+static inline bool within(const struct loop* l, real distance_squared) {
+  return distance_squared <= l->workspace * l->workspace;
+}
+/* How long a force may have been held in a tick that took dt. */
+static inline real held_for(const struct loop* l, real dt) {
+  return smaller(larger(dt, l->longest_tick), l->watchdog);
 }
 
 /* E1 += dx'(b/dt)dx - f_held'dx. */
@@ -75,11 +83,12 @@ static inline bool book(struct ledger* l, real travel_squared, real work, real p
   return true;
 }
 
-/* A late tick counts as the worse of two stories: held to its end, or dropped on the way. */
-__attribute__((cold, noinline)) static bool book_late(struct ledger* l, real travel_squared,
-                                                      real work, real passed, real held_squared,
-                                                      real dt, real T) {
-  const real dropped = written_off(l, held_squared, T);
+/* Longer than the watchdog waits: the worse of two stories, held to its end, or dropped on the way. */
+__attribute__((cold, noinline)) static bool book_cut_short(struct ledger* l, real travel_squared,
+                                                           real work, real passed,
+                                                           real held_squared, real dt,
+                                                           real watchdog) {
+  const real dropped = written_off(l, held_squared, watchdog);
   if (!book(l, travel_squared, work, passed, dt)) return false;
   l->energy = smaller(l->energy, dropped);
   return true;

@@ -37,16 +37,16 @@ static inline bool plane_strict_update(struct plane_strict* w, const struct plan
 }
 
 __attribute__((cold, noinline)) static struct answer2 plane_strict_refuse(struct plane_strict* w,
-                                                                          real dt) {
-  const real T = w->loop.longest_tick;
+                                                                          real dt, uint8_t what) {
+  const real lost = time_lost(dt, w->loop.longest_tick);
   struct device2* d = &w->device;
-  uint8_t what = rejected_parameters;
   if (d->sound) {
-    w->ledger.energy = written_off(&w->ledger, dot2(d->held, d->held), T);
-    what = rejected_sample;
+    w->ledger.energy = written_off(&w->ledger, dot2(d->held, d->held), held_for(&w->loop, lost));
+  } else {
+    what = rejected_parameters;
   }
-  d->blind += time_lost(dt, T);
-  w->news.age += time_lost(dt, T);
+  d->blind += lost;
+  w->news.age += lost;
   d->held.x = d->held.y = 0;
   return no_force2(w->ledger.energy, what);
 }
@@ -62,15 +62,18 @@ __attribute__((flatten)) static inline struct answer2 plane_strict_tick(struct p
   const real square = dot2(travel, travel);
   if (!d->sound ||
       !(d->seen ? near_enough(&w->loop, d->blind, square, dt) : positive(dt) && finite2(x))) {
-    return plane_strict_refuse(w, dt);
+    return plane_strict_refuse(w, dt, rejected_sample);
   }
+  if (!within(&w->loop, dot2(x, x))) return plane_strict_refuse(w, dt, outside_workspace);
   if (d->seen && !(d->blind > 0)) {
     const real work = dot2(d->held, travel), passed = passed2(d->held, travel);
-    const bool booked = dt > T ? book_late(l, square, work, passed, dot2(d->held, d->held), dt, T)
-                               : book(l, square, work, passed, dt);
-    if (!booked) return plane_strict_refuse(w, dt);
+    const bool booked =
+        dt > w->loop.watchdog
+            ? book_cut_short(l, square, work, passed, dot2(d->held, d->held), dt, w->loop.watchdog)
+            : book(l, square, work, passed, dt);
+    if (!booked) return plane_strict_refuse(w, dt, rejected_sample);
   } else {
-    l->energy = written_off(l, dot2(d->held, d->held), T);
+    l->energy = written_off(l, dot2(d->held, d->held), held_for(&w->loop, dt));
     d->seen = true;
     d->blind = 0;
   }

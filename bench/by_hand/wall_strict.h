@@ -19,15 +19,15 @@ static inline void wall_strict_start(struct wall_strict* w, struct plane1 wall, 
 
 /* A sample that cannot be: no force, and the motion since the last good one is written off. */
 __attribute__((cold, noinline)) static struct answer1 wall_strict_refuse(struct wall_strict* w,
-                                                                         real dt) {
-  const real T = w->loop.longest_tick;
+                                                                         real dt, uint8_t what) {
+  const real lost = time_lost(dt, w->loop.longest_tick);
   struct device1* d = &w->device;
-  uint8_t what = rejected_parameters;
   if (d->sound) {
-    w->ledger.energy = written_off(&w->ledger, d->held * d->held, T);
-    what = rejected_sample;
+    w->ledger.energy = written_off(&w->ledger, d->held * d->held, held_for(&w->loop, lost));
+  } else {
+    what = rejected_parameters;
   }
-  d->blind += time_lost(dt, T);
+  d->blind += lost;
   d->held = 0;
   return reply1(0, 0, w->ledger.energy, what, false);
 }
@@ -41,16 +41,18 @@ __attribute__((flatten)) static inline struct answer1 wall_strict_tick(struct wa
   const real square = travel * travel;
   if (!d->sound ||
       !(d->seen ? near_enough(&w->loop, d->blind, square, dt) : positive(dt) && finite_number(x))) {
-    return wall_strict_refuse(w, dt);
+    return wall_strict_refuse(w, dt, rejected_sample);
   }
+  if (!within(&w->loop, x * x)) return wall_strict_refuse(w, dt, outside_workspace);
   if (d->seen && !(d->blind > 0)) {
     const real work = d->held * travel;
-    const bool booked = dt > T
-                            ? book_late(l, square, work, magnitude(work), d->held * d->held, dt, T)
+    const bool booked = dt > w->loop.watchdog
+                            ? book_cut_short(l, square, work, magnitude(work), d->held * d->held,
+                                             dt, w->loop.watchdog)
                             : book(l, square, work, magnitude(work), dt);
-    if (!booked) return wall_strict_refuse(w, dt);
+    if (!booked) return wall_strict_refuse(w, dt, rejected_sample);
   } else {
-    l->energy = written_off(l, d->held * d->held, T);
+    l->energy = written_off(l, d->held * d->held, held_for(&w->loop, dt));
     d->seen = true;
     d->blind = 0;
   }

@@ -42,15 +42,17 @@ inline ph::reachable_bound reachable(const premises& p) {
 /// wall is faster than any hand.
 template <class Space, int Latency = 0, class... Parts>
 auto touch(const premises& p, const parts<Parts...>& with) {
-  return ph::local_model{
-      Space{},
-      ph::followed<ph::half_space<Space>>{},
-      ph::turn_at_once{},
-      with.law,
-      with.observer,
-      with.bound,
-      ph::late_loop_limits<Latency>{.longest_tick = p.longest_tick, .top_speed = 100.0},
-      with.motion};
+  return ph::local_model{Space{},
+                         ph::followed<ph::half_space<Space>>{},
+                         ph::turn_at_once{},
+                         with.law,
+                         with.observer,
+                         with.bound,
+                         ph::late_loop_limits<Latency>{.longest_tick = p.longest_tick,
+                                                       .top_speed = 100.0,
+                                                       .workspace = ph::loop_limits::never,
+                                                       .watchdog = p.longest_tick},
+                         with.motion};
 }
 
 template <int Dofs, int Latency = 0, class Make>

@@ -21,7 +21,7 @@ namespace ph = passive_haptics;
 /// What can be set at run time; SI units.
 struct settings {
   double damping = 0.03, loan = 0;
-  double longest_tick = 1e-3, top_speed = 100;
+  double longest_tick = 1e-3, top_speed = 100, workspace = 2, watchdog = 1e-3;
   double stiffness = 1000;
   double mass = 0.1, hand_force = 5, force_limit = 9;
   double rate = 4, stale_after = 1e30, fade = 0.05;
@@ -85,11 +85,15 @@ template <class Scalar>
   return {.damping = s.damping, .loan = s.loan};
 }
 [[nodiscard]] inline ph::loop_limits limits(const settings& s) {
-  return {.longest_tick = s.longest_tick, .top_speed = s.top_speed};
+  return {.longest_tick = s.longest_tick,
+          .top_speed = s.top_speed,
+          .workspace = s.workspace,
+          .watchdog = s.watchdog};
 }
 template <class Scalar>
 [[nodiscard]] typename hand<Scalar>::loop loop(const settings& s) {
-  return {in<Scalar>(s.longest_tick), in<Scalar>(s.top_speed)};
+  return {in<Scalar>(s.longest_tick), in<Scalar>(s.top_speed), in<Scalar>(s.workspace),
+          in<Scalar>(s.watchdog)};
 }
 /// The side written by hand checks no parameters: it is told whether they are good, and of a loan.
 template <class State, class Model>

@@ -48,13 +48,14 @@ constexpr double turn_rate = 4.0;  // [rad/s]
 
 template <class Space, class Bound>
 auto on_triangle(const Bound& bound) {
-  return ph::local_model{Space{},
-                         ph::followed<ph::triangle<Space>>{},
-                         ph::turn_limited{.rate = turn_rate},
-                         ph::spring{},
-                         ph::reduced_energy{.damping = 0.03},
-                         bound,
-                         ph::loop_limits{.longest_tick = 1e-3, .top_speed = 100.0}};
+  return ph::local_model{
+      Space{},
+      ph::followed<ph::triangle<Space>>{},
+      ph::turn_limited{.rate = turn_rate},
+      ph::spring{},
+      ph::reduced_energy{.damping = 0.03},
+      bound,
+      ph::loop_limits{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3}};
 }
 
 template <class Space>

@@ -93,7 +93,7 @@ std::vector<soak_row> run(const char* name, motion kind, int ticks, const Observ
                         ph::spring{},
                         observer,
                         ph::strict_bound{},
-                        ph::loop_limits{.longest_tick = T, .top_speed = 100.0}};
+                        ph::loop_limits{.longest_tick = T, .top_speed = 100.0, .watchdog = T}};
   sim::prescribed_motion<Space> device({.damping = b, .period = T});
   hand h(kind);
   soak_row row{.ledger = name,

@@ -20,13 +20,14 @@ struct wall_controller {
 /// a bound does to the device.
 template <class Law, class Observer, class Bound>
 auto wall_model(const Law& law, const Observer& observer, const Bound& bound) {
-  return ph::local_model{line{},
-                         ph::followed<ph::half_space<line>>{},
-                         ph::turn_at_once{},
-                         law,
-                         observer,
-                         bound,
-                         ph::loop_limits{.longest_tick = 1e-3, .top_speed = 100.0}};
+  return ph::local_model{
+      line{},
+      ph::followed<ph::half_space<line>>{},
+      ph::turn_at_once{},
+      law,
+      observer,
+      bound,
+      ph::loop_limits{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3}};
 }
 
 /// Passive and settled (docs/design/mathematics.md § 9): the composition of the sweep.

@@ -17,6 +17,7 @@ enum class event : std::uint8_t {
   no_target,        ///< the environment has published nothing yet: force zero
   rejected_target,  ///< the published constraint is unusable: the last good one stays
   stale_target,     ///< no good constraint for too long: the contact is fading out
+  outside_workspace,  ///< farther away than loop_limits::workspace; millimetres for metres? Force zero
   rejected_sample,  ///< NaN, infinity, dt ≤ 0, an impossible jump: force zero, credit forfeited
   rejected_parameters,  ///< check() names the fault: force zero for ever
 };
@@ -38,6 +39,8 @@ enum class event : std::uint8_t {
       return "stale target";
     case event::rejected_target:
       return "rejected target";
+    case event::outside_workspace:
+      return "outside workspace";
     case event::rejected_sample:
       return "rejected sample";
     case event::rejected_parameters:

@@ -75,8 +75,9 @@ class passive_port {
                 "passive_haptics: this bound is not proved for a loop that is so late: "
                 "use strict_bound or reachable_bound");
 
-  /// The weaker of what counts and what bounds.
-  static constexpr guarantee passivity = (std::min)(Observer::passivity, promise_of<Bound, P>());
+  /// The weakest of what counts, what bounds, and what the loop is known by.
+  static constexpr guarantee passivity =
+      (std::min)({Observer::passivity, promise_of<Bound, P>(), Limits::passivity});
 
   constexpr passive_port() noexcept
       : passive_port(P{}, Source{}, Observer{}, Bound{}, Limits{}, Motion{}) {}
@@ -187,14 +188,18 @@ class passive_port {
     if (!guard_.believes(position, travel, dt, limits_.top_speed)) [[unlikely]] {
       return refuse(event::rejected_sample, dt);
     }
+    if (!within_workspace(position)) [[unlikely]] {
+      return refuse(event::outside_workspace, dt);
+    }
     const bool known = guard_.knows_motion();
     if (!known) [[unlikely]] {
-      travel = resume(held);
+      travel = resume(held, dt);
     } else if (!book(travel, held, dt)) [[unlikely]] {
       return refuse(event::rejected_sample, dt);
     }
     guard_.move_to(position);
     event what = seen(travel, dt);
+    if constexpr (Limits::traits.learns) limits_.longest_tick = limits_.held_for(dt);
     const state_type state{.damping = observer_.damping(),
                            .commanded = guard_.commanded(),
                            .energy = observer_.value(),
@@ -217,10 +222,19 @@ class passive_port {
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
   }
 
+  /// A position in other units than the model's is soon far away. Joints may turn as often as they like.
+  [[nodiscard, gnu::always_inline]] constexpr bool within_workspace(
+      const pose& position) const noexcept {
+    if constexpr (requires { typename P::geometry; }) {
+      return P::squared(position) <= limits_.workspace * limits_.workspace;
+    } else {
+      return true;
+    }
+  }
   /// Nobody knows what moved since the last good sample, so it counts as the worst; returns no motion.
-  [[nodiscard, gnu::always_inline]] constexpr motion resume(
-      const typename P::stored_effort& held) noexcept {
-    observer_.forfeit(held, limits_.longest_tick);
+  [[nodiscard, gnu::always_inline]] constexpr motion resume(const typename P::stored_effort& held,
+                                                            scalar dt) noexcept {
+    observer_.forfeit(held, limits_.held_for(dt));
     guard_.see_again();
     return P::zero();
   }
@@ -248,18 +262,22 @@ class passive_port {
   [[nodiscard, gnu::always_inline]] constexpr bool book(const motion& travel,
                                                         const typename P::stored_effort& held,
                                                         scalar dt) noexcept {
-    if (dt > limits_.longest_tick) return book_late(travel, held, dt);
+    if (dt > limits_.watchdog) return book_cut_short(travel, held, dt);
     return observer_.update(travel, held, dt);
   }
-  /// A late tick may have let a watchdog drop the force part of the way, or not: it counts as the
-  /// worse of the two. Vectors by value, so that the ordinary tick keeps its own in registers.
-  [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_late(typename P::stored_pose travel,
-                                                                   typename P::stored_effort held,
-                                                                   scalar dt) noexcept {
+  /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of
+  /// the two, and what only one of them covers, a ledger that is more than a number forgets. Vectors by
+  /// value, so that the ordinary tick keeps its own in registers.
+  [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_cut_short(
+      typename P::stored_pose travel, typename P::stored_effort held, scalar dt) noexcept {
     observer_type dropped = observer_;
-    dropped.forfeit(held, limits_.longest_tick);
+    dropped.forfeit(held, limits_.watchdog);
     if (!observer_.update(travel, held, dt)) return false;
-    if (dropped.value() < observer_.value()) observer_ = dropped;
+    if (dropped.value() < observer_.value()) {
+      observer_ = dropped;
+    } else {
+      observer_.forfeit(P::zero(), limits_.watchdog);
+    }
     return true;
   }
 
@@ -273,9 +291,9 @@ class passive_port {
 
   /// No effort; the motion since the last good sample is unknown and written off.
   [[gnu::cold, gnu::noinline]] constexpr result_type refuse(event why, scalar dt) noexcept {
-    if (sound_) observer_.forfeit(guard_.commanded().back(), limits_.longest_tick);
     const bool lasted = dt > scalar(0) && kernels::is_finite(dt);
     const scalar passed = lasted ? dt : limits_.longest_tick;
+    if (sound_) observer_.forfeit(guard_.commanded().back(), limits_.held_for(passed));
     guard_.lose_sight(passed);
     guard_.command(P::zero());
     return source_.refused({P::zero(), observer_.value(), why, false}, passed);
@@ -294,7 +312,7 @@ class passive_port {
   limits_type limits_;
   [[no_unique_address]] part_at<Motion, P> motion_;
   [[no_unique_address]] guard<P, latency> guard_;
-  [[no_unique_address]] sensor_watch<P, Limits::watched> watch_;
+  [[no_unique_address]] sensor_watch<P, Limits::traits.watched> watch_;
   bool sound_ = true;  ///< are the parameters good?
 };
 

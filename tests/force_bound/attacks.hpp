@@ -204,7 +204,8 @@ auto model_of(const Bound& bound, const Limits& limits = thesis_loop, const Law&
 }
 template <class Space, class Bound>
 double least_of(const Bound& bound, const conditions& when = {}, int seeds = 20) {
-  const ph::loop_limits limits{.longest_tick = when.longest_tick, .top_speed = 100.0};
+  const ph::loop_limits limits{
+      .longest_tick = when.longest_tick, .top_speed = 100.0, .watchdog = when.longest_tick};
   return worst_of<Space>(model_of<Space>(bound, limits), when, seeds).least;
 }
 

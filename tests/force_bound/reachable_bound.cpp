@@ -177,7 +177,8 @@ namespace {
 /// `Latency` and nothing but positions; the least port energy.
 template <int Latency, class Bound>
 double tapped_late(const Bound& bound, int late, std::uint64_t seed) {
-  const ph::late_loop_limits<Latency> limits{.longest_tick = 1e-3, .top_speed = 100.0};
+  const ph::late_loop_limits<Latency> limits{
+      .longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3};
   auto model = following_half_space<d1>(ph::spring{}, thesis_ledger(), bound, limits);
   sim::random_source random(seed);
   const double K = random.uniform(500.0, 20000.0);
@@ -276,7 +277,7 @@ TEST_CASE("parameters of bounds are refused with their name", "[bound]") {
 }
 
 TEST_CASE("a bad parameter of reachable_bound in a late loop is refused with its name", "[bound]") {
-  const ph::late_loop_limits<1> limits{.longest_tick = 1e-3, .top_speed = 100.0};
+  const ph::late_loop_limits<1> limits{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3};
   const ph::reachable_bound lighter{.mass = 0.02, .hand_force = 5.0}, none{.hand_force = 5.0};
   auto model = following_half_space<d1>(ph::spring{}, thesis_ledger(), told, limits);
   CHECK_FALSE(model.check());

@@ -78,25 +78,27 @@ static_assert(!std::is_trivially_copyable_v<boxed> && ph::real<boxed>);
 struct wall {
   template <class S>
   static auto composed() {
-    return ph::local_model{line<S>{},
-                           ph::followed<ph::half_space<line<S>>>{{.stale_after = 0.2}},
-                           ph::turn_at_once{},
-                           ph::damped_spring{.mass = 0.1},
-                           ph::reduced_energy{.damping = 0.03},
-                           ph::reachable_bound{.mass = 0.1, .hand_force = 5},
-                           ph::loop_limits{.longest_tick = 1e-3, .top_speed = 100}};
+    return ph::local_model{
+        line<S>{},
+        ph::followed<ph::half_space<line<S>>>{{.stale_after = 0.2}},
+        ph::turn_at_once{},
+        ph::damped_spring{.mass = 0.1},
+        ph::reduced_energy{.damping = 0.03},
+        ph::reachable_bound{.mass = 0.1, .hand_force = 5},
+        ph::loop_limits{.longest_tick = 1e-3, .top_speed = 100, .watchdog = 1e-3}};
   }
 };
 struct plane {
   template <class S>
   static auto composed() {
-    return ph::local_model{room<S>{},
-                           ph::followed<ph::half_space<room<S>>>{},
-                           ph::turn_limited{.rate = 1},
-                           ph::spring{},
-                           ph::quantised_energy{.damping = 0.03, .quantum = 1e-6},
-                           ph::strict_bound{},
-                           ph::late_loop_limits<1>{.longest_tick = 1e-3, .top_speed = 100}};
+    return ph::local_model{
+        room<S>{},
+        ph::followed<ph::half_space<room<S>>>{},
+        ph::turn_limited{.rate = 1},
+        ph::spring{},
+        ph::quantised_energy{.damping = 0.03, .quantum = 1e-6},
+        ph::strict_bound{},
+        ph::late_loop_limits<1>{.longest_tick = 1e-3, .top_speed = 100, .watchdog = 1e-3}};
   }
 };
 struct triangle {
@@ -110,7 +112,7 @@ struct triangle {
         ph::shaped{ph::spring{}, ph::thesis_rule{}},
         kept{.damping = 0.03},
         ph::bound_chain{ph::reachable_bound{.mass = 0.1}, ph::memoryless_bound{}},
-        ph::watched_loop_limits<>{.longest_tick = 1e-3, .top_speed = 100}};
+        ph::watched_loop_limits<>{.longest_tick = 1e-3, .top_speed = 100, .watchdog = 1e-3}};
   }
 };
 
@@ -158,9 +160,10 @@ template <class S>
 std::vector<double> guarded() {
   using joints = ph::joint_space<S, 2>;
   using ledger = ph::basic_reduced_energy<ph::diagonal_damping<2>>;
-  ph::passive_port guard{joints{}, ph::given_force{}, ledger{.damping = {{0.03, 0.01}}},
-                         ph::reachable_work_bound<2>{.inertia = {{0.1, 0.05}}, .hand = 3},
-                         ph::late_loop_limits<2>{.longest_tick = 1e-3, .top_speed = 100}};
+  ph::passive_port guard{
+      joints{}, ph::given_force{}, ledger{.damping = {{0.03, 0.01}}},
+      ph::reachable_work_bound<2>{.inertia = {{0.1, 0.05}}, .hand = 3},
+      ph::late_loop_limits<2>{.longest_tick = 1e-3, .top_speed = 100, .watchdog = 1e-3}};
   std::vector<double> seen;
   for (int n = 0; n < 500; ++n) {
     const typename joints::vector q(S(1e-2 * std::sin(0.05 * n)), S(2e-2 * std::cos(0.03 * n)));

@@ -27,8 +27,10 @@ double least_in_all(const Bound& bound, const conditions& when, const Limits& li
 }
 template <class Bound>
 double least_in_all(const Bound& bound, const conditions& when) {
-  return least_in_all(bound, when,
-                      ph::loop_limits{.longest_tick = when.longest_tick, .top_speed = 100.0});
+  return least_in_all(
+      bound, when,
+      ph::loop_limits{
+          .longest_tick = when.longest_tick, .top_speed = 100.0, .watchdog = when.longest_tick});
 }
 template <class Bound>
 double least_in_one(const Bound& bound, const conditions& when) {
@@ -148,7 +150,8 @@ TEST_CASE("the families lose nothing to any adversary in 1, 2 and 3 dimensions",
 
 TEST_CASE("memoryless_bound with latency survives it, and so does what remembers as little (§ 3)",
           "[passivity][families]") {
-  const ph::late_loop_limits<2> told_two{.longest_tick = 1.5e-3, .top_speed = 100.0};
+  const ph::late_loop_limits<2> told_two{
+      .longest_tick = 1.5e-3, .top_speed = 100.0, .watchdog = 1.5e-3};
   for (const int latency : {1, 2, 5}) {
     const conditions when{.jitter = true,
                           .lost = 0.03,
@@ -178,7 +181,8 @@ TEST_CASE("memoryless_bound with latency survives it, and so does what remembers
     }
     return device.meter().minimum();
   };
-  CHECK(least(ph::late_loop_limits<2>{.longest_tick = 1e-3, .top_speed = 100.0}) >= -1e-12);
+  CHECK(least(ph::late_loop_limits<2>{
+            .longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3}) >= -1e-12);
   CHECK(least(thesis_loop) < -1e-6);  // the control
 }
 
@@ -233,7 +237,7 @@ TEST_CASE("the families stand on their assumptions, and fall with them", "[passi
 
 TEST_CASE("the families lose nothing with unequal axes", "[passivity][families]") {
   const conditions when{.jitter = true, .longest_tick = 1.5e-3, .b = {0.03, 0.03, 0.008}};
-  const ph::loop_limits limits{.longest_tick = 1.5e-3, .top_speed = 100.0};
+  const ph::loop_limits limits{.longest_tick = 1.5e-3, .top_speed = 100.0, .watchdog = 1.5e-3};
   using axes = ph::basic_reduced_energy<ph::diagonal_damping<3>>;
   const axes ledger{.damping = {{0.03, 0.03, 0.008}}}, wrong{.damping = {{0.03, 0.03, 0.012}}};
   const auto least = [&](const auto& bound, const axes& observer) {

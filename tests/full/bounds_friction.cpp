@@ -65,7 +65,7 @@ TEST_CASE("a device with at least the dry friction stated loses nothing, one wit
 
 TEST_CASE("the families lose nothing to a hand that no force can stop, with dry friction",
           "[passivity][friction]") {
-  const ph::loop_limits limits{.longest_tick = 1.5e-3, .top_speed = 100.0};
+  const ph::loop_limits limits{.longest_tick = 1.5e-3, .top_speed = 100.0, .watchdog = 1.5e-3};
   const auto least = [&](auto space, const auto& bound, double there) {
     using S = decltype(space);
     const attacks::conditions when{.jitter = true, .longest_tick = 1.5e-3, .friction = there};

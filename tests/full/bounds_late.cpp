@@ -18,7 +18,8 @@ constexpr ph::reachable_bound told{.mass = 0.1, .hand_force = 5.0};
 /// The spring of the thesis in a loop of the latency stated.
 template <class Space, int Stated, class Bound = ph::reachable_bound>
 auto model_of(const Bound& bound = told) {
-  const ph::late_loop_limits<Stated> limits{.longest_tick = 1e-3, .top_speed = 100.0};
+  const ph::late_loop_limits<Stated> limits{
+      .longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3};
   return following_half_space<Space>(ph::spring{}, thesis_ledger(), bound, limits);
 }
 
@@ -144,7 +145,7 @@ TEST_CASE("a latency that is overstated loses, too", "[bound]") {
 TEST_CASE("reachable_bound in a late loop stays passive on steps and through lost samples",
           "[bound]") {
   const ph::quantised_energy sure{.damping = 0.03, .quantum = 6e-5};
-  const ph::late_loop_limits<1> late{.longest_tick = 1e-3, .top_speed = 100.0};
+  const ph::late_loop_limits<1> late{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3};
   double steps = 0.0, losses = 0.0, both = 0.0, control = 0.0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     steps = std::min(steps, tapped_and_lost(late, sure, 6e-5, 0.0, seed));

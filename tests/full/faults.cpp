@@ -18,8 +18,8 @@ std::vector<any_model> models_over() {
                                 of(ph::shaped{spring, ph::thesis_rule{}}, ph::no_bound{}),
                                 of(ph::shaped{damped, rate}, ph::bound_chain{reachable, motors})};
   if constexpr (!requires(Constraint c) { c.a; }) {
-    const ph::late_loop_limits<1> late{.longest_tick = 1e-3, .top_speed = 100.0};
-    const ph::late_loop_limits<3> later{.longest_tick = 1e-3, .top_speed = 100.0};
+    const ph::late_loop_limits<1> late{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3};
+    const ph::late_loop_limits<3> later{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3};
     for (auto& model : {of(spring, ph::no_bound{}), of(damped, strict), of(spring, strict, late),
                         of(spring, strict, later), of(spring, reachable), of(damped, reachable),
                         of(spring, motors), of(ph::shaped{spring, rate}, ph::no_bound{})}) {

@@ -28,10 +28,12 @@ TEST_CASE("strict_bound never loses energy to any adversary in 1, 2 and 3 dimens
 TEST_CASE("strict_bound with latency survives it, without it does not (§ 3)", "[passivity]") {
   const int runs = std::max(adversarial_runs() / 10, 12);
   const auto strict = composed(ph::spring{}, ph::strict_bound{});
-  const auto after_2 = composed(ph::spring{}, ph::strict_bound{},
-                                ph::late_loop_limits<2>{.longest_tick = 1e-3, .top_speed = 100.0});
-  const auto after_5 = composed(ph::spring{}, ph::strict_bound{},
-                                ph::late_loop_limits<5>{.longest_tick = 1e-3, .top_speed = 100.0});
+  const auto after_2 =
+      composed(ph::spring{}, ph::strict_bound{},
+               ph::late_loop_limits<2>{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3});
+  const auto after_5 =
+      composed(ph::spring{}, ph::strict_bound{},
+               ph::late_loop_limits<5>{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3});
   CHECK(worst_of(after_2, runs, {.latency = 2}) >= -1e-12);
   CHECK(worst_of(after_5, runs, {.latency = 5}) >= -1e-12);
   CHECK(worst_of(strict, runs, {.latency = 2}) < -1e-6);  // the controls
@@ -40,7 +42,7 @@ TEST_CASE("strict_bound with latency survives it, without it does not (§ 3)", "
 
 TEST_CASE("reachable_bound and strict_bound stay passive through samples that are lost",
           "[passivity]") {
-  const ph::late_loop_limits<2> late{.longest_tick = 1e-3, .top_speed = 100.0};
+  const ph::late_loop_limits<2> late{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3};
   const ph::reachable_bound reachable{.mass = 0.1, .hand_force = 5.0};
   CHECK(worst_with_lost_samples(ph::spring{}, reachable, thesis_loop, 200) >= -1e-12);
   CHECK(worst_with_lost_samples(ph::spring{}, ph::strict_bound{}, thesis_loop, 200) >= -1e-12);

@@ -25,9 +25,9 @@ static_assert(std::is_empty_v<at_wall<ph::strict_bound>>);
 static_assert(std::is_empty_v<at_wall<ph::thesis_rule>>);
 static_assert(std::is_empty_v<at_wall<ph::last_difference>>);
 
-// The bare model: p, n, K of the wall; K of the spring; longest tick, top speed; held force,
+// The bare model: p, n, K of the wall; K of the spring; four limits of the loop; held force,
 // position, time blind; two flags.
-static_assert(sizeof(bare) == 9 * sizeof(float) + 4);
+static_assert(sizeof(bare) == 11 * sizeof(float) + 4);
 // Each part adds its own parameters and state, and nothing else.
 static_assert(sizeof(at_wall<ledger>) == 3 * sizeof(float));  // b, loan, E1
 static_assert(sizeof(model<still, ph::turn_at_once, ledger, ph::no_bound>) ==

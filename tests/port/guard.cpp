@@ -4,6 +4,8 @@
 
 namespace {
 
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
 using late = ph::guard<d1, 2>;
 
 }  // namespace
@@ -67,8 +69,9 @@ TEST_CASE("bad input is survived by a model of each kind", "[guard][fault]") {
                               ph::actuator_limit{.most = 9.0}};
   using bad_input::over;
   const std::vector<any_model> models{
-      over<ph::half_space<d1>>(spring, ph::strict_bound{},
-                               ph::late_loop_limits<2>{.longest_tick = 1e-3, .top_speed = 100.0}),
+      over<ph::half_space<d1>>(
+          spring, ph::strict_bound{},
+          ph::late_loop_limits<2>{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3}),
       over<ph::segment<f2>>(ph::shaped{damped, ph::force_rate_limit{.rate = 100.0}}, chain),
       over<ph::triangle<d3>>(ph::shaped{spring, ph::thesis_rule{}}, ph::no_bound{})};
   for (const any_model& model : models) {
@@ -92,11 +95,25 @@ TEST_CASE("a tick whose energy is no number is refused, and the ledger stays one
   CHECK(ph::kernels::is_finite(model.energy()));
 }
 
-TEST_CASE("a late tick is reported, and costs what it may have cost with or without a watchdog",
+TEST_CASE("a late tick is reported, and costs what it cost, since its force was held to the end",
           "[fault]") {
-  auto model =
-      following_half_space<d1>(ph::spring{}, thesis_ledger(), ph::strict_bound{},
-                               ph::loop_limits{.longest_tick = 1.2e-3, .top_speed = 100.0});
+  const ph::loop_limits limits{.longest_tick = 1.2e-3, .top_speed = 100.0};
+  auto bare = following_half_space<d1>(ph::spring{}, thesis_ledger(), ph::no_bound{}, limits);
+  bare.update(wall<d1>(500));
+  (void)bare.tick(0.0, 1e-3);
+  const double before = bare.tick(1e-3, 1.2e-3).energy;
+  const auto late = bare.tick(1.5e-3, 3e-3);  // 0.5 N inwards, 0.5 mm, 3 ms
+  CHECK(late.what == ph::event::late_tick);
+  CHECK_THAT(late.energy - before, WithinAbs(0.03 * 0.25e-6 / 3e-3 + 0.5 * 0.5e-3, 1e-15));
+  CHECK(late.energy > before);
+  CHECK(late.force < 0.0);
+  CHECK(bare.tick(-0.019, 3e-3).energy < -5e-3);  // 0.75 N have worked for 20 mm: a debt
+}
+
+TEST_CASE("a late tick costs what it may have cost, if a watchdog may have dropped the force",
+          "[fault]") {
+  const ph::loop_limits limits{.longest_tick = 1.2e-3, .top_speed = 100.0, .watchdog = 1.2e-3};
+  auto model = following_half_space<d1>(ph::spring{}, thesis_ledger(), ph::strict_bound{}, limits);
   model.update(wall<d1>(500));
   (void)model.tick(0.0, 1e-3);
   CHECK(model.tick(1e-3, 1.2e-3).what == ph::event::nominal);
@@ -104,14 +121,100 @@ TEST_CASE("a late tick is reported, and costs what it may have cost with or with
   const auto late = model.tick(1.5e-3, 3e-3);
   CHECK(late.what == ph::event::late_tick);
   CHECK(before > 0.0);
-  CHECK_THAT(late.energy, Catch::Matchers::WithinAbs(0.0, 1e-15));  // the bound had spent it all
+  CHECK_THAT(late.energy, WithinAbs(0.0, 1e-15));  // the bound had spent it all
 
-  auto bare = following_half_space<d1>(ph::spring{}, thesis_ledger(), ph::no_bound{},
-                                       ph::loop_limits{.longest_tick = 1.2e-3, .top_speed = 100.0});
+  auto bare = following_half_space<d1>(ph::spring{}, thesis_ledger(), ph::no_bound{}, limits);
   bare.update(wall<d1>(500));
   (void)bare.tick(0.0, 1e-3);
   CHECK(bare.tick(1e-3, 1e-3).energy > 0.0);
-  CHECK(bare.tick(-0.019, 3e-3).energy < -5e-3);  // no watchdog: 0.5 N have worked for 20 mm
+  CHECK(bare.tick(-0.019, 3e-3).energy < -5e-3);  // it did not bark: 0.5 N have worked for 20 mm
+}
+
+TEST_CASE("a tick shorter than the watchdog waits is booked as it was, however late", "[fault]") {
+  const auto after = [](double watchdog) {
+    auto model = following_half_space<d1>(
+        ph::spring{}, thesis_ledger(), ph::strict_bound{},
+        ph::loop_limits{.longest_tick = 1.2e-3, .top_speed = 100.0, .watchdog = watchdog});
+    model.update(wall<d1>(500));
+    (void)model.tick(0.0, 1e-3);
+    (void)model.tick(1e-3, 1e-3);
+    return model.tick(1.5e-3, 3e-3).energy;
+  };
+  CHECK(after(4e-3) == after(ph::loop_limits::never));
+  CHECK(after(2e-3) < after(4e-3));
+}
+
+TEST_CASE("a watchdog makes an encoder's ledger forget what only one of two stories covers",
+          "[fault]") {
+  // F pushes all the time. In a late tick it does its worst, is dropped, and the device comes back to
+  // where the step shown is 25 µm farther but the device is behind it; in the next tick the device
+  // crosses that step unseen.
+  constexpr double T = 1e-3, b = 5.0, F = 0.5, q = 10e-6, loan = 1.0;
+  constexpr double shown = 26.5e-6;  // a little more costly than the worst: the ledger's story
+  constexpr double out = F * T / (2 * b);   // 50 µm, the worst while the force lasts
+  constexpr double back = shown - q - out;  // then free, in four ticks
+  ph::passive_port port{d1{}, ph::given_force{},
+                        ph::quantised_energy{.damping = b, .quantum = q, .loan = loan},
+                        ph::no_bound{}, ph::loop_limits{.longest_tick = T, .watchdog = T}};
+  double position = 0.0, truth = loan;
+  (void)port.tick(position, T, F);
+  for (int n = 0; n < 200; ++n) {
+    position += shown;
+    const auto late = port.tick(position, 5 * T, F);
+    REQUIRE(late.what == ph::event::late_tick);
+    truth += b * out * out / T - F * out + b * back * back / (4 * T);
+    const auto even = port.tick(position, T, F);
+    truth += b * q * q / T - F * q;
+    if (even.energy > truth) FAIL("tick " << n << ": overstated by " << even.energy - truth);
+  }
+  CHECK(truth < loan - 2e-3);
+}
+
+TEST_CASE("a sample that is lost in a late tick costs all the time that its force was held",
+          "[fault]") {
+  const auto left = [](double dt, double watchdog) {
+    ph::passive_port port{d1{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03, .loan = 1.0},
+                          ph::no_bound{},
+                          ph::loop_limits{.longest_tick = 1e-3, .watchdog = watchdog}};
+    (void)port.tick(0.0, 1e-3, 0.5);
+    const double before = port.energy();
+    (void)port.tick(std::nan(""), dt, 0.0);
+    return before - port.energy();
+  };
+  const double worst = 1e-3 * 0.25 / (4 * 0.03);  // T f²/(4b)
+  const double never = ph::loop_limits::never;
+  CHECK_THAT(left(1e-3, never), WithinRel(worst, 1e-9));
+  CHECK_THAT(left(1e-4, never), WithinRel(worst, 1e-9));  // who says that its dt is true?
+  CHECK_THAT(left(std::nan(""), never), WithinRel(worst, 1e-9));
+  CHECK_THAT(left(7e-3, never), WithinRel(7 * worst, 1e-9));
+  CHECK_THAT(left(7e-3, 3e-3), WithinRel(3 * worst, 1e-9));
+}
+
+TEST_CASE("a position outside the workspace is an event, as millimetres for metres are",
+          "[fault]") {
+  auto model = following_half_space<d3>(ph::spring{}, thesis_ledger(), ph::strict_bound{},
+                                        ph::loop_limits{.longest_tick = 1e-3});
+  model.update({{0, 0, 0}, {0, 0, 1}, 1000});
+  const auto inside = model.tick({0, 0, -1.9}, 1e-3);
+  CHECK(inside.what == ph::event::nominal);
+  for (int n = 0; n < 1000; ++n) {  // 40 mm deep, and says 40 m
+    const auto out = model.tick({0, 0, -40.0}, 1e-3);
+    if (out.what < ph::event::outside_workspace || out.force.norm() != 0.0) FAIL("tick " << n);
+  }
+  model.reset();
+  CHECK(model.tick({0, 0, -40.0}, 1e-3).what == ph::event::outside_workspace);
+  model.reset();
+  REQUIRE_FALSE(model.set(ph::loop_limits{.longest_tick = 1e-3, .workspace = 50.0}));
+  model.update({{0, 0, 0}, {0, 0, 1}, 1000});
+  CHECK(model.tick({0, 0, -40.0}, 1e-3).what == ph::event::nominal);
+
+  using arm = ph::joint_space<double, 3>;  // joints may turn as often as they like
+  ph::passive_port turning{
+      arm{}, ph::given_force{},
+      ph::basic_reduced_energy<ph::diagonal_damping<3>>{.damping = {{0.03, 0.03, 0.03}}},
+      ph::strict_bound{}, ph::loop_limits{.longest_tick = 1e-3}};
+  const arm::effort none = arm::zero();
+  CHECK(turning.tick(arm::pose(60.0, 0.0, 0.0), 1e-3, none).what == ph::event::nominal);
 }
 
 TEST_CASE("a debt is an event, and events say what they are", "[fault]") {

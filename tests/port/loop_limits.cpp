@@ -2,9 +2,10 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 
-static_assert(ph::loop_limits::latency == 0 && !ph::loop_limits::watched);
-static_assert(ph::late_loop_limits<3>::latency == 3 && !ph::late_loop_limits<3>::watched);
-static_assert(ph::watched_loop_limits<>::watched && ph::watched_loop_limits<2>::latency == 2);
+static_assert(ph::loop_limits::latency == 0 && !ph::loop_limits::traits.watched);
+static_assert(ph::late_loop_limits<3>::latency == 3 && !ph::late_loop_limits<3>::traits.watched);
+static_assert(ph::watched_loop_limits<>::traits.watched &&
+              ph::watched_loop_limits<2>::latency == 2);
 static_assert(ph::loop_limits{}.top_speed == 5.0);
 
 TEST_CASE("the longest tick of a loop is never assumed", "[loop_limits]") {
@@ -19,13 +20,54 @@ TEST_CASE("the longest tick of a loop is never assumed", "[loop_limits]") {
     CHECK(refused({.longest_tick = bad}) == "longest_tick");
     CHECK(refused({.longest_tick = 1e-3, .top_speed = bad}) == "top_speed");
   }
+  for (const double bad : {0.0, -1.0, nan}) {
+    CHECK(refused({.longest_tick = 1e-3, .workspace = bad}) == "workspace");
+  }
+  for (const double bad : {0.0, -1e-3, nan, 0.9e-3}) {
+    CHECK(refused({.longest_tick = 1e-3, .watchdog = bad}) == "watchdog");
+  }
+  CHECK(refused({.longest_tick = 1e-3, .workspace = HUGE_VAL, .watchdog = 1e-3}).empty());
 }
 
 TEST_CASE("loop limits are kept in the port's scalar, and given back", "[loop_limits]") {
-  const ph::loop_limits::on<f1> limits({.longest_tick = 0.0011, .top_speed = 3.0});
+  const ph::loop_limits::on<f1> limits(
+      {.longest_tick = 0.0011, .top_speed = 3.0, .workspace = 0.5, .watchdog = 0.125});
   CHECK(limits.longest_tick == 0.0011F);
   CHECK(limits.parameters().top_speed == 3.0);
-  static_assert(sizeof(limits) == 2 * sizeof(float));
+  CHECK(limits.parameters().workspace == 0.5);
+  CHECK(limits.parameters().watchdog == 0.125);
+  CHECK(ph::loop_limits::on<f1>(thesis_loop).parameters().watchdog == double(1e-3F));
+  static_assert(sizeof(limits) == 4 * sizeof(float));
+}
+
+TEST_CASE("a loop that learns its longest tick says so in its type, and goes by the longest so far",
+          "[loop_limits]") {
+  const auto guard_with = [](const auto& limits) {
+    return ph::passive_port{d1{}, ph::given_force{}, thesis_ledger(), ph::strict_bound{}, limits};
+  };
+  auto learns = guard_with(ph::learning_loop_limits<>{.longest_tick = 1e-3});
+  auto states = guard_with(ph::loop_limits{.longest_tick = 1e-3});
+  static_assert(decltype(learns)::passivity == ph::guarantee::conditional);
+  static_assert(decltype(states)::passivity == ph::guarantee::strict);
+  for (auto tick : {0, 1}) {
+    (void)tick;
+    CHECK(learns.tick(0.0, 1e-3, 0.0).what == ph::event::nominal);
+    CHECK(states.tick(0.0, 1e-3, 0.0).what == ph::event::nominal);
+  }
+  CHECK(learns.tick(0.0, 1.5e-3, 0.0).what == ph::event::late_tick);
+  CHECK(states.tick(0.0, 1.5e-3, 0.0).what == ph::event::late_tick);
+  CHECK(learns.tick(0.0, 1.5e-3, 0.0).what == ph::event::nominal);
+  CHECK(states.tick(0.0, 1.5e-3, 0.0).what == ph::event::late_tick);
+  CHECK(learns.tick(0.0, 1e-3, 0.0).what == ph::event::nominal);
+  CHECK(learns.tick(0.0, 1.4e-3, 0.0).what == ph::event::nominal);
+  // the same energy covers less force then
+  const auto push = [](auto& port) {
+    (void)port.tick(1e-3, 1e-3, 0.0);
+    return port.tick(1e-3, 1e-3, 100.0).force;
+  };
+  const double less = push(learns), more = push(states);
+  CHECK(less > 0.0);
+  CHECK_THAT(more / less, Catch::Matchers::WithinRel(std::sqrt(1.5), 1e-6));
 }
 
 namespace {

@@ -83,7 +83,8 @@ constexpr bool obeys(const Shaper& parameters, int ticks, const Bound& behind = 
 template <class Space, class Shaper, class Bound = ph::strict_bound>
 double least_of_growing(const Shaper& shaper, const attacks::conditions& when, int seeds,
                         const Bound& bound = {}) {
-  const ph::loop_limits limits{.longest_tick = when.longest_tick, .top_speed = 100.0};
+  const ph::loop_limits limits{
+      .longest_tick = when.longest_tick, .top_speed = 100.0, .watchdog = when.longest_tick};
   const auto model =
       following_half_space<Space>(ph::shaped{ph::spring{}, shaper}, thesis_ledger(), bound, limits);
   return attacks::worst_of<Space>(model, when, seeds).least;

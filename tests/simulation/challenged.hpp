@@ -46,7 +46,8 @@ const auto thesis = model_of<Space>(ph::shaped{ph::spring{}, ph::thesis_rule{}},
 
 /// A loop whose commands are held `k` ticks late.
 template <int k>
-constexpr ph::late_loop_limits<k> late_loop{.longest_tick = 1e-3, .top_speed = 100.0};
+constexpr ph::late_loop_limits<k> late_loop{
+    .longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3};
 
 /// Does it survive every adversary, really pushing?
 inline void survives(const auto& verdicts, double accepted_loss = 1e-12) {

@@ -67,7 +67,7 @@ struct guarded {
 template <class Space, int k>
 constexpr auto port_late_by() {
   return ph::passive_port{Space{}, ph::given_force{}, thesis_ledger<Space>(), ph::strict_bound{},
-                          ph::late_loop_limits<k>{.longest_tick = 1e-3}};
+                          ph::late_loop_limits<k>{.longest_tick = 1e-3, .watchdog = 1e-3}};
 }
 
 template <class Port>
@@ -121,7 +121,7 @@ bool about(double energy, double said) {
 
 TEST_CASE("a renderer behind a port loses nothing, on time or late, held force reported or not",
           "[adversaries][law]") {
-  survives_reported_or_not(ph::make_force_guard<d1>(0.03, 1e-3), 0, 10);
+  survives_reported_or_not(port_late_by<d1, 0>(), 0, 10);
   survives_reported_or_not(port_late_by<d1, 1>(), 1, 10);
   survives_reported_or_not(port_late_by<d1, 2>(), 2, 10);
   survives_reported_or_not(port_late_by<d1, 3>(), 3, 10);

@@ -32,8 +32,10 @@ TEST_CASE("strict_bound survives jitter with the measured dt and the longest tic
   const conditions when{.jitter = true};
   const int runs = 1000;
   const auto with = [](double longest_tick) {
-    return composed(ph::spring{}, ph::strict_bound{},
-                    ph::loop_limits{.longest_tick = longest_tick, .top_speed = 100.0});
+    return composed(
+        ph::spring{}, ph::strict_bound{},
+        ph::loop_limits{
+            .longest_tick = longest_tick, .top_speed = 100.0, .watchdog = longest_tick});
   };
   CHECK(worst_of(with(1.5e-3), runs, when) >= -1e-12);
   CHECK(worst_of(with(1.0e-3), runs, when) < -1e-9);  // the control: the nominal tick in the bound

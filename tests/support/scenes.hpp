@@ -21,8 +21,12 @@ template <class Space = d1>
 constexpr ph::reduced_energy thesis_ledger() {
   return {.damping = 0.03};
 }
-/// Its loop; nothing that a test does is too fast to be believed.
-inline constexpr ph::loop_limits thesis_loop{.longest_tick = 1e-3, .top_speed = 100.0};
+/// Its loop, whose driver drops a force after a tick; nothing that a test does is too fast or too far
+/// away to be believed.
+inline constexpr ph::loop_limits thesis_loop{.longest_tick = 1e-3,
+                                             .top_speed = 100.0,
+                                             .workspace = ph::loop_limits::never,
+                                             .watchdog = 1e-3};
 
 /// A model of a surface that the environment moves, everything else as given.
 template <class Space, class Law, class Observer, class Bound, class Limits = ph::loop_limits>

@@ -21,7 +21,7 @@ TEST_CASE("impedance_side survives actuator latency with a bound that knows it (
     };
     return sim::run(device, master, 100, sim::idle, give_way).least_energy;
   };
-  const ph::late_loop_limits<2> late{.longest_tick = 1e-3, .top_speed = 100.0};
+  const ph::late_loop_limits<2> late{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3};
   CHECK(least(late) >= -0.01 - 1e-12);
   CHECK(least(late) < -0.009);        // it was there to be spent
   CHECK(least(thesis_loop) < -0.02);  // the control
@@ -68,8 +68,9 @@ TEST_CASE("a tick that is late, lost or impossible promises nothing to the other
   CHECK_THAT(master.packet().energy, WithinAbs(2e-3, 1e-15));
 
   // With latency a command outlives the tick that was refused.
-  auto slow = side_of({.damping = 0.03, .loan = 1.0}, ph::strict_bound{},
-                      ph::late_loop_limits<1>{.longest_tick = 1e-3, .top_speed = 100.0});
+  auto slow =
+      side_of({.damping = 0.03, .loan = 1.0}, ph::strict_bound{},
+              ph::late_loop_limits<1>{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3});
   slow.receive({0.0, 1, 2.0});
   (void)slow.tick(0.0, 1e-3);                                             // commands 2 N
   (void)slow.tick(std::nan(""), 1e-3);                                    // while 0 N were held

@@ -73,7 +73,7 @@ inline constexpr std::array all_adversaries{
 }
 
 /// The truth about the device, and how wild the world is. The model must have been told no more
-/// damping, mass and friction, no less hand force and longest tick, and just this latency.
+/// damping, mass and friction, no less hand force and longest tick, and just this latency and watchdog.
 struct circumstances {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -85,7 +85,7 @@ struct circumstances {
   double force_limit = infinity;  ///< of the actuators [N]
   double longest_tick = 1e-3;     ///< the period, unless the adversary varies it [s]
   int latency = 0;                ///< ticks from a command to its holding
-  bool watchdog = true;           ///< the driver drops a force after longest_tick
+  bool watchdog = true;           ///< the driver drops a force after longest_tick: tell the model
   double softest = 2e3;           ///< surface [N/m]
   double stiffest = 22e3;         ///< surface [N/m]
   double jump = 2e-3;             ///< farthest the surface jumps, either way [m]

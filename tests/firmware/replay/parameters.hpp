@@ -8,6 +8,8 @@ template <class Real>
 struct parameters {
   static constexpr Real longest_tick = Real(0.00025F);  // s
   static constexpr Real top_speed = Real(100);          // m/s
+  static constexpr Real workspace = Real(2);            // m
+  static constexpr Real watchdog = longest_tick;        // s
   static constexpr Real damping = Real(0.5F);           // N·s/m
   static constexpr Real mass = Real(0.1F);              // kg
   static constexpr Real hand_force = Real(5);           // N

@@ -32,7 +32,9 @@ template <class Vector, int Dof>
 // ---------------------------------------------------------------------------------- composed
 
 inline constexpr ph::loop_limits limits{.longest_tick = given::longest_tick,
-                                        .top_speed = given::top_speed};
+                                        .top_speed = given::top_speed,
+                                        .workspace = given::workspace,
+                                        .watchdog = given::watchdog};
 inline constexpr ph::reduced_energy ledger{.damping = given::damping};
 inline constexpr ph::reachable_bound reach{.mass = given::mass, .hand_force = given::hand_force};
 inline constexpr ph::turn_limited turning{.rate = given::rate};
@@ -116,7 +118,8 @@ struct composed_triangle_thesis
 
 // ----------------------------------------------------------------------------------- by hand
 
-inline constexpr ::loop by_hand_loop{given::longest_tick, given::top_speed};
+inline constexpr ::loop by_hand_loop{given::longest_tick, given::top_speed, given::workspace,
+                                     given::watchdog};
 inline constexpr ::reach by_hand_reach{given::mass, given::hand_force};
 
 template <class State, int Dof, class Position, class Function, Function* Tick>
