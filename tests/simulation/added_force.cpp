@@ -44,9 +44,9 @@ seen nyquist(double spring, bool reports_held) {
 TEST_CASE("a force added behind the port loses, and is seen where the device reports what it held",
           "[adversaries]") {
   const seen silent = nyquist(500.0, false), told = nyquist(500.0, true);
-  CHECK(silent.least_energy < -1e-3);
+  CHECK_THAT(silent.least_energy, Catch::Matchers::WithinRel(-0.15, 0.5));
   CHECK(silent.debts == 0);
-  CHECK(told.least_energy < -1e-3);
+  CHECK_THAT(told.least_energy, Catch::Matchers::WithinRel(-0.15, 0.5));
   CHECK(told.debts > 1000);
   for (const bool reports : {false, true}) {  // the control: nothing is added
     const seen alone = nyquist(0.0, reports);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What it costs to believe a sample that is not true: an encoder that is wrong once, and a sensor that
 // is slower than the loop. loop_limits::top_speed and watched_loop_limits are there for it.
-#include "support/catch.hpp"
-#include "support/scenes.hpp"
+#include "simulation/challenged.hpp"
 #include <passive_haptics/simulation/adversary.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
@@ -11,7 +10,7 @@
 #include <algorithm>
 #include <array>
 
-namespace sim = ph::simulation;
+using namespace simulated;
 using Catch::Matchers::WithinRel;
 
 namespace {
@@ -117,5 +116,30 @@ TEST_CASE("a sensor slower than the loop costs energy, and a watched loop says s
     CHECK(found.least > said.least * 2.0);
     CHECK(found.ledger >= 0.0);  // which knows nothing of it
     CHECK(found.reported > 1000);
+  }
+}
+
+TEST_CASE("a position of few digits is an encoder with steps, and costs what its step is worth",
+          "[adversaries]") {
+  // One ulp of float: 6e-8 m beside 1 m, 1e-6 m beside 10 m.
+  struct line {
+    double step;   ///< [m]
+    double least;  ///< of any adversary, with the plain ledger [J]
+  };
+  for (const line& said : {line{6e-8, -0.36e-6}, line{1e-6, -18e-6}}) {
+    const auto worst = [&](const auto& observer) {
+      const auto model =
+          following_half_space<d1>(ph::spring{}, observer, ph::strict_bound{}, thesis_loop);
+      double least = 0.0;
+      for (const auto& v : sim::challenge_all(model, {.quantum = said.step}, 100)) {
+        least = std::min(least, v.least_energy);
+      }
+      return least;
+    };
+    const double plain = worst(thesis_ledger());
+    CAPTURE(said.step, plain);
+    CHECK(plain < said.least / 2.0);
+    CHECK(plain > said.least * 2.0);
+    CHECK(worst(ph::quantised_energy{.damping = 0.03, .quantum = said.step}) >= -1e-12);
   }
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace sim = ph::simulation;
 
@@ -62,19 +63,24 @@ struct outcome {
 };
 
 /// 20 000 ticks of a loop that says it is `k` ticks late and is `true_latency`.
+/// With `old_samples` it is shown where the device was a tick ago.
 template <int k>
-outcome told(double true_latency) {
+outcome told(double true_latency, bool old_samples = false) {
   ph::local_model model{d1{},
                         ph::fixed{wall<d1>(1e4)},
                         ph::turn_at_once{},
                         ph::spring{},
                         thesis_ledger(),
                         ph::strict_bound{},
-                        ph::late_loop_limits<k>{.longest_tick = 1e-3}};
+                        ph::late_loop_limits<k>{.longest_tick = 1e-3, .watchdog = 1e-3}};
   late_writer device(true_latency);
   outcome found;
+  double one_tick_ago = device.position();
   // Without the held force: a device that does not know when it writes cannot report it.
-  const auto blind = [&](const auto& sample) { return model.tick(sample.position, sample.dt); };
+  const auto blind = [&](const auto& sample) {
+    const double newest = std::exchange(one_tick_ago, sample.position);
+    return model.tick(old_samples ? newest : sample.position, sample.dt);
+  };
   const auto note = [&](const auto& now) { found.ledger = std::min(found.ledger, now.out.energy); };
   found.least = sim::run(device, blind, 20000, sim::idle, note).least_energy;
   return found;
@@ -86,6 +92,13 @@ TEST_CASE("strict_bound told the latency that is true loses nothing", "[passivit
   for (const outcome& found : {told<0>(0.0), told<1>(1.0), told<2>(2.0), told<3>(3.0)}) {
     CHECK(found.least >= -1e-12);
   }
+}
+
+TEST_CASE("a sample that is a tick old is a tick of latency", "[passivity]") {
+  CHECK(told<1>(0.0, true).least >= -1e-12);
+  CHECK(told<2>(1.0, true).least >= -1e-12);
+  CHECK(told<0>(0.0, true).least < -1e-3);  // the control: told of the command alone
+  CHECK(told<1>(1.0, true).least < -1e-3);
 }
 
 TEST_CASE("told too much latency, too little, or a part of a tick, it loses unnoticed",
