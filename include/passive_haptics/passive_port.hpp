@@ -185,11 +185,8 @@ class passive_port {
       return refuse(event::rejected_parameters, dt);
     }
     motion travel = P::between(guard_.last(), position);
-    if (!guard_.believes(position, travel, dt, limits_.top_speed)) [[unlikely]] {
-      return refuse(event::rejected_sample, dt);
-    }
-    if (!within_workspace(position)) [[unlikely]] {
-      return refuse(event::outside_workspace, dt);
+    if (!guard_.believes(position, travel, dt, limits_)) [[unlikely]] {
+      return refuse_sample(position, dt);
     }
     const bool known = guard_.knows_motion();
     if (!known) [[unlikely]] {
@@ -222,15 +219,6 @@ class passive_port {
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
   }
 
-  /// A position in other units than the model's is soon far away. Joints may turn as often as they like.
-  [[nodiscard, gnu::always_inline]] constexpr bool within_workspace(
-      const pose& position) const noexcept {
-    if constexpr (requires { typename P::geometry; }) {
-      return P::squared(position) <= limits_.workspace * limits_.workspace;
-    } else {
-      return true;
-    }
-  }
   /// Nobody knows what moved since the last good sample, so it counts as the worst; returns no motion.
   [[nodiscard, gnu::always_inline]] constexpr motion resume(const typename P::stored_effort& held,
                                                             scalar dt) noexcept {
@@ -289,6 +277,12 @@ class passive_port {
     }
   }
 
+  [[gnu::cold, gnu::noinline]] constexpr result_type refuse_sample(typename P::stored_pose position,
+                                                                   scalar dt) noexcept {
+    const motion travel = P::between(guard_.last(), position);
+    const bool possible = guard_.is_possible(position, travel, dt, limits_.top_speed);
+    return refuse(possible ? event::outside_workspace : event::rejected_sample, dt);
+  }
   /// No effort; the motion since the last good sample is unknown and written off.
   [[gnu::cold, gnu::noinline]] constexpr result_type refuse(event why, scalar dt) noexcept {
     const bool lasted = dt > scalar(0) && kernels::is_finite(dt);

@@ -8,6 +8,12 @@ using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 using late = ph::guard<d1, 2>;
 
+/// Nothing is too far away, and nothing goes faster than 5 m/s.
+template <class Space>
+constexpr ph::loop_limits::on<Space> slow({.longest_tick = 1e-3,
+                                           .top_speed = 5.0,
+                                           .workspace = ph::loop_limits::never});
+
 }  // namespace
 
 TEST_CASE("the guard believes a first sample wherever it is, if it is finite", "[guard]") {
@@ -15,13 +21,30 @@ TEST_CASE("the guard believes a first sample wherever it is, if it is finite", "
   const double nan = std::nan("");
   CHECK_FALSE(guard.has_seen());
   CHECK_FALSE(guard.knows_motion());
-  CHECK(guard.believes(1e300, 1e300, 1e-3, 5.0));
+  CHECK(guard.believes(1e300, 1e300, 1e-3, slow<d1>));
   for (const double bad : {nan, HUGE_VAL, -HUGE_VAL}) {
-    CHECK_FALSE(guard.believes(bad, bad, 1e-3, 5.0));
+    CHECK_FALSE(guard.believes(bad, bad, 1e-3, slow<d1>));
   }
   for (const double dt : {0.0, -1e-3, nan, HUGE_VAL}) {
-    CHECK_FALSE(guard.believes(0.0, 0.0, dt, 5.0));
+    CHECK_FALSE(guard.believes(0.0, 0.0, dt, slow<d1>));
   }
+}
+
+TEST_CASE("the guard believes nothing outside the workspace, and joints wherever they are",
+          "[guard]") {
+  constexpr ph::loop_limits::on<d3> desk({.longest_tick = 1e-3, .workspace = 0.5});
+  ph::guard<d3, 0> guard;
+  const auto believes = [&](const d3::vector& x) { return guard.believes(x, x, 1.0, desk); };
+  for (const bool seen : {false, true}) {
+    if (seen) guard.see_again();
+    CHECK(believes({0.0, 0.3, 0.4}));
+    CHECK_FALSE(believes({0.0, 0.3, 0.41}));
+    CHECK_FALSE(believes({0.0, 0.0, std::nan("")}));
+  }
+  using arm = ph::joint_space<double, 3>;
+  constexpr ph::loop_limits::on<arm> turning({.longest_tick = 1e-3, .workspace = 0.5});
+  const arm::pose far(60.0, 0.0, 0.0);
+  CHECK(ph::guard<arm, 0>().believes(far, far, 1.0, turning));
 }
 
 TEST_CASE("the guard believes no motion that is faster than the device", "[guard]") {
@@ -32,7 +55,7 @@ TEST_CASE("the guard believes no motion that is faster than the device", "[guard
   CHECK(guard.knows_motion());
   CHECK(guard.last() == d2::vector(1, 2));
   const auto believes = [&guard](const d2::vector& travel, double dt) {
-    return guard.believes(guard.last() + travel, travel, dt, 5.0);
+    return guard.believes(guard.last() + travel, travel, dt, slow<d2>);
   };
   CHECK(believes({0.003, 0.0039}, 1e-3));  // 4.9 m/s
   CHECK_FALSE(believes({0.003, 0.0041}, 1e-3));

@@ -34,16 +34,32 @@ class guard {
   [[nodiscard]] constexpr pose last() const noexcept { return position_; }
   [[nodiscard]] constexpr bool has_seen() const noexcept { return seen_; }
 
-  /// A finite sample, no farther from the last good one than the device can have gone since.
+  template <class Limits>
   [[nodiscard, gnu::always_inline]] constexpr bool believes(const pose& position,
                                                             const motion& travel, scalar dt,
-                                                            scalar top_speed) const noexcept {
+                                                            const Limits& limits) const noexcept {
+    return is_possible(position, travel, dt, limits.top_speed) &&
+           within(position, limits.workspace);
+  }
+  /// A finite sample, no farther from the last good one than the device can have gone since.
+  [[nodiscard, gnu::always_inline]] constexpr bool is_possible(const pose& position,
+                                                               const motion& travel, scalar dt,
+                                                               scalar top_speed) const noexcept {
     const scalar largest = kernels::largest<scalar>();  // below infinity, and NaN
     if (!(dt > scalar(0))) return false;
     if (!seen_) return dt <= largest && P::is_finite(position);  // there is no travel yet
     const scalar farthest = top_speed * (blind_ + dt);
     const scalar square = P::squared(travel);
     return square + dt <= largest && square <= farthest * farthest;
+  }
+  /// Positions in other units than the model's are soon outside. Joints may turn as often as they like.
+  [[nodiscard, gnu::always_inline]] static constexpr bool within(const pose& position,
+                                                                 scalar workspace) noexcept {
+    if constexpr (requires { typename P::geometry; }) {
+      return P::squared(position) <= workspace * workspace;
+    } else {
+      return true;
+    }
   }
   /// Was the sample before this one a good one, so that the motion between them is known?
   [[nodiscard]] constexpr bool knows_motion() const noexcept {
