@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Compiles the proofs in `folder` with `coqc`, copied to `scratch`, and refuses any that rests on more than
+# the axioms that Coq's own real numbers have. With `file`: only up to that one, `from` in it replaced by
+# `to`.
+cmake_minimum_required(VERSION 3.24)
+set(names vectors damping)
+set(axioms ClassicalDedekindReals.sig_forall_dec ClassicalDedekindReals.sig_not_dec
+  FunctionalExtensionality.functional_extensionality_dep Classical_Prop.classic)
+
+file(GLOB found RELATIVE ${folder} ${folder}/*.v)
+list(LENGTH found files)
+list(LENGTH names known)
+if(NOT files EQUAL known)
+  message(FATAL_ERROR "prove.cmake does not know the order of all of these: ${found}")
+endif()
+
+function(compile name)
+  execute_process(COMMAND ${coqc} -Q ${scratch} passive_haptics ${scratch}/${name}.v
+    WORKING_DIRECTORY ${scratch} OUTPUT_VARIABLE said ERROR_VARIABLE complained RESULT_VARIABLE code)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${complained}")
+  endif()
+  set(said "${said}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${scratch})
+set(requires "")
+set(theorems "")
+foreach(name IN LISTS names)
+  file(READ ${folder}/${name}.v text)
+  if(name STREQUAL "${file}")
+    set(before "${text}")
+    string(REPLACE "\\n" "\n" from "${from}")
+    string(REPLACE "${from}" "${to}" text "${text}")
+    if(text STREQUAL before)
+      message(FATAL_ERROR "${name}.v does not say that any more")
+    endif()
+  endif()
+  file(WRITE ${scratch}/${name}.v "${text}")
+  compile(${name})
+  string(APPEND requires "From passive_haptics Require ${name}.\n")
+  string(REGEX MATCHALL "\n(Theorem|Lemma|Corollary) [A-Za-z0-9_]+" here "${text}")
+  list(TRANSFORM here REPLACE "\n[A-Za-z]+ " "@${name}.")
+  list(APPEND theorems ${here})
+  if(name STREQUAL "${file}")
+    break()
+  endif()
+endforeach()
+
+# One look at all theorems together is twenty times as fast as one at each.
+list(LENGTH theorems count)
+list(JOIN theorems ",\n" theorems)
+file(WRITE ${scratch}/assumptions.v
+  "${requires}Definition all := (\n${theorems}).\nPrint Assumptions all.\n")
+compile(assumptions)
+string(REGEX MATCHALL "\n[A-Za-z][A-Za-z0-9_.']*" assumed "${said}")
+list(TRANSFORM assumed STRIP)
+foreach(name IN LISTS assumed)
+  if(NOT name IN_LIST axioms)
+    message(FATAL_ERROR "a proof rests on ${name}")
+  endif()
+endforeach()
+list(LENGTH assumed standard)
+if(standard EQUAL 0)
+  message(FATAL_ERROR "coqc names no axiom, not even those of the real numbers:\n${said}")
+endif()
+message(STATUS "${count} theorems and lemmas, no axioms but the ${standard} of Coq's real numbers")
