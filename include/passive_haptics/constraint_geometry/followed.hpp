@@ -5,6 +5,7 @@
 //   followed    the environment publishes, the local model follows as fast as the bound allows
 
 #include <passive_haptics/concepts.hpp>
+#include <passive_haptics/no_unique_address.hpp>
 #include <passive_haptics/port/freshness.hpp>
 
 namespace passive_haptics {
@@ -89,7 +90,7 @@ class followed {
   }
 
  private:
-  [[no_unique_address]] part_at<freshness, space_type> news_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<freshness, space_type> news_;
   bool changed_ = false;
   bool refused_ = false;
   bool together_ = true;

@@ -8,6 +8,7 @@
 //     motors.command(device.tick(position, dt).force);             // none: the last one grows older
 
 #include <passive_haptics/concepts.hpp>
+#include <passive_haptics/no_unique_address.hpp>
 #include <passive_haptics/port/freshness.hpp>
 
 namespace passive_haptics {
@@ -89,7 +90,7 @@ class given_force::on {
   }
 
  private:
-  [[no_unique_address]] part_at<freshness, P> news_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<freshness, P> news_;
   bool changed_ = false, refused_ = false;
   typename P::stored_effort newest_{};
 };

@@ -7,6 +7,7 @@
 //             both      n_VE                                                            at depth f/K
 
 #include <passive_haptics/contact/shaped.hpp>
+#include <passive_haptics/no_unique_address.hpp>
 
 #include <utility>
 
@@ -306,10 +307,10 @@ class local_contact {
   }
 
   Supply supply_;
-  [[no_unique_address]] normals_type normals_;
-  [[no_unique_address]] law_type law_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS normals_type normals_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS law_type law_;
   /// Behind the surface, but outside its edges: only what moves can be met that way.
-  [[no_unique_address]] std::conditional_t<Supply::moves, bool, no_memory> beside_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<Supply::moves, bool, no_memory> beside_{};
 };
 
 /// The space is that of the constraint.

@@ -13,6 +13,7 @@
 // A shaper may look at the contact and at the ledger, and promises nothing: the bound answers for
 // whatever is asked of it.
 
+#include <passive_haptics/no_unique_address.hpp>
 #include <passive_haptics/port/composing.hpp>
 
 namespace passive_haptics {
@@ -77,7 +78,7 @@ class shaped<Law, Shapers...>::on : public part_at<Law, Space> {
   [[nodiscard]] constexpr shaper_part& shapers() noexcept { return shapers_; }
 
  private:
-  [[no_unique_address]] shaper_part shapers_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS shaper_part shapers_;
 };
 
 }  // namespace v0

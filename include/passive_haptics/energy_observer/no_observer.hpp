@@ -5,6 +5,7 @@
 //   no_observer   counts nothing   with no_bound only, or a bound that needs no ledger
 
 #include <passive_haptics/concepts.hpp>
+#include <passive_haptics/no_unique_address.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -42,7 +43,7 @@ struct no_observer {
     [[nodiscard]] constexpr const unknown_damping& damping() const noexcept { return damping_; }
 
    private:
-    [[no_unique_address]] unknown_damping damping_{};
+    PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS unknown_damping damping_{};
   };
 };
 

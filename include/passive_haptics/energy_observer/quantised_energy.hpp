@@ -5,6 +5,7 @@
 //   quantised_energy   the least E1 that positions known to a step of q allow
 
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/no_unique_address.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -155,7 +156,7 @@ class basic_quantised_energy<Damping, Sum>::on {
     now_.elapsed = now_.summed = now_.booked = scalar(0);
   }
 
-  [[no_unique_address]] damping_type damping_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS damping_type damping_;
   scalar quantum_{}, loan_{}, cap_{}, window_{};
   state now_{};
 };

@@ -9,6 +9,7 @@
 // that the zero-order hold leaks and makes the observer blind (lemma L2).
 
 #include <passive_haptics/concepts.hpp>
+#include <passive_haptics/no_unique_address.hpp>
 
 #include <limits>
 
@@ -98,7 +99,7 @@ class basic_reduced_energy<Damping, Sum>::on {
   }
 
  private:
-  [[no_unique_address]] damping_type damping_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS damping_type damping_;
   scalar loan_;
   detail::ledger_number<scalar, Sum> energy_;  ///< E1 [J]
 };

@@ -15,6 +15,7 @@
 #include <passive_haptics/falcon/boot_options.hpp>
 #include <passive_haptics/falcon/firmware.hpp>
 #include <passive_haptics/falcon/transport.hpp>
+#include <passive_haptics/no_unique_address.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -224,7 +225,7 @@ class bootloader {
   Transport& line_;
   std::span<const byte> image_;
   boot_options options_;
-  [[no_unique_address]] Progress progress_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS Progress progress_;
   boot_report report_{};
 };
 

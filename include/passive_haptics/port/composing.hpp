@@ -4,6 +4,7 @@
 // their parameters are changed while they work.
 
 #include <passive_haptics/concepts.hpp>
+#include <passive_haptics/no_unique_address.hpp>
 
 #include <algorithm>
 
@@ -152,7 +153,7 @@ struct sequence {
 template <class First, class... Rest>
 struct sequence<First, Rest...> {
   First first{};
-  [[no_unique_address]] sequence<Rest...> rest{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sequence<Rest...> rest{};
 
   constexpr sequence() noexcept = default;
   constexpr explicit sequence(const First& one, const Rest&... others) noexcept
@@ -232,8 +233,8 @@ class sequence<First, Rest...>::on {
     return {then.force, once.limited || then.limited};
   }
 
-  [[no_unique_address]] part_at<First, P> first_;
-  [[no_unique_address]] part_at<others, P> rest_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<First, P> first_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<others, P> rest_;
 };
 
 }  // namespace detail

@@ -3,6 +3,7 @@
 // The energy observer of a device port that is one end of a two-port.
 
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
+#include <passive_haptics/no_unique_address.hpp>
 #include <passive_haptics/two_port/packet.hpp>
 
 #include <limits>
@@ -111,7 +112,7 @@ class basic_two_port_energy<Damping, Sum>::on {
     if (value() > cap_) energy_ = cap_;
   }
 
-  [[no_unique_address]] damping_type damping_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS damping_type damping_;
   scalar share_{}, loan_{}, cap_{};
   detail::ledger_number<scalar, Sum> energy_{};    ///< E1 [J]
   detail::ledger_number<scalar, Sum> promised_{};  ///< E_in [J], never falls
