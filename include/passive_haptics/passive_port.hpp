@@ -13,6 +13,7 @@
 // the ordinary tick as one piece. In a tick: no exception, heap, lock, clock, virtual call, I/O or
 // recursion.
 
+#include <passive_haptics/no_unique_address.hpp>
 #include <passive_haptics/port/composing.hpp>
 #include <passive_haptics/port/guard.hpp>
 #include <passive_haptics/port/last_difference.hpp>
@@ -301,12 +302,12 @@ class passive_port {
   }
 
   source_type source_;
-  [[no_unique_address]] observer_type observer_;
-  [[no_unique_address]] bound_type bound_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS observer_type observer_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS bound_type bound_;
   limits_type limits_;
-  [[no_unique_address]] part_at<Motion, P> motion_;
-  [[no_unique_address]] guard<P, latency> guard_;
-  [[no_unique_address]] sensor_watch<P, Limits::traits.watched> watch_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard<P, latency> guard_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
   bool sound_ = true;  ///< are the parameters good?
 };
 
