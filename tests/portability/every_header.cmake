@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# cmake -Dinclude=DIR -Dout=DIR [-Dwithout=REGEX] -P every_header.cmake
+# Writes OUT/ours.hpp, which includes every header under INCLUDE whose name does not match WITHOUT, and
+# OUT/others.hpp, which includes all that those include of the standard library, Eigen and libusb.
+file(GLOB_RECURSE headers RELATIVE ${include} ${include}/*.hpp)
+if(without)
+  list(FILTER headers EXCLUDE REGEX "${without}")
+endif()
+set(ours "")
+set(names "")
+foreach(header IN LISTS headers)
+  string(APPEND ours "#include <${header}>\n")
+  file(STRINGS ${include}/${header} lines REGEX "^#include <")
+  list(APPEND names ${lines})
+endforeach()
+list(FILTER names EXCLUDE REGEX "<passive_haptics/")
+list(REMOVE_DUPLICATES names)
+list(SORT names)
+set(others "")
+foreach(name IN LISTS names)
+  string(REGEX REPLACE "^#include (<[^>]*>).*" "\\1" name "${name}")
+  string(APPEND others "#if __has_include(${name})\n#include ${name}\n#endif\n")
+endforeach()
+file(WRITE ${out}/ours.hpp "${ours}")
+file(WRITE ${out}/others.hpp "${others}")
