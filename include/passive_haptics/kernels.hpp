@@ -28,6 +28,10 @@
 #error passive_haptics: -ffast-math takes out the checks for NaN and infinity that every promise \
 rests on: compile without it
 #endif
+#if defined(_M_FP_FAST)
+#error passive_haptics: /fp:fast takes out the checks for NaN and infinity that every promise rests on: \
+compile with /fp:precise
+#endif
 #if defined(__ASSOCIATIVE_MATH__)  // clang++ does not tell
 #error passive_haptics: -fassociative-math, a part of -ffast-math, sums in any order, so bounds are no \
 longer rounded towards zero force: compile without it
