@@ -58,13 +58,10 @@ class runner {
     if (device_.latest().what == code::unplugged) return {code::unplugged};
     stop_ = false;
     running_ = true;
-    try {
-      thread_ = std::thread([this] { run(); });
-    } catch (const std::system_error& refused) {
-      running_ = false;
-      return {code::no_thread, refused.code().value()};
-    }
-    return {};
+    const int refused = begin();
+    if (refused == 0) return {};
+    running_ = false;
+    return {code::no_thread, refused};
   }
 
   /// Returns when the thread has ended and zero force was sent. Any thread but the runner's own.
@@ -81,6 +78,21 @@ class runner {
 
  private:
   using clock = std::chrono::steady_clock;
+
+  /// Zero, or the system's number for why it grants no thread. Where there are no exceptions the
+  /// standard library can only end the program then.
+  int begin() noexcept {
+#if defined(__cpp_exceptions)
+    try {
+      thread_ = std::thread([this] { run(); });
+    } catch (const std::system_error& refused) {
+      return refused.code().value();
+    }
+#else
+    thread_ = std::thread([this] { run(); });
+#endif
+    return 0;
+  }
 
   void run() noexcept {
     using vector = typename Device::vector;
