@@ -7,6 +7,38 @@
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
+namespace {
+
+/// A bound of somebody else's, gone wrong: what it returns is no number where more than 1 N is asked.
+struct lost_bound {
+  static constexpr ph::guarantee passivity = ph::guarantee::none;
+  static constexpr ph::bound_traits traits{};
+  [[nodiscard]] constexpr ph::parameter_fault check() const noexcept { return {}; }
+  template <class Port>
+  struct on {
+    using effort = typename Port::effort;
+    constexpr explicit on(const lost_bound& /*p*/) noexcept {}
+    [[nodiscard]] effort limit(const effort& desired, const auto& /*state*/) const noexcept {
+      return std::abs(desired) > 1.0 ? std::nan("") : desired;
+    }
+  };
+};
+
+}  // namespace
+
+TEST_CASE("what a bound returns is looked at: no number is no force", "[port][fault]") {
+  ph::passive_port guard{d1{}, ph::given_force{}, thesis_ledger(), lost_bound{}, thesis_loop};
+  CHECK(guard.tick(0.0, 1e-3, 0.5).force == 0.5);  // the control
+  for (int n = 0; n < 3; ++n) {
+    const auto out = guard.tick(0.0, 1e-3, 2.0);
+    CHECK(out.force == 0.0);
+    CHECK(out.what == ph::event::rejected_sample);
+    CHECK(out.limited);
+  }
+  CHECK(guard.tick(-1e-4, 1e-3, 0.5).force == 0.5);  // and the ledger has kept its head
+  CHECK_THAT(guard.energy(), WithinRel(0.03 * 1e-8 / 1e-3, 1e-9));
+}
+
 TEST_CASE("the ledger pairs a displacement with the force held while it happened (A27)",
           "[local_model]") {
   ph::reduced_energy ledger{.damping = 0.03, .loan = 0.1};

@@ -115,6 +115,22 @@ TEST_CASE("a stiffness that switches takes effect at once and is bounded (A10)",
   CHECK_THAT(model.tick(0.001, 1e-3).force, WithinRel(-std::sqrt(4 * 30 * 0.01), 1e-9));
 }
 
+TEST_CASE("a force beyond all numbers is not asked for, and the next tick works as before",
+          "[local_model][fault]") {
+  const auto check = [](const auto& bound) {
+    auto model = following_half_space<d1>(ph::spring{}, ph::reduced_energy{0.03, 1.0}, bound);
+    model.update(wall<d1>(ph::kernels::largest<double>()));
+    const auto beyond = model.tick(3.0, 1e-3);
+    CHECK(beyond.force == 0.0);
+    CHECK(beyond.depth == 0.0);
+    CHECK(beyond.what == ph::event::rejected_target);
+    model.update(wall<d1>(0.1));
+    CHECK_THAT(model.tick(3.0, 1e-3).force, WithinRel(-0.3, 1e-12));
+  };
+  check(ph::strict_bound{});
+  check(ph::no_bound{});
+}
+
 TEST_CASE("sliding sideways into a deep triangle costs what an update costs (A18)",
           "[local_model]") {
   ph::local_model model{d3{},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a port believes, and what bad input does to it. For every bound and constraint: full/faults.cpp.
 #include "support/bad_input.hpp"
+#include <passive_haptics/two_port/energy.hpp>
 
 namespace {
 
@@ -69,8 +70,15 @@ TEST_CASE("the guard believes no motion that is faster than the device", "[guard
   CHECK(believes({0.003, 0.0041}, 1e-3));
   CHECK(believes({0.054, 0}, 1e-3));
   CHECK_FALSE(believes({0.056, 0}, 1e-3));
+  guard.see_again();  // which is over with the next good sample
+  CHECK(guard.knows_motion());
+  CHECK_FALSE(believes({0.003, 0.0041}, 1e-3));
+  guard.lose_sight(0.01);
   guard.reset();
   CHECK_FALSE(guard.has_seen());
+  CHECK(guard.last() == d2::zero());
+  guard.see_again();
+  CHECK(guard.knows_motion());
 }
 
 TEST_CASE("the guard hands a command over to the tick that holds it", "[guard]") {
@@ -83,6 +91,27 @@ TEST_CASE("the guard hands a command over to the tick that holds it", "[guard]")
   }
   guard.reset();
   CHECK(guard.commanded() == late::commands{});
+}
+
+TEST_CASE("the watch counts four jumps from a standstill, each faster than a mass starts",
+          "[guard][watch]") {
+  ph::sensor_watch<d1, true> watch;
+  const double fast = 5.0 * 1e-3 / 25;  // [m]
+  const auto repeats = [&watch](double travel) { return watch.repeats(travel, 1e-3, 5.0); };
+  CHECK_FALSE(repeats(1.1 * fast));  // the first motion of all is no jump
+  for (int jumps = 1; jumps <= 6; ++jumps) {
+    CHECK_FALSE(repeats(0.0));
+    CHECK(repeats(jumps % 2 == 0 ? 1.1 * fast : -1.1 * fast) == (jumps >= 4));
+    CHECK_FALSE(repeats(1.1 * fast));  // it goes on
+  }
+  CHECK_FALSE(repeats(0.0));
+  CHECK_FALSE(repeats(0.9 * fast));  // a mass may start like that
+  watch.reset();
+  CHECK_FALSE(repeats(1.1 * fast));
+  for (int jumps = 1; jumps <= 3; ++jumps) {
+    CHECK_FALSE(repeats(0.0));
+    CHECK_FALSE(repeats(1.1 * fast));
+  }
 }
 
 TEST_CASE("bad input is survived by a model of each kind", "[guard][fault]") {
@@ -107,15 +136,22 @@ TEST_CASE("bad input is survived by a model of each kind", "[guard][fault]") {
 }
 
 TEST_CASE("a tick whose energy is no number is refused, and the ledger stays one", "[fault]") {
-  const ph::reduced_energy ledger{.damping = 1e308};
-  auto model = following_half_space<d1>(ph::spring{}, ledger, ph::strict_bound{});
-  model.update(wall<d1>(500));
-  CHECK(model.tick(0.0, 1e-3).what == ph::event::nominal);
-  CHECK(model.tick(1e-4, 1e-3).what == ph::event::nominal);  // the control: 1e303 J
-  const auto beyond = model.tick(0.09, 1e-3);
-  CHECK(beyond.what == ph::event::rejected_sample);
-  CHECK(beyond.force == 0.0);
-  CHECK(ph::kernels::is_finite(model.energy()));
+  const auto check = [](const auto& ledger) {
+    for (const double dt : {1e-3, 3e-3}) {  // in time, and late
+      auto model = following_half_space<d1>(ph::spring{}, ledger, ph::strict_bound{});
+      model.update(wall<d1>(500));
+      CHECK(model.tick(0.0, 1e-3).what == ph::event::nominal);
+      CHECK(model.tick(1e-4, 1e-3).what == ph::event::nominal);  // the control: 1e303 J
+      const auto beyond = model.tick(0.09, dt);
+      CHECK(beyond.what == ph::event::rejected_sample);
+      CHECK(beyond.force == 0.0);
+      CHECK(ph::kernels::is_finite(model.energy()));
+    }
+  };
+  check(ph::reduced_energy{.damping = 1e308});
+  check(ph::capped_energy{.damping = 1e308});
+  check(ph::quantised_energy{.damping = 1e308, .quantum = 1e-7});
+  check(ph::two_port_energy{.damping = 1e308});
 }
 
 TEST_CASE("a late tick is reported, and costs what it cost, since its force was held to the end",
