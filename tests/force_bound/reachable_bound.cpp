@@ -99,6 +99,50 @@ TEST_CASE("reachable_bound with friction lets out what no reachable travel can s
   CHECK(bent > 50);
 }
 
+TEST_CASE("reachable_bound on an encoder reckons with the doubt: as travel, and as what is damped",
+          "[bound]") {
+  const double error = 6e-5, travel = 1e-4, f = 4.0;
+  situation<d1, ph::isotropic_damping, 0, false> now{
+      .damping = at<d1>(ph::isotropic_damping{1.0}),  // B = 1 kN/m: the damper counts
+      .energy = 1e-6,
+      .travel = -travel,  // outwards
+      .travel_error = error};
+  const double other = 5.0 + 2 * 1000 * (travel + error);
+  const double reach = k::outward_reach(travel + error, 0.0, f, other, 0.1, 1e-3, 1e-3);
+  const auto bound = at<d1>(told);
+  const double most = k::reachable_force_bound(1e-6, 1000.0, reach);
+  REQUIRE(most < f);
+  CHECK_THAT(allowed(bound, -f, now), WithinRel(-most, 1e-9));
+  // pressing in, it is the damper alone that may turn the device round
+  now.travel = travel;
+  now.energy = 1e-9;
+  const double back = k::outward_reach(error - travel, 0.0, f, other, 0.1, 1e-3, 1e-3);
+  const double little = k::reachable_force_bound(1e-9, 1000.0, back);
+  REQUIRE(little < f);
+  CHECK_THAT(allowed(bound, -f, now), WithinRel(-little, 1e-9));
+}
+
+TEST_CASE("reachable_bound takes what friction holds off what is in flight, and gives none in debt",
+          "[bound][friction]") {
+  const double fc = 0.5, h = 2.0, f = 10.0, travel = 1e-4, T = 1e-3;
+  situation<d1, ph::damping_and_friction, 1> now{
+      .damping = at<d1>(ph::damping_and_friction{0.03, fc}),
+      .energy = 1e-3,
+      .travel = -travel,
+      .commanded = {-h, 0.0}};
+  const double other = 5.0 + 2 * 30 * travel;
+  const double first = k::outward_reach(travel, 0.0, h, other, 0.1, T, T);
+  const double second = first + k::outward_reach(0.0, h, f, other, 0.1, T, T);
+  const double credit = 1e-3 - k::reachable_outflow(h - fc, 30.0, first);
+  const double most = fc + k::reachable_force_bound(credit, 30.0, second);
+  REQUIRE(most < f);
+  const auto bound = at<d1>(told);
+  CHECK_THAT(allowed(bound, -f, now), WithinRel(-most, 1e-9));
+  now.energy = 1e-4;  // less than is on its way: not even what friction would hold
+  REQUIRE(1e-4 < k::reachable_outflow(h - fc, 30.0, first));
+  CHECK(allowed(bound, -f, now) == 0.0);
+}
+
 TEST_CASE("reachable_outflow is the most that a force can hand over within its reach",
           "[kernels]") {
   for (const double B : {3.0, 30.0, 300.0}) {
