@@ -52,6 +52,18 @@ TEST_CASE("the window sees slow motions that no single tick can show (L1)", "[qu
   CHECK(credit(0.128) < exact);
 }
 
+TEST_CASE("a cap of zero keeps no credit on steps either, and a debt stays", "[quantised]") {
+  auto parameters = sure(1e-7);
+  parameters.cap = 0.0;
+  CHECK_FALSE(parameters.check());
+  auto observer = at<d1>(parameters);
+  (void)observer.update(1e-3, -1.0, 1e-3);  // pressing in
+  CHECK(observer.value() <= 0.0);
+  CHECK_THAT(observer.value(), WithinAbs(0.0, 1e-15));
+  (void)observer.update(-1e-3, -1.0, 1e-3);
+  CHECK(observer.value() < -9e-4);
+}
+
 TEST_CASE("quantised_energy keeps the laws of an observer", "[quantised]") {
   CHECK(broken_laws<d1, f3>(sure(1e-5)).empty());
   using joints = ph::basic_quantised_energy<ph::diagonal_damping<4>>;

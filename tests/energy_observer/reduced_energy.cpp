@@ -82,6 +82,16 @@ TEST_CASE("a cap lowers credit only (A9, L7)", "[observer]") {
   CHECK_THAT(ph::kernels::bank_for_hold(0.35, 0.03, 1e-3), WithinRel(1.02e-3, 0.01));
 }
 
+TEST_CASE("a cap of zero keeps no credit at all, and is no fault (A9)", "[observer]") {
+  const ph::capped_energy none{.damping = 0.03, .cap = 0.0};
+  CHECK_FALSE(none.check());
+  auto ledger = at<d1>(none);
+  (void)ledger.update(1e-3, -1.0, 1e-3);  // pressing in
+  CHECK(ledger.value() == 0.0);
+  (void)ledger.update(-1e-3, -1.0, 1e-3);
+  CHECK(ledger.value() < -9e-4);  // a debt stays
+}
+
 TEST_CASE("a reset voids credit after force-free time and never a debt (L7)", "[observer]") {
   auto ledger = at<d1>(ph::capped_energy{.damping = 0.03, .reset_after = 2.5e-3});
   (void)ledger.update(1e-3, -1.0, 1e-3);
