@@ -96,6 +96,8 @@ TEST_CASE("virtual_coupling is two springs in series, felt through a damper (§ 
   CHECK(law.force(-1e-3, -2.0) == 0.0);
   CHECK_THAT(law.depth(3.0, -2.0), WithinRel(1e-3, 1e-14));
   CHECK(law.depth(0.5, -2.0) == 0.0);  // the damper alone gives more than that
+  CHECK(law.depth(0.0, 2.0) == 0.0);   // no force is no contact, however fast it is left
+  CHECK(law.depth(-1.0, 4.0) == 0.0);
 }
 
 TEST_CASE("virtual_coupling with K_c infinite, or as large as a number gets, is the wall itself",

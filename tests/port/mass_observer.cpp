@@ -8,6 +8,7 @@
 
 namespace sim = ph::simulation;
 using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
 
 namespace {
 
@@ -78,6 +79,35 @@ TEST_CASE("mass_observer finds speed and outside force of a falling mass between
   const d3::vector middle = now.position - d3::vector::Constant(q / 2);
   const auto then = observer.estimate(middle, d3::zero(), d3::zero(), 1e-9, true);
   CHECK_THAT((then.velocity[1] - now.velocity[1]) / 1e-9, WithinAbs(-9.81, 1.0));
+}
+
+TEST_CASE(
+    "mass_observer corrects speed by 1/64 and outside force by 1/(8 · 64²) of what it was off",
+    "[motion]") {
+  const double q = 8e-5, dt = 1e-3;
+  ph::mass_observer::on<d1> observer({.mass = 0.1, .quantum = q});
+  (void)observer.estimate(0.0, 0.0, 0.0, dt, false);
+  const auto off = observer.estimate(q, 0.0, 0.0, dt, true);  // by q/2, from the middle of a step
+  CHECK(off.position == q);
+  const double c = q / 2, w = c / (8 * 64 * 64 * dt * dt);
+  CHECK_THAT(off.velocity, WithinRel(c / (64 * dt), 1e-12));
+  const auto next = observer.estimate(q, 0.0, 0.0, dt, true);  // within the step: nothing is off
+  CHECK_THAT(next.velocity, WithinRel(off.velocity + w * dt, 1e-12));
+  CHECK_THAT(next.position, WithinRel(q + (off.velocity + w * dt / 2) * dt, 1e-12));
+}
+
+TEST_CASE("mass_observer believes a motion of more than 4/3 of a step", "[motion]") {
+  const double q = 8e-5, dt = 1e-3;
+  ph::mass_observer::on<d1> observer({.mass = 0.1, .quantum = q});
+  (void)observer.estimate(0.0, 0.0, 0.0, dt, false);
+  const auto doubted = observer.estimate(1.8 * q, 0.0, 0.0, dt, true);  // by 1.3 q
+  CHECK_THAT(doubted.velocity, WithinRel(1.3 * q / (64 * dt), 1e-9));
+  (void)observer.estimate(0.0, 0.0, 0.0, dt, false);
+  const auto seen = observer.estimate(1.9 * q, 0.0, 0.0, dt, true);  // by 1.4 q, in one tick
+  CHECK_THAT(seen.velocity, WithinRel(1.4 * q * (1 + 1.0 / 64) / dt, 1e-9));
+  const auto next = observer.estimate(1.9 * q + seen.velocity * dt, 0.0, 0.0, dt, true);
+  const double w = 1.4 * q * (0.5 + 1.0 / (8 * 64 * 64)) / (dt * dt);
+  CHECK_THAT(next.velocity, WithinRel(seen.velocity + w * dt, 1e-9));
 }
 
 TEST_CASE("mass_observer follows a busy hand, at the price of half as much error again",
