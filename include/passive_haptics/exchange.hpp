@@ -6,18 +6,56 @@
 //     inbox.publish(plane);                              // slow thread, 20-100 Hz
 //     if (const auto* plane = inbox.take()) touch.update(*plane);  // haptic thread, 1 kHz
 //
-// Wait-free for one writer and one reader: three slots, one atomic byte. The writer fills its slot
-// and swaps it with the middle one; the reader, when the middle one is new, swaps it with its own.
-// Nobody ever waits, retries or copies under the other's hands. What to do when nothing new comes
-// is the supply's stale-data rule (freshness, supply.hpp). Use a second one for the way back.
+// Wait-free for one writer and one reader, threads or an interrupt and main(): nobody waits, retries or
+// copies under the other's hands. It takes four slots and four words that are loaded and stored, never
+// swapped, so a core without atomic swaps (Cortex-M0, RISC-V without A) does it too, with no library.
+// What to do when nothing new comes is the supply's stale-data rule (port/freshness.hpp). Use a second
+// one for the way back.
 
 #include <array>
 #include <atomic>
-#include <cstdint>
 #include <type_traits>
 
 namespace passive_haptics {
 inline namespace v0 {
+
+namespace detail {
+
+/// Who may touch which of four slots, two pairs of two: H. R. Simpson, Four-slot fully asynchronous
+/// communication mechanism, IEE Proceedings E 137 (1990) 17-30. `Word` is an atomic word.
+///
+/// The writer fills the pair that the reader has not announced, and of that pair the slot that is not
+/// its newest. A writer that missed the announcement is in the reader's pair, but the reader goes to
+/// that pair's newest slot, so they still differ; every later writer sees it and goes to the other pair.
+/// That the announcement is stored before the newest slot is looked up is what this rests on: all words
+/// are sequentially consistent, so every run is an interleaving, and tests/exchange.cpp tries them all.
+template <class Word>
+class four_slots {
+ public:
+  /// Writer: a slot that the reader does not hold, and cannot before filled() says so.
+  [[nodiscard]] unsigned free() const noexcept {
+    const unsigned pair = 1 - reading_.load();
+    return 2 * pair + (1 - newest_[pair].load());
+  }
+  /// Writer: the slot from free() has the newest value now.
+  void filled(unsigned slot) noexcept {
+    newest_[slot / 2].store(slot % 2);
+    latest_.store(slot / 2);
+  }
+  /// Reader: the slot of the newest value. The writer keeps off it until the next call.
+  [[nodiscard]] unsigned newest() noexcept {
+    const unsigned pair = latest_.load();
+    if (reading_.load() != pair) reading_.store(pair);
+    return 2 * pair + newest_[pair].load();
+  }
+
+ private:
+  Word latest_{0};                    // the writer's: the pair of the newest value
+  std::array<Word, 2> newest_{0, 0};  // the writer's: the newer slot of each pair
+  Word reading_{0};                   // the reader's: the pair it is in
+};
+
+}  // namespace detail
 
 /// One writer thread, one reader thread. Payload: any trivially copyable value, copied once a side.
 template <class Payload>
@@ -33,30 +71,24 @@ class exchange {
 
   /// Writer only: replaces what the reader has not taken yet.
   void publish(const Payload& value) noexcept {
-    slots_[back_] = value;
-    const std::uint8_t old =
-        middle_.exchange(static_cast<std::uint8_t>(back_ | fresh), std::memory_order_acq_rel);
-    back_ = old & slot;
+    const unsigned slot = order_.free();
+    slots_[slot] = value;
+    order_.filled(slot);
   }
 
   /// Reader only: the newest value if one came since the last take(), else null. It stays untouched
   /// until the next take().
   [[nodiscard]] const Payload* take() noexcept {
-    if ((middle_.load(std::memory_order_relaxed) & fresh) == 0) return nullptr;
-    const std::uint8_t old = middle_.exchange(front_, std::memory_order_acq_rel);
-    front_ = old & slot;
-    return &slots_[front_];
+    const unsigned slot = order_.newest();
+    if (slot == held_) return nullptr;  // nobody has written there since
+    held_ = slot;
+    return &slots_[slot];
   }
 
  private:
-  static constexpr std::uint8_t slot = 3;   // the low bits number a slot
-  static constexpr std::uint8_t fresh = 4;  // the reader has not seen it
-  static_assert(std::atomic<std::uint8_t>::is_always_lock_free);
-
-  std::array<Payload, 3> slots_{};
-  std::uint8_t back_ = 0;                // the writer's
-  std::atomic<std::uint8_t> middle_{1};  // between the two
-  std::uint8_t front_ = 2;               // the reader's
+  std::array<Payload, 4> slots_{};
+  detail::four_slots<std::atomic<unsigned>> order_;
+  unsigned held_ = 0;  // the reader's
 };
 
 }  // namespace v0
