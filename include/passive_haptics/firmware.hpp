@@ -2,7 +2,7 @@
 #pragma once
 // For firmware: the core without Eigen in one include, and a space that insists on its FPU.
 //
-//   hardware_space<float, 1>   space<float, 1>, if the FPU computes floats and NaN is still NaN
+//   hardware_space<float, 1>   space<float, 1>, if the FPU computes floats
 //   space<float, 1>            the same without that question: for cores that compute in software
 //
 // Two and three degrees of freedom need vectors: include port/eigen_space.hpp, too. The flags to use,
@@ -43,42 +43,30 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What the compiler says about the machine it compiles for. 32-bit ARM says it (ACLE: __ARM_FP,
-/// bit 2 single, bit 3 double); every other target is taken to have an FPU for every scalar.
+/// What the compiler says about the FPU of the machine it compiles for: bit 2 single, bit 3 double
+/// precision, so that the bit of a scalar is its size. 32-bit ARM says it (ACLE, __ARM_FP), and RISC-V
+/// (__riscv_flen); every other target is taken to have an FPU for every scalar.
 namespace target {
 
-#if defined(__arm__) && !defined(__ARM_FP)
-inline constexpr unsigned fpu = 0;
-#elif defined(__arm__)
+#if defined(__ARM_FP)
 inline constexpr unsigned fpu = __ARM_FP;
+#elif defined(__riscv_flen)
+inline constexpr unsigned fpu = __riscv_flen >= 64 ? 4 + 8 : 4;
+#elif defined(__arm__) || defined(__riscv)
+inline constexpr unsigned fpu = 0;
 #else
 inline constexpr unsigned fpu = ~0U;
 #endif
 
-inline constexpr bool has_fpu = fpu != 0;
-
-/// Does the FPU compute Scalar? The bit of a scalar is its size.
-template <class Scalar>
-inline constexpr bool computes = (fpu & sizeof(Scalar)) != 0;
-
-#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0
-inline constexpr bool knows_nan = false;
-#else
-inline constexpr bool knows_nan = true;
-#endif
-
-/// Asserts, sentence by sentence.
-template <real Scalar, int Dof>
+/// Asserts, sentence by sentence, where it is asked for a type; who asks for none may have no FPU.
+template <real Scalar, int Dof, unsigned Fpu = fpu>
 struct checked {
-  static_assert(has_fpu,
+  static_assert(Fpu != 0,
                 "passive_haptics: firmware: this build uses no FPU: set -mfpu and "
                 "-mfloat-abi=hard, or write space instead of hardware_space for soft float");
-  static_assert(!has_fpu || computes<Scalar>,
+  static_assert(Fpu == 0 || (Fpu & sizeof(Scalar)) != 0,
                 "passive_haptics: firmware: the FPU of this core does not compute this scalar: use "
                 "float, or write space instead of hardware_space for soft float");
-  static_assert(knows_nan,
-                "passive_haptics: firmware: -ffast-math and -ffinite-math-only delete the guard "
-                "against NaN: build without them");
   using type = space<Scalar, Dof>;
 };
 

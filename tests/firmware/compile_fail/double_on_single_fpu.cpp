@@ -4,5 +4,10 @@
 // CONTROL: -mcpu=cortex-m7 -mfpu=fpv5-d16 -mfloat-abi=hard
 #include <passive_haptics/firmware.hpp>
 
-using scene = passive_haptics::hardware_space<double, 1>;
-scene::vector x = scene::zero();
+namespace ph = passive_haptics;
+
+#ifdef POSITIVE_CONTROL
+ph::hardware_space<float, 1>::vector x{};
+#else
+ph::hardware_space<double, 1>::vector x{};
+#endif

@@ -5,5 +5,10 @@
 // CONTROL: -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=softfp
 #include <passive_haptics/firmware.hpp>
 
-using scene = passive_haptics::hardware_space<float, 1>;
-scene::vector x = scene::zero();
+namespace ph = passive_haptics;
+
+#ifdef POSITIVE_CONTROL
+ph::space<float, 1>::vector x{};
+#else
+ph::hardware_space<float, 1>::vector x{};
+#endif
