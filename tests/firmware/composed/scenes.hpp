@@ -8,16 +8,7 @@
 //   plane_reachable  3   a moving half-space   damped spring   reachable_bound   normals turn slowly
 //   triangle_thesis  3   a moving triangle     spring          thesis_rule       normals turn slowly
 
-#include <passive_haptics/constraint_geometry/fixed.hpp>
-#include <passive_haptics/constraint_geometry/followed.hpp>
-#include <passive_haptics/constraint_geometry/half_space.hpp>
-#include <passive_haptics/contact/damped_spring.hpp>
-#include <passive_haptics/contact/spring.hpp>
-#include <passive_haptics/energy_observer/reduced_energy.hpp>
-#include <passive_haptics/force_bound/reachable_bound.hpp>
-#include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/local_model.hpp>
-#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
+#include <passive_haptics/firmware.hpp>
 
 namespace composed {
 

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The scenes of two and three degrees of freedom.
+// The scenes of two and three degrees of freedom; they include what a user would.
 
 #include "scenes.hpp"
-#include <passive_haptics/constraint_geometry/triangle.hpp>
-#include <passive_haptics/contact/shaped.hpp>
-#include <passive_haptics/force_bound/actuator_limit.hpp>
-#include <passive_haptics/normal_interpolation/turn_limited.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
-#include <passive_haptics/shaper/thesis_rule.hpp>
+#include <passive_haptics/passive_haptics.hpp>
 
 namespace composed {
 

@@ -15,8 +15,10 @@ namespace recorded = replay::recorded;
 constexpr std::uint32_t wanted_interruptions = 1500;
 #ifdef __ARM_FP
 constexpr std::uint32_t longest_handler = 2000;  // instructions
-#else
+#elif defined(__ARM_FEATURE_CLZ)
 constexpr std::uint32_t longest_handler = 36000;
+#else
+constexpr std::uint32_t longest_handler = 60000;  // ARMv6-M
 #endif
 
 std::uint32_t mixed(std::uint32_t sum, std::uint32_t value) {
@@ -81,7 +83,7 @@ void rewind_clock() {
   dice ^= dice << 13;
   dice ^= dice >> 17;
   dice ^= dice << 5;
-  cortex_m::systick_reload = (longest_handler + dice % 977) * 256 / 10;
+  cortex_m::systick_reload = platform::readings(longest_handler + dice % 977);
   cortex_m::systick_value = 0;
 }
 

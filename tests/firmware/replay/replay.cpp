@@ -26,6 +26,7 @@ void nothing();
 
 namespace {
 
+namespace ph = passive_haptics;
 using replay::recording;
 
 /// The tick, in whichever of the three spellings it has.
@@ -67,6 +68,7 @@ template <class Subject>
 void play(const recording& r) {
   using position = typename Subject::position;
   Subject subject;
+  ph::exchange<replay::surface> inbox;
   text_line line;
   line.words("state", r.scene, Subject::author).number(sizeof subject.model).print();
 
@@ -80,7 +82,8 @@ void play(const recording& r) {
 
   for (std::uint32_t n = 0; n < r.ticks; ++n) {
     const replay::sample& s = r.samples[n];
-    if (s.news >= 0) subject.update(r.surfaces[s.news]);
+    if (s.news >= 0) inbox.publish(r.surfaces[s.news]);
+    if (const replay::surface* news = inbox.take()) subject.update(*news);
     const auto x = replay::vector_of<position, Subject::dof>(s.x);
     std::uint32_t instructions = 0;
     const auto out = counted(Subject::call, subject.model, x, replay::real_of(s.dt), instructions);

@@ -11,6 +11,8 @@ import baseline
 MARK = re.compile(r"<!-- figures: (\S+) (\S+) (\S+) -->\n(?:\|.*\n)*")
 CODE = re.compile(r"<!-- from: (\S+) -->\n```cpp\n(.*?)```", re.S)
 COLUMNS = ["text", "state", "stack", "best", "median", "worst"]
+BOARDS = {"M0+": "microbit, a Cortex-M0", "M3": "mps2-an385", "M4F": "mps2-an386", "M7": "mps2-an500",
+          "M33": "mps2-an505"}
 
 
 def figures(known, core, scalar, optimisation):
@@ -22,6 +24,20 @@ def figures(known, core, scalar, optimisation):
             twin = known[(scene, "by_hand", *where)]
             numbers = [row[c] for c in COLUMNS] + [twin[c] for c in ("text", "median", "worst")]
             text += f"| {scene} | " + " | ".join(map(str, numbers)) + " |\n"
+    return text
+
+
+def cores(known, scalar, optimisation):
+    """A row for each core: the least and the largest scene."""
+    text = "| core | in QEMU on | " + " | ".join(
+        f"{scene}: text | state | median | worst"
+        for scene in ("wall_strict", "triangle_thesis")) + " |\n|" + "---|" * 10 + "\n"
+    for core, board in BOARDS.items():
+        numbers = []
+        for scene in ("wall_strict", "triangle_thesis"):
+            row = known[scene, "composed", core, scalar, optimisation + ", contraction off"]
+            numbers += [row[c] for c in ("text", "state", "median", "worst")]
+        text += f"| {core} | {board} | " + " | ".join(map(str, numbers)) + " |\n"
     return text
 
 
@@ -41,7 +57,8 @@ def main():
         if code not in (root / source).read_text(encoding="utf-8"):
             sys.exit(f"{sys.argv[2]}: not in {source}:\n{code}")
     wanted = MARK.sub(lambda m: f"<!-- figures: {m[1]} {m[2]} {m[3]} -->\n"
-                      + figures(known, m[1], m[2], m[3]), page)
+                      + (cores(known, m[2], m[3]) if m[1] == "cores"
+                         else figures(known, m[1], m[2], m[3])), page)
     if "--rewrite" in sys.argv:
         with open(sys.argv[2], "w", encoding="utf-8") as stream:
             stream.write(wanted)

@@ -41,9 +41,7 @@ def addresses(tools, image, *names):
 def emulate(options, tools):
     """Runs the image; its exit code must be 0."""
     image = options.folder / "replay.elf"
-    command = [options.qemu, "-M", options.machine, "-display", "none", "-monitor", "none",
-               "-serial", "none", "-semihosting-config", "enable=on,target=native",
-               "-icount", "shift=10,align=off,sleep=off"]
+    command = list(options.qemu)
     if options.plugin:
         begin, end, series = addresses(tools, image, "count_begin", "count_end", "count_series")
         command += ["-plugin", f"{options.plugin},begin={begin},end={end},series={series},"
@@ -58,7 +56,7 @@ def emulate(options, tools):
 
 
 def instructions(lines):
-    """{(scene, author): [instructions of each tick]}, by SysTick."""
+    """{(scene, author): [instructions of each tick]}, by the timer of the core."""
     counts = {}
     for words in lines:
         if words[0] == "insn":
@@ -80,7 +78,7 @@ def cross_check(folder, counts):
         by_plugin = [call - empty + 1 for call in calls]
         if by_plugin != by_systick:
             wrong = [n for n, pair in enumerate(zip(by_plugin, by_systick)) if pair[0] != pair[1]]
-            sys.exit(f"{folder.name}: {' '.join(key)}: SysTick and plugin disagree in ticks "
+            sys.exit(f"{folder.name}: {' '.join(key)}: timer and plugin disagree in ticks "
                      f"{wrong[:5]} ({len(by_plugin)} and {len(by_systick)} ticks)")
     return {key: operations[number] for number, key in enumerate(counts)}
 
@@ -96,11 +94,11 @@ def entry(tools, object_file, scene, author):
     sys.exit(f"{object_file}: no {wanted}")
 
 
-def sizes(tools, folder, scene, author):
+def sizes(tools, emulation, folder, scene, author):
     """The bytes of the tick and of all it calls, and what it leaves to the linker."""
     object_file = folder / f"{author}_{scene}.o"
     alone = folder / f"{author}_{scene}_tick.o"
-    tools("ld", "-r", "--gc-sections", "-e", entry(tools, object_file, scene, author),
+    tools("ld", *emulation, "-r", "--gc-sections", "-e", entry(tools, object_file, scene, author),
           object_file, "-o", alone)
     text, data, bss = map(int, tools("size", alone).splitlines()[1].split()[:3])
     undefined = sorted(line.split()[-1] for line in tools("nm", "-u", alone).splitlines())
@@ -132,12 +130,15 @@ def worst_stack(tools, folder, scene, author):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name in ("folder", "machine", "core", "scalar", "flags", "cross", "qemu"):
+    for name in ("folder", "core", "scalar", "flags", "cross"):
         parser.add_argument("--" + name, required=True)
     parser.add_argument("--plugin", default="", help="without one there is no cross-check")
+    parser.add_argument("--emulation", default="", help="the linker's, if not its default")
+    parser.add_argument("qemu", nargs="+", help="QEMU with its options, after --")
     options = parser.parse_args()
     options.folder = pathlib.Path(options.folder)
     tools = Tools(options.cross)
+    emulation = ["-m", options.emulation] if options.emulation else []
 
     lines = emulate(options, tools)
     counts = instructions(lines)
@@ -150,7 +151,7 @@ def main():
     for (scene, author), ticks in counts.items():
         rows.append({"scene": scene, "author": author, "core": options.core,
                      "scalar": options.scalar, "flags": options.flags,
-                     **sizes(tools, options.folder, scene, author),
+                     **sizes(tools, emulation, options.folder, scene, author),
                      "state": states[scene, author],
                      "stack": worst_stack(tools, options.folder, scene, author),
                      "best": min(ticks), "median": int(statistics.median_low(ticks)),
@@ -161,7 +162,7 @@ def main():
               "cross_checked": bool(options.plugin), "rows": rows}
     (options.folder / "measured.json").write_text(json.dumps(result, indent=1) + "\n")
     ticks = sum(row["ticks"] for row in rows)
-    print(f"{options.folder.name}: {ticks} ticks, instructions by SysTick"
+    print(f"{options.folder.name}: {ticks} ticks, instructions by the machine's timer"
           + (", the same by the plugin" if options.plugin else "; no plugin, not cross-checked"))
 
 

@@ -113,7 +113,7 @@ def main():
                 "cross_checked": all(image["cross_checked"] for image in images), "rows": rows}
     (out / "firmware.json").write_text(json.dumps(document, indent=1) + "\n")
     ticks = rows[0]["ticks"]
-    checked = "by SysTick" + (" and by a plugin, which agree" if document["cross_checked"] else "")
+    checked = "by the core's timer" + (" and by a plugin, which agree" if document["cross_checked"] else "")
     (out / "firmware.md").write_text(
         "# The tick on Cortex-M\n\n"
         f"{images[0]['compiler']}. Text is the tick and all it calls, constants included; data and "

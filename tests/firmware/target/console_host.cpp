@@ -9,9 +9,6 @@ void platform::print(const char* text) {
 std::uint32_t platform::clock() {
   return 0;
 }
-std::uint32_t platform::instructions(std::uint32_t, std::uint32_t) {
-  return 0;
-}
 
 int main() {
   return program();

@@ -2,13 +2,14 @@
 // Start-up for the test programs: FPU on, data copied, bss cleared, program(), its result to the
 // debugger. A fault prints FAULT and ends with 99.
 #include "cortex_m.hpp"
+#include "memory.hpp"
 #include "platform.hpp"
 
 #include <cstdint>
 
 extern "C" {
 
-extern std::uint32_t _estack, _sidata, _sdata, _edata, _sbss, _ebss;
+extern std::uint32_t _estack;
 
 // Replaced by the programs that use it.
 [[gnu::weak]] void SysTick_Handler() {}
@@ -21,9 +22,7 @@ void Reset_Handler() {
   cortex_m::coprocessor_access = cortex_m::coprocessor_access | (0xFU << 20);
   asm volatile("dsb; isb");
 #endif
-  const std::uint32_t* from = &_sidata;
-  for (std::uint32_t* to = &_sdata; to < &_edata;) *to++ = *from++;
-  for (std::uint32_t* to = &_sbss; to < &_ebss;) *to++ = 0;
+  prepare_memory();
   cortex_m::leave(program());
 }
 
