@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -24,8 +23,7 @@ namespace environment {
 /// std::invalid_argument for a radius that is not a finite number above zero.
 [[nodiscard]] inline tetrahedral_mesh ball(double radius) {
   if (!(radius > 0.0) || !std::isfinite(radius)) {
-    throw std::invalid_argument(
-        sentence("ball: radius ", radius, " m is refused; give a finite number above zero"));
+    refuse_argument("ball: radius ", radius, " m is refused; give a finite number above zero");
   }
   const double height = (std::numbers::sqrt2 - 1.0) * radius;
   const double ring = std::sqrt((radius - height) * (radius + height));

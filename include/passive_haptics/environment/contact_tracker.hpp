@@ -12,7 +12,6 @@
 
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -23,8 +22,7 @@ class contact_tracker {
   /// `margin` ≥ 0 [m]: more than the noise of the position, much less than an edge of the surface.
   explicit contact_tracker(double margin) : margin_(margin) {
     if (!(margin >= 0.0) || !std::isfinite(margin)) {
-      throw std::invalid_argument(
-          sentence("contact_tracker: margin ", margin, " m is refused; give a finite one, ≥ 0"));
+      refuse_argument("contact_tracker: margin ", margin, " m is refused; give a finite one, ≥ 0");
     }
   }
 

@@ -26,7 +26,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 namespace passive_haptics {
@@ -78,14 +77,12 @@ class deformable_body {
         next_(mesh.nodes),
         forces_(mesh.nodes.size(), Eigen::Vector3d::Zero()) {
     if (!(options.local_stiffness >= 0.0) || !std::isfinite(options.local_stiffness)) {
-      throw std::invalid_argument(sentence("deformable_body: local stiffness ",
-                                           options.local_stiffness,
-                                           " N/m is refused; give a finite one, 0: as reported"));
+      refuse_argument("deformable_body: local stiffness ", options.local_stiffness,
+                      " N/m is refused; give a finite one, 0: as reported");
     }
     if (!(options.max_stiffness > 0.0) || !std::isfinite(options.max_stiffness)) {
-      throw std::invalid_argument(sentence("deformable_body: greatest stiffness ",
-                                           options.max_stiffness,
-                                           " N/m is refused; give a finite one above zero"));
+      refuse_argument("deformable_body: greatest stiffness ", options.max_stiffness,
+                      " N/m is refused; give a finite one above zero");
     }
     double volume = 0.0;
     for (const auto& t : mesh.tetrahedra) {

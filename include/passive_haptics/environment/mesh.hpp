@@ -8,7 +8,10 @@
 //   scaled                 another unit of length: scaled(mesh, 1e-3) takes mm to m
 //
 // Numbers of nodes and elements count from 0. This room is the slow side: it may use the heap and
-// throw; nothing in it belongs into the haptic tick.
+// throw (refuse.hpp says how, and what stands for it where there are no exceptions); nothing in it
+// belongs into the haptic tick.
+
+#include <passive_haptics/environment/refuse.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,10 +20,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <locale>
 #include <optional>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,22 +35,6 @@ namespace environment {
 struct tetrahedral_mesh {
   std::vector<Eigen::Vector3d> nodes;          ///< [m]
   std::vector<std::array<int, 4>> tetrahedra;  ///< indices into nodes
-};
-
-/// The parts one after the other, numbers in the "C" locale whatever the application has set.
-template <class... Parts>
-[[nodiscard]] std::string sentence(const Parts&... parts) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  (text << ... << parts);
-  return text.str();
-}
-
-/// A mesh that cannot be used. what() is complete: "<where>: <what is wrong>; <what to do>".
-class mesh_error : public std::runtime_error {
- public:
-  mesh_error(std::string_view where, std::string_view problem, std::string_view remedy)
-      : std::runtime_error(sentence(where, ": ", problem, "; ", remedy)) {}
 };
 
 /// The fault that check() throws, before it is put into words for one kind of reader.
@@ -159,7 +143,7 @@ inline void check(const tetrahedral_mesh& mesh, std::string_view name = "mesh") 
   std::string subject;
   if (fault->node >= 0) subject = sentence("node ", fault->node, " ");
   if (fault->tetrahedron >= 0) subject = sentence("tetrahedron ", fault->tetrahedron, " ");
-  throw mesh_error(name, subject + fault->problem, fault->remedy);
+  refuse(mesh_error(name, subject + fault->problem, fault->remedy));
 }
 
 /// The mesh with two nodes of every element swapped if all are inverted, else the mesh as it is: a
@@ -176,8 +160,7 @@ inline void check(const tetrahedral_mesh& mesh, std::string_view name = "mesh") 
 /// Every coordinate times `factor` > 0. std::invalid_argument for any other factor.
 [[nodiscard]] inline tetrahedral_mesh scaled(tetrahedral_mesh mesh, double factor) {
   if (!(factor > 0.0) || !std::isfinite(factor)) {
-    throw std::invalid_argument(
-        sentence("scaled: factor ", factor, " is refused; give a finite number above zero"));
+    refuse_argument("scaled: factor ", factor, " is refused; give a finite number above zero");
   }
   for (auto& node : mesh.nodes) node *= factor;
   return mesh;

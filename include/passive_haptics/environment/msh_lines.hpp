@@ -89,7 +89,7 @@ class msh_lines {
     fail_at(number_, problem, remedy);
   }
   [[noreturn]] void fail_at(int line, std::string_view problem, std::string_view remedy) const {
-    throw mesh_error(line > 0 ? sentence(name_, ":", line) : name_, problem, remedy);
+    refuse(mesh_error(line > 0 ? sentence(name_, ":", line) : name_, problem, remedy));
   }
 
   /// At most forty characters of a file, printable.

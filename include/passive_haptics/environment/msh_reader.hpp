@@ -232,10 +232,10 @@ class msh_reader {
   const std::string name = path.string();
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    throw mesh_error(name, "is a directory", "give the path of a .msh file");
+    refuse(mesh_error(name, "is a directory", "give the path of a .msh file"));
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw mesh_error(name, "cannot be opened", "check the path and its permissions");
+  if (!file) refuse(mesh_error(name, "cannot be opened", "check the path and its permissions"));
   return read_msh(file, name);
 }
 

@@ -17,7 +17,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <span>
-#include <stdexcept>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -35,12 +34,11 @@ class spring_wall {
 
   explicit spring_wall(std::span<const double> springs) {
     if (springs.empty()) {
-      throw std::invalid_argument("spring_wall: there is no spring; give at least one [N/m]");
+      refuse_argument("spring_wall: there is no spring; give at least one [N/m]");
     }
     for (const double k : springs) {
       if (!(k > 0.0) || !std::isfinite(k)) {
-        throw std::invalid_argument(
-            sentence("spring_wall: spring ", k, " N/m is refused; give a finite one above zero"));
+        refuse_argument("spring_wall: spring ", k, " N/m is refused; give a finite one above zero");
       }
     }
     const auto count = static_cast<Eigen::Index>(springs.size());
@@ -52,9 +50,8 @@ class spring_wall {
     const Eigen::LDLT<Eigen::MatrixXd> reduced(assembled.topLeftCorner(count, count));
     compliance_ = reduced.solve(Eigen::VectorXd::Unit(count, 0));
     if (!compliance_.allFinite() || !(compliance_[0] > 0.0)) {
-      throw std::invalid_argument(
-          sentence("spring_wall: the stiffest spring is too far from the softest to be solved (",
-                   compliance_[0], " m/N); bring them within 1e12 of each other"));
+      refuse_argument("spring_wall: the stiffest spring is too far from the softest to be solved (",
+                      compliance_[0], " m/N); bring them within 1e12 of each other");
     }
   }
 

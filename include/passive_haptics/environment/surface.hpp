@@ -77,11 +77,12 @@ using nodes_view = std::span<const Eigen::Vector3d>;  ///< positions [m]
         std::find_if(first, all.end(), [&](const face& f) { return f.key != first->key; });
     const auto owners = last - first;
     if (owners > 2 || (owners == 2 && first->nodes == std::next(first)->nodes)) {
-      throw mesh_error("surface",
-                       sentence("elements ", first->number / 4, " and ",
-                                std::prev(last)->number / 4, " overlap at the face ", first->key[0],
-                                " ", first->key[1], " ", first->key[2], " (", owners, " owners)"),
-                       "a face has one element on each side: mesh the volume again");
+      refuse(
+          mesh_error("surface",
+                     sentence("elements ", first->number / 4, " and ", std::prev(last)->number / 4,
+                              " overlap at the face ", first->key[0], " ", first->key[1], " ",
+                              first->key[2], " (", owners, " owners)"),
+                     "a face has one element on each side: mesh the volume again"));
     }
     if (owners == 1) single.push_back(*first);
     first = last;

@@ -53,15 +53,15 @@ class tetrahedral_fem {
     check(m);
     number_ = free_numbers(mesh, fixed_nodes);
     if (const int modes = rigid_modes_left(mesh, fixed_nodes); modes > 0) {
-      throw singular_stiffness(
+      refuse(singular_stiffness(
           sentence("tetrahedral_fem: singular, ", modes, " rigid modes left by the fixed nodes in ",
                    find_parts(mesh).count,
                    " connected part(s); fix at least three nodes, not on one line, of each part"),
-          modes);
+          modes));
     }
     const Eigen::SparseMatrix<double> stiffness = stiffness_matrix(mesh, m, fixed_nodes);
     if (stiffness.rows() == 0) {
-      throw std::invalid_argument(
+      refuse_argument(
           "tetrahedral_fem: every node is fixed, nothing can move; leave at least one free");
     }
     factorise(stiffness);
@@ -74,8 +74,8 @@ class tetrahedral_fem {
   /// until the next call. std::invalid_argument unless there is one force per node.
   const std::vector<Eigen::Vector3d>& displacements(std::span<const Eigen::Vector3d> forces) {
     if (forces.size() != number_.size()) {
-      throw std::invalid_argument(sentence("displacements: ", forces.size(), " forces for ",
-                                           number_.size(), " nodes; give one per node"));
+      refuse_argument("displacements: ", forces.size(), " forces for ", number_.size(),
+                      " nodes; give one per node");
     }
     for (std::size_t node = 0; node < number_.size(); ++node) {
       if (number_[node] >= 0) load_.segment<3>(3 * number_[node]) = forces[node];
@@ -123,12 +123,12 @@ class tetrahedral_fem {
       inverse_pivots_ = factor_.vectorD().cwiseInverse();
     }
     if (!(smallest > 1e-12) || !inverse_pivots_.allFinite()) {
-      throw singular_stiffness(
+      refuse(singular_stiffness(
           sentence(
               "tetrahedral_fem: singular, 0 rigid modes left but the smallest pivot is ", smallest,
               " of its diagonal; parts that share only a node or an edge turn about it: fix three "
               "nodes of each, or mesh the volume again"),
-          0);
+          0));
     }
   }
 
@@ -153,8 +153,8 @@ class tetrahedral_fem {
 [[nodiscard]] inline std::vector<Eigen::Vector3d> deform(std::span<const Eigen::Vector3d> rest,
                                                          std::span<const Eigen::Vector3d> u) {
   if (rest.size() != u.size()) {
-    throw std::invalid_argument(sentence("deform: ", u.size(), " displacements for ", rest.size(),
-                                         " nodes; give one per node"));
+    refuse_argument("deform: ", u.size(), " displacements for ", rest.size(),
+                    " nodes; give one per node");
   }
   std::vector<Eigen::Vector3d> result(rest.begin(), rest.end());
   for (std::size_t i = 0; i < result.size(); ++i) result[i] += u[i];

@@ -19,7 +19,6 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 namespace passive_haptics {
@@ -40,12 +39,12 @@ struct material {
 /// Throws std::invalid_argument for a material that stores no energy when it is strained.
 inline void check(const material& m) {
   if (!(m.young > 0.0) || !std::isfinite(m.young)) {
-    throw std::invalid_argument(sentence("material: Young's modulus ", m.young,
-                                         " Pa is refused; give a finite one above zero"));
+    refuse_argument("material: Young's modulus ", m.young,
+                    " Pa is refused; give a finite one above zero");
   }
   if (!(m.poisson > -1.0 && m.poisson < 0.5)) {
-    throw std::invalid_argument(sentence("material: Poisson's ratio ", m.poisson,
-                                         " is refused; it lies between -1 and 0.5, both excluded"));
+    refuse_argument("material: Poisson's ratio ", m.poisson,
+                    " is refused; it lies between -1 and 0.5, both excluded");
   }
 }
 
@@ -72,8 +71,8 @@ inline void check(const material& m) {
   std::vector<int> number(mesh.nodes.size(), 0);
   for (const int node : fixed_nodes) {
     if (node < 0 || node >= static_cast<int>(number.size())) {
-      throw std::invalid_argument(sentence(
-          "fixed node ", node, " is refused; the mesh has nodes 0 to ", number.size() - 1));
+      refuse_argument("fixed node ", node, " is refused; the mesh has nodes 0 to ",
+                      number.size() - 1);
     }
     number[static_cast<std::size_t>(node)] = -1;
   }

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// How this room refuses what it cannot use: with a sentence that names the value and the remedy.
+//
+//   ask first, as values    find_fault(mesh), rigid_modes_left(mesh, fixed)
+//   refused, as exceptions  mesh_error, singular_stiffness, std::invalid_argument
+//
+// Under -fno-exceptions the values are the same, and what would be thrown is said on stderr and ends
+// the program: there is no third way out of a constructor.
+
+#include <cstdio>
+#include <cstdlib>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
+
+/// The parts one after the other, numbers in the "C" locale whatever the application has set.
+template <class... Parts>
+[[nodiscard]] std::string sentence(const Parts&... parts) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  (text << ... << parts);
+  return text.str();
+}
+
+/// A mesh that cannot be used. what() is complete: "<where>: <what is wrong>; <what to do>".
+class mesh_error : public std::runtime_error {
+ public:
+  mesh_error(std::string_view where, std::string_view problem, std::string_view remedy)
+      : std::runtime_error(sentence(where, ": ", problem, "; ", remedy)) {}
+};
+
+/// Throws the error; a program compiled without exceptions ends with its text.
+template <class Error>
+[[noreturn]] void refuse(const Error& error) {
+#if defined(__cpp_exceptions)
+  throw error;
+#else
+  std::fprintf(stderr, "passive_haptics: %s\n", error.what());
+  std::abort();
+#endif
+}
+
+/// Refuses an argument with a std::invalid_argument of these parts.
+template <class... Parts>
+[[noreturn]] void refuse_argument(const Parts&... parts) {
+  refuse(std::invalid_argument(sentence(parts...)));
+}
+
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics
