@@ -140,7 +140,7 @@ TEST_CASE("read_msh names file, line and remedy of what it refuses", "[environme
       {in_2("10 20 35 40", "10 20 35 35"), {"m.msh:20: element 2 names node", "twice"}},
       {in_2("10 20 35 40", "10 20 35"), {"m.msh:20: ends before the node number"}},
       {in_2("0 0 1.5", "0.5 0.5 0"), {"m.msh:20: element 2 has no volume"}},
-      {in_2("3 4 0 10 35 20 1000000", "3 4 0 20 10 40 35"), {"m.msh:21: element 3 repeats"}},
+      {in_2("3 4 0 10 35 20 1000000", "3 4 0 20 10 40 35"), {"m.msh:21: element 3 and element 2 overlap"}},
       {in_2("$Nodes", "$Nude"), {"m.msh:8: opens '$Nude', which never ends"}},
       {"$Nodes\n0\n$EndNodes\n", {"m.msh:1: $Nodes comes before $MeshFormat"}},
       {version_2 + version_2, {"is a second $Nodes section"}},

@@ -4,6 +4,7 @@
 //
 //   tetrahedral_mesh       nodes [m] and four node numbers per element
 //   find_fault, check      the first thing wrong with it, as a value or as a mesh_error
+//   bounds                 the box around it [m]: whether its unit of length is what was meant
 //   oriented               turns a mesh whose elements are ALL inverted: a convention, not a fault
 //   scaled                 another unit of length: scaled(mesh, 1e-3) takes mm to m
 //
@@ -23,6 +24,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,7 @@ struct tetrahedral_mesh {
 struct mesh_fault {
   int node = -1;         ///< the node at fault, or −1
   int tetrahedron = -1;  ///< the element at fault, or −1
+  int other = -1;        ///< the element that it does not go with, or −1
   std::string problem;
   std::string remedy;
 };
@@ -69,71 +72,126 @@ struct mesh_fault {
   return signed_volume(mesh, tetrahedron) / (longest * longest * longest);
 }
 
+/// A face of an element, as it looks from the two elements that may own it.
+struct element_face {
+  std::array<int, 3> key;    ///< its nodes, sorted: the same for both
+  std::array<int, 3> nodes;  ///< outward, the smallest first: opposite cycles
+  int number;                ///< 4 · element + face
+
+  [[nodiscard]] int tetrahedron() const noexcept { return number / 4; }
+};
+
+/// The four faces of every element, those with the same key side by side, the first owner first.
+[[nodiscard]] inline std::vector<element_face> sorted_faces(const tetrahedral_mesh& mesh) {
+  // Outward faces of the upright element 0123.
+  constexpr std::array<std::array<std::size_t, 3>, 4> corners{
+      {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  std::vector<element_face> all;
+  all.reserve(4 * mesh.tetrahedra.size());
+  for (const auto& element : mesh.tetrahedra) {
+    for (const auto& corner : corners) {
+      element_face f{{element[corner[0]], element[corner[1]], element[corner[2]]},
+                     {},
+                     static_cast<int>(all.size())};
+      f.nodes = f.key;
+      std::rotate(f.nodes.begin(), std::min_element(f.nodes.begin(), f.nodes.end()), f.nodes.end());
+      std::sort(f.key.begin(), f.key.end());
+      all.push_back(f);
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const element_face& a, const element_face& b) {
+    return std::tie(a.key, a.number) < std::tie(b.key, b.number);
+  });
+  return all;
+}
+
+/// Two elements on the same side of a face, as those that are twice in the mesh are, or a third one
+/// at it; the faces as sorted_faces() leaves them.
+[[nodiscard]] inline std::optional<mesh_fault> find_overlap(
+    const std::vector<element_face>& sorted) {
+  for (auto first = sorted.begin(); first != sorted.end();) {
+    const auto last = std::find_if(first, sorted.end(),
+                                   [&](const element_face& f) { return f.key != first->key; });
+    if (last - first > 2 || (last - first == 2 && first->nodes == std::next(first)->nodes)) {
+      return mesh_fault{.tetrahedron = std::prev(last)->tetrahedron(),
+                        .other = first->tetrahedron(),
+                        .problem = "overlap at a common face",
+                        .remedy = "keep one of them, or mesh the volume again"};
+    }
+    first = last;
+  }
+  return std::nullopt;
+}
+
 inline constexpr double flat_element = 1e-9;  ///< relative volume of an element that has none
 
 /// The first fault of a mesh, none if it can be used: it has nodes and elements; coordinates are
-/// finite; every element has four different nodes that exist, a volume, and stands upright; no
-/// element occurs twice; every node belongs to an element.
+/// finite; every element has four different nodes that exist, a volume, and stands upright; no two
+/// elements overlap at a face; every node belongs to an element.
 [[nodiscard]] inline std::optional<mesh_fault> find_fault(const tetrahedral_mesh& mesh) {
   const auto count = static_cast<int>(mesh.nodes.size());
-  if (mesh.nodes.empty()) return mesh_fault{-1, -1, "has no nodes", "load or build a mesh first"};
+  if (mesh.nodes.empty()) {
+    return mesh_fault{.problem = "has no nodes", .remedy = "load or build a mesh first"};
+  }
   if (mesh.tetrahedra.empty()) {
-    return mesh_fault{-1, -1, "has no tetrahedra", "mesh the volume, not only the surface"};
+    return mesh_fault{.problem = "has no tetrahedra",
+                      .remedy = "mesh the volume, not only the surface"};
   }
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(i)];
     if (!x.allFinite()) {
-      return mesh_fault{i, -1, sentence("is not finite: ", x.transpose()), "mend its coordinates"};
+      return mesh_fault{.node = i,
+                        .problem = sentence("is not finite: ", x.transpose()),
+                        .remedy = "mend its coordinates"};
     }
   }
 
   std::vector<bool> used(mesh.nodes.size(), false);
-  std::vector<std::pair<std::array<int, 4>, int>> sorted;
   std::size_t inverted = 0;
   int first_inverted = -1;
   for (int e = 0; e < static_cast<int>(mesh.tetrahedra.size()); ++e) {
     const auto& tetrahedron = mesh.tetrahedra[static_cast<std::size_t>(e)];
     for (const int node : tetrahedron) {
       if (node < 0 || node >= count) {
-        return mesh_fault{-1, e, sentence("names node ", node, " of ", count, " nodes"),
-                          "node numbers count from 0"};
+        return mesh_fault{.tetrahedron = e,
+                          .problem = sentence("names node ", node, " of ", count, " nodes"),
+                          .remedy = "node numbers count from 0"};
       }
       used[static_cast<std::size_t>(node)] = true;
     }
     auto key = tetrahedron;
     std::sort(key.begin(), key.end());
     if (const auto twin = std::adjacent_find(key.begin(), key.end()); twin != key.end()) {
-      return mesh_fault{-1, e, sentence("names node ", *twin, " twice"), "remove the element"};
+      return mesh_fault{.tetrahedron = e,
+                        .problem = sentence("names node ", *twin, " twice"),
+                        .remedy = "remove the element"};
     }
     const double volume = relative_volume(mesh, tetrahedron);
     if (!(std::abs(volume) > flat_element)) {
-      return mesh_fault{-1, e, sentence("has no volume (", volume, " of its longest edge cubed)"),
-                        "remove it or mesh the volume again"};
+      return mesh_fault{
+          .tetrahedron = e,
+          .problem = sentence("has no volume (", volume, " of its longest edge cubed)"),
+          .remedy = "remove it or mesh the volume again"};
     }
     if (volume < 0.0 && inverted++ == 0) first_inverted = e;
-    sorted.emplace_back(key, e);
   }
   if (inverted == mesh.tetrahedra.size()) {
-    return mesh_fault{-1, first_inverted, "is inverted, and so are all: the other node order",
-                      "pass the mesh through oriented()"};
+    return mesh_fault{.tetrahedron = first_inverted,
+                      .problem = "is inverted, and so are all: the other node order",
+                      .remedy = "pass the mesh through oriented()"};
   }
   if (inverted > 0) {
-    return mesh_fault{-1, first_inverted,
-                      sentence("is inverted, as are ", inverted, " of ", mesh.tetrahedra.size()),
-                      "swap two of its nodes if the order is wrong, else mesh the volume again"};
-  }
-  std::sort(sorted.begin(), sorted.end());
-  const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
-  if (const auto twin = std::adjacent_find(sorted.begin(), sorted.end(), same);
-      twin != sorted.end()) {
-    return mesh_fault{-1, std::next(twin)->second, "repeats an earlier element",
-                      "keep one: a volume in two physical groups is saved twice"};
+    return mesh_fault{
+        .tetrahedron = first_inverted,
+        .problem = sentence("is inverted, as are ", inverted, " of ", mesh.tetrahedra.size()),
+        .remedy = "swap two of its nodes if the order is wrong, else mesh the volume again"};
   }
   if (const auto loose = std::find(used.begin(), used.end(), false); loose != used.end()) {
-    return mesh_fault{static_cast<int>(loose - used.begin()), -1, "belongs to no tetrahedron",
-                      "remove it: nothing holds it in place"};
+    return mesh_fault{.node = static_cast<int>(loose - used.begin()),
+                      .problem = "belongs to no tetrahedron",
+                      .remedy = "remove it: nothing holds it in place"};
   }
-  return std::nullopt;
+  return find_overlap(sorted_faces(mesh));
 }
 
 /// Throws mesh_error for the first fault found; `name` opens its text.
@@ -143,7 +201,15 @@ inline void check(const tetrahedral_mesh& mesh, std::string_view name = "mesh") 
   std::string subject;
   if (fault->node >= 0) subject = sentence("node ", fault->node, " ");
   if (fault->tetrahedron >= 0) subject = sentence("tetrahedron ", fault->tetrahedron, " ");
+  if (fault->other >= 0) subject += sentence("and tetrahedron ", fault->other, " ");
   refuse(mesh_error(name, subject + fault->problem, fault->remedy));
+}
+
+/// The smallest box along the axes that holds every node [m].
+[[nodiscard]] inline Eigen::AlignedBox3d bounds(const tetrahedral_mesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto& node : mesh.nodes) box.extend(node);
+  return box;
 }
 
 /// The mesh with two nodes of every element swapped if all are inverted, else the mesh as it is: a

@@ -75,8 +75,12 @@ class msh_content {
     }
     result = oriented(std::move(result));
     if (const auto fault = find_fault(result)) {
-      const element& e = elements_.at(static_cast<std::size_t>(fault->tetrahedron));
-      lines.fail_at(e.line, sentence("element ", e.tag, " ", fault->problem), fault->remedy);
+      const auto found = [this](int number) {
+        return elements_.at(static_cast<std::size_t>(number));
+      };
+      std::string subject = sentence("element ", found(fault->tetrahedron).tag, " ");
+      if (fault->other >= 0) subject += sentence("and element ", found(fault->other).tag, " ");
+      lines.fail_at(found(fault->tetrahedron).line, subject + fault->problem, fault->remedy);
     }
     return result;
   }

@@ -23,7 +23,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace passive_haptics {
@@ -45,53 +44,28 @@ using nodes_view = std::span<const Eigen::Vector3d>;  ///< positions [m]
 }
 
 /// The faces owned by exactly one element, outward, in the order of the elements. The mesh must
-/// pass check(). mesh_error for a face with more than two owners, or two on the same side of it.
+/// pass check(). mesh_error for elements that overlap at a face.
 [[nodiscard]] inline std::vector<surface_triangle> boundary(const tetrahedral_mesh& mesh) {
-  // Outward faces of the upright element 0123.
-  constexpr std::array<std::array<std::size_t, 3>, 4> faces{
-      {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
-  struct face {
-    std::array<int, 3> key;    // sorted
-    std::array<int, 3> nodes;  // outward, smallest first: two owners see opposite cycles
-    std::size_t number;        // 4 · element + face
-  };
-  std::vector<face> all;
-  all.reserve(4 * mesh.tetrahedra.size());
-  for (std::size_t e = 0; e < mesh.tetrahedra.size(); ++e) {
-    for (const auto& corner : faces) {
-      const auto& element = mesh.tetrahedra[e];
-      face f{{element[corner[0]], element[corner[1]], element[corner[2]]}, {}, all.size()};
-      f.nodes = f.key;
-      std::rotate(f.nodes.begin(), std::min_element(f.nodes.begin(), f.nodes.end()), f.nodes.end());
-      std::sort(f.key.begin(), f.key.end());
-      all.push_back(f);
-    }
+  const std::vector<element_face> all = sorted_faces(mesh);
+  if (const auto fault = find_overlap(all)) {
+    refuse(mesh_error(
+        "surface",
+        sentence("tetrahedra ", fault->tetrahedron, " and ", fault->other, " ", fault->problem),
+        fault->remedy));
   }
-  std::sort(all.begin(), all.end(), [](const face& a, const face& b) {
-    return std::pair(a.key, a.number) < std::pair(b.key, b.number);
-  });
-
-  std::vector<face> single;
-  for (auto first = all.begin(); first != all.end();) {
-    const auto last =
-        std::find_if(first, all.end(), [&](const face& f) { return f.key != first->key; });
-    const auto owners = last - first;
-    if (owners > 2 || (owners == 2 && first->nodes == std::next(first)->nodes)) {
-      refuse(
-          mesh_error("surface",
-                     sentence("elements ", first->number / 4, " and ", std::prev(last)->number / 4,
-                              " overlap at the face ", first->key[0], " ", first->key[1], " ",
-                              first->key[2], " (", owners, " owners)"),
-                     "a face has one element on each side: mesh the volume again"));
+  std::vector<element_face> single;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i + 1 < all.size() && all[i].key == all[i + 1].key) {
+      ++i;  // the other owner's
+    } else {
+      single.push_back(all[i]);
     }
-    if (owners == 1) single.push_back(*first);
-    first = last;
   }
   std::sort(single.begin(), single.end(),
-            [](const face& a, const face& b) { return a.number < b.number; });
+            [](const element_face& a, const element_face& b) { return a.number < b.number; });
   std::vector<surface_triangle> result;
   result.reserve(single.size());
-  for (const face& f : single) result.push_back({f.nodes});
+  for (const element_face& f : single) result.push_back({f.nodes});
   return result;
 }
 
