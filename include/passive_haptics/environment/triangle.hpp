@@ -3,10 +3,9 @@
 // One triangle: its area, its normal, the point of it closest to another point, and the shares of a
 // force that its nodes take.
 //
-//   barycentric  sⱼ = wⱼ           force AND moment conserved; dual of the linear displacement
-//   field by_distance  sⱼ ∝ 1/|P − xⱼ|   the thesis (appendix A.2), for comparison: conserves the
-//   force, moves
-//                                  its point of action by 0.10 edge in the mean, 0.19 at worst
+//   barycentric  sⱼ = wⱼ           force AND moment conserved; dual of the linear displacement field
+//   by_distance  sⱼ ∝ 1/|P − xⱼ|   the thesis (appendix A.2), for comparison: conserves the force,
+//                                  moves its point of action by 0.10 edge in the mean, 0.19 at worst
 //                                  (A25)
 
 #include <Eigen/Core>
