@@ -2,7 +2,7 @@
 #pragma once
 // How this room refuses what it cannot use: with a sentence that names the value and the remedy.
 //
-//   ask first, as values    find_fault(mesh), rigid_modes_left(mesh, fixed)
+//   ask first, as values    find_fault(mesh), rigid_modes_left(mesh, fixed), load_msh(file)
 //   refused, as exceptions  mesh_error, singular_stiffness, std::invalid_argument
 //
 // Under -fno-exceptions the values are the same, and what would be thrown is said on stderr and ends
