@@ -2,6 +2,8 @@
 #pragma once
 // What one tick has to tell its caller, and how much a type promises.
 
+#include <passive_haptics/language.hpp>
+
 #include <cstdint>
 
 namespace passive_haptics {

@@ -12,6 +12,8 @@
 // What to do when nothing new comes is the supply's stale-data rule (port/freshness.hpp). Use a second
 // one for the way back.
 
+#include <passive_haptics/language.hpp>
+
 #include <array>
 #include <atomic>
 #include <type_traits>

@@ -19,6 +19,8 @@
 // Haptic Interaction" with the signs put right (docs/design/audit.md); L and § refer to
 // docs/design/mathematics.md.
 
+#include <passive_haptics/language.hpp>
+
 #include <cmath>
 #include <concepts>
 #include <limits>

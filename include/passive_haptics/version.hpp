@@ -3,6 +3,8 @@
 // The version of the library, and its only home: CMakeLists.txt and conan/conanfile.py read it
 // here.
 
+#include <passive_haptics/language.hpp>
+
 namespace passive_haptics {
 inline namespace v0 {
 

@@ -7,6 +7,8 @@
 //   frequency_grid   where a condition over all θ is looked at
 //   cos_sin          e^{jα} by range reduction and Taylor's series
 
+#include <passive_haptics/language.hpp>
+
 namespace passive_haptics {
 inline namespace v0 {
 namespace design {

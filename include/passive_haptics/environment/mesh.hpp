@@ -14,6 +14,8 @@
 
 #include <passive_haptics/environment/refuse.hpp>
 
+#include <passive_haptics/language.hpp>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 

@@ -12,6 +12,8 @@
 // There is no checksum: a flipped bit that gives another nibble goes unseen here (device.hpp
 // refuses jumps).
 
+#include <passive_haptics/language.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -2,6 +2,8 @@
 #pragma once
 // What a device tells its loop.
 
+#include <passive_haptics/language.hpp>
+
 namespace passive_haptics {
 inline namespace v0 {
 

@@ -11,6 +11,8 @@
 // A constant force leaves at most three events: the axis comes to rest, it turns or hits a stop, it
 // hits the other one. Not offered: a step size, elastic stops, a Stribeck curve.
 
+#include <passive_haptics/language.hpp>
+
 #include <cmath>
 #include <limits>
 
