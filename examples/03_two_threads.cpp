@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shape of a real application: a slow environment thread and a haptic loop that never waits.
-//
-// One exchange carries the constraint to the loop, a second one carries the device's position back.
-// Both hold the newest value only: whoever is late reads what counts now, and nobody ever blocks.
+// The shape of a real application: a slow environment thread, and a haptic loop that measures its
+// ticks and never waits. One exchange carries the constraint to the loop, a second one carries the
+// device's position back; both hold the newest value only, and nobody ever blocks.
 
 #include <passive_haptics/passive_haptics.hpp>
 
 #include <chrono>
 #include <cstdio>
-#include <functional>
 #include <thread>
+#include <utility>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 3>;
@@ -24,9 +23,8 @@ void environment(ph::exchange<plane>& to_loop, ph::exchange<position>& from_loop
     const position* device = from_loop.take();
     if (device == nullptr) continue;
     if (scene::vector(*device)(2) < height) height -= 1e-4F;
-    --updates;
-    const float stiffness = updates == 0 ? 1000 : 500;  // marks the last one
-    to_loop.publish({.point = {0, 0, height}, .normal = {0, 0, 1}, .stiffness = stiffness});
+    const float K = --updates == 0 ? 1000 : 500;  // N/m; marks the last one
+    to_loop.publish({.point = {0, 0, height}, .normal = {0, 0, 1}, .stiffness = K});
   }
 }
 
@@ -39,21 +37,22 @@ int main() {
                         ph::spring{},
                         ph::reduced_energy{.damping = 0.5},
                         ph::strict_bound{},
-                        ph::loop_limits{.longest_tick = 1e-3}};
-  std::thread world(environment, std::ref(to_loop), std::ref(from_loop));
-
+                        ph::loop_limits{.longest_tick = 2e-3}};
+  std::thread world([&] { environment(to_loop, from_loop); });
   scene::vector x(0, 0, -0.001F);
   bool good = true;
-  do {
+  auto now = std::chrono::steady_clock::now();
+  while (touch.target().stiffness < 1000) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // until the next tick is due
+    if (x(2) > -0.005F) x(2) -= 1e-4F;                          // a hand that presses on
+    const auto before = std::exchange(now, std::chrono::steady_clock::now());
+    const std::chrono::duration<float> dt = now - before;
     if (const plane* newest = to_loop.take()) touch.update(*newest);
-    const auto out = touch.tick(x, 1e-3F);  // a real loop measures dt
+    const auto out = touch.tick(x, dt.count());
     from_loop.publish(x);
     good = good && out.force(2) >= 0 && out.energy >= 0;
-    if (x(2) > -0.005F) x(2) -= 1e-4F;                          // a hand that presses on
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // until the next tick is due
-  } while (touch.target().stiffness < 1000);
+  }
   world.join();
-
   std::printf("last plane received, lowered by %.1f mm\n",
               -1e3 * static_cast<double>(scene::vector(touch.target().point)(2)));
   std::printf("force never inwards, energy never below zero: %s\n", good ? "yes" : "no");

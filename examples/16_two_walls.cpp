@@ -1,49 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two walls on one device: a floor and a wall that meet in a corner, in ONE passive port.
+// Walls that meet in a corner, on one device, in ONE passive port.
 //
-// One local model for each wall looks as good, and both types say `strict`. But each of them counts
-// the whole damping of the device as its own and spends it, so the hand is paid twice for it. The
-// rule is one port per device; several contacts are one source of it.
+// A local model for each wall looks as good, and every type says `strict`. But each of them counts the
+// whole damping of the device as its own and spends it, so the hand is paid for it two or three times.
+// The rule is one port per device; several contacts are one source of it.
 
 #include <passive_haptics/passive_haptics.hpp>
-#include <passive_haptics/simulation/device.hpp>
 
 #include <cmath>
 #include <cstdio>
 
 namespace ph = passive_haptics;
-namespace sim = ph::simulation;
-using scene = ph::space<double, 2>;
+using scene = ph::space<double, 3>;
 using vector = scene::vector;
 
-/// A hand of 5 N drives into the corner, and out again as soon as it is inside, for two seconds.
-void attack(const char* name, auto force_at) {
-  const double r = std::sqrt(0.5);
-  sim::device<scene, sim::tapping_hand<scene>> device{
-      {.mass = 0.1, .damping = 0.1, .start = {0.005, 0.005}}, {.normal = {r, r}, .limit = 5.0}};
-  auto sample = device.exchange(vector::Zero());
-  for (int tick = 0; tick < 2000; ++tick) sample = device.exchange(force_at(sample.position));
-  std::printf("%-16s least port energy %5.1f mJ\n", name, device.meter().minimum() * 1e3);
+constexpr double damping = 0.5;  // of the device, N·s/m
+constexpr double dt = 1e-3;      // s
+
+/// Shakes the device in and out of the corner for 20 s; the least energy that the hand has paid [J].
+double shaken(auto force_at) {
+  double energy = 0, least = 0;
+  vector x = vector::Constant(1e-3), force = vector::Zero();
+  for (int n = 0; n < 20000; ++n) {
+    const double phase = 0.13 * n * (1 + 0.3 * std::sin(0.001 * n));
+    const vector step = vector::Constant(-2e-3 * std::sin(phase)) - x;
+    energy += damping / dt * step.squaredNorm() - force.dot(step);
+    least = std::min(least, energy);
+    x += step;
+    force = force_at(x);
+  }
+  return least;
+}
+
+/// A port for each wall, or one for all of them: the forces of all ports, added.
+double shaken_with(auto... port) {
+  return shaken([&](const vector& x) -> vector { return (port.tick(x, dt).force + ...); });
 }
 
 int main() {
-  const ph::fixed ground{ph::half_space<scene>{{0, 0}, {0, 1}, 3000}};  // a point, n, K
-  const ph::fixed side{ph::half_space<scene>{{0, 0}, {1, 0}, 3000}};
-  const ph::reduced_energy ledger{.damping = 0.1};
-  const ph::loop_limits limits{.longest_tick = 1e-3};
-
-  const ph::local_contact floor{ground, ph::turn_at_once{}, ph::spring{}};
-  const ph::local_contact wall{side, ph::turn_at_once{}, ph::spring{}};
-  ph::passive_port corner{scene{}, ph::contacts{floor, wall}, ledger, ph::strict_bound{}, limits};
-  attack("one port", [&](const vector& x) { return corner.tick(x, 1e-3).force; });
-
-  const auto alone = [&](const auto& plane) {
-    return ph::local_model{
-        scene{}, plane, ph::turn_at_once{}, ph::spring{}, ledger, ph::strict_bound{}, limits};
+  const auto wall = [](const vector& normal) {
+    return ph::local_contact{ph::fixed{ph::half_space<scene>{{0, 0, 0}, normal, 1e5}},  // N/m
+                             ph::turn_at_once{}, ph::spring{}};
   };
-  auto one = alone(ground), other = alone(side);
-  static_assert(decltype(one)::passivity == ph::guarantee::strict);  // and yet, on one device:
-  attack("two local models", [&](const vector& x) -> vector {
-    return one.tick(x, 1e-3).force + other.tick(x, 1e-3).force;
-  });
+  const auto floor = wall({0, 0, 1}), side = wall({1, 0, 0}), back = wall({0, 1, 0});
+  const ph::reduced_energy ledger{.damping = damping};
+  const ph::strict_bound bound;
+  const ph::loop_limits limits{.longest_tick = dt};
+
+  const ph::passive_port edge{scene{}, ph::contacts{floor, side}, ledger, bound, limits};
+  const ph::passive_port corner{scene{}, ph::contacts{floor, side, back}, ledger, bound, limits};
+  const auto alone = [&](const auto& one) {
+    return ph::passive_port{scene{}, one, ledger, bound, limits};
+  };
+  static_assert(decltype(alone(floor))::passivity == ph::guarantee::strict);  // and yet:
+  std::printf("two walls:   one port %.2f J, a port each %6.2f J\n", shaken_with(edge),
+              shaken_with(alone(floor), alone(side)));
+  std::printf("three walls: one port %.2f J, a port each %6.2f J\n", shaken_with(corner),
+              shaken_with(alone(floor), alone(side), alone(back)));
 }
