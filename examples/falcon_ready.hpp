@@ -42,7 +42,7 @@ falcon::result make_ready(Device& grip, const char* image_path) {
 inline constexpr falcon::settings<double> patience{.reply = std::chrono::milliseconds(2)};
 
 /// `use` gets the homed device and returns what main() returns.
-///     program [firmware.bin]        program --simulate
+///     program [FIRMWARE]      program --simulate      program --help
 template <class Hand, class Use>
 int with_falcon(int argc, char** argv, double gain, const falcon::mock_parameters& simulated,
                 const Hand& hand, const Use& use) {
@@ -53,7 +53,16 @@ int with_falcon(int argc, char** argv, double gain, const falcon::mock_parameter
     return closed ? code : complain(closed);
   };
   const char* argument = argc > 1 ? argv[1] : nullptr;
-  if (argument != nullptr && std::string_view(argument) == "--simulate") {
+  const std::string_view said = argument != nullptr ? argument : "";
+  if (said == "--help" || said == "-h") {
+    std::printf(
+        "usage: %s [--simulate | FIRMWARE]\n"
+        "  --simulate  a device that is not there\n"
+        "  FIRMWARE    the image to load if the device holds no program: docs/falcon.md\n",
+        argv[0]);
+    return 0;
+  }
+  if (said == "--simulate") {
     falcon::device<falcon::in_memory_transport<falcon::mock<Hand>>> grip{gain, patience, simulated,
                                                                          hand};
     return run(grip, nullptr);

@@ -2,6 +2,7 @@
 """A consumer of the package: builds and runs the first example."""
 
 import os
+import tempfile
 
 from conan import ConanFile
 from conan.tools.build import can_run
@@ -15,7 +16,7 @@ class PassiveHapticsTest(ConanFile):
         self.requires(self.tested_reference_str)
 
     def layout(self):
-        cmake_layout(self)
+        cmake_layout(self, build_folder=tempfile.mkdtemp(prefix="passive_haptics_"))  # not beside us
 
     def generate(self):
         toolchain = CMakeToolchain(self)
