@@ -6,7 +6,7 @@ namespace controllers {
 
 namespace {
 
-/// thesis_safe of § 2(a'): the credit is capped at what holds `times` the load.
+/// The thesis's rule with a capped ledger: the credit is capped at what holds `times` the load.
 auto thesis_safe(const std::string& name, double times) {
   return entry<3>({name, "shaped{spring, thesis_rule}, capped_energy, reachable_bound"},
                   [times](const premises& p) {

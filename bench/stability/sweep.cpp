@@ -159,7 +159,6 @@ const char* to_string(verdict v) noexcept {
 
 std::string why_outside(const controller& c, const world& w, const outcome& found) {
   if (w.clock == clockwork::missed_and_held) return "a late tick with no watchdog";
-  if (c.needs_known_hands() && w.clock != clockwork::steady) return "ticks that vary";
   if (c.proved_up_to > 0.0 && w.stiffness > 2.0 * w.damping / w.tick) return "stiffer than 2b/T";
   if (c.needs_known_hands() && w.damping * w.tick > 0.1 * w.mass) return "b T/m > 0.1";
   if (!c.knows_steps && found.blurred > 1e-3 * found.exchanged && found.blurred > 1e-12) {
