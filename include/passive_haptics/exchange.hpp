@@ -14,6 +14,8 @@
 
 #include <passive_haptics/language.hpp>
 
+#include <passive_haptics/language.hpp>
+
 #include <array>
 #include <atomic>
 #include <type_traits>

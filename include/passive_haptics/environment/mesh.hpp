@@ -16,6 +16,8 @@
 
 #include <passive_haptics/language.hpp>
 
+#include <passive_haptics/language.hpp>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
