@@ -2,6 +2,8 @@
 #pragma once
 // What a program can be told, from one list: the parser, its complaints and --help; and the exit codes.
 
+#include "text.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <functional>
@@ -64,17 +66,17 @@ inline option a_number(const std::string& name, const std::string& help, int& wh
 inline void read_options(
     const std::string& program, const std::vector<option>& all,
     const std::vector<std::string>& arguments, const std::function<void()>& last = [] {}) {
-  std::string usage = "usage: " + program, rest;
+  std::string usage = "usage: " + program + " [OPTION...]";
+  std::size_t widest = 0;
+  for (const auto& o : all) widest = std::max(widest, o.form.size());
   for (const auto& o : all) {
-    usage += " [" + o.form + "]";
-    rest +=
-        "\n  " + o.form + std::string(o.form.size() < 15 ? 15 - o.form.size() : 1, ' ') + o.help;
+    usage += "\n  " + o.form + std::string(widest - o.form.size() + 2, ' ') +
+             paragraph(o.help, widest + 4);
   }
-  usage += rest;
   try {
     for (auto at = arguments.begin(); at != arguments.end();) {
       const std::string& name = *at++;
-      if (name == "--help") throw asked_for_help(usage);
+      if (name == "--help" || name == "-h") throw asked_for_help(usage);
       const auto found = std::find_if(all.begin(), all.end(), [&name](const option& o) {
         return o.form.substr(0, o.form.find(' ')) == name;
       });

@@ -81,6 +81,7 @@ class report {
   [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_ / name; }
 
   void section(const std::string& title, const std::string& text) {
+    std::cout << title << "\n\n" << paragraph(text) << "\n\n";
     page_ += "<h2>" + title + "</h2>\n<p>" + html_text(text) + "</p>\n";
     text_ += "## " + title + "\n\n" + text + "\n\n";
   }

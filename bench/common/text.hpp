@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -73,25 +74,65 @@ inline std::string markdown_cell(const std::string& text) {
   return escaped(text, {{'|', "\\|"}});
 }
 
+/// How many columns of a terminal programs write at most.
+inline constexpr std::size_t terminal_columns = 100;
+
+/// The columns that `text` takes on a terminal: characters, not bytes.
+inline std::size_t columns_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;  // the first byte of it in UTF-8
+  }));
+}
+
+/// `text` in lines of at most `most` columns, broken at blanks; a longer word has a line of its own.
+inline std::vector<std::string> broken(const std::string& text, std::size_t most) {
+  if (columns_of(text) <= most) return {text};
+  std::vector<std::string> lines{""};
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::size_t taken = columns_of(lines.back());
+    if (taken > 0 && taken + 1 + columns_of(word) > most) lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : " ") + word;
+  }
+  return lines;
+}
+
+/// The same as one text, every line after the first behind `indent` blanks.
+inline std::string paragraph(const std::string& text, std::size_t indent = 0) {
+  std::string all;
+  for (const auto& line : broken(text, terminal_columns - indent)) {
+    if (!all.empty()) all.append("\n").append(indent, ' ');
+    all += line;
+  }
+  return all;
+}
+
 /// A table for people: padded on the terminal, marked up for the pages.
 class table {
  public:
   explicit table(std::vector<std::string> heading) : rows_{std::move(heading)} {}
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
 
-  void print(std::ostream& out) const {
-    std::vector<std::size_t> width;
-    for (const auto& row : rows_) {
-      width.resize(std::max(width.size(), row.size()));
-      for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+  /// No line is longer than `most` columns: headings break at their blanks, then cells that find no
+  /// room beside the first one do, and columns that still find none stand in a block below, the first
+  /// one in front of them again.
+  void print(std::ostream& out, std::size_t most = terminal_columns) const {
+    std::vector<std::size_t> width = widths();
+    for (const std::size_t heading : {14U, 10U, 7U, 0U}) {
+      if (std::accumulate(width.begin(), width.end(), gap * (width.size() - 1)) <= most) break;
+      width = narrow_widths(most, heading);
     }
-    for (const auto& row : rows_) {
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        out << row[i] << std::string(width[i] - row[i].size() + 2, ' ');
+    std::size_t next = 1;
+    do {
+      std::vector<std::size_t> block{0};
+      std::size_t taken = width[0];
+      while (next < width.size() && (block.size() == 1 || taken + gap + width[next] <= most)) {
+        taken += gap + width[next];
+        block.push_back(next++);
       }
+      for (const auto& row : rows_) print_row(out, row, block, width);
       out << '\n';
-    }
-    out << '\n';
+    } while (next < width.size());
   }
   [[nodiscard]] std::string html() const {
     std::string text = "<table>\n";
@@ -117,6 +158,55 @@ class table {
   }
 
  private:
+  static constexpr std::size_t gap = 2;  ///< between columns
+
+  /// What each column takes.
+  [[nodiscard]] std::vector<std::size_t> widths() const {
+    std::vector<std::size_t> width(rows_[0].size());
+    for (const auto& row : rows_) {
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        width[i] = std::max(width[i], columns_of(row[i]));
+      }
+    }
+    return width;
+  }
+  /// What it takes with headings of `heading` columns, and cells in the room beside the first one.
+  [[nodiscard]] std::vector<std::size_t> narrow_widths(std::size_t most,
+                                                       std::size_t heading) const {
+    std::vector<std::size_t> width;
+    const auto fit = [&width](const std::string& text, std::size_t room) {
+      for (const auto& line : broken(text, room)) {
+        width.back() = std::max(width.back(), columns_of(line));
+      }
+    };
+    for (std::size_t i = 0; i < rows_[0].size(); ++i) {
+      const std::size_t room = i == 0 ? most : most - std::min(most, width[0] + gap);
+      width.push_back(0);
+      fit(rows_[0][i], heading);
+      for (std::size_t r = 1; r < rows_.size(); ++r) fit(rows_[r][i], room);
+    }
+    return width;
+  }
+  /// The cells of `block`, each in as many lines as its column makes of it.
+  static void print_row(std::ostream& out, const std::vector<std::string>& row,
+                        const std::vector<std::size_t>& block,
+                        const std::vector<std::size_t>& width) {
+    std::vector<std::vector<std::string>> cells;
+    std::size_t height = 1;
+    for (const std::size_t i : block) {
+      cells.push_back(broken(row[i], width[i]));
+      height = std::max(height, cells.back().size());
+    }
+    for (std::size_t line = 0; line < height; ++line) {
+      std::string text;
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        const std::string cell = line < cells[i].size() ? cells[i][line] : "";
+        text += cell + std::string(width[block[i]] - columns_of(cell) + gap, ' ');
+      }
+      out << text.substr(0, text.find_last_not_of(' ') + 1) << '\n';
+    }
+  }
+
   std::vector<std::vector<std::string>> rows_;
 };
 
