@@ -67,6 +67,10 @@ struct controller : facts {
   [[nodiscard]] bool covers_stiffness(double surface) const noexcept {
     return promises() && !(surface > proved_up_to);
   }
+  /// The same in a loop that is not late, which one that is built for late loops promises nothing of.
+  [[nodiscard]] bool covers_prompt(double surface) const noexcept {
+    return latency == 0 && covers_stiffness(surface);
+  }
   /// Hands of at most premises::hand_force on premises::mass only, in ticks of one length.
   [[nodiscard]] bool needs_known_hands() const noexcept {
     return tag == ph::guarantee::conditional;

@@ -5,6 +5,12 @@ namespace controllers {
 
 namespace {
 
+/// The tag, and what is proved beyond it.
+std::string promise_of(const controller& c) {
+  const bool more = c.proved_up_to > 0.0;
+  return to_string(c.tag) + (more ? ex::format("; strict to %g N/m", c.proved_up_to) : "");
+}
+
 /// The sections that were asked for; returns what contradicts the tags.
 std::vector<std::string> judge(const session& s) {
   s.out.section("Controllers",
@@ -14,7 +20,7 @@ std::vector<std::string> judge(const session& s) {
                 "held known, no tick longer than the longest.");
   s.out.show(ex::table_of(s.judged, [](const controller& c) {
     return ex::record{{"controller", c.name},
-                      {"tag", to_string(c.tag)},
+                      {"tag", promise_of(c)},
                       {"dimensions", c.in<d3>()   ? "1, 2, 3"
                                      : c.in<d2>() ? "1, 2"
                                                   : "1"},

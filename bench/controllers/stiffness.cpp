@@ -18,7 +18,7 @@ stiffness_row judge_on_stiffness(const controller& c, double stiffness) {
   return {c.name,
           c.tag,
           stiffness,
-          c.covers_stiffness(stiffness),
+          c.covers_prompt(stiffness),
           0.0 - device.meter().minimum(),
           device.meter().total().actuator,
           std::sqrt(squares / 2000.0)};
@@ -55,7 +55,8 @@ std::vector<std::string> run_stiffness(const session& s) {
       "A hand of 30 N/m and 0.5 N·s/m lets a device of 0.1 kg and 0.1 N·s/m go at the wall, 6 s. "
       "First the most that wall and device together ever gave to the hand (what a guarantee is "
       "about: not above zero), then the sum of f·Δx at the end, which the damper of the device may "
-      "have eaten: negative when the wall has kept energy. In brackets: not covered by the tag.");
+      "have eaten: negative when the wall has kept energy. In brackets: not covered by the tag, "
+      "or the controller is built for a loop that is late.");
   s.out.show(shown);
   s.out.member("stiffness", ex::json_of(rows));
   return found;

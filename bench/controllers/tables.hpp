@@ -20,6 +20,7 @@ struct wall_row {
   std::string scene;
   int runs = 0;
   int settled = 0;
+  bool covered = false;             ///< the guarantee has to hold here
   ex::wall_result mean{};           ///< settle: the worst; port_energy: the least; the rest: means
   ex::wall_result least{}, most{};  ///< of the runs, in peak_to_peak and force_error
   double displayed = 0.0;           ///< static stiffness [N/m]
