@@ -190,4 +190,9 @@ def main(path):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    if {"-h", "--help"} & set(sys.argv[1:]):
+        print(__doc__)
+    elif len(sys.argv) != 2:
+        sys.exit(__doc__)
+    else:
+        main(sys.argv[1])

@@ -9,6 +9,7 @@ shells, and the ball pressed into shape by polynomials. Nothing but + - * / and 
 every machine prints the same bytes.
 """
 
+import sys
 from math import sqrt
 
 CUTS = 3
@@ -104,4 +105,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    if {"-h", "--help"} & set(sys.argv[1:]):
+        print(__doc__)
+    else:
+        main()

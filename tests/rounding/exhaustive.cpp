@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -95,6 +96,11 @@ tally all_energies(float b, float T, std::uint32_t every) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h")) {
+    std::puts(
+        "usage: exhaustive [EVERY]: every EVERY-th float energy, 1 (all) unless told otherwise");
+    return 0;
+  }
   const long asked = argc > 1 ? std::strtol(argv[1], nullptr, 10) : 1;
   if (asked < 1 || asked > 1000000) {
     std::fprintf(stderr, "exhaustive: EVERY %s: give a whole number from 1 to 1000000\n", argv[1]);

@@ -77,6 +77,9 @@ def commit(repository):
 
 
 def main():
+    if {"-h", "--help"} & set(sys.argv[1:]):
+        print(__doc__)
+        return
     if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
     repository, out = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
