@@ -100,8 +100,9 @@ std::vector<counted> read_callgrind(std::istream& in) {
   return rows;
 }
 
-bool valgrind_is_here() {
-  return std::system("valgrind --version > /dev/null 2>&1") == 0;
+bool valgrind_works() {
+  return std::system(
+             "valgrind --tool=callgrind --callgrind-out-file=/dev/null true > /dev/null 2>&1") == 0;
 }
 
 counts count(const std::filesystem::path& program, const std::filesystem::path& scratch) {

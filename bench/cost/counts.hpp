@@ -47,7 +47,7 @@ struct counts {
 /// Runs `program`, one of the count programs, under valgrind. Throws std::runtime_error if that fails.
 [[nodiscard]] counts count(const std::filesystem::path& program,
                            const std::filesystem::path& scratch);
-[[nodiscard]] bool valgrind_is_here();
+[[nodiscard]] bool valgrind_works();
 
 /// The committed counts by compiler, as CSV: compiler,scene,scalar,side,path,instructions per tick.
 using baseline = std::map<std::string, std::map<std::string, double>>;

@@ -4,10 +4,12 @@
 # instructions of the compiler itself as callgrind counts them: exact to a few in ten thousand, whatever
 # else the machine does. Fails above 15 %. Some minutes.
 set -euo pipefail
+case ${1:-} in -h | --help) sed -n '3,/^set /s/^# \?//p' "$0"; exit ;; esac
 include=$1 eigen=$2 cxx=${3:-g++}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-command -v valgrind >/dev/null || { echo 'skipped: valgrind is not installed'; exit 0; }
+valgrind --tool=callgrind --callgrind-out-file=/dev/null true 2>/dev/null ||
+  { echo 'skipped: there is no valgrind that works'; exit 0; }
 cc1plus=$("$cxx" -print-prog-name=cc1plus)
 [ -x "$cc1plus" ] || { echo "skipped: $cxx has no cc1plus, this measures g++"; exit 0; }
 

@@ -194,9 +194,10 @@ void show_times(ex::report& out) {
 int run(const settings& chosen) {
   ex::report out(chosen.out, {.json = "cost.json", .markdown = "cost.md"});
   std::vector<std::string> found;
-  if (chosen.programs.empty() || !cost::valgrind_is_here()) {
+  if (chosen.programs.empty() || !cost::valgrind_works()) {
     std::cout << "skipped: instructions are not counted, "
-              << (chosen.programs.empty() ? "no --count program" : "valgrind is not installed")
+              << (chosen.programs.empty() ? "no --count program"
+                                          : "there is no valgrind that works")
               << '\n';
   } else {
     std::vector<cost::counts> all;

@@ -50,8 +50,8 @@ int run(const std::vector<std::string>& arguments) {
     std::cout << named(replayed).replay(chosen.ticks) << '\n';
     return EXIT_SUCCESS;
   }
-  if (chosen.counts && !cost::valgrind_is_here()) {
-    std::cout << "valgrind is not installed: no instruction counts\n";
+  if (chosen.counts && !cost::valgrind_works()) {
+    std::cout << "there is no valgrind that works: no instruction counts\n";
     chosen.counts = false;
   }
   report out(chosen.out, {"error_vs_runtime.json", "error_vs_runtime.md"});

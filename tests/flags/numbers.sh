@@ -8,18 +8,21 @@
 # Needs Eigen in /usr/include/eigen3 or EIGEN=DIR. Cross: g++-i686-linux-gnu, g++-s390x-linux-gnu and
 # qemu-user; one that is missing is skipped, and it says so. Exit code 1 if one fails.
 set -euo pipefail
+case ${1:-} in -h | --help) sed -n '3,/^set /s/^# \?//p' "$0"; exit ;; esac
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 failed=0
 modes=
+printf '#include <concepts>\nint main() {}\n' >"$out/trial.cpp"
 
 # check COMPILER RUNNER FLAGS...
 check() {
   local compiler=$1 runner=$2
   shift 2
-  if ! command -v "$compiler" >/dev/null || { [ -n "$runner" ] && ! command -v "$runner" >/dev/null; }; then
-    echo "== $compiler $*: skipped, $compiler${runner:+ or $runner} is missing"
+  if ! "$compiler" -std=c++20 "$@" "$out/trial.cpp" -o "$out/trial" 2>/dev/null ||
+    ! $runner "$out/trial" 2>/dev/null; then
+    echo "== $compiler $*: skipped, no $compiler${runner:+ or $runner} that works"
     return
   fi
   echo "== $compiler $*"
