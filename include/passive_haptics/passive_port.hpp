@@ -139,8 +139,10 @@ class passive_port {
   }
   /// The same for a device that reports the effort it really held.
   [[nodiscard, gnu::flatten]] constexpr result_type tick(const device_sample<P>& sample) noexcept {
-    if (!sample.valid || !P::is_finite(sample.held)) {
-      return refuse(event::rejected_sample, sample.dt);
+    if constexpr (!trusting) {
+      if (!sample.valid || !P::is_finite(sample.held)) {
+        return refuse(event::rejected_sample, sample.dt);
+      }
     }
     return advance(sample.position, sample.dt, sample.held);
   }
@@ -172,7 +174,10 @@ class passive_port {
 
  private:
   using limits_type = part_at<Limits, P>;
+  using guard_type = typename Limits::template guard_type<P>;
 
+  /// A guard that trusts the loop leaves out what is asked of a sample, and what a bad one costs.
+  static constexpr bool trusting = guard_type::trusting;
   /// A bound that only reduces, and remembers nothing, has no say where nothing is asked.
   static constexpr bool zero_stays_zero =
       detail::reduces<Bound, P, state_type>() && detail::keeps_nothing<Bound, P, state_type>();
@@ -186,8 +191,10 @@ class passive_port {
       return refuse(event::rejected_parameters, dt);
     }
     motion travel = P::between(guard_.last(), position);
-    if (!guard_.believes(position, travel, dt, limits_)) [[unlikely]] {
-      return refuse_sample(position, dt);
+    if constexpr (!trusting) {
+      if (!guard_.believes(position, travel, dt, limits_)) [[unlikely]] {
+        return refuse_sample(position, dt);
+      }
     }
     const bool known = guard_.knows_motion();
     if (!known) [[unlikely]] {
@@ -223,14 +230,16 @@ class passive_port {
   /// Nobody knows what moved since the last good sample, so it counts as the worst; returns no motion.
   [[nodiscard, gnu::always_inline]] constexpr motion resume(const typename P::stored_effort& held,
                                                             scalar dt) noexcept {
-    observer_.forfeit(held, limits_.held_for(dt));
+    if constexpr (!trusting) observer_.forfeit(held, limits_.held_for(dt));
     guard_.see_again();
     return P::zero();
   }
   /// What is to be said of a tick that was booked.
   [[nodiscard, gnu::always_inline]] constexpr event seen(const motion& travel, scalar dt) noexcept {
-    if (watch_.repeats(travel, dt, limits_.top_speed)) return event::repeated_sample;
-    if (dt > limits_.longest_tick) return event::late_tick;
+    if constexpr (!trusting) {
+      if (watch_.repeats(travel, dt, limits_.top_speed)) return event::repeated_sample;
+      if (dt > limits_.longest_tick) return event::late_tick;
+    }
     return observer_.value() < scalar(0) ? event::debt : event::nominal;
   }
   /// What the bound leaves; nothing, and an event, if that is no number.
@@ -251,7 +260,9 @@ class passive_port {
   [[nodiscard, gnu::always_inline]] constexpr bool book(const motion& travel,
                                                         const typename P::stored_effort& held,
                                                         scalar dt) noexcept {
-    if (dt > limits_.watchdog) return book_cut_short(travel, held, dt);
+    if constexpr (!trusting) {
+      if (dt > limits_.watchdog) return book_cut_short(travel, held, dt);
+    }
     return observer_.update(travel, held, dt);
   }
   /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of
@@ -288,7 +299,9 @@ class passive_port {
   [[gnu::cold, gnu::noinline]] constexpr result_type refuse(event why, scalar dt) noexcept {
     const bool lasted = dt > scalar(0) && kernels::is_finite(dt);
     const scalar passed = lasted ? dt : limits_.longest_tick;
-    if (sound_) observer_.forfeit(guard_.commanded().back(), limits_.held_for(passed));
+    if constexpr (!trusting) {
+      if (sound_) observer_.forfeit(guard_.commanded().back(), limits_.held_for(passed));
+    }
     guard_.lose_sight(passed);
     guard_.command(P::zero());
     return source_.refused({P::zero(), observer_.value(), why, false}, passed);
@@ -306,7 +319,7 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS bound_type bound_;
   limits_type limits_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard<P, latency> guard_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
   bool sound_ = true;  ///< are the parameters good?
 };

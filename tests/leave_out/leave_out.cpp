@@ -46,6 +46,12 @@ static_assert(sizeof(model<moving, ph::turn_at_once, ph::no_observer, ph::no_bou
 static_assert(
     sizeof(model<still, ph::turn_at_once, ledger, ph::strict_bound, ph::late_loop_limits<2>>) ==
     sizeof(bare) + sizeof(at_wall<ledger>) + 2 * sizeof(float));
+// A loop that trusts its samples has no limit but its longest tick, and is never blind.
+static_assert(
+    sizeof(model<still, ph::turn_at_once, ledger, ph::strict_bound, ph::trusted_loop_limits<>>) ==
+    sizeof(bare) + sizeof(at_wall<ledger>) - 4 * sizeof(float));
+// Credit that is capped costs its cap, the time that voids it, and that time so far; uncapped, nothing.
+static_assert(sizeof(at_wall<ph::capped_energy>) == sizeof(at_wall<ledger>) + 3 * sizeof(float));
 // A loop that nobody watches does not pay for watching, and shapers that keep nothing not for shaping.
 static_assert(sizeof(ph::sensor_watch<f1, true>) == 2);
 static_assert(std::is_empty_v<ph::sensor_watch<f1, false>>);

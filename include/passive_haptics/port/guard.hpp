@@ -4,7 +4,6 @@
 // motion is paired with the effort that was held while it happened.
 
 #include <passive_haptics/concepts.hpp>
-#include <passive_haptics/port/loop_limits.hpp>
 
 #include <array>
 #include <cstdint>
@@ -12,26 +11,49 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// One per device. `Latency` as in late_loop_limits.
+/// What every guard keeps from tick to tick. `Latency` as in late_loop_limits.
 template <port P, int Latency>
-class guard {
+class last_tick {
  public:
-  using scalar = typename P::scalar;
   using pose = typename P::pose;
-  using motion = typename P::motion;
   using effort = typename P::effort;
   using commands = std::array<typename P::stored_effort, static_cast<std::size_t>(Latency) + 1>;
 
-  constexpr guard() noexcept { reset(); }
-  constexpr void reset() noexcept {
+  constexpr last_tick() noexcept {
     commanded_.fill(P::zero());
     position_ = P::zero();
-    blind_ = scalar(0);
-    seen_ = false;
   }
 
   /// Where the last good sample was, if there has been one.
   [[nodiscard]] constexpr pose last() const noexcept { return position_; }
+  /// A good sample.
+  constexpr void move_to(const pose& position) noexcept { position_ = position; }
+
+  /// All that were commanded and are not yet over, newest first; the last is held if the device does
+  /// as it is told.
+  [[nodiscard]] constexpr const commands& commanded() const noexcept { return commanded_; }
+  constexpr void command(const effort& f) noexcept {
+    for (std::size_t j = commanded_.size() - 1; j > 0; --j) commanded_[j] = commanded_[j - 1];
+    commanded_[0] = f;
+  }
+
+ private:
+  commands commanded_{};
+  typename P::stored_pose position_{};  ///< of the last good sample
+};
+
+/// One per device.
+template <port P, int Latency>
+class guard : public last_tick<P, Latency> {
+ public:
+  using scalar = typename P::scalar;
+  using pose = typename P::pose;
+  using motion = typename P::motion;
+  static constexpr bool trusting = false;
+
+  constexpr void reset() noexcept { *this = {}; }
+
+  /// Has there been a good sample?
   [[nodiscard]] constexpr bool has_seen() const noexcept { return seen_; }
 
   template <class Limits>
@@ -65,8 +87,6 @@ class guard {
   [[nodiscard]] constexpr bool knows_motion() const noexcept {
     return seen_ && !(blind_ > scalar(0));
   }
-  /// A good sample.
-  constexpr void move_to(const pose& position) noexcept { position_ = position; }
   /// The first good sample, or the first since bad ones.
   constexpr void see_again() noexcept {
     seen_ = true;
@@ -75,19 +95,26 @@ class guard {
   /// A bad sample: `passed` [s] more since the last good one.
   constexpr void lose_sight(scalar passed) noexcept { blind_ += passed; }
 
-  /// All that were commanded and are not yet over, newest first; the last is held if the device does
-  /// as it is told.
-  [[nodiscard]] constexpr const commands& commanded() const noexcept { return commanded_; }
-  constexpr void command(const effort& f) noexcept {
-    for (std::size_t j = commanded_.size() - 1; j > 0; --j) commanded_[j] = commanded_[j - 1];
-    commanded_[0] = f;
-  }
+ private:
+  scalar blind_{};     ///< time since the last good sample that bad ones took [s]
+  bool seen_ = false;  ///< has there been a good sample?
+};
+
+/// One per device, where somebody else answers for the samples: it believes them all.
+template <port P, int Latency>
+class trusting_guard : public last_tick<P, Latency> {
+ public:
+  static constexpr bool trusting = true;
+
+  constexpr void reset() noexcept { *this = {}; }
+  [[nodiscard]] constexpr bool has_seen() const noexcept { return seen_; }
+  [[nodiscard]] constexpr bool knows_motion() const noexcept { return seen_; }
+  constexpr void see_again() noexcept { seen_ = true; }
+  /// After a number that is none the motion begins anew.
+  constexpr void lose_sight(typename P::scalar /*passed*/) noexcept { seen_ = false; }
 
  private:
-  commands commanded_{};
-  typename P::stored_pose position_{};  ///< of the last good sample
-  scalar blind_{};                      ///< time since then that bad samples took [s]
-  bool seen_ = false;                   ///< has there been a good sample?
+  bool seen_ = false;
 };
 
 /// Looks for a sensor that is slower than the loop. It shows the same place again and then jumps on,

@@ -6,12 +6,12 @@
 //   late_loop_limits<k>       it is held k ticks later, as every device that talks in packets does
 //   watched_loop_limits<k>    the same, and a sensor that is slower than the loop is reported
 //   learning_loop_limits<k>   the longest tick is the longest so far: conditional
+//   trusted_loop_limits<k>    somebody else answers for every sample: conditional, half the code
 //
 // The delay is a property of the loop, so it is stated once, here. Every force bound honours it, or is
 // refused for it. measure_latency.hpp and measure_ticks.hpp find the numbers of a loop.
 
-#include <passive_haptics/event.hpp>
-#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/port/guard.hpp>
 
 #include <limits>
 
@@ -40,6 +40,8 @@ struct late_loop_limits {
   static constexpr loop_traits traits = Traits;
   /// A tick longer than all before it comes with a force that was bounded for a shorter one.
   static constexpr guarantee passivity = Traits.learns ? guarantee::conditional : guarantee::strict;
+  template <class Port>
+  using guard_type = guard<Port, Latency>;  ///< what looks at the samples
   static constexpr double never = std::numeric_limits<double>::infinity();
 
   double longest_tick{};   ///< T [s], > 0: the worst tick of YOUR loop
@@ -81,6 +83,38 @@ struct late_loop_limits {
     /// How long a force may have been held in a tick that took `dt` [s].
     [[nodiscard]] constexpr scalar held_for(scalar dt) const noexcept {
       return kernels::smaller(kernels::larger(dt, longest_tick), watchdog);
+    }
+  };
+};
+
+/// A loop whose samples somebody else has looked at, whose ticks a timer makes and whose end a watchdog
+/// sees: the ledger, the bound and their rounding are all that is left to a tick. No sample is doubted, so a
+/// jump of the sensor is booked as the work of a hand, and a tick that is lost or late goes unnoticed: the
+/// guarantee is conditional on samples that are good, one a tick. What is no number is refused still, since
+/// no ledger takes it, but what the force before it has done is not written off.
+template <int Latency = 0>
+struct trusted_loop_limits {
+  static constexpr int latency = late_loop_limits<Latency>::latency;
+  static constexpr loop_traits traits{};
+  static constexpr guarantee passivity = guarantee::conditional;
+  template <class Port>
+  using guard_type = trusting_guard<Port, Latency>;
+
+  double longest_tick{};  ///< T [s], > 0: the worst tick of YOUR loop
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    return late_loop_limits<Latency>{.longest_tick = longest_tick}.check();
+  }
+
+  template <class Port>
+  struct on {
+    using scalar = typename Port::scalar;
+    scalar longest_tick;
+
+    constexpr explicit on(const trusted_loop_limits& p) noexcept
+        : longest_tick(detail::number<scalar>(p.longest_tick)) {}
+    [[nodiscard]] constexpr trusted_loop_limits parameters() const noexcept {
+      return {.longest_tick = static_cast<double>(longest_tick)};
     }
   };
 };
