@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Six ticks written by hand, the yardstick for what composing costs: plain functions on plain
+/* Seven ticks written by hand, the yardstick for what composing costs: plain functions on plain
    numbers, in what C11 and C++20 have in common, and nothing of the library. Each does what the scene
    of the same name does that is composed from it: the same parameters, set at run time, the same
    checks of every sample, the same order of operations, so the same bits (tests/experiments/cost.cpp,
    tests/firmware). What a scene has no use for is not in it.
 
+     wall_trusted          1   a fixed wall          spring          strict_bound      every sample trusted
      wall_strict           1   a fixed wall          spring          strict_bound
      wall_reachable        1   a moving wall         damped spring   reachable_bound
      plane_strict          2   a moving half-space   spring          strict_bound      normals turn slowly
@@ -25,3 +26,4 @@
 #include "triangle_thesis.h"
 #include "wall_reachable.h"
 #include "wall_strict.h"
+#include "wall_trusted.h"

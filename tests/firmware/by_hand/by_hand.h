@@ -19,6 +19,7 @@
 extern "C" {
 #endif
 
+struct answer1 by_hand_wall_trusted_tick(struct wall_trusted* w, real x, real dt);
 struct answer1 by_hand_wall_strict_tick(struct wall_strict* w, real x, real dt);
 struct answer1 by_hand_wall_reachable_tick(struct wall_reachable* w, real x, real dt);
 struct answer2 by_hand_plane_strict_tick(struct plane_strict* w, const vec2* x, real dt);

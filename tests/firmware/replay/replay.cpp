@@ -111,6 +111,8 @@ asm(".text\n.p2align 2\n.global nothing\n.type nothing, %function\n"
 
 int program() {
   namespace recorded = replay::recorded;
+  play<replay::composed_wall_trusted>(recorded::wall_trusted);
+  play<replay::by_hand_wall_trusted>(recorded::wall_trusted);
   play<replay::composed_wall_strict>(recorded::wall_strict);
   play<replay::by_hand_wall_strict>(recorded::wall_strict);
   play<replay::composed_wall_reachable>(recorded::wall_reachable);

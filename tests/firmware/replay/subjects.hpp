@@ -74,6 +74,19 @@ struct composed_subject {
   }
 };
 
+struct composed_wall_trusted
+    : composed_subject<composed::wall_trusted, decltype(composed::wall_trusted_tick),
+                       &composed::wall_trusted_tick> {
+  static constexpr const char* scene = "wall_trusted";
+  composed_wall_trusted()
+      : composed_subject{{space{},
+                          ph::fixed{ph::half_space<space>{0, 1, given::wall_stiffness}},
+                          {},
+                          {},
+                          ledger,
+                          {},
+                          ph::trusted_loop_limits<>{.longest_tick = given::longest_tick}}} {}
+};
 struct composed_wall_strict
     : composed_subject<composed::wall_strict, decltype(composed::wall_strict_tick),
                        &composed::wall_strict_tick> {
@@ -137,6 +150,15 @@ template <class Plane, class Vector, int Dof>
   return {vector_of<Vector, Dof>(s.a), vector_of<Vector, Dof>(s.b), real_of(s.stiffness)};
 }
 
+struct by_hand_wall_trusted
+    : by_hand_subject<::wall_trusted, 1, real, decltype(by_hand_wall_trusted_tick),
+                      &by_hand_wall_trusted_tick> {
+  static constexpr const char* scene = "wall_trusted";
+  by_hand_wall_trusted() {
+    wall_trusted_start(&model, {0, 1, given::wall_stiffness}, given::damping, given::longest_tick);
+  }
+  bool update(const surface&) { return false; }
+};
 struct by_hand_wall_strict
     : by_hand_subject<::wall_strict, 1, real, decltype(by_hand_wall_strict_tick),
                       &by_hand_wall_strict_tick> {

@@ -6,6 +6,8 @@ SOFT = {"M0+", "M3"}  # cores without an FPU
 
 # M4F, -O2, contraction off. (row, column, limit)
 WANTED = [
+    ("wall_trusted", "text", 600),
+    ("wall_trusted", "worst", 120),
     ("wall_strict", "text", 600),
     ("wall_strict", "worst", 120),
     ("triangle_thesis", "text", 4096),

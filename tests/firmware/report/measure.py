@@ -13,7 +13,7 @@ import statistics
 import subprocess
 import sys
 
-SCENES = ["wall_strict", "wall_reachable", "plane_strict", "plane_reachable", "triangle_thesis"]
+SCENES = ["wall_trusted", "wall_strict", "wall_reachable", "plane_strict", "plane_reachable", "triangle_thesis"]
 AUTHORS = ["composed", "by_hand"]
 
 
