@@ -180,9 +180,8 @@ run_outcome play(const subject<Space>& model, Device& device, erratic_surface<Sp
   };
   const auto show = [&](const auto& now) noexcept {
     if (watch.see == nullptr) return;
-    const double energy = device.meter().value() + device.meter().friction();
     watch.see(watch.who, {now.tick, now.time, now.position, surface.now(), lost,
-                          to_physical<Space>(now.force), energy});
+                          to_physical<Space>(now.force), device.meter().with_friction()});
   };
   const auto seen = run(device, model, world.ticks, before, act, show);
   return {seen.least_energy, seen.largest_force};

@@ -9,7 +9,8 @@
 //   axis_motion   what happened: the displacement, and where the energy went
 //
 // A constant force leaves at most three events: the axis comes to rest, it turns or hits a stop, it
-// hits the other one. Not offered: a step size, elastic stops, a Stribeck curve.
+// hits the other one. Not offered: a step size, elastic stops. Friction that is elastic, or has a
+// Stribeck curve: friction_axis.hpp.
 
 #include <passive_haptics/language.hpp>
 
@@ -83,13 +84,15 @@ struct axis_state {
   double velocity = 0.0;  ///< [m/s]
 };
 
-/// Δx [m] and the energy [J] that went into the damper (∫ b v² dt), into dry friction (∫ f_c|v| dt)
-/// and into the end stops. Each is ≥ 0;   F Δx = Δ(½ m v²) + damping + friction + stops.
+/// Δx [m] and the energy [J] that went into the damper (∫ b v² dt), into dry friction (here ∫ f_c|v| dt)
+/// and into the end stops. Each is ≥ 0. What elastic friction stores may be taken out again.
+///     F Δx = Δ(½ m v²) + damping + friction + stops + stored
 struct axis_motion {
   double displacement = 0.0;
   double damping = 0.0;
   double friction = 0.0;
   double stops = 0.0;
+  double stored = 0.0;
 };
 
 struct axis {
@@ -114,7 +117,7 @@ struct axis {
     const double farthest = (std::abs(state.velocity) + std::abs(a) * h / 2.0) * h;
     if (friction == 0.0 && state.position + farthest < upper && state.position - farthest > lower) {
       const double dx = whole.displacement(state.velocity, a);
-      done = {dx, damping * whole.squared_speed(state.velocity, a), 0.0, 0.0};
+      done = {dx, damping * whole.squared_speed(state.velocity, a), 0.0, 0.0, 0.0};
       state = {state.position + dx, whole.velocity(state.velocity, a)};
       return done;
     }

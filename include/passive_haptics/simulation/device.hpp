@@ -9,14 +9,18 @@
 //
 // The force is a zero-order hold over T, or until the watchdog drops it, and the hand one over
 // 1/substeps of each of the two parts; between those instants nothing is approximated, so energy
-// books close to rounding. With no_hand each part is one step.
+// books close to rounding. With no_hand each part is one step. Dry friction is rigid; one that is elastic
+// before it slips is a third argument (friction.hpp), and then the motion is approximated, finely, and
+// the books close all the same.
 
 #include <passive_haptics/concepts.hpp>
 #include <passive_haptics/simulation/axis.hpp>
 #include <passive_haptics/simulation/driver.hpp>
+#include <passive_haptics/simulation/friction_axis.hpp>
 #include <passive_haptics/simulation/hand.hpp>
 #include <passive_haptics/simulation/meter.hpp>
 
+#include <array>
 #include <concepts>
 
 namespace passive_haptics {
@@ -27,7 +31,7 @@ namespace simulation {
 /// not valid, and does not move.
 ///     device<scene, impedance_hand<scene>> falcon{{.mass = 0.15, .force_limit = 9.0}, {.limit
 ///     = 5.0}}; sample = falcon.exchange(force);
-template <class Space, class Hand = no_hand<Space>>
+template <class Space, class Hand = no_hand<Space>, device_friction Friction = coulomb_friction>
 class device {
  public:
   using space_type = Space;
@@ -39,14 +43,17 @@ class device {
   static_assert(hand_for<Hand, Space>,
                 "passive_haptics: the hand does not model hand_for: see simulation/hand.hpp");
 
-  explicit device(const parameters_type& parameters = {}, const Hand& hand = {}) noexcept
+  explicit device(const parameters_type& parameters = {}, const Hand& hand = {},
+                  const Friction& friction = {}) noexcept
       : parameters_(parameters),
         hand_(hand),
+        friction_(friction),
         driver_(parameters),
         position_(parameters.start),
         velocity_(parameters.start_velocity),
         moving_mass_(parameters.mass + hand.mass()),
         meter_(kinetic()) {
+    memory_.fill(friction.begin());
     const bool has_period = set_period(parameters.period);
     sound_ = has_period && !check();
   }
@@ -84,6 +91,7 @@ class device {
   /// The first parameter that is out of its range, if any.
   [[nodiscard]] parameter_fault check() const noexcept {
     if (const auto fault = parameters_.check()) return fault;
+    if (const auto fault = fault_of(friction_, parameters_.friction)) return fault;
     return hand_.check();
   }
 
@@ -128,11 +136,12 @@ class device {
       const double pushed = component(push, i);
       const double weight = component(load, i);
       axis_state here{component(position_, i), component(velocity_, i)};
-      const axis_motion moved = along.advance(here, f + pushed + weight, step);
+      const axis_motion moved = advance(along, i, here, f + pushed + weight, step);
       component(position_, i) = here.position;
       component(velocity_, i) = here.velocity;
       flows.damping += moved.damping;
       flows.friction += moved.friction;
+      flows.stored += moved.stored;
       flows.stops += moved.stops;
       flows.actuator += f * moved.displacement;
       flows.hand += pushed * moved.displacement;
@@ -141,8 +150,20 @@ class device {
     return flows;
   }
 
+  axis_motion advance(const axis& along, int i, axis_state& here, double force,
+                      const flow& step) noexcept {
+    if constexpr (friction_model<Friction>) {
+      auto& memory = memory_[static_cast<std::size_t>(i)];
+      return advance_with_friction(friction_, memory, along, here, force, step);
+    } else {
+      return along.advance(here, force, step);
+    }
+  }
+
   parameters_type parameters_;
   Hand hand_;
+  Friction friction_;
+  std::array<typename Friction::state, Space::dof> memory_{};  ///< by axis
   driver<Space> driver_;
   state position_, velocity_;
   double moving_mass_;

@@ -53,7 +53,8 @@ struct turn {
 /// What a run has come to.
 template <class Space>
 struct run_result {
-  double least_energy = 0.0;    ///< at the port, with what dry friction took [J]; ≤ 0, or NaN
+  double least_energy =
+      0.0;  ///< at the port, with what dry friction took and stores [J]; ≤ 0, or NaN
   double largest_force = 0.0;   ///< commanded [N]: a model that never pushes is no proof
   int ticks = 0;                ///< that came to their end
   device_sample<Space> last{};  ///< which the model has not seen
@@ -139,8 +140,8 @@ run_result<typename Device::space_type> run(
     now.sample = result.last = device.exchange(now.force);
 
     ++result.ticks;
-    const double rubbed = device.meter().friction();
-    const double least = rubbed > 0.0 ? device.meter().value() + rubbed : device.meter().minimum();
+    const port_energy_meter& meter = device.meter();
+    const double least = meter.rubbed() ? meter.with_friction() : meter.minimum();
     if (!(least >= result.least_energy)) result.least_energy = least;  // so written, NaN counts
     result.largest_force =
         kernels::larger(result.largest_force, physical<Space>::norm(to_physical<Space>(now.force)));

@@ -7,7 +7,10 @@
 // A controller is passive at the port when minimum() ≥ 0 (less the energy it was lent). The other
 // flows are booked too, so that the simulation can be proved: every joule must be somewhere.
 //
-//     residual = Δ(½ m v²) + damping + friction + stops − actuator − hand − load = 0
+//     residual = Δ(½ m v²) + damping + friction + stored + stops − actuator − hand − load = 0
+//
+// Dry friction is a part of the device, too. with_friction() is E with what it took and what its
+// springs hold: what has flowed in at the port of a device that has any.
 
 #include <passive_haptics/ledger.hpp>
 
@@ -17,14 +20,16 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// Energy [J] of one interval: three sinks, each ≥ 0, and the work of three sources on the device.
+/// Energy [J] of one interval: three sinks, each ≥ 0, the work of three sources on the device, and what
+/// the friction's springs have taken up, or with a minus handed back.
 struct energy_flows {
   double damping = 0.0;   ///< ∫ b v² dt
-  double friction = 0.0;  ///< ∫ f_c |v| dt
+  double friction = 0.0;  ///< gone in dry friction: ∫ f_c |v| dt where it is rigid
   double stops = 0.0;     ///< lost in inelastic impacts
   double actuator = 0.0;  ///< f_held·Δx
   double hand = 0.0;      ///< F_hand·Δx
   double load = 0.0;      ///< F_load·Δx
+  double stored = 0.0;    ///< in the springs of an elastic friction
 };
 
 /// Compensated sums: 10⁷ ticks later, 10⁻¹² J still counts.
@@ -44,28 +49,36 @@ class port_energy_meter {
     actuator_ += flows.actuator;
     hand_ += flows.hand;
     load_ += flows.load;
+    stored_ += flows.stored;
   }
 
   [[nodiscard]] double value() const noexcept { return port_; }       ///< E [J]
   [[nodiscard]] double minimum() const noexcept { return minimum_; }  ///< least E so far [J], ≤ 0
   [[nodiscard]] double hand_work() const noexcept { return hand_; }   ///< ∫ F_hand dx [J]
-  [[nodiscard]] double friction() const noexcept { return friction_; }  ///< ∫ f_c |v| dt [J]
+  [[nodiscard]] double friction() const noexcept { return friction_; }  ///< gone in friction [J]
+  /// E with what dry friction took and stores [J].
+  [[nodiscard]] double with_friction() const noexcept {
+    return value() + friction() + double(stored_);
+  }
+  /// Has there been any?
+  [[nodiscard]] bool rubbed() const noexcept { return friction() > 0.0 || double(stored_) != 0.0; }
   [[nodiscard]] energy_flows total() const noexcept {
-    return {damping_, friction_, stops_, actuator_, hand_, load_};
+    return {damping_, friction_, stops_, actuator_, hand_, load_, stored_};
   }
 
   /// The energy [J] that is missing from the books, given ½ m v² now. Zero to rounding.
   [[nodiscard]] double residual(double kinetic) const noexcept {
     compensated_sum<double> sum = kinetic;
-    for (const double part : {-kinetic_at_start_, double(damping_), double(friction_),
-                              double(stops_), -double(actuator_), -double(hand_), -double(load_)}) {
+    for (const double part :
+         {-kinetic_at_start_, double(damping_), double(friction_), double(stored_), double(stops_),
+          -double(actuator_), -double(hand_), -double(load_)}) {
       sum += part;
     }
     return sum;
   }
 
  private:
-  compensated_sum<double> port_, damping_, friction_, stops_, actuator_, hand_, load_;
+  compensated_sum<double> port_, damping_, friction_, stops_, actuator_, hand_, load_, stored_;
   double minimum_ = 0.0;
   double kinetic_at_start_ = 0.0;
 };

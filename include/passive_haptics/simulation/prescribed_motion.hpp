@@ -5,7 +5,10 @@
 
 #include <passive_haptics/concepts.hpp>
 #include <passive_haptics/simulation/driver.hpp>
+#include <passive_haptics/simulation/friction_model.hpp>
 #include <passive_haptics/simulation/meter.hpp>
+
+#include <array>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -16,12 +19,12 @@ namespace simulation {
 ///     E += b ‖Δx‖²/T − f·Δx
 /// the equality of lemma L1. In a period T longer than the watchdog w the force is zero after w, so
 /// it works over w/T of the way; move_via() chooses where the device is at that instant. Dry
-/// friction f_c Σ|Δxᵢ| is booked beside E, as in device.
+/// friction, f_c Σ|Δxᵢ| or what a model of friction.hpp takes, is booked beside E, as in device.
 ///
 /// Of the parameters it takes damping, friction, force_limit, latency, quantum, period, watchdog and
 /// start; the rest means nothing to it. In float, the sample's position is rounded and the true one
 /// is not: next positions that are exact in float keep observer and meter comparable.
-template <class Space>
+template <class Space, device_friction Friction = coulomb_friction>
 class prescribed_motion {
  public:
   using space_type = Space;
@@ -30,14 +33,18 @@ class prescribed_motion {
   using state = typename physical<Space>::vector;
   using parameters_type = device_parameters<Space>;
 
-  explicit prescribed_motion(const parameters_type& parameters = {}) noexcept
+  explicit prescribed_motion(const parameters_type& parameters = {},
+                             const Friction& friction = {}) noexcept
       : parameters_(parameters),
+        friction_(friction),
         driver_(parameters),
         position_(parameters.start),
         next_(parameters.start),
         dropped_at_(parameters.start),
-        sound_(!parameters.check()),
-        period_(static_cast<scalar>(parameters.period)) {}
+        sound_(!parameters.check() && !fault_of(friction, parameters.friction)),
+        period_(static_cast<scalar>(parameters.period)) {
+    memory_.fill(friction.begin());
+  }
 
   /// Where to be at the end of the next exchange [m]. One that is not finite is ignored.
   void move_to(const state& next) noexcept {
@@ -80,7 +87,10 @@ class prescribed_motion {
     return true;
   }
 
-  [[nodiscard]] parameter_fault check() const noexcept { return parameters_.check(); }
+  [[nodiscard]] parameter_fault check() const noexcept {
+    if (const auto fault = parameters_.check()) return fault;
+    return fault_of(friction_, parameters_.friction);
+  }
   /// The force that exchange(command) would hold [N].
   [[nodiscard]] vector upcoming(const vector& command) const noexcept {
     return driver_.upcoming(command);
@@ -96,15 +106,36 @@ class prescribed_motion {
     const state step = there - position_;
     const double damped = parameters_.damping * physical<Space>::dot(step, step) / time;
     const double work = physical<Space>::dot(force, step);
-    double way = 0.0;
-    for (int i = 0; i < Space::dof; ++i) way += std::abs(component(step, i));
-    const double rubbed = parameters_.friction * way;
-    meter_.book(
-        {.damping = damped, .friction = rubbed, .actuator = work, .hand = damped + rubbed - work});
+    const friction_work rubbed = rub(step, time);
+    meter_.book({.damping = damped,
+                 .friction = rubbed.dissipated,
+                 .actuator = work,
+                 .hand = damped + rubbed.work - work,
+                 .stored = rubbed.work - rubbed.dissipated});
     position_ = there;
   }
 
+  friction_work rub(const state& step, double time) noexcept {
+    friction_work sum;
+    if constexpr (friction_model<Friction>) {
+      for (int i = 0; i < Space::dof; ++i) {
+        const friction_work took =
+            friction_.slide(memory_[static_cast<std::size_t>(i)], component(position_, i),
+                            component(step, i), time);
+        sum.work += took.work;
+        sum.dissipated += took.dissipated;
+      }
+    } else {
+      double way = 0.0;
+      for (int i = 0; i < Space::dof; ++i) way += std::abs(component(step, i));
+      sum.work = sum.dissipated = parameters_.friction * way;
+    }
+    return sum;
+  }
+
   parameters_type parameters_;
+  Friction friction_;
+  std::array<typename Friction::state, Space::dof> memory_{};  ///< by axis
   driver<Space> driver_;
   state position_, next_, dropped_at_;
   bool straight_ = true;

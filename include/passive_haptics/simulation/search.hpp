@@ -58,11 +58,9 @@ damage go_round(const subject<Space>& model, Device& device, surface_state<Space
   };
   const auto hand = [&](const auto& now) noexcept { act(device, surface, now.force); };
   const auto watch = [&](const auto&) noexcept {
-    const double rubbed = device.meter().friction();
-    const double paid = device.meter().total().damping + rubbed;
+    const double paid = device.meter().total().damping + device.meter().friction();
     if (!(paid > 1e-9)) return;
-    result.share_left =
-        kernels::smaller(result.share_left, (device.meter().value() + rubbed) / paid);
+    result.share_left = kernels::smaller(result.share_left, device.meter().with_friction() / paid);
   };
   result.least = run(device, model, ticks, world, hand, watch).least_energy;
   if (result.least == result.least) return result;

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What a friction model of a simulated device is; the menu is in friction.hpp.
+//
+//   friction_model     the contract: slide() along a piece of the way, one axis at a time
+//   friction_work      what that piece took, and how much of it is gone
+//   friction_claim     what a controller may state of a friction
+//   coulomb_friction   device_parameters::friction, rigid: what a device has unless it is told another
+
+#include <passive_haptics/parameter.hpp>
+
+#include <concepts>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
+
+struct friction_work {
+  double work = 0.0;        ///< done by the axis against the friction [J]
+  double dissipated = 0.0;  ///< of it, gone; the rest is what its springs have taken up [J]
+};
+
+/// A friction that dissipates at least `level` times the way slipped, where what is slipped is the
+/// way of the device less a deflection of at most `presliding`. A level of zero claims nothing.
+struct friction_claim {
+  double level = 0.0;       ///< c [N]
+  double presliding = 0.0;  ///< p [m]
+};
+
+/// Friction along one axis, with the memory of it in `state`. slide() moves the axis from `from` [m]
+/// by `way` [m] at constant velocity in `time` [s].
+template <class F>
+concept friction_model = requires(const F f, typename F::state s, double x) {
+  { f.begin() } -> std::same_as<typename F::state>;
+  { f.slide(s, x, x, x) } -> std::same_as<friction_work>;
+  { f.stiffness() } -> std::same_as<double>;  // largest slope of the force over the way [N/m]
+  { f.claim() } -> std::same_as<friction_claim>;
+  { f.check() } -> std::same_as<parameter_fault>;
+  requires noexcept(f.begin())&& noexcept(f.slide(s, x, x, x));
+};
+
+/// Sticks rigidly and slips at a constant level, both exactly: axis.hpp.
+struct coulomb_friction {
+  struct state {};
+  [[nodiscard]] constexpr state begin() const noexcept { return {}; }
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
+};
+
+template <class F>
+concept device_friction = std::same_as<F, coulomb_friction> || friction_model<F>;
+
+/// The first fault of a friction on a device whose device_parameters::friction is `coulomb` [N].
+template <device_friction F>
+[[nodiscard]] constexpr parameter_fault fault_of(const F& friction, double coulomb) noexcept {
+  if (friction_model<F> && coulomb > 0.0) {
+    return {"friction", coulomb, "0 N: the friction model brings its own level"};
+  }
+  return friction.check();
+}
+
+namespace detail {
+
+/// The first fault in what every friction model has: a level, a presliding displacement, and the
+/// share of it that the friction is deflected by at the start.
+[[nodiscard]] constexpr parameter_fault friction_fault(double level, double presliding,
+                                                       double start) noexcept {
+  if (!passive_haptics::detail::not_negative(level)) {
+    return {"friction level", level, "finite and ≥ 0 N"};
+  }
+  if (!passive_haptics::detail::positive(presliding)) {
+    return {"presliding", presliding, "finite and > 0 m; coulomb_friction is rigid"};
+  }
+  if (!(start >= -1.0 && start <= 1.0)) return {"friction start", start, "−1 to 1"};
+  return {};
+}
+
+/// `slide` piece by piece, none longer than `longest` [m]: what it takes is continuous in the way.
+[[nodiscard]] constexpr friction_work slide_in_pieces(double way, double longest,
+                                                      auto slide) noexcept {
+  friction_work sum;
+  double left = kernels::magnitude(way);
+  double gone = 0.0;
+  while (left > 0.0) {
+    const double piece = kernels::smaller(left, longest);
+    const friction_work took = slide(way < 0.0 ? -gone : gone, piece);
+    sum.work += took.work;
+    sum.dissipated += took.dissipated;
+    gone += piece;
+    left -= piece;
+  }
+  return sum;
+}
+
+}  // namespace detail
+
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics
