@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 using namespace simulated;
 
@@ -25,10 +26,12 @@ struct no_number {
 TEST_CASE("circumstances that cannot be are no verdict in anyone's favour", "[adversaries]") {
   using world = sim::circumstances;
   CHECK_FALSE(world{}.check());
-  for (const world& bad : {world{.damping = 0.0}, world{.mass = 0.0}, world{.friction = -1.0},
-                           world{.hand_force = -1.0}, world{.quantum = -1.0},
-                           world{.longest_tick = 0.0}, world{.latency = 9}, world{.softest = 0.0},
-                           world{.stiffest = 1.0}, world{.jump = -1.0}, world{.ticks = 0}}) {
+  for (const world& bad :
+       {world{.damping = 0.0}, world{.mass = 0.0}, world{.friction = -1.0},
+        world{.hand_force = -1.0}, world{.quantum = -1.0}, world{.longest_tick = 0.0},
+        world{.latency = 9}, world{.softest = 0.0}, world{.stiffest = 1.0}, world{.jump = -1.0},
+        world{.ticks = 0}, world{.noise = -1.0}, world{.presliding = -1.0},
+        world{.noise = world::infinity}}) {
     CHECK(bad.check());
     const sim::verdict v = sim::challenge(strict<d1>, by::greedy, bad, 3);
     CHECK_FALSE(passes(v));
@@ -42,14 +45,15 @@ TEST_CASE("circumstances that cannot be are no verdict in anyone's favour", "[ad
   CHECK(sim::worst_motion(no_number{}, {}, 2).energy < -1e300);
 }
 
-TEST_CASE("every adversary has a name of its own and its place in the list", "[adversaries]") {
-  for (std::size_t i = 0; i < sim::all_adversaries.size(); ++i) {
-    CHECK(static_cast<std::size_t>(sim::all_adversaries[i]) == i);
-    CHECK(std::string(to_string(sim::all_adversaries[i])) != "unknown adversary");
+TEST_CASE("every adversary has a name of its own and its place in a list", "[adversaries]") {
+  std::vector<by> all(sim::all_adversaries.begin(), sim::all_adversaries.end());
+  all.insert(all.end(), sim::encoder_adversaries.begin(), sim::encoder_adversaries.end());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    CHECK(static_cast<std::size_t>(all[i]) == i);
+    CHECK(std::string(to_string(all[i])) != "unknown adversary");
     for (std::size_t j = 0; j < i; ++j) {
-      CHECK(std::string(to_string(sim::all_adversaries[i])) != to_string(sim::all_adversaries[j]));
+      CHECK(std::string(to_string(all[i])) != to_string(all[j]));
     }
   }
-  CHECK(std::string(to_string(static_cast<by>(sim::all_adversaries.size()))) ==
-        "unknown adversary");
+  CHECK(std::string(to_string(static_cast<by>(all.size()))) == "unknown adversary");
 }

@@ -10,6 +10,10 @@
 //     greedy_motion         presses, then leaves by the Δx that the proof calls worst (L3)
 //     rocking_motion        rocks across an encoder step for false credit, then is greedy (§ 3)
 //     restless_motion       all of these in turn, and multiples of the worst Δx
+//   adversary_encoders.hpp  the same, smaller than the device can see or its friction resists
+//     in_step_motion        inside an encoder step, or a presliding displacement, in phase with the force
+//     worst_step_motion     presses, then leaves by the cheapest of a dozen steps
+//     dither_motion         forward 2, back 1 within p, on the way to a wall that it leaves greedily
 //   adversary_hands.hpp     force-limited, for the exact device
 //     striking_hand         taps the surface, or pushes where it is told to
 //   adversary_worlds.hpp    what else may go wrong
@@ -18,10 +22,12 @@
 //     erratic_surface       jumps, any normal (the opposite one too) and any stiffness, at random
 //     erratic_clock         periods of 0.5 to 1 longest ticks, and overruns of 2 to 20
 //     erratic_sensor        samples that never arrive, one or several in a row
+//     noisy_sensor          positions that are off, at random or as it suits a motion
 //
 //     motion.move_to(adversary.next({x, normal, depth, force, dt, b}, random));
 //     sample = motion.exchange(force);
 
+#include <passive_haptics/simulation/adversary_encoders.hpp>
 #include <passive_haptics/simulation/adversary_hands.hpp>
 #include <passive_haptics/simulation/adversary_motions.hpp>
 #include <passive_haptics/simulation/adversary_worlds.hpp>

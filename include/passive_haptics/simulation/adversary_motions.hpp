@@ -21,6 +21,21 @@ struct adversary_view {
   vector force;           ///< that will be held while it moves [N]
   double dt = 1e-3;       ///< length of the move [s]
   double damping = 0.03;  ///< b of the device [N·s/m]
+
+  /// How far it may go along each axis, either way, and nobody sees it move: to the end of the encoder's
+  /// step, or of what noise allows; ≥ 0 [m].
+  typename physical<Space>::coordinates room_below{}, room_above{};
+  double presliding = 0.0;  ///< p of the device's friction [m]
+
+  /// The energy [J] that a move to `next` would book at the port, negative if it draws some. The
+  /// device knows it to the last bit, with the memory of its friction.
+  [[nodiscard]] double price(const vector& next) const noexcept {
+    if (ask != nullptr) return ask(device, next);
+    const vector step = next - position;
+    return damping * physical<Space>::dot(step, step) / dt - physical<Space>::dot(force, step);
+  }
+  const void* device = nullptr;
+  double (*ask)(const void* device, const vector& next) = nullptr;
 };
 
 /// next(view, random): where to go within view.dt [m].

@@ -59,9 +59,11 @@ struct surface_habits {
   bool jumps = false;  ///< it moves along its normal to within ±jump of where it started
   bool flips = false;  ///< any normal, often the opposite, at a depth within ±jump of the device
   bool switches = false;  ///< its stiffness goes from the one end to the other, or anywhere between
+  bool hurries = false;   ///< every 1 to 10 ms
 };
 
-/// A surface that does one or several of these every 20-50 ms; with flips every 2-20 ms.
+/// A surface that does one or several of these every 20-50 ms; with flips every 2-20 ms, unless it
+/// hurries.
 template <class Space>
 class erratic_surface {
  public:
@@ -75,7 +77,7 @@ class erratic_surface {
         jump_(jump),
         softest_(softest),
         stiffest_(stiffest),
-        schedule_(seed, habits.flips ? 0.002 : 0.020, habits.flips ? 0.020 : 0.050),
+        schedule_(schedule_of(habits, seed)),
         random_(~seed) {}
 
   /// Moves on to this time [s], with the device at x [m]; true if anything has changed.
@@ -95,6 +97,11 @@ class erratic_surface {
   [[nodiscard]] const surface_state<Space>& now() const noexcept { return now_; }
 
  private:
+  [[nodiscard]] static update_schedule schedule_of(const surface_habits& habits,
+                                                   std::uint64_t seed) noexcept {
+    if (habits.hurries) return update_schedule(seed, 0.001, 0.010);
+    return habits.flips ? update_schedule(seed, 0.002, 0.020) : update_schedule(seed);
+  }
   [[nodiscard]] double another_stiffness() noexcept {
     if (random_.chance(0.3)) return random_.uniform(softest_, stiffest_);
     return now_.stiffness > (softest_ + stiffest_) / 2.0 ? softest_ : stiffest_;
@@ -133,6 +140,74 @@ struct erratic_sensor {
     still_lost = static_cast<int>(random.uniform(0.0, 5.0));
     return true;
   }
+};
+
+/// How the error of a noisy sensor behaves. All of them are bounded; that is all a ledger may assume.
+enum class noise_habit : std::uint8_t {
+  uniform,      ///< drawn anew for each sample and axis
+  hiding,       ///< the position shown stays where it is for as long as it can
+  alternating,  ///< from one end to the other in each sample
+  with_force,   ///< at the end to which the force has changed
+  against_force,
+};
+
+/// Positions that are off by at most `width`/2 on each axis, either way.
+template <class Space>
+class noisy_sensor {
+ public:
+  using vector = typename physical<Space>::vector;
+  using coordinates = typename physical<Space>::coordinates;
+
+  noisy_sensor(double width, noise_habit habit, std::uint64_t seed) noexcept
+      : half_(width / 2.0), habit_(habit), random_(seed) {}
+
+  /// The error of the sample at x [m], with the force that was commanded last [N].
+  [[nodiscard]] vector error(const vector& x, const vector& force) noexcept {
+    vector e = physical<Space>::zero();
+    if (!(half_ > 0.0)) return e;
+    odd_ = !odd_;
+    for (int i = 0; i < Space::dof; ++i) {
+      double& last = component(error_, i);
+      const double change = component(force, i) - component(force_, i);
+      const double side = change > 0.0 ? 1.0 : change < 0.0 ? -1.0 : 0.0;
+      switch (habit_) {
+        case noise_habit::uniform:
+          last = random_.uniform(-half_, half_);
+          break;
+        case noise_habit::hiding:
+          last = clamped(started_ ? last + component(x_, i) - component(x, i) : 0.0);
+          break;
+        case noise_habit::alternating:
+          last = odd_ ? half_ : -half_;
+          break;
+        case noise_habit::with_force:
+          if (side != 0.0) last = side * half_;
+          break;
+        case noise_habit::against_force:
+          if (side != 0.0) last = -side * half_;
+          break;
+      }
+      component(e, i) = last;
+      component(x_, i) = component(x, i);
+      component(force_, i) = component(force, i);
+    }
+    started_ = true;
+    return e;
+  }
+  /// How far the next position may lie below or above this one on axis i, and be shown the same [m].
+  [[nodiscard]] double room_below(int i) const noexcept { return half_ - component(error_, i); }
+  [[nodiscard]] double room_above(int i) const noexcept { return half_ + component(error_, i); }
+
+ private:
+  [[nodiscard]] double clamped(double e) const noexcept {
+    return kernels::smaller(kernels::larger(e, -half_), half_);
+  }
+
+  double half_;
+  noise_habit habit_;
+  random_source random_;
+  coordinates x_{}, force_{}, error_{};
+  bool odd_ = false, started_ = false;
 };
 
 }  // namespace simulation

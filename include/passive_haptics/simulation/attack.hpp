@@ -2,11 +2,9 @@
 #pragma once
 // One run of challenge.hpp: who does what in the loop of a simulation. Compiled once per Space.
 
-#include <passive_haptics/simulation/adversary.hpp>
-#include <passive_haptics/simulation/circumstances.hpp>
+#include <passive_haptics/simulation/attack_plan.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
-#include <passive_haptics/simulation/prescribed_motion.hpp>
 #include <passive_haptics/simulation/subject.hpp>
 
 namespace passive_haptics {
@@ -42,140 +40,35 @@ struct run_outcome {
   double largest_force = 0.0;
 };
 
-enum class actor : std::uint8_t {
-  nyquist,
-  walk,
-  slow_walk,
-  greedy,
-  rocking,
-  restless,
-  taps,
-  pushes
-};
-
-struct plan {
-  actor who{};
-  surface_habits surface{};
-  bool jitter = false, overruns = false, dropouts = false;
-};
-
-/// Who does what; seeds differ in what else happens.
-[[nodiscard]] constexpr plan plan_of(adversary by, std::uint64_t seed) noexcept {
-  const bool even = seed % 2 == 0;
-  const bool second = seed / 2 % 2 == 0;
-  const surface_habits sometimes{.jumps = even, .switches = even};
-  switch (by) {
-    case adversary::nyquist:
-      return {actor::nyquist, sometimes};
-    case adversary::random_walk:
-      return {actor::walk, sometimes};
-    case adversary::greedy:
-      return {actor::greedy, sometimes};
-    case adversary::jumping_surface:
-      return {actor::slow_walk, {.jumps = true, .switches = even}};
-    case adversary::flipping_normal:
-      return {second ? actor::greedy : actor::slow_walk, {.flips = true, .switches = even}};
-    case adversary::jitter:
-      return {second ? actor::greedy : actor::walk, sometimes, true};
-    case adversary::overruns:
-      return {actor::greedy, sometimes, second, true};
-    case adversary::rocking:
-      return {actor::rocking, sometimes};
-    case adversary::dropouts:
-      return {second ? actor::greedy : actor::nyquist, sometimes, false, false, true};
-    case adversary::tapping:
-      return {actor::taps, {.jumps = even, .switches = second}};
-    case adversary::random_tapping:
-      return {actor::pushes, {.jumps = even, .flips = second && even, .switches = even}};
-    case adversary::kitchen_sink:
-      return {actor::restless, {.jumps = true, .flips = even, .switches = true}, true, true, true};
-  }
-  return {};
-}
-
-/// The velocity sources, one at a time.
+/// A sample as a noisy sensor shows it, given the force that was commanded last.
 template <class Space>
-struct any_motion {
-  actor who;
-  nyquist_motion<Space> nyquist{};
-  greedy_motion<Space> greedy{};
-  rocking_motion<Space> rocking{};
-  restless_motion<Space> restless{};
-
-  any_motion(actor a, double quantum) noexcept : who(a) {
-    if (quantum > 0.0) rocking.quantum = restless.quantum = quantum;
-  }
-  auto next(const adversary_view<Space>& view, random_source& random) noexcept {
-    switch (who) {
-      case actor::nyquist:
-        return nyquist.next(view, random);
-      case actor::walk:
-        return random_walk<Space>{}.next(view, random);
-      case actor::slow_walk:
-        return random_walk<Space>{.speed = 0.02}.next(view, random);
-      case actor::rocking:
-        return rocking.next(view, random);
-      case actor::restless:
-        return restless.next(view, random);
-      default:
-        return greedy.next(view, random);
-    }
-  }
-};
-
-/// A velocity source acts: where to, and in an overrun where to be when the force is dropped.
-template <class Space>
-void act(prescribed_motion<Space>& device, any_motion<Space>& motion,
-         const surface_state<Space>& surface, const typename Space::vector& command, double period,
-         random_source& random) noexcept {
-  using state = typename physical<Space>::vector;
-  const state x = device.position();
-  const state force = to_physical<Space>(device.upcoming(command));
-  const double b = device.parameters().damping;
-  const auto rounded = [](const state& p) { return to_physical<Space>(to_port<Space>(p)); };
-  const state next =
-      rounded(motion.next({x, surface.normal, surface.depth(x), force, period, b}, random));
-  const double dropped = device.parameters().watchdog;
-  if (!(period > dropped)) return device.move_to(next);
-  const state best = clamp_norm<Space>(state(force * (dropped / (2.0 * b))), 0.02);
-  device.move_via(state(x + best), random.chance(0.5) ? x : next);
-}
-
-/// A force-limited hand acts: taps, or changes its mind every 1 to 40 ticks.
-template <class Space, class Device>
-void act(Device& device, int& ticks_left, bool only_taps, const surface_state<Space>& surface,
-         random_source& random) noexcept {
-  striking_hand<Space>& hand = device.hand();
-  hand.taps.surface = surface.point;
-  hand.taps.normal = surface.normal;
-  if (only_taps || ticks_left-- > 0) return;
-  ticks_left = static_cast<int>(random.uniform(0.0, 40.0));
-  hand.tapping = random.chance(0.3);
-  const double most = hand.taps.limit;
-  const double along = random.uniform();
-  hand.push =
-      along < 0.3 ? typename physical<Space>::vector(surface.normal * most)
-      : along < 0.7
-          ? typename physical<Space>::vector(-surface.normal * most)
-          : typename physical<Space>::vector(random.direction<Space>() * (most * random.uniform()));
+void spoil(device_sample<Space>& sample, noisy_sensor<Space>& noise,
+           const typename physical<Space>::vector& position,
+           const typename physical<Space>::vector& force) noexcept {
+  const auto e = noise.error(position, force);
+  sample.position =
+      to_port<Space>(typename physical<Space>::vector(to_physical<Space>(sample.position) + e));
 }
 
 /// A run: world, sensor and clock as they are planned; move(device, command, period) is the hand.
 template <class Space, class Device>
 run_outcome play(const subject<Space>& model, Device& device, erratic_surface<Space>& surface,
-                 const circumstances& world, const plan& how, random_source& random,
-                 const spectator<Space>& watch, auto move) noexcept {
+                 noisy_sensor<Space>& noise, const circumstances& world, const plan& how,
+                 random_source& random, const spectator<Space>& watch, auto move) noexcept {
   const erratic_clock clock{world.longest_tick, how.jitter, how.overruns};
   erratic_sensor sensor{how.dropouts};
   bool lost = false;
+  auto commanded = typename physical<Space>::coordinates{};
   const auto before = [&](auto& now) noexcept {
     if (surface.update(now.time, now.position)) model.update(surface.now());
+    if (world.noise > 0.0) spoil<Space>(now.sample, noise, now.position, commanded);
     lost = sensor.loses_one(random);
     if (lost) now.sample = {};
   };
   const auto act = [&](const auto& now) noexcept {
     const double period = clock.next(random);
     if (how.jitter || how.overruns) device.set_period(period);
+    commanded = to_physical<Space>(now.force);
     move(device, now.force, period);
   };
   const auto show = [&](const auto& now) noexcept {
@@ -198,6 +91,31 @@ template <class Space>
   return surface;
 }
 
+/// use(device) of what no force can stop, with the friction of these circumstances.
+template <class Space>
+[[nodiscard]] auto with_motion(const device_parameters<Space>& parameters,
+                               const circumstances& world, auto use) noexcept {
+  if (world.rubs_elastically()) {
+    prescribed_motion<Space, friction_like> device(parameters, world.elastic_friction());
+    return use(device);
+  }
+  prescribed_motion<Space> device(parameters);
+  return use(device);
+}
+/// use(device) of the exact device with that hand on it.
+template <class Space>
+[[nodiscard]] auto with_hand(const device_parameters<Space>& parameters,
+                             const striking_hand<Space>& hand, const circumstances& world,
+                             auto use) noexcept {
+  if (world.rubs_elastically()) {
+    device<Space, striking_hand<Space>, friction_like> rubs(parameters, hand,
+                                                            world.elastic_friction());
+    return use(rubs);
+  }
+  device<Space, striking_hand<Space>> slides(parameters, hand);
+  return use(slides);
+}
+
 /// One run.
 template <class Space>
 run_outcome attack(const subject<Space>& model, adversary by, const circumstances& world,
@@ -212,26 +130,29 @@ run_outcome attack(const subject<Space>& model, adversary by, const circumstance
   const surface_habits habits = model.brings_its_own(own) ? surface_habits{} : how.surface;
   erratic_surface<Space> surface(first, habits, world.jump, world.softest, world.stiffest,
                                  random.bits());
+  noisy_sensor<Space> noise(world.noise, static_cast<noise_habit>(seed % 5), ~seed);
   auto parameters = world.device_of<Space>();
   parameters.start = first.point;
 
   if (!is_force_limited(by)) {
-    prescribed_motion<Space> device(parameters);
-    any_motion<Space> motion(how.who, world.quantum);
+    any_motion<Space> motion(how.who, world);
     const auto move = [&](auto& d, const typename Space::vector& command, double period) {
-      act<Space>(d, motion, surface.now(), command, period, random);
+      act<Space>(d, motion, surface.now(), command, period, world, noise, random);
     };
-    return play<Space>(model, device, surface, world, how, random, watch, move);
+    return with_motion<Space>(parameters, world, [&](auto& device) {
+      return play<Space>(model, device, surface, noise, world, how, random, watch, move);
+    });
   }
   parameters.start = state(first.point + first.normal * random.uniform(0.0, 2e-3));
   striking_hand<Space> hand;
   hand.taps = {first.point, first.normal, world.hand_force};
-  simulation::device<Space, striking_hand<Space>> device(parameters, hand);
-  int ticks_left = 0;
-  const auto move = [&](auto& d, const typename Space::vector& /*command*/, double /*period*/) {
-    act<Space>(d, ticks_left, how.who == actor::taps, surface.now(), random);
+  intention<Space> mind;
+  const auto move = [&](auto& d, const typename Space::vector& command, double /*period*/) {
+    act<Space>(d, mind, how.who, surface.now(), command, random);
   };
-  return play<Space>(model, device, surface, world, how, random, watch, move);
+  return with_hand<Space>(parameters, hand, world, [&](auto& device) {
+    return play<Space>(model, device, surface, noise, world, how, random, watch, move);
+  });
 }
 
 }  // namespace detail

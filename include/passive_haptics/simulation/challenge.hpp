@@ -7,6 +7,10 @@
 //     }
 //     double E = sim::replay(model, v.by, {}, v.worst_seed, [](const auto& now) { ... });
 //
+// Five more are smaller than what the device can tell: for encoders with steps or noise, and for dry
+// friction that is elastic before it slips.
+//     sim::challenge_encoders(model, {.friction = 0.2, .presliding = 15e-6, .quantum = 60e-6});
+//
 // Any passive port will do. Where it has not just one contact, say how a surface is laid on it:
 //     sim::challenge_all(corner, {}, 1000, 1, [](auto& port, const auto& surface) { ... });
 //
@@ -72,16 +76,36 @@ template <class Model, lay_for<Model> Lay = usual_lay<Model>>
   return detail::judge(subject<space_of<Model>>(tested), by, world, runs, first_seed);
 }
 
-/// Every adversary in turn, `runs` runs each.
-template <class Model, lay_for<Model> Lay = usual_lay<Model>>
-[[nodiscard]] std::array<verdict, all_adversaries.size()> challenge_all(
-    const Model& model, const circumstances& world = {}, int runs = 1000,
-    std::uint64_t first_seed = 1, const Lay& lay = {}) noexcept {
-  std::array<verdict, all_adversaries.size()> verdicts{};
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    verdicts[i] = challenge(model, all_adversaries[i], world, runs, first_seed, lay);
+namespace detail {
+
+template <std::size_t N>
+[[nodiscard]] std::array<verdict, N> challenge_each(const std::array<adversary, N>& list,
+                                                    const auto& model, const circumstances& world,
+                                                    int runs, std::uint64_t first_seed,
+                                                    const auto& lay) noexcept {
+  std::array<verdict, N> verdicts{};
+  for (std::size_t i = 0; i < N; ++i) {
+    verdicts[i] = challenge(model, list[i], world, runs, first_seed, lay);
   }
   return verdicts;
+}
+
+}  // namespace detail
+
+/// The twelve in turn, `runs` runs each.
+template <class Model, lay_for<Model> Lay = usual_lay<Model>>
+[[nodiscard]] auto challenge_all(const Model& model, const circumstances& world = {},
+                                 int runs = 1000, std::uint64_t first_seed = 1,
+                                 const Lay& lay = {}) noexcept {
+  return detail::challenge_each(all_adversaries, model, world, runs, first_seed, lay);
+}
+
+/// The five that are smaller than an encoder step, noise or a presliding displacement.
+template <class Model, lay_for<Model> Lay = usual_lay<Model>>
+[[nodiscard]] auto challenge_encoders(const Model& model, const circumstances& world,
+                                      int runs = 1000, std::uint64_t first_seed = 1,
+                                      const Lay& lay = {}) noexcept {
+  return detail::challenge_each(encoder_adversaries, model, world, runs, first_seed, lay);
 }
 
 /// One run again: the least port energy [J] of that seed, to the last bit on the same machine and

@@ -3,9 +3,11 @@
 // Who attacks in a challenge, and what is true there.
 //
 //   adversary       one of twelve; all_adversaries, to_string, is_force_limited
+//                   or one of five that are smaller than an encoder step; encoder_adversaries
 //   circumstances   the device, its clock and its encoders as they are, and how wild the world is
 
 #include <passive_haptics/simulation/driver.hpp>
+#include <passive_haptics/simulation/friction_kind.hpp>
 
 #include <array>
 #include <cstdint>
@@ -28,6 +30,11 @@ enum class adversary : std::uint8_t {
   tapping,          ///< a force-limited hand that reverses exactly at the surface
   random_tapping,   ///< the same hand, anywhere and at any moment
   kitchen_sink,     ///< everything but the two hands, at once
+  in_step,          ///< inside an encoder step, or what noise hides, in phase with the force
+  presliding,       ///< the same, no farther than friction is elastic
+  worst_step,       ///< presses, leaves by the cheapest of a dozen small steps
+  dither,           ///< forward 2, back 1 within p, then greedy
+  trembling,        ///< a force-limited hand, in phase with the force
 };
 
 inline constexpr std::array all_adversaries{
@@ -35,6 +42,12 @@ inline constexpr std::array all_adversaries{
     adversary::jumping_surface, adversary::flipping_normal, adversary::jitter,
     adversary::overruns,        adversary::rocking,         adversary::dropouts,
     adversary::tapping,         adversary::random_tapping,  adversary::kitchen_sink};
+
+/// Smaller than a device with steps, noise or elastic friction can tell. Where there are none of these
+/// they move by some micrometres.
+inline constexpr std::array encoder_adversaries{adversary::in_step, adversary::presliding,
+                                                adversary::worst_step, adversary::dither,
+                                                adversary::trembling};
 
 [[nodiscard]] constexpr const char* to_string(adversary by) noexcept {
   switch (by) {
@@ -62,6 +75,16 @@ inline constexpr std::array all_adversaries{
       return "random tapping";
     case adversary::kitchen_sink:
       return "kitchen sink";
+    case adversary::in_step:
+      return "in step";
+    case adversary::presliding:
+      return "presliding";
+    case adversary::worst_step:
+      return "worst step";
+    case adversary::dither:
+      return "dither";
+    case adversary::trembling:
+      return "trembling";
   }
   return "unknown adversary";
 }
@@ -69,19 +92,23 @@ inline constexpr std::array all_adversaries{
 /// Is it a hand of at most circumstances::hand_force on a device of circumstances::mass, with
 /// periods that do not vary and no sample lost?
 [[nodiscard]] constexpr bool is_force_limited(adversary by) noexcept {
-  return by == adversary::tapping || by == adversary::random_tapping;
+  return by == adversary::tapping || by == adversary::random_tapping || by == adversary::trembling;
 }
 
 /// The truth about the device, and how wild the world is. The model must have been told no more
-/// damping, mass and friction, no less hand force and longest tick, and just this latency and watchdog.
+/// damping, mass and friction, no less hand force, longest tick, presliding and, of its encoders,
+/// quantum + noise, and just this latency and watchdog.
 struct circumstances {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  double damping = 0.03;          ///< b [N·s/m]
-  double mass = 0.1;              ///< apparent, hand included [kg]; for the two hands
-  double friction = 0.0;          ///< f_c, per axis [N]
-  double hand_force = 5.0;        ///< most of the two hands [N]
-  double quantum = 0.0;           ///< positions are floored to multiples [m]
+  double damping = 0.03;    ///< b [N·s/m]
+  double mass = 0.1;        ///< apparent, hand included [kg]; for the two hands
+  double friction = 0.0;    ///< f_c, per axis [N]
+  double presliding = 0.0;  ///< p, over which friction is elastic; 0: rigid [m]
+  friction_kind rubs_like = friction_kind::one_spring;  ///< where it is
+  double hand_force = 5.0;                              ///< most of the hands [N]
+  double quantum = 0.0;                                 ///< positions are floored to multiples [m]
+  double noise = 0.0;             ///< and off by up to half of this, per axis, either way [m]
   double force_limit = infinity;  ///< of the actuators [N]
   double longest_tick = 1e-3;     ///< the period, unless the adversary varies it [s]
   int latency = 0;                ///< ticks from a command to its holding
@@ -101,15 +128,26 @@ struct circumstances {
     }
     if (!(jump >= 0.0) || !kernels::is_finite(jump)) return {"jump", jump, "finite and ≥ 0 m"};
     if (!(damping > 0.0)) return {"damping", damping, "> 0 N·s/m"};
+    if (!(noise >= 0.0) || !kernels::is_finite(noise)) return {"noise", noise, "finite and ≥ 0 m"};
+    if (!(presliding >= 0.0)) return {"presliding", presliding, "finite and ≥ 0 m"};
     if (ticks < 1) return {"ticks", double(ticks), "≥ 1"};
+    if (rubs_elastically()) {
+      if (const auto fault = elastic_friction().check()) return fault;
+    }
     return device_of<space<double, 1>>().check();
+  }
+  [[nodiscard]] bool rubs_elastically() const noexcept {
+    return friction > 0.0 && presliding > 0.0;
+  }
+  [[nodiscard]] friction_like elastic_friction() const noexcept {
+    return {rubs_like, friction, presliding};
   }
   template <class Space>
   [[nodiscard]] device_parameters<Space> device_of() const noexcept {
     device_parameters<Space> p;
     p.mass = mass;
     p.damping = damping;
-    p.friction = friction;
+    if (!rubs_elastically()) p.friction = friction;
     p.force_limit = force_limit;
     p.quantum = quantum;
     p.period = longest_tick;

@@ -91,6 +91,16 @@ class prescribed_motion {
     if (const auto fault = parameters_.check()) return fault;
     return fault_of(friction_, parameters_.friction);
   }
+  /// The energy [J] that exchange(command) would book at the port with friction, if it went straight to
+  /// `next` in a period that the watchdog does not cut short.
+  [[nodiscard]] double price(const state& next, const vector& command) const noexcept {
+    auto trial = *this;
+    trial.parameters_.watchdog = device_parameters<Space>::infinity;
+    trial.move_to(next);
+    trial.meter_ = {};
+    trial.exchange(command);
+    return trial.meter_.with_friction();
+  }
   /// The force that exchange(command) would hold [N].
   [[nodiscard]] vector upcoming(const vector& command) const noexcept {
     return driver_.upcoming(command);

@@ -43,10 +43,13 @@ struct damage {
 /// One run through the cycle of `where`; act(device, surface, command) is the hand.
 template <class Space, class Device>
 damage go_round(const subject<Space>& model, Device& device, surface_state<Space> surface,
-                bool moves, const cycle& where, int ticks, auto act) noexcept {
+                bool moves, const cycle& where, const circumstances& situation, auto act) noexcept {
   const auto first = surface.point;
   damage result;
-  const auto world = [&](const auto& now) noexcept {
+  noisy_sensor<Space> noise(situation.noise, noise_habit::against_force, 1);
+  auto commanded = typename physical<Space>::coordinates{};
+  const auto world = [&](auto& now) noexcept {
+    if (situation.noise > 0.0) spoil<Space>(now.sample, noise, now.position, commanded);
     const bool jumped = moves && where.jumped();
     const double K = jumped ? where.p.after_jump : where.p.stiffness;
     const typename physical<Space>::vector point =
@@ -56,13 +59,16 @@ damage go_round(const subject<Space>& model, Device& device, surface_state<Space
     surface.stiffness = K;
     model.update(surface);
   };
-  const auto hand = [&](const auto& now) noexcept { act(device, surface, now.force); };
+  const auto hand = [&](const auto& now) noexcept {
+    commanded = to_physical<Space>(now.force);
+    act(device, surface, now.force);
+  };
   const auto watch = [&](const auto&) noexcept {
     const double paid = device.meter().total().damping + device.meter().friction();
     if (!(paid > 1e-9)) return;
     result.share_left = kernels::smaller(result.share_left, device.meter().with_friction() / paid);
   };
-  result.least = run(device, model, ticks, world, hand, watch).least_energy;
+  result.least = run(device, model, situation.ticks, world, hand, watch).least_energy;
   if (result.least == result.least) return result;
   return {-std::numeric_limits<double>::infinity(), 0.0};  // a force that is no number
 }
@@ -127,21 +133,18 @@ search_result look_for_worst(const subject<Space>& model, const circumstances& w
     parameters.start = state(surface.point + surface.normal * height);
     tuned_motion<Space> motion{{p}};
     if (!limited) {
-      prescribed_motion<Space> device(parameters);
       const auto act = [&](auto& d, const surface_state<Space>& s,
                            const typename Space::vector& command) {
-        const state force = to_physical<Space>(d.upcoming(command));
-        const state next = motion.next({d.position(), s.normal, s.depth(d.position()), force,
-                                        world.longest_tick, world.damping},
-                                       random);
+        const state next = motion.next(view_of<Space>(d, s, command, world.longest_tick), random);
         d.move_to(to_physical<Space>(to_port<Space>(next)));
       };
-      return go_round<Space>(model, device, surface, moves, motion.where, world.ticks, act);
+      return with_motion<Space>(parameters, world, [&](auto& device) {
+        return go_round<Space>(model, device, surface, moves, motion.where, world, act);
+      });
     }
     striking_hand<Space> hand;
     hand.tapping = false;
     hand.taps = {surface.point, surface.normal, world.hand_force};
-    simulation::device<Space, striking_hand<Space>> device(parameters, hand);
     const auto act = [&](auto& d, const surface_state<Space>& s,
                          const typename Space::vector& /*command*/) {
       motion.where.advance(s.depth(d.position()));
@@ -152,7 +155,9 @@ search_result look_for_worst(const subject<Space>& model, const circumstances& w
       const bool resting = motion.where.stage == cycle_stage::rest;
       d.hand().push = state(s.normal * (resting ? 0.0 : share * world.hand_force));
     };
-    return go_round<Space>(model, device, surface, moves, motion.where, world.ticks, act);
+    return with_hand<Space>(parameters, hand, world, [&](auto& device) {
+      return go_round<Space>(model, device, surface, moves, motion.where, world, act);
+    });
   };
   const auto [point, most] = most_damage<cycle_parameters::unit_cube>(
       [&](const cycle_parameters::unit_cube& u) { return run(cycle_parameters::at(u, world)); },

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Motions smaller than encoders show, or than dry friction resists; the menu is in adversary.hpp. They
+// drive prescribed_motion, which no force can stop.
+
+#include <passive_haptics/simulation/adversary_motions.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
+
+/// With the force where it has grown, against it where it has fallen, on each axis by itself: the force
+/// gives more on the way out than it takes on the way back, and none of it is seen, or paid for by a
+/// friction that is elastic. From time to time it presses, or moves away, for some ticks, so that the
+/// force has something to be. It never goes farther at once than `reach`, nor, where there is any
+/// room, than the room there is.
+template <class Space>
+struct in_step_motion {
+  using vector = typename physical<Space>::vector;
+  double reach = std::numeric_limits<double>::infinity();  ///< [m]
+  double small = 10e-6;  ///< what it moves by where there is neither room nor a reach [m]
+  double speed = 0.05;   ///< most of the presses [m/s]
+  typename physical<Space>::coordinates last{};  ///< force [N]
+  int pressing = 0, until_press = 0;             ///< ticks
+  double pace = 0.0;                             ///< of this press, inwards [m/s]
+
+  [[nodiscard]] vector next(const adversary_view<Space>& view, random_source& random) noexcept {
+    const vector change = view.force - vector(last);
+    last = view.force;
+    if (until_press-- <= 0) {
+      until_press = static_cast<int>(random.uniform(20.0, 400.0));
+      pressing = static_cast<int>(random.uniform(1.0, 30.0));
+      pace = random.uniform(-0.3, 1.0) * random.uniform() * speed;
+      if (view.depth < 0.0) pace = std::abs(pace);
+    }
+    if (pressing > 0) {
+      --pressing;
+      return view.position - view.normal * (pace * view.dt);
+    }
+    vector there = view.position;
+    for (int i = 0; i < Space::dof; ++i) {
+      const double by = component(change, i);
+      const double side = by > 0.0 ? 1.0 : by < 0.0 ? -1.0 : random.uniform(-1.0, 1.0);
+      const double free = component(side > 0.0 ? view.room_above : view.room_below, i);
+      const bool unseen = component(view.room_above, i) + component(view.room_below, i) > 0.0;
+      const double most = kernels::smaller(unseen ? free : small_or_reach(), reach);
+      component(there, i) += side * most;
+    }
+    return there;
+  }
+
+ private:
+  [[nodiscard]] double small_or_reach() const noexcept {
+    return reach < std::numeric_limits<double>::infinity() ? reach : small;
+  }
+};
+
+/// Presses for 20 of 300 ticks; in the others it takes the cheapest of a dozen steps: to either end of
+/// the room it has, to some presliding displacements, or anywhere at speeds from 1 µm/s to 1 m/s. With
+/// its price it knows the memory of the friction, too.
+template <class Space>
+struct worst_step_motion {
+  using vector = typename physical<Space>::vector;
+  double range = 4e-3;  ///< farther than this from the surface it does not go [m]
+  int tick = 0;
+  double pace = 1e-3;  ///< of the presses [m/s]
+
+  [[nodiscard]] vector next(const adversary_view<Space>& view, random_source& random) noexcept {
+    if (tick++ % 300 == 0) pace = std::exp(random.uniform(std::log(1e-3), std::log(0.3)));
+    if (tick % 300 < 20 && view.depth < range) {
+      return view.position - view.normal * (pace * view.dt);
+    }
+    vector best = view.position;
+    double least = view.price(best);
+    for (int i = 0; i < 12; ++i) {
+      const vector tried = candidate(i, view, random);
+      const double depth =
+          view.depth - physical<Space>::dot(vector(tried - view.position), view.normal);
+      const double price = view.price(tried) + 2e-7 * random.uniform(-1.0, 1.0);
+      if (std::abs(depth) < range && price < least) {
+        least = price;
+        best = tried;
+      }
+    }
+    return best;
+  }
+
+ private:
+  [[nodiscard]] static vector candidate(int i, const adversary_view<Space>& view,
+                                        random_source& random) noexcept {
+    const double p = view.presliding > 0.0 ? view.presliding : 10e-6;
+    const vector way = random.direction<Space>();
+    if (i < 4) return view.position + way * (3.0 * p * random.uniform());
+    if (i < 8) return view.position + way * (view.dt * std::exp(random.uniform(-13.8, 0.0)));
+    vector there = view.position;
+    for (int j = 0; j < Space::dof; ++j) {
+      const bool up = random.chance(0.5);
+      component(there, j) += up ? component(view.room_above, j) : -component(view.room_below, j);
+    }
+    return there;
+  }
+};
+
+/// Goes to and fro before the surface by "forward 2 a, back a" with a ≤ p, for which a friction without
+/// a memory of reversals takes as little as a third of what it takes for the way gained; then it spends
+/// what a ledger has credited as greedy_motion does.
+template <class Space>
+struct dither_motion {
+  using vector = typename physical<Space>::vector;
+  double range = 1e-3;  ///< how far it goes from the surface [m]
+  bool dithering = true, back = false, outwards = true;
+  int ticks_left = 0;
+  double amplitude = 1e-6;  ///< a [m]
+
+  [[nodiscard]] vector next(const adversary_view<Space>& view, random_source& random) noexcept {
+    if (ticks_left-- <= 0) {
+      dithering = !dithering;
+      ticks_left =
+          static_cast<int>(dithering ? random.uniform(100.0, 400.0) : random.uniform(2.0, 12.0));
+      const double p = view.presliding > 0.0 ? view.presliding : 10e-6;
+      amplitude = p * random.uniform(0.02, 1.0);
+    }
+    if (!dithering) return greedy_motion<Space>{}.next(view, random);
+    back = !back;
+    if (!back && view.depth < -range) outwards = false;
+    if (!back && view.depth > 0.0) outwards = true;
+    const double way = (back ? -1.0 : 2.0) * amplitude;
+    return view.position + view.normal * (outwards ? way : -way);
+  }
+};
+
+static_assert(adversary_for<in_step_motion<space<float, 1>>, space<float, 1>>);
+static_assert(adversary_for<worst_step_motion<space<float, 1>>, space<float, 1>>);
+static_assert(adversary_for<dither_motion<space<float, 1>>, space<float, 1>>);
+
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics
