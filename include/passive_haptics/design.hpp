@@ -15,6 +15,9 @@
 //
 // Never mix the two. All of them take the world as fixed: a surface that moves or a stiffness that
 // changes breaks every one of them, and needs a bound.
+//
+// How stiff a wall behind a bound may be before its ledger runs dry: design/stiffness_budget.hpp. What is
+// known of devices: design/device_facts.hpp.
 
 #include <passive_haptics/design/frequency.hpp>
 #include <passive_haptics/parameter.hpp>

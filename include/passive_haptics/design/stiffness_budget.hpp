@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// How stiff a guaranteed wall may be on a device as it is stated, so that its ledger does not run dry.
+//
+//     constexpr design::stated_device grip{.mass = 0.045, .damping = 0.05, .friction = 0.13,
+//                                          .quantum = 55e-6, .force_limit = 3.3};
+//     constexpr auto budget = design::stiffness_budget(grip);     // 2368 N/m
+//     std::puts(budget.because());                                // what binds, and what raises it
+//     ph::capped law{ph::damped_spring{.mass = grip.mass}, budget.stiffness};
+//
+// A bound that spends only what a sure ledger holds is passive with any stiffness. What too much of it
+// costs is the wall: each step of a swing drains the ledger, and when it is empty the hand sinks in. The
+// largest stiffness that is paid for, per metre of the way, at a speed v:
+//
+//     K (q + max(q, v T))/2 ≤ c + b v − 2 c p/D
+//
+// On the left, what is not known of the position costs (a step q, changes of the force at q/2 each) and
+// what happens between two samples (lemma L2). On the right, what dry friction and damping take, less
+// what a presliding p gives back at every reversal of a swing of depth D (ours; docs/design/mathematics.md).
+// Where v T ≤ q this is K ≤ (c + b v)/q − 2 c p/(q D), as q → 0 it is 2 b/T + 2 c/(v T), Colgate's 2 b/T
+// for fast motions. Beside it K ≤ 2 c/q, for the chatter of a hand that holds still at the edge of a
+// step (Abbott and Okamura, 2005), and K ≤ κ m/T², what a sampled mass can be held with (§ 9).
+//
+// Without dry friction all that is left at slow speeds is b v/q, some newtons per metre: nothing stiff
+// is guaranteed there, and the budget says 0.
+
+#include <passive_haptics/parameter.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace design {
+
+/// A device as a promise may state it: mass, damping and friction from below, the rest from above.
+struct stated_device {
+  double mass{};               ///< m, smallest over all directions [kg]
+  double damping{};            ///< b [N·s/m]
+  double friction{};           ///< c, dry; the least level, where it varies [N]
+  double presliding{};         ///< p, over which friction is elastic [m]
+  double quantum{};            ///< q, step of the position, noise included [m]
+  double force_limit{};        ///< what the motors hold [N]
+  double longest_tick = 1e-3;  ///< T [s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    const auto not_negative = [](double x) { return passive_haptics::detail::not_negative(x); };
+    const auto positive = [](double x) { return passive_haptics::detail::positive(x); };
+    if (!positive(mass)) return {"mass", mass, "finite and > 0 kg"};
+    if (!not_negative(damping)) return {"damping", damping, "finite and ≥ 0 N·s/m"};
+    if (!not_negative(friction)) return {"friction", friction, "finite and ≥ 0 N"};
+    if (!not_negative(presliding)) return {"presliding", presliding, "finite and ≥ 0 m"};
+    if (!not_negative(quantum)) return {"quantum", quantum, "finite and ≥ 0 m"};
+    if (!positive(force_limit)) return {"force_limit", force_limit, "finite and > 0 N"};
+    if (!positive(longest_tick)) return {"longest_tick", longest_tick, "finite and > 0 s"};
+    return {};
+  }
+};
+
+/// What the wall is to be sustained for.
+struct intended_use {
+  double slowest = 5e-3;            ///< speed of the slowest kneading [m/s]
+  double fastest = 50e-3;           ///< and of the fastest [m/s]
+  double stroke = 1e-3;             ///< D, depth of its swings [m]
+  double force = 3.0;               ///< held with; no more than the motors' [N]
+  double hand_force = 5.0;          ///< the most the hand pushes with [N]
+  double stiffness_fraction = 0.1;  ///< κ, as in damped_spring
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    const auto positive = [](double x) { return passive_haptics::detail::positive(x); };
+    if (!positive(slowest)) return {"slowest", slowest, "finite and > 0 m/s"};
+    if (!(fastest >= slowest) || !positive(fastest)) {
+      return {"fastest", fastest, "finite and ≥ slowest"};
+    }
+    if (!positive(stroke)) return {"stroke", stroke, "finite and > 0 m"};
+    if (!(force >= 0.0)) return {"force", force, "≥ 0 N"};
+    if (!(hand_force >= 0.0)) return {"hand_force", hand_force, "≥ 0 N"};
+    if (!(stiffness_fraction > 0.0 && stiffness_fraction <= 1.0)) {
+      return {"stiffness_fraction", stiffness_fraction, "in (0, 1]"};
+    }
+    return {};
+  }
+};
+
+enum class stiffness_limit : std::uint8_t {
+  sampled_mass,   ///< κ m/T²
+  slow_kneading,  ///< what friction and damping pay at the slowest speed
+  fast_kneading,  ///< and at the fastest, where sampling costs more than the steps
+  holding,        ///< 2 c/q
+  not_stated,     ///< a parameter is out of its range
+};
+
+[[nodiscard]] constexpr const char* to_string(stiffness_limit limit) noexcept {
+  switch (limit) {
+    case stiffness_limit::sampled_mass:
+      return "sampled mass";
+    case stiffness_limit::slow_kneading:
+      return "slow kneading";
+    case stiffness_limit::fast_kneading:
+      return "fast kneading";
+    case stiffness_limit::holding:
+      return "holding still";
+    case stiffness_limit::not_stated:
+      return "not stated";
+  }
+  return "unknown limit";
+}
+
+struct budget {
+  double stiffness = 0.0;  ///< K [N/m], the least of the limits
+  stiffness_limit binding = stiffness_limit::not_stated;
+  std::array<double, 4> limits{};  ///< each of them, in the order of stiffness_limit [N/m]
+  double working_capital = 0.0;  ///< F (q/2 + reach), what the force in use needs in the ledger [J]
+  double loan = 0.0;  ///< F_max q: what lets a first touch from rest be stiff; E ≥ −loan then [J]
+  double crossing = 0.0;  ///< what a crossing of a step costs a hand that holds still, at K [J]
+
+  [[nodiscard]] constexpr double limit(stiffness_limit which) const noexcept {
+    const auto i = static_cast<std::size_t>(which);
+    return i < limits.size() ? limits[i] : 0.0;
+  }
+  /// What binds, and what would raise it.
+  [[nodiscard]] constexpr const char* because() const noexcept {
+    switch (binding) {
+      case stiffness_limit::sampled_mass:
+        return "A mass sampled so slowly can be held with no more than kappa m/T^2: "
+               "a faster loop or a heavier grip raises it.";
+      case stiffness_limit::slow_kneading:
+        return stiffness > 0.0
+                   ? "Kneading slowly, friction and damping pay for no more than (c + b v)/q - "
+                     "2 c p/(q D): finer encoders or more sure friction raise it."
+                   : "Friction gives back at each reversal what it takes on a stroke that short: "
+                     "only less presliding or a longer stroke helps.";
+      case stiffness_limit::fast_kneading:
+        return "Kneading fast, sampling costs more than friction and damping take: "
+               "a faster loop raises it.";
+      case stiffness_limit::holding:
+        return stiffness > 0.0
+                   ? "A hand that holds still at the edge of a step makes the force chatter by "
+                     "K q, which friction covers up to 2 c: finer encoders raise it."
+                   : "No dry friction is stated, so nothing pays for the encoders' steps at rest: "
+                     "a stiff wall cannot be guaranteed on this device.";
+      case stiffness_limit::not_stated:
+        return "A parameter is out of its range: ask check().";
+    }
+    return "";
+  }
+};
+
+namespace detail {
+
+/// The largest K for swings at speed v [N/m].
+[[nodiscard]] constexpr double kneaded(const stated_device& d, double v, double stroke) noexcept {
+  const double paid = d.friction + d.damping * v - 2.0 * d.friction * d.presliding / stroke;
+  const double cost = (d.quantum + kernels::larger(d.quantum, v * d.longest_tick)) / 2.0;
+  return kernels::larger(paid, 0.0) / cost;
+}
+
+}  // namespace detail
+
+/// The largest stiffness that the ledger of this device sustains in that use. As the payment is affine
+/// in v on either side of q/T, and rises up to there, the slowest and the fastest speed are the worst.
+[[nodiscard]] constexpr budget stiffness_budget(const stated_device& device,
+                                                const intended_use& use = {}) noexcept {
+  if (device.check() || use.check()) return {};
+  const double T = device.longest_tick;
+  const double q = device.quantum;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  budget b;
+  b.limits = {use.stiffness_fraction * device.mass / (T * T),
+              detail::kneaded(device, use.slowest, use.stroke),
+              detail::kneaded(device, use.fastest, use.stroke),
+              q > 0.0 ? 2.0 * device.friction / q : none};
+  b.stiffness = none;
+  for (std::size_t i = 0; i < b.limits.size(); ++i) {
+    if (b.limits[i] < b.stiffness) {
+      b.stiffness = b.limits[i];
+      b.binding = static_cast<stiffness_limit>(i);
+    }
+  }
+  const double F = kernels::smaller(use.force, device.force_limit);
+  const double reach = q + (F + use.hand_force) * T * T / device.mass;
+  b.working_capital = F * (q / 2.0 + reach);
+  b.loan = device.force_limit * q;
+  b.crossing = b.stiffness * q * kernels::smaller(device.presliding, q);
+  return b;
+}
+
+}  // namespace design
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stiffness that a device pays for: worked by hand, at compile time; and what the formula says of a
+// swing against the certificate itself, summed tick by tick.
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/design/stiffness_budget.hpp>
+#include <passive_haptics/simulation/presets.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace design = ph::design;
+namespace sim = ph::simulation;
+using Catch::Matchers::WithinRel;
+using design::stated_device;
+using design::stiffness_budget;
+using design::stiffness_limit;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr bool near(double a, double b) {
+  return a - b <= 1e-9 * b && b - a <= 1e-9 * b;
+}
+
+// half of what a Touch may have: (0.13 + 0.05·0.005)/55e-6 by slow kneading; 45e-3·0.1/1e-6 by the mass;
+// at 50 mm/s it makes 50 µm a tick, less than a step: (0.13 + 0.05·0.05)/55e-6; 2·0.13/55e-6 at rest
+constexpr stated_device touch{
+    .mass = 0.045, .damping = 0.05, .friction = 0.13, .quantum = 55e-6, .force_limit = 3.3};
+constexpr auto of_touch = stiffness_budget(touch);
+static_assert(near(of_touch.stiffness, 0.13025 / 55e-6));
+static_assert(of_touch.binding == stiffness_limit::slow_kneading);
+static_assert(near(of_touch.limit(stiffness_limit::sampled_mass), 4500.0));
+static_assert(near(of_touch.limit(stiffness_limit::fast_kneading), 0.1325 / 55e-6));
+static_assert(near(of_touch.limit(stiffness_limit::holding), 0.26 / 55e-6));
+// 3 N need 27.5 µm and a reach of 55 µm + 8 N (1 ms)²/45 g; the motors' 3.3 N for a step
+static_assert(near(of_touch.working_capital, 3.0 * (27.5e-6 + 55e-6 + 8e-6 / 0.045)));
+static_assert(near(of_touch.loan, 3.3 * 55e-6));
+static_assert(of_touch.crossing == 0.0);  // rigid friction holds it for nothing
+
+// presliding of 15 µm over swings of 1 mm takes 2·0.13·0.015 N of it, and a crossing K q p
+constexpr auto elastic_touch = [] {
+  stated_device d = touch;
+  d.presliding = 15e-6;
+  return d;
+}();
+static_assert(near(stiffness_budget(elastic_touch).stiffness, (0.13025 - 0.0039) / 55e-6));
+static_assert(near(stiffness_budget(elastic_touch).crossing,
+                   (0.13025 - 0.0039) / 55e-6 * 55e-6 * 15e-6));
+static_assert(stiffness_budget(elastic_touch, {.stroke = 20e-6}).stiffness == 0.0);
+
+// a light device with fine encoders is held by its mass; a slow loop, by its sampling
+static_assert(
+    near(stiffness_budget({.mass = 0.02, .friction = 0.2, .quantum = 1e-6, .force_limit = 5.0})
+             .stiffness,
+         2000.0));
+constexpr stated_device fine{
+    .mass = 1.0, .damping = 0.5, .friction = 0.05, .quantum = 1e-6, .force_limit = 5.0};
+static_assert(stiffness_budget(fine).binding == stiffness_limit::fast_kneading);
+static_assert(near(stiffness_budget(fine).stiffness, 2.0 * (0.05 + 0.025) / (1e-6 + 50e-6)));
+// exact positions and no friction: Colgate's 2b/T, at any speed
+static_assert(near(stiffness_budget({.mass = 1.0, .damping = 0.3, .force_limit = 5.0}).stiffness,
+                   600.0));
+static_assert(stiffness_budget({.mass = 1.0, .damping = 0.3, .force_limit = 5.0})
+                  .limit(stiffness_limit::holding) == infinity);
+
+// without friction nothing: 7.5 N/m for slow kneading on steps of 10 µm, and none for a hand at rest
+constexpr stated_device slippery{
+    .mass = 0.1, .damping = 0.015, .quantum = 10e-6, .force_limit = 12.0};
+static_assert(stiffness_budget(slippery).stiffness == 0.0);
+static_assert(stiffness_budget(slippery).binding == stiffness_limit::holding);
+static_assert(near(stiffness_budget(slippery).limit(stiffness_limit::slow_kneading), 7.5));
+
+// what cannot be is no budget
+static_assert(stiffness_budget({}).binding == stiffness_limit::not_stated);
+static_assert(stiffness_budget({}).stiffness == 0.0);
+static_assert(stiffness_budget(touch, {.slowest = 0.1}).binding == stiffness_limit::not_stated);
+static_assert(stated_device{.mass = 0.1}.check());
+static_assert(design::intended_use{.stroke = 0.0}.check());
+
+constexpr double c = 0.1;  // [N]
+
+/// What is left of c for each metre of a swing of 20 mm into a wall K and out again: the certificate
+///     Σ (u − f) Δx̂ − ½ q |change of u − f|,   u = c along the motion,
+/// of forces held for a tick and positions known to a step.
+double left_of_friction(double K, double q, double v, double T) {
+  const auto shown = [q](double x) { return q * std::floor(x / q) + q / 2; };
+  double x = 0.1 * q, last = shown(x), sum = 0.0, slope = c + K * last, way = 0.0;
+  for (const double side : {1.0, -1.0}) {
+    while (side > 0.0 ? x < 20e-3 : x > q) {
+      x += side * v * T;
+      const double now = shown(x), force = -K * last, u = side * c;
+      sum += (u - force) * (now - last) - q / 2 * std::abs((u - force) - slope);
+      slope = u - force;
+      way += std::abs(now - last);
+      last = now;
+    }
+  }
+  return sum / way;
+}
+
+}  // namespace
+
+TEST_CASE("a swing into a wall costs K (q + max(q, vT))/2 for each metre of it",
+          "[design][devices]") {
+  for (const double K : {300.0, 1000.0, 5000.0}) {
+    for (const double q : {1e-6, 10e-6, 60e-6}) {
+      for (const double v : {1.7e-3, 5.3e-3, 51e-3, 0.31}) {
+        CAPTURE(K, q, v);
+        const double cost = K * (q + std::max(q, v * 1e-3)) / 2;
+        CHECK_THAT(c - left_of_friction(K, q, v, 1e-3), WithinRel(cost, 0.06));
+      }
+    }
+  }
+}
+
+TEST_CASE("a budget leaves a swing at either end of its speeds what it costs, and no more",
+          "[design][devices]") {
+  for (const double q : {1e-6, 10e-6, 60e-6}) {
+    const stated_device device{.mass = 1.0, .friction = c, .quantum = q, .force_limit = 9.0};
+    const design::intended_use use{.slowest = 1.7e-3, .fastest = 0.31};
+    const auto budget = stiffness_budget(device, use);
+    CAPTURE(q, budget.stiffness);
+    const double K = std::min(budget.limit(stiffness_limit::slow_kneading),
+                              budget.limit(stiffness_limit::fast_kneading));
+    for (const double v : {use.slowest, use.fastest}) {
+      CHECK(left_of_friction(0.94 * K, q, v, 1e-3) > 0.0);
+    }
+    const double worst = std::min(left_of_friction(1.06 * K, q, use.slowest, 1e-3),
+                                  left_of_friction(1.06 * K, q, use.fastest, 1e-3));
+    CHECK(worst < 0.0);
+  }
+}
+
+TEST_CASE("every limit has a name, and says what would raise it", "[design][devices]") {
+  for (int i = 0; i < 5; ++i) {
+    design::budget b{.stiffness = 1.0, .binding = static_cast<stiffness_limit>(i)};
+    CHECK(std::string(to_string(b.binding)) != "unknown limit");
+    CHECK(std::string(b.because()).size() > 20);
+  }
+  CHECK(std::string(to_string(static_cast<stiffness_limit>(99))) == "unknown limit");
+  CHECK(std::string(stiffness_budget(slippery).because()).find("No dry friction") == 0);
+}
+
+TEST_CASE("the simulated devices, half of b and c stated, can promise what a table says",
+          "[design][devices]") {
+  for (const auto& preset : sim::all_presets) {
+    const auto budget = stiffness_budget({.mass = preset.mass,
+                                          .damping = preset.damping / 2,
+                                          .friction = preset.friction / 2,
+                                          .quantum = preset.quantum,
+                                          .force_limit = preset.force_limit});
+    CAPTURE(preset.name, budget.stiffness, to_string(budget.binding));
+    CHECK((budget.stiffness > 0.0) == (preset.friction > 0.0));
+    CHECK(budget.stiffness < 15e3);
+    CHECK(budget.working_capital < 4e-3);
+  }
+}
