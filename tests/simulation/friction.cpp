@@ -66,6 +66,10 @@ void obeys(const auto& model) {
     REQUIRE_THAT(took.work - took.dissipated, WithinAbs(stored(model, memory) - before, rounding));
     least_excess = std::min(least_excess, took.dissipated - level * slipped + rounding);
     farthest = std::max(farthest, std::abs(deflection(model, memory)));
+    if (claims(model)) {  // and its springs hold what those of the claim would, at least
+      const double bent = deflection(model, memory);
+      REQUIRE(stored(model, memory) >= level / presliding * bent * bent / 2 * (1 - 1e-12));
+    }
     x += way;
   }
   if (claims(model)) {

@@ -21,7 +21,8 @@ struct friction_work {
 };
 
 /// A friction that dissipates at least `level` times the way slipped, where what is slipped is the
-/// way of the device less a deflection of at most `presliding`. A level of zero claims nothing.
+/// way of the device less a deflection z of at most `presliding`, and that stores at least c z²/(2p)
+/// meanwhile. That is all a ledger has to know. A level of zero claims nothing.
 struct friction_claim {
   double level = 0.0;       ///< c [N]
   double presliding = 0.0;  ///< p [m]
