@@ -2,60 +2,18 @@
 // The program that judges the controllers: it must find a liar, lose no row, and understand its
 // arguments.
 #include "controllers.hpp"
+#include "programs.hpp"
 #include "support/catch.hpp"
 
 using namespace controllers;
-namespace fs = std::filesystem;
+using namespace programs;
 
 namespace {
-
-/// A folder of its own for each run, gone afterwards.
-class folder {
- public:
-  explicit folder(const std::string& name)
-      : path_(fs::temp_directory_path() / ("passive_haptics_bench_" + name)) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  folder(const folder&) = delete;
-  folder& operator=(const folder&) = delete;
-  ~folder() { fs::remove_all(path_); }
-  [[nodiscard]] std::string operator/(const std::string& file) const {
-    return (path_ / file).string();
-  }
-
- private:
-  fs::path path_;
-};
-
-std::string content(const std::string& path) {
-  std::ifstream in(path);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-std::vector<std::string> lines(const std::string& text) {
-  std::vector<std::string> all;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) all.push_back(line);
-  return all;
-}
-
-struct outcome {
-  int code;
-  std::string complaint;
-};
 
 /// The program, its output kept.
 outcome run_quietly(const std::vector<std::string>& arguments,
                     const std::vector<controller>& judged, const std::atomic<bool>& stop) {
-  std::ostringstream out, err;
-  auto* const cout_buffer = std::cout.rdbuf(out.rdbuf());
-  auto* const cerr_buffer = std::cerr.rdbuf(err.rdbuf());
-  const int code = run(arguments, judged, stop);
-  std::cout.rdbuf(cout_buffer);
-  std::cerr.rdbuf(cerr_buffer);
-  return {code, err.str()};
+  return programs::quietly([&] { return run(arguments, judged, stop); });
 }
 outcome run_quietly(const std::vector<std::string>& arguments,
                     const std::vector<controller>& judged = {}) {

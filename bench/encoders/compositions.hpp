@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What is compared: a wall with a fixed surface, composed as today, and what comes after.
+
+#include "../controllers/model.hpp"
+#include <passive_haptics/design/stiffness_budget.hpp>
+#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/presets.hpp>
+
+#include <string>
+#include <vector>
+
+namespace encoders {
+
+namespace ph = passive_haptics;
+namespace sim = passive_haptics::simulation;
+namespace design = passive_haptics::design;
+
+using line = ph::space<double, 1>;
+using wall = controllers::model<line>;
+
+/// The most the hand pushes with, as every model is told [N].
+inline constexpr double hand_force = 5.0;
+
+/// A device, and how far its friction gives way before it slips [m].
+struct machine {
+  sim::device_preset preset{};
+  double presliding = 0.0;
+
+  [[nodiscard]] bool rubs_elastically() const noexcept {
+    return preset.friction > 0.0 && presliding > 0.0;
+  }
+  /// What is stated of it: half of its damping and friction, the rest as it is.
+  [[nodiscard]] design::stated_device stated() const noexcept {
+    return {.mass = preset.mass,
+            .damping = preset.damping / 2.0,
+            .friction = preset.friction / 2.0,
+            .presliding = rubs_elastically() ? presliding : 0.0,
+            .quantum = preset.quantum,
+            .force_limit = preset.force_limit};
+  }
+  /// The static stiffness that damped_spring displays of a wall K [N/m].
+  [[nodiscard]] double displayed(double K) const noexcept {
+    return ph::kernels::sampled_stiffness(K, 0.1, preset.mass, 1e-3);
+  }
+};
+
+/// Is it one of the two of a quick run?
+[[nodiscard]] inline bool is_quick(const sim::device_preset& p) {
+  return p.name == std::string(sim::touch_like.name) || p.name == std::string(sim::ideal.name);
+}
+
+/// What a composition does not count on is true of the device or not.
+struct composition {
+  const char* name = "";
+  bool takes_positions_as_exact = false;
+  bool takes_friction_as_rigid = false;
+  bool promises = true;
+  wall (*make)(const design::stated_device&) = nullptr;
+
+  /// Does its promise hold on that machine?
+  [[nodiscard]] bool covers(const machine& m) const noexcept {
+    return promises && !(takes_positions_as_exact && m.preset.quantum > 0.0) &&
+           !(takes_friction_as_rigid && m.rubs_elastically());
+  }
+};
+
+/// The recommended one first.
+[[nodiscard]] const std::vector<composition>& compositions();
+
+/// use(device) of a machine under a hand that follows a target: a mass of 150 g, 300 N/m, 5 N·s/m.
+[[nodiscard]] auto with_device(const machine& m, double start, auto use) {
+  using hand = sim::impedance_hand<line>;
+  const hand fingers{.stiffness = 300.0, .damping = 5.0, .own_mass = 0.15};
+  if (m.rubs_elastically()) {
+    auto p = m.preset.without_friction<line>();
+    p.start = start;
+    sim::device<line, hand, sim::slider_and_spring> device(p, fingers,
+                                                           m.preset.friction_of(m.presliding));
+    return use(device);
+  }
+  auto p = m.preset.parameters<line>();
+  p.start = start;
+  sim::device<line, hand> device(p, fingers);
+  return use(device);
+}
+
+/// A wall of stiffness K [N/m]: the device is in it where x > 0.
+[[nodiscard]] wall wall_of(const composition& c, const machine& m, double K);
+
+/// Where its surface is on average, for encoders that cut off [m]: somewhere within a step.
+[[nodiscard]] inline double surface_of(const machine& m) noexcept {
+  return 0.37 * m.preset.quantum;
+}
+
+}  // namespace encoders
