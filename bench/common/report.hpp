@@ -12,6 +12,7 @@
 #include <iostream>
 #include <map>
 #include <stdexcept>
+#include <system_error>
 
 namespace experiments {
 
@@ -76,7 +77,12 @@ class report {
  public:
   explicit report(std::filesystem::path folder, report_files names = {})
       : folder_(std::move(folder)), names_(std::move(names)) {
-    std::filesystem::create_directories(folder_);
+    std::error_code refused;
+    std::filesystem::create_directories(folder_, refused);
+    if (refused) {
+      throw std::runtime_error(folder_.string() + ": cannot be made a folder (" +
+                               refused.message() + "); give another with --out");
+    }
   }
   [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_ / name; }
 

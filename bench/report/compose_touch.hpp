@@ -3,8 +3,12 @@
 // How a list of compositions is made: every contact law with the reachable bound, every bound with
 // the plain spring, over one shape and one way to turn normals.
 
-#include "../thesis_experiments/mesh.hpp"
+#include "../common/median.hpp"
+#include "../thesis_experiments/volume.hpp"
 #include "touch.hpp"
+#include <passive_haptics/simulation/loop.hpp>
+#include <passive_haptics/simulation/prescribed_motion.hpp>
+#include <passive_haptics/simulation/schedule.hpp>
 
 #include <chrono>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "touch.hpp"
 
+#include "../thesis_experiments/ball.hpp"
+#include "../thesis_experiments/organ.hpp"
 #include "compose_touch.hpp"
 
 #include <memory>
@@ -57,7 +59,7 @@ touch_scene soft_ball() {
 }
 
 touch_scene stroked_organ() {
-  const auto scene = std::make_shared<stroke_scene>(read_mesh(organ, millimetre));
+  const auto scene = std::make_shared<stroke_scene>(read_organ(our_organ, millimetre));
   const auto hand = [scene](double t) { return scene->position(t); };
   const auto fresh = [scene] { return body_of(scene->mesh(), flesh, scene->fixed()); };
   return {"mesh",

@@ -4,54 +4,11 @@
 // the device along z towards its centre; the environment answers every 0.5 s or at 30 Hz. Each
 // answer turns the contact normal by degrees: taken at once it throws the device sideways.
 
-#include "../common/record.hpp"
 #include "../common/report.hpp"
-#include <passive_haptics/environment/ball.hpp>
-#include <passive_haptics/environment/deformable_body.hpp>
-#include <passive_haptics/passive_haptics.hpp>
-#include <passive_haptics/simulation/device.hpp>
-#include <passive_haptics/simulation/loop.hpp>
-#include <passive_haptics/simulation/schedule.hpp>
-
-#include <vector>
+#include "volume.hpp"
+#include <passive_haptics/environment/tetrahedral_stiffness.hpp>
 
 namespace experiments {
-
-namespace ph = passive_haptics;
-namespace env = passive_haptics::environment;
-namespace sim = passive_haptics::simulation;
-
-using volume = ph::space<double, 3>;
-using vector3 = volume::vector;
-
-/// 2 atan2(|a − b|, |a + b|): good at 0 and at π.
-inline double angle_between(const vector3& a, const vector3& b) {
-  return 2.0 * std::atan2((a - b).norm(), (a + b).norm());
-}
-
-/// The plane that the local model gets from a contact.
-inline ph::half_space<volume> tangent_plane(const env::surface_contact& contact) {
-  return {contact.point, contact.normal, contact.stiffness};
-}
-
-/// Largest |x(t+w) − 2x(t) + x(t−w)|, w = 10 ms, at the ticks `updates`: nothing for a steady motion,
-/// the whole jump for one that happens within w of an update.
-inline double largest_jump(const std::vector<vector3>& path,
-                           const std::vector<std::size_t>& updates) {
-  constexpr std::size_t w = 10;  // ticks
-  double largest = 0.0;
-  for (const std::size_t n : updates) {
-    if (n < w || n + w >= path.size()) continue;
-    largest = std::max(largest, (path[n + w] - 2.0 * path[n] + path[n - w]).norm());
-  }
-  return largest;
-}
-
-struct ball_result {
-  double normal_step = 0;    ///< [rad] in one tick, in contact
-  double force_step = 0;     ///< [N] in one tick, in contact
-  double position_jump = 0;  ///< [m]
-};
 
 /// The radius and what the ball is made of: soft enough that a few newtons turn its faces by
 /// degrees.
@@ -59,112 +16,18 @@ inline constexpr double ball_radius = 0.05;
 inline constexpr env::material ball_material{.young = 1e4, .poisson = 0.3};
 inline constexpr double hand_limit = 10.0;  ///< [N]
 
-template <class Normals>
-ball_result press(const Normals& normals, double period, csv_file& csv) {
-  const auto fixed = env::ball_fixed_nodes();
-  env::deformable_body body(env::ball(ball_radius), ball_material, fixed);
-  ph::local_model model{volume{},
-                        ph::followed<ph::half_space<volume>>{},
-                        normals,
-                        ph::shaped{ph::spring{}, ph::force_rate_limit{.rate = 5.0}},
-                        ph::reduced_energy{.damping = 0.03},
-                        ph::reachable_bound{.mass = 0.1, .hand_force = hand_limit},
-                        ph::loop_limits{.longest_tick = 1e-3}};
-  // Not quite on the axis: nobody's hand is, and on it four faces would be equally near.
-  const vector3 start(0.003, 0.007, ball_radius + 0.010);
-  const vector3 end(0.003, 0.007, 0.0);
-  sim::impedance_hand<volume> hand{.stiffness = 150.0, .damping = 2.0, .limit = hand_limit};
-  hand.aim(start, vector3::Zero(), 0.0);
-  sim::device<volume, sim::impedance_hand<volume>> device({.mass = 0.1, .start = start}, hand);
-  const sim::stroke<volume> path{.from = start, .to = end, .start = 0.1, .duration = 4.0};
-  sim::update_schedule schedule(1, period, period);
-  std::vector<vector3> travelled;
-  std::vector<std::size_t> updates;  // deep in contact
-  ball_result result;
-  vector3 last_force = vector3::Zero(), last_normal = vector3::UnitZ();
-  int ticks_in_contact = 0;
-  bool update = false;
-  const auto answer = [&](const auto& now) {
-    update = schedule.due(now.time);
-    if (update) model.update(tangent_plane(body.update(now.sample.position, now.sample.held)));
-  };
-  const auto push = [&](const auto& now) {
-    const vector3 normal = model.local().normal, wanted = model.target().normal;
-    const vector3 &x = now.position, &force = now.force;
-    ticks_in_contact = force.norm() > 0.0 ? ticks_in_contact + 1 : 0;
-    if (ticks_in_contact > 1) {
-      result.normal_step = std::max(result.normal_step, angle_between(normal, last_normal));
-      result.force_step = std::max(result.force_step, (force - last_force).norm());
-    }
-    if (update && ticks_in_contact > 100) updates.push_back(travelled.size());
-    travelled.push_back(x);
-    csv.row(now.time, x(0), x(1), x(2), normal(0), normal(1), normal(2), wanted(0), wanted(1),
-            wanted(2), force.norm(), now.out.depth);
-    last_force = force;
-    last_normal = normal;
-    device.hand().aim(path.position(now.time), path.velocity(now.time), now.time);
-  };
-  sim::run(device, model, 7000, answer, push);
-  result.position_jump = largest_jump(travelled, updates);
-  return result;
-}
-
 inline constexpr double turning_rate = 0.5;  ///< of the turn_limited runs [rad/s]
 
-inline void run_ball(report& out) {
-  std::vector<record> rows;
-  const double degrees = 180.0 / std::acos(-1.0);
-  progress bar("ball", 4);
-  for (const double period : {0.5, 1.0 / 30.0}) {
-    for (const bool limited : {false, true}) {
-      const std::string name = limited ? "turn_limited" : "turn_at_once";
-      csv_file csv(out.path("ball_" + format("%.3f", period) + "_" + name + ".csv"),
-                   "time s,x m,y m,z m,nx,ny,nz,environment nx,environment ny,environment nz,"
-                   "force N,depth m");
-      const ball_result r = limited ? press(ph::turn_limited{.rate = turning_rate}, period, csv)
-                                    : press(ph::turn_at_once{}, period, csv);
-      csv.close();
-      bar.step();
-      rows.push_back({{"update s", period, "%.3f"},
-                      {"normals", name},
-                      {"largest normal step deg", r.normal_step * degrees, "%.4f"},
-                      {"largest force step N", r.force_step, "%.4f"},
-                      {"largest position jump mm", r.position_jump * 1e3, "%.4f"}});
-    }
-  }
-  out.section(
-      "Ball (thesis section 3.3)",
-      "16 tetrahedra, 11 nodes, radius 50 mm, 10 kPa, held at three nodes of its lower side. "
-      "A hand of 150 N/m pushes a device of 0.1 kg along z towards the centre. All four runs "
-      "have the same force-rate limit and reachable bound. A position jump is "
-      "|x(t+10 ms) − 2x(t) + x(t−10 ms)| at an update. turn_limited: 0.5 rad/s, 0.0286 "
-      "degrees a tick.");
-  out.show(table_of(rows, std::identity{}));
-  out.member("ball", json_of(rows, std::identity{}));
-  const auto positions = [&out](const std::string& name, const std::string& caption,
-                                const std::string& run) {
-    const std::string data = "'ball_" + run + ".csv' using 1:";
-    out.plot(name, caption,
-             "set xlabel 'time [s]'\nset ylabel 'device position [mm]'\nplot " + data +
-                 "($2*1e3) with lines title 'x', " + data + "($3*1e3) with lines title 'y', " +
-                 data + "($4*1e3) with lines title 'z'");
-  };
-  const auto normals = [&out](const std::string& name, const std::string& caption,
-                              const std::string& columns, const std::string& run) {
-    out.plot(name, caption,
-             "set size ratio -1\nset xtics 0.05\nset ytics 0.05\nset xlabel 'n_x'\nset ylabel "
-             "'n_y'\nplot 'ball_" +
-                 run + ".csv' using " + columns + " with linespoints pt 7 ps 0.4 notitle");
-  };
-  positions("fig_3_5", "As Fig. 3.5: updates every 0.5 s, normals taken at once: jumps",
-            "0.500_turn_at_once");
-  normals("fig_3_6", "As Fig. 3.6: the normals that the environment sends, x-y view", "8:9",
-          "0.500_turn_at_once");
-  positions("fig_3_7", "As Fig. 3.7: the same with normals that turn slowly: smooth",
-            "0.500_turn_limited");
-  normals("fig_3_8a", "As Fig. 3.8a: normals sent by the environment, x-y view", "8:9",
-          "0.500_turn_limited");
-  normals("fig_3_8b", "As Fig. 3.8b: the same in the local model", "5:6", "0.500_turn_limited");
-}
+struct ball_result {
+  double normal_step = 0;    ///< [rad] in one tick, in contact
+  double force_step = 0;     ///< [N] in one tick, in contact
+  double position_jump = 0;  ///< [m]
+};
+
+/// Normals are taken at once, or turned at turning_rate if it is `limited`; the environment answers
+/// every `period` [s].
+[[nodiscard]] ball_result press(bool limited, double period, csv_file& csv);
+
+void run_ball(report& out);
 
 }  // namespace experiments

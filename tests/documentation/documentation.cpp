@@ -100,6 +100,10 @@ TEST_CASE("README's figures are what the programs print", "[documentation]") {
       CHECK(found);
     }
   }
+  for (const auto& line : printed) {
+    INFO(line);
+    CHECK(line.size() <= 100);  // a terminal shows the tables as tables
+  }
   CHECK(std::filesystem::exists(folder / "out" / "results.json"));
   CHECK(std::filesystem::exists(folder / "out" / "index.html"));
   std::filesystem::remove_all(folder);

@@ -84,6 +84,38 @@ env::tetrahedral_mesh blocks(int n, Solid solid) {
   return mesh;
 }
 
+/// A ring around z: `pieces` prisms one after the other, their section a polygon of `corners`.
+inline env::tetrahedral_mesh torus(double radius, double thickness, int pieces, int corners) {
+  env::tetrahedral_mesh mesh;
+  const double turn = 2.0 * std::acos(-1.0);
+  for (int i = 0; i < pieces; ++i) {
+    const double along = turn * i / pieces;
+    for (int j = 0; j <= corners; ++j) {  // the first in the core
+      const double around = turn * j / corners;
+      const double out = radius + (j == 0 ? 0.0 : thickness * std::cos(around));
+      mesh.nodes.emplace_back(out * std::cos(along), out * std::sin(along),
+                              j == 0 ? 0.0 : thickness * std::sin(around));
+    }
+  }
+  for (int i = 0; i < pieces; ++i) {
+    for (int j = 0; j < corners; ++j) {
+      const std::array<int, 3> section{0, std::min(j, (j + 1) % corners) + 1,
+                                       std::max(j, (j + 1) % corners) + 1};
+      std::array<int, 6> prism{};  // ordered alike in all of them, so that neighbours cut alike
+      for (std::size_t k = 0; k < 3; ++k) {
+        prism[k] = i * (corners + 1) + section[k];
+        prism[k + 3] = (i + 1) % pieces * (corners + 1) + section[k];
+      }
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::array<int, 4> t{prism[k], prism[k + 1], prism[k + 2], prism[k + 3]};
+        if (env::signed_volume(mesh, t) < 0.0) std::swap(t[2], t[3]);
+        mesh.tetrahedra.push_back(t);
+      }
+    }
+  }
+  return mesh;
+}
+
 inline double volume(const env::tetrahedral_mesh& mesh) {
   double sum = 0.0;
   for (const auto& t : mesh.tetrahedra) sum += env::signed_volume(mesh, t);

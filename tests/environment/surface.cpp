@@ -28,6 +28,7 @@ TEST_CASE("boundary closes the surface and turns it outward", "[environment][sur
   check_closed(blocks(3, [](int, int, int) { return true; }), 2);
   // A ring has a hole, and a box with a cavity has two surfaces.
   check_closed(blocks(3, [](int i, int j, int k) { return k == 0 && !(i == 1 && j == 1); }), 0);
+  check_closed(torus(1.0, 0.3, 12, 6), 0);
   check_closed(blocks(3, [](int i, int j, int k) { return i != 1 || j != 1 || k != 1; }), 4);
 }
 

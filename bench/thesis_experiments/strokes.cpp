@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "strokes.hpp"
+
+#include "../common/median.hpp"
+#include "../common/record.hpp"
+#include <passive_haptics/environment/tetrahedral_fem.hpp>
+
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+namespace experiments {
+
+namespace {
+
+/// A comparison with a hand that mostly moves through the air is none.
+void must_keep_contact(const stroke_result& reference, const stroke_scene& scene) {
+  constexpr int stroked = static_cast<int>(stroke_scene::stroke * 1000.0);
+  if (reference.contact_lost <= stroked / 10) return;
+  const organ& which = scene.stroked();
+  throw unusable_organ(which,
+                       "is not felt in " + std::to_string(reference.contact_lost) + " of " +
+                           std::to_string(stroked) + " ticks of a stroke 1 to 3 mm deep; " +
+                           measured(which),
+                       other_unit(which) + ", or an organ of some centimetres");
+}
+
+record described(const stroke_result& run, const stroke_result& reference, const std::string& title,
+                 const std::string& composition, const char* rate) {
+  return {{"run", title},
+          {"composition", composition},
+          {"environment", rate},
+          {"largest force step N", run.force_step, "%.4f"},
+          {"contact lost, ticks", run.contact_lost},
+          {"rms force error N", rms_error(run, reference), "%.4f"},
+          {"min port energy J", run.port_energy},
+          {"end port energy J", run.end_energy}};
+}
+
+void write_rows(const std::filesystem::path& path, const stroke_result& run) {
+  csv_file csv(path, "time s,x m,y m,z m,fx N,fy N,fz N,force N,depth m,E1 J,port energy J");
+  for (const auto& row : run.rows) {
+    std::apply([&csv](auto... numbers) { csv.row(numbers...); }, row);
+  }
+  csv.close();
+}
+
+}  // namespace
+
+strokes stroke(const stroke_scene& scene) {
+  progress bar("mesh", 3);
+  const auto follow = [&](auto run, double period) {
+    stroke_result result = run(scene, period);
+    bar.step();
+    return result;
+  };
+  strokes runs;
+  try {
+    runs.reference = follow(bare_stroke, 1e-3);
+  } catch (const env::singular_stiffness&) {
+    throw unusable_organ(
+        scene.stroked(),
+        "is not held together: parts that share a node or an edge only turn about it",
+        "mesh the volume again, its parts joined by whole faces");
+  }
+  must_keep_contact(runs.reference, scene);
+  runs.bare = follow(bare_stroke, 1.0 / 30.0);
+  runs.passive = follow(passive_stroke, 1.0 / 30.0);
+  return runs;
+}
+
+double rms_error(const stroke_result& run, const stroke_result& reference) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t n = 0; n < run.forces.size(); ++n) {
+    if (!stroke_scene::stroking(1e-3 * static_cast<double>(n + 1))) continue;
+    sum += (run.forces[n] - reference.forces[n]).squaredNorm();
+    ++count;
+  }
+  return std::sqrt(sum / count);
+}
+
+void show_strokes(report& out, const stroke_scene& scene, const strokes& runs) {
+  write_rows(out.path("mesh_reference.csv"), runs.reference);
+  write_rows(out.path("mesh_bare.csv"), runs.bare);
+  write_rows(out.path("mesh_passive.csv"), runs.passive);
+  const std::vector<record> rows{
+      described(runs.reference, runs.reference, "reference", "turn_at_once, no bound", "1 kHz"),
+      described(runs.bare, runs.reference, "bare", "turn_at_once, no bound", "30 Hz"),
+      described(runs.passive, runs.reference, "passive",
+                "turn_limited, force-rate limit, reachable bound", "30 Hz")};
+  const organ& which = scene.stroked();
+  const double update_ms = median(runs.passive.update_ms);
+  const std::string nodes = std::to_string(scene.mesh().nodes.size()) + " nodes, " +
+                            std::to_string(scene.mesh().tetrahedra.size()) + " tetrahedra, " +
+                            size_of(which);
+  out.section(
+      "Mesh: " + which.file,
+      nodes + ", " + format("%g", flesh.young / 1e3) +
+          " kPa. A stroke 1-3 mm below the surface, haptic tick 1 kHz. reference and bare: "
+          "turn_at_once, no bound. passive: turn_limited, force-rate limit, reachable bound. "
+          "Contact lost: ticks of the stroke without force. Median environment update " +
+          format("%.3f", update_ms) + " ms (wall clock of this machine).");
+  std::cout << which.file << ": " << nodes << '\n';
+  for (const auto& note : which.notes) std::cout << "  " << note << '\n';
+  std::cout << '\n';
+  out.show(table_of(rows, [](const record& r) {
+    return record{r[0], r[2], r[3], r[4].renamed("contact lost"), r[5], r[6]};
+  }));
+  std::cout << "median environment update " << format("%.3f", update_ms) << " ms\n\n";
+  out.member("mesh", json_of(record{{"file", which.file},
+                                    {"nodes", scene.mesh().nodes.size()},
+                                    {"tetrahedra", scene.mesh().tetrahedra.size()},
+                                    {"unit m", which.unit},
+                                    {"size", size_of(which)},
+                                    {"median update ms", update_ms}}));
+  out.member("notes", json_of(which.notes));
+  out.member("strokes", json_of(rows, std::identity{}));
+  out.plot(
+      "mesh_force", "Force along the stroke: reference at 1 kHz, bare and passive at 30 Hz",
+      "set xlabel 'time [s]'\nset ylabel '|f| [N]'\nplot 'mesh_reference.csv' using 1:8 with "
+      "lines lc rgb '#777777' title 'reference, 1 kHz', 'mesh_bare.csv' using 1:8 with lines lc "
+      "rgb '#cc2222' title 'turn_at_once, no bound', 'mesh_passive.csv' using 1:8 with lines lc "
+      "rgb '#2244aa' title 'passive'");
+}
+
+}  // namespace experiments
