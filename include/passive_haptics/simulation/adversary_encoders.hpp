@@ -18,7 +18,7 @@ template <class Space>
 struct in_step_motion {
   using vector = typename physical<Space>::vector;
   double reach = std::numeric_limits<double>::infinity();  ///< [m]
-  double small = 10e-6;  ///< what it moves by where there is neither room nor a reach [m]
+  double nudge = 10e-6;  ///< what it moves by where there is neither room nor a reach [m]
   double speed = 0.05;   ///< most of the presses [m/s]
   typename physical<Space>::coordinates last{};  ///< force [N]
   int pressing = 0, until_press = 0;             ///< ticks
@@ -43,15 +43,15 @@ struct in_step_motion {
       const double side = by > 0.0 ? 1.0 : by < 0.0 ? -1.0 : random.uniform(-1.0, 1.0);
       const double free = component(side > 0.0 ? view.room_above : view.room_below, i);
       const bool unseen = component(view.room_above, i) + component(view.room_below, i) > 0.0;
-      const double most = kernels::smaller(unseen ? free : small_or_reach(), reach);
+      const double most = kernels::smaller(unseen ? free : nudge_or_reach(), reach);
       component(there, i) += side * most;
     }
     return there;
   }
 
  private:
-  [[nodiscard]] double small_or_reach() const noexcept {
-    return reach < std::numeric_limits<double>::infinity() ? reach : small;
+  [[nodiscard]] double nudge_or_reach() const noexcept {
+    return reach < std::numeric_limits<double>::infinity() ? reach : nudge;
   }
 };
 

@@ -93,7 +93,7 @@ struct any_motion {
   any_motion(actor a, const circumstances& world) noexcept : who(a) {
     if (world.quantum > 0.0) rocking.quantum = restless.quantum = world.quantum;
     if (a == actor::presliding) {
-      in_step.reach = world.presliding > 0.0 ? 2.0 * world.presliding : in_step.small;
+      in_step.reach = world.presliding > 0.0 ? 2.0 * world.presliding : in_step.nudge;
     }
   }
   auto next(const adversary_view<Space>& view, random_source& random) noexcept {
