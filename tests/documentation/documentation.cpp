@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// README and docs/design say nothing that programs and tests do not: code blocks stand in the
-// examples, figures are printed by the programs, and every test that is named exists.
+// README and docs say nothing that programs and tests do not: code blocks stand in the examples, figures
+// are printed by the programs, every test that is named exists, and so does every file that is linked.
+// The quick start is tried by quick_start.cmake.
 #include "support/catch.hpp"
 #include <passive_haptics/version.hpp>
 
@@ -67,6 +68,12 @@ bool agree(const std::string& a, const std::string& b) {
   return true;
 }
 
+/// One of the repository's pages, and not of a build inside it.
+bool documented(const std::filesystem::path& page) {
+  const auto inside = page.lexically_relative(root);
+  return inside.parent_path().empty() || *inside.begin() == "docs" || *inside.begin() == "examples";
+}
+
 }  // namespace
 
 TEST_CASE("README's code stands in the examples", "[documentation]") {
@@ -91,7 +98,11 @@ TEST_CASE("README's figures are what the programs print", "[documentation]") {
   const auto figures = blocks("printed by");
   REQUIRE_FALSE(figures.empty());
   for (const auto& b : figures) {
-    CHECK(b.source == "thesis_experiments");
+    if (b.source != "thesis_experiments") {  // an example: a test compares it with its text
+      INFO(b.source << "\n" << b.text);
+      CHECK(text_of((root / b.source).replace_extension(".txt")).find(b.text) != std::string::npos);
+      continue;
+    }
     std::istringstream lines(b.text);
     for (std::string line; std::getline(lines, line);) {
       bool found = false;
@@ -165,7 +176,7 @@ TEST_CASE("every test that the documents name exists", "[documentation]") {
     if (entry.path().extension() == ".cpp") tests += text_of(entry.path());
   }
   int named = 0;
-  for (const char* page : {"README.md", "docs/design/audit.md"}) {
+  for (const char* page : {"README.md", "docs/guarantees.md", "docs/design/audit.md"}) {
     std::istringstream lines(text_of(root / page));
     for (std::string line; std::getline(lines, line);) {
       if (line.rfind("|", 0) != 0) continue;  // titles are quoted in tables
@@ -185,6 +196,35 @@ TEST_CASE("every test that the documents name exists", "[documentation]") {
   CHECK(named > 35);
   CHECK(tests.find("\"no such "
                    "test title anywhere\"") == std::string::npos);  // the control
+}
+
+TEST_CASE("every file that a page links to exists", "[documentation]") {
+  int linked = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    const auto& page = entry.path();
+    if (page.extension() != ".md" || !documented(page)) continue;
+    const std::string text = text_of(page);
+    for (auto at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
+      const std::string link = text.substr(at + 2, text.find_first_of(")#", at) - at - 2);
+      const bool elsewhere = link.find("://") != std::string::npos;
+      if (link.empty() || elsewhere || link.find(' ') != std::string::npos)
+        continue;  // or a lambda
+      INFO(page << ": " << link);
+      CHECK(std::filesystem::exists(page.parent_path() / link));
+      ++linked;
+    }
+  }
+  CHECK(linked > 60);
+  CHECK_FALSE(std::filesystem::exists(root / "docs" / "nowhere.md"));  // the control
+}
+
+TEST_CASE("every example is named where a newcomer looks for it", "[documentation]") {
+  const std::string list = text_of(root / "examples" / "README.md");
+  for (const auto& entry : std::filesystem::directory_iterator(root / "examples")) {
+    if (entry.path().extension() != ".cpp") continue;
+    INFO(entry.path());
+    CHECK(list.find("(" + entry.path().filename().string() + ")") != std::string::npos);
+  }
 }
 
 TEST_CASE("the version has one home", "[documentation]") {
