@@ -14,8 +14,6 @@
 
 #include <passive_haptics/language.hpp>
 
-#include <passive_haptics/language.hpp>
-
 #include <array>
 #include <atomic>
 #include <type_traits>

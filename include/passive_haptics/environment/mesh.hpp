@@ -13,9 +13,6 @@
 // belongs into the haptic tick.
 
 #include <passive_haptics/environment/refuse.hpp>
-
-#include <passive_haptics/language.hpp>
-
 #include <passive_haptics/language.hpp>
 
 #include <Eigen/Core>

@@ -42,7 +42,7 @@ template <class Error>
 #if defined(__cpp_exceptions)
   throw error;
 #else
-  std::fprintf(stderr, "passive_haptics: %s\n", error.what());
+  std::fprintf(stderr, "passive_haptics, environment: %s\n", error.what());
   std::abort();
 #endif
 }
