@@ -6,6 +6,8 @@
 // spelling is a word without effect, so an empty part would cost four bytes or eight; there the compiler
 // has a spelling of its own, and says so. No result depends on it, only sizeof does.
 
+#include <passive_haptics/language.hpp>
+
 #if __has_cpp_attribute(msvc::no_unique_address)
 #define PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS [[msvc::no_unique_address]]
 #else

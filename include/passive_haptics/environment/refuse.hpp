@@ -8,6 +8,8 @@
 // Under -fno-exceptions the values are the same, and what would be thrown is said on stderr and ends
 // the program: there is no third way out of a constructor.
 
+#include <passive_haptics/language.hpp>
+
 #include <cstdio>
 #include <cstdlib>
 #include <locale>
