@@ -15,7 +15,8 @@ template <class S>
 constexpr bool obeyed_in_one_dimension() {
   using enum role;
   return obeys<damping, S>(ph::isotropic_damping{b}, every_axis<S>(),
-                           ph::damping_and_friction{b, 0.2}, ph::damping_and_friction{b, 0.0}) &&
+                           ph::damping_and_friction{b, 0.2, 1e-5},
+                           ph::damping_and_friction{b, 0.0, 0.0}) &&
          obeys<inertia, S>(ph::isotropic_inertia{0.1}, every_mass<S>()) &&
          obeys<observer, S>(ph::no_observer{}, ph::reduced_energy{.damping = b, .loan = 0.01},
                             compensated{.damping = b},
@@ -48,7 +49,8 @@ TEMPLATE_TEST_CASE("what belongs to a contact obeys the laws of its role", "[law
 TEMPLATE_TEST_CASE("what belongs to a port in space obeys the laws of its role", "[law]", f2, d3) {
   using S = TestType;
   obey<role::damping, S>(ph::isotropic_damping{b}, every_axis<S>(),
-                         ph::damping_and_friction{b, 0.2}, ph::damping_and_friction{b, 0.0});
+                         ph::damping_and_friction{b, 0.2, 1e-5},
+                         ph::damping_and_friction{b, 0.0, 0.0});
   obey<role::inertia, S>(ph::isotropic_inertia{0.1}, every_mass<S>());
   obey<role::observer, S>(ph::no_observer{}, ph::reduced_energy{.damping = b},
                           compensated{.damping = b});

@@ -56,7 +56,9 @@ TEST_CASE("what check() has passed is still in its range at a port of floats", "
   for (const double x : {1e-300, 1e-45, 0.1, 1e39, 1e300}) {
     CHECK(sound(ph::isotropic_damping{x}));
     CHECK(sound(ph::diagonal_damping<1>{{x}}));
-    CHECK(sound(ph::damping_and_friction{x, x}));
+    CHECK(sound(ph::damping_and_friction{x, x, x}));
+    CHECK(sound(ph::diagonal_damping_and_friction<1>{{x}, {x}, {x}}));
+    CHECK(sound(ph::encoder_steps<1>{{x}}));
     CHECK(sound(ph::isotropic_inertia{x}));
     CHECK(sound(ph::reduced_energy{.damping = x, .loan = x}));
     CHECK(sound(ph::quantised_energy{.damping = x, .quantum = x, .window = x}));

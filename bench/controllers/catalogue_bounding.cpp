@@ -29,11 +29,9 @@ std::vector<controller> bounding_controllers() {
                }),
       over_ledger<3>("strict FBA", "strict_bound", strict),
       over_ledger<3, 2>("strict FBA, 2 ticks late", "strict_bound, late_loop_limits<2>", strict),
-      entry<3>({"strict FBA + friction",
-                "spring, basic_reduced_energy<damping_and_friction>, strict_bound"},
+      entry<3>({"strict FBA + friction", "spring, dual_ledger, strict_bound"},
                [](const premises& p) {
-                 const ph::basic_reduced_energy<ph::damping_and_friction> rich{
-                     .damping = {p.damping, p.friction}};
+                 const ph::dual_ledger rich{.damping = {p.damping, p.friction, 0.0}};
                  return parts{wall(p), rich, ph::strict_bound{}};
                }),
       over_ledger(

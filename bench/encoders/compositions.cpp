@@ -30,9 +30,7 @@ wall recommended(const design::stated_device& d) {
   return settling(d, ph::quantised_energy{.damping = d.damping, .quantum = d.quantum}, observer(d));
 }
 wall with_rigid_friction(const design::stated_device& d) {
-  return settling(d,
-                  ph::basic_quantised_energy<ph::damping_and_friction>{
-                      .damping = {d.damping, d.friction}, .quantum = d.quantum},
+  return settling(d, ph::dual_ledger{.damping = {d.damping, d.friction, 0.0}, .quantum = d.quantum},
                   observer(d));
 }
 wall of_exact_positions(const design::stated_device& d) {
@@ -54,7 +52,7 @@ wall unbounded(const design::stated_device& d) {
 const std::vector<composition>& compositions() {
   static const std::vector<composition> all{
       {.name = "quantised energy", .make = recommended},
-      {.name = "quantised energy, rigid friction",
+      {.name = "dual ledger, rigid friction",
        .takes_friction_as_rigid = true,
        .make = with_rigid_friction},
       {.name = "reduced energy", .takes_positions_as_exact = true, .make = of_exact_positions},

@@ -67,7 +67,8 @@ concept port = requires(typename P::pose x, typename P::motion m, typename P::ef
 
 /// dissipated(Δx, dt) [J] is never more than the device took; worst_outflow(f, T) [J] is the most that
 /// f can hand out in T, the conjugate of it; affordable(f, E, T) is the share of f that E covers.
-/// `rubs` says whether dry friction is credited.
+/// `rubs` says whether dry friction is credited; then dissipated() and worst_outflow() take it for rigid,
+/// and what it owes beside them is in friction_certificates.hpp.
 template <class D, class P>
 concept damping_for = requires(const part_at<D, P> d, const typename P::motion m,
                                const typename P::effort f, typename P::scalar s) {

@@ -9,6 +9,9 @@
 
 #include <passive_haptics/kernels.hpp>
 
+#include <cstdint>
+#include <type_traits>
+
 namespace passive_haptics {
 inline namespace v0 {
 
@@ -34,7 +37,13 @@ class compensated_sum {
   Scalar sum_{}, lost_{};
 };
 
+/// The number a ledger is kept in: the port's scalar, or a sum that carries on what rounding cuts off.
+enum class ledger_sum : std::uint8_t { plain, compensated };
+
 namespace detail {
+
+template <class Scalar, ledger_sum Sum>
+using ledger_number = std::conditional_t<Sum == ledger_sum::plain, Scalar, compensated_sum<Scalar>>;
 
 /// What a tick has brought, `dissipated` − held·Δx [J], in exact arithmetic at least.
 template <class Port>
@@ -55,12 +64,13 @@ template <class Ledger, class Scalar>
   }
 }
 
-/// What is left at least when `held` may have cost its worst, down to an empty ledger [J].
+/// What is left at least when a force may have cost its worst, down to `floor` (an empty ledger) [J].
 template <class Scalar>
-[[nodiscard]] constexpr Scalar written_off(Scalar energy, Scalar worst) noexcept {
+[[nodiscard]] constexpr Scalar written_off(Scalar energy, Scalar worst,
+                                           Scalar floor = Scalar(0)) noexcept {
   const Scalar margin = Scalar(1) + kernels::rounding<Scalar>();
   const Scalar left = kernels::sum_rounded_down(energy, Scalar(-worst * margin));
-  return kernels::larger(kernels::smaller(energy, Scalar(0)), left);  // so ordered, NaN is nothing
+  return kernels::larger(kernels::smaller(energy, floor), left);  // so ordered, NaN is nothing
 }
 
 }  // namespace detail

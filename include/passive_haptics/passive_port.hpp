@@ -273,11 +273,8 @@ class passive_port {
     observer_type dropped = observer_;
     dropped.forfeit(held, limits_.watchdog);
     if (!observer_.update(travel, held, dt)) return false;
-    if (dropped.value() < observer_.value()) {
-      observer_ = dropped;
-    } else {
-      observer_.forfeit(P::zero(), limits_.watchdog);
-    }
+    observer_.forfeit(P::zero(), limits_.watchdog);
+    if (dropped.value() < observer_.value()) observer_ = dropped;
     return true;
   }
 

@@ -3,7 +3,7 @@
 //
 // A joint has a damping and a friction of its own.
 
-#include <passive_haptics/port/damping.hpp>
+#include <passive_haptics/port/dry_friction.hpp>
 #include <passive_haptics/port/joint_space.hpp>
 
 namespace ph = passive_haptics;
@@ -11,7 +11,7 @@ namespace ph = passive_haptics;
 using joints = ph::joint_space<float, 2>;
 
 #ifdef POSITIVE_CONTROL
-using part = ph::diagonal_damping<2>;
+using part = ph::diagonal_damping_and_friction<2>;
 #else
 using part = ph::damping_and_friction;
 #endif

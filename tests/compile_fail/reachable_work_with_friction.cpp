@@ -3,10 +3,8 @@
 //
 // Dry friction counts into `hand`, what pushes beside the motors; it is no credit here.
 
-#include <passive_haptics/contact/given_force.hpp>
-#include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/force_bound/reachable_bound.hpp>
-#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/dry_friction.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;
@@ -16,8 +14,9 @@ using damping = ph::isotropic_damping;
 #else
 using damping = ph::damping_and_friction;
 #endif
-using ledger = ph::basic_reduced_energy<damping>;
+using state = ph::port_state<scene, ph::part_at<damping, scene>>;
+using bound = ph::reachable_work_bound<1>;
 
-ph::passive_port guard{scene{}, ph::given_force{}, ledger{}, ph::reachable_work_bound<1>{},
-                       ph::loop_limits{}};
-float force = guard.tick(0, 0.001F, 1).force;
+float left(const ph::part_at<bound, scene>& at_port, const state& now) {
+  return at_port.limit(1, now).factor;
+}

@@ -71,7 +71,7 @@ TEST_CASE("reachable_bound with friction lets out what no reachable travel can s
     const double E = std::pow(10.0, random.uniform(-8.0, -3.0));
     const double held = random.uniform(0.0, 2.0), travel = random.uniform(-1e-4, 1e-3);
     const situation<d1, ph::damping_and_friction> now{
-        .damping = at<d1>(ph::damping_and_friction{0.03, fc}),
+        .damping = at<d1>(ph::damping_and_friction{0.03, fc, 0.0}),
         .energy = E,
         .held = held,
         .travel = travel};
@@ -126,7 +126,7 @@ TEST_CASE("reachable_bound takes what friction holds off what is in flight, and 
           "[bound][friction]") {
   const double fc = 0.5, h = 2.0, f = 10.0, travel = 1e-4, T = 1e-3;
   situation<d1, ph::damping_and_friction, 1> now{
-      .damping = at<d1>(ph::damping_and_friction{0.03, fc}),
+      .damping = at<d1>(ph::damping_and_friction{0.03, fc, 0.0}),
       .energy = 1e-3,
       .travel = -travel,
       .commanded = {-h, 0.0}};

@@ -44,12 +44,12 @@ TEST_CASE("observers with a compensated sum or friction obey the laws of their r
   CHECK(in_space(ph::basic_capped_energy<isotropic_damping, compensated>{
                      .damping = 0.03, .cap = 1e-5, .reset_after = 2e-3})
             .empty());
-  CHECK(in_space(ph::basic_capped_energy<damping_and_friction>{.damping = {0.03, 0.2}, .cap = 1e-5})
-            .empty());
+  const damping_and_friction rubbing{0.03, 0.2, 1e-5};
+  CHECK(in_space(ph::dual_ledger{.damping = rubbing, .quantum = 0.0, .cap = 1e-5}).empty());
   CHECK(in_space(ph::basic_quantised_energy<isotropic_damping, compensated>{.damping = 0.03,
                                                                             .quantum = 1e-5})
             .empty());
-  CHECK(in_space(ph::basic_quantised_energy<damping_and_friction>{.damping = {0.03, 0.2},
-                                                                  .quantum = 1e-5})
+  CHECK(in_space(ph::basic_dual_ledger<damping_and_friction, ph::encoder_step, compensated>{
+                     .damping = rubbing, .quantum = 1e-5})
             .empty());
 }

@@ -8,6 +8,7 @@ namespace {
 constexpr double b = 0.03;
 constexpr ph::reachable_bound reachable{.mass = 0.1, .hand_force = 5.0};
 constexpr ph::actuator_limit motors{.most = 5.0};
+constexpr ph::damping_and_friction rubbing{b, 0.2, 1e-5};
 using compensated = ph::basic_reduced_energy<ph::isotropic_damping, ph::ledger_sum::compensated>;
 using two_joints = ph::joint_space<float, 2>;
 using arm = ph::joint_space<double, 7>;
@@ -17,12 +18,14 @@ template <class P>
 void anywhere() {
   constexpr auto coefficients = every_axis<P>();
   using axes = ph::diagonal_damping<P::dof>;
-  obey<role::damping, P>(coefficients);
+  obey<role::damping, P>(coefficients, every_friction<P>());
   obey<role::inertia, P>(every_mass<P>());
   obey<role::observer, P>(
       ph::no_observer{}, ph::basic_reduced_energy<axes>{.damping = coefficients},
       ph::basic_capped_energy<axes>{.damping = coefficients, .cap = 1e-5},
-      ph::basic_quantised_energy<axes>{.damping = coefficients, .quantum = 1e-5});
+      ph::basic_quantised_energy<axes>{.damping = coefficients, .quantum = 1e-5},
+      ph::basic_dual_ledger<ph::diagonal_damping_and_friction<P::dof>, ph::encoder_steps<P::dof>>{
+          .damping = every_friction<P>(), .quantum = every_step<P>()});
   obey<role::bound, P>(ph::no_bound{}, ph::strict_bound{}, ph::memoryless_bound{},
                        ph::per_axis_bound{}, ph::energy_tank{}, ph::predicting_tank{},
                        ph::reachable_work_bound<P::dof>{.inertia = every_mass<P>(), .hand = 10.0},
@@ -42,12 +45,12 @@ void anywhere() {
 TEMPLATE_TEST_CASE("every policy obeys the laws of its role", "[law]", d1, f1, d2, f2, d3, f3) {
   using S = TestType;
   anywhere<S>();
-  obey<role::damping, S>(ph::isotropic_damping{b}, ph::damping_and_friction{b, 0.2},
-                         ph::damping_and_friction{b, 0.0});
+  obey<role::damping, S>(ph::isotropic_damping{b}, rubbing, ph::damping_and_friction{b, 0.0, 0.0});
   obey<role::inertia, S>(ph::isotropic_inertia{0.1});
   obey<role::observer, S>(ph::reduced_energy{.damping = b},
                           ph::reduced_energy{.damping = b, .loan = 0.01}, compensated{.damping = b},
-                          ph::basic_reduced_energy<ph::damping_and_friction>{.damping = {b, 0.2}},
+                          ph::dual_ledger{.damping = rubbing, .quantum = 1e-5},
+                          ph::dual_ledger{.damping = rubbing, .quantum = 0.0, .loan = 0.01},
                           ph::capped_energy{.damping = b, .cap = 1e-5},
                           ph::capped_energy{.damping = b, .reset_after = 0.002},
                           ph::quantised_energy{.damping = b, .quantum = 1e-5});

@@ -48,8 +48,8 @@ void each_over(const Supply& supply, Visit visit) {
        ph::mass_observer{.mass = 0.1, .quantum = 1e-5});
   with(spring, ph::capped_energy{.damping = 0.3, .cap = 0.1, .reset_after = 1}, strict, loop,
        difference);
-  with(spring, ph::basic_reduced_energy<ph::damping_and_friction>{.damping = {0.3, 0.1}}, reachable,
-       loop, difference);
+  with(spring, ph::dual_ledger{.damping = {0.3, 0.1, 1e-5}, .quantum = 1e-5}, reachable, loop,
+       difference);
   with(spring, ph::no_observer{}, ph::no_bound{}, loop, difference);
   shaped(ph::nonlinear_coupling{.initial = 100, .rate = 1000});
   shaped(ph::stiffness_increment{.initial = 100, .step = 10});

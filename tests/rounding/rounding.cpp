@@ -108,7 +108,7 @@ TEMPLATE_TEST_CASE("in three dimensions, with unequal axes, with friction: the s
   const scalar T = scalar(1e-3);
   const auto same = at<TestType>(ph::isotropic_damping{0.03});
   const auto unequal = at<TestType>(ph::diagonal_damping<3>{{0.03, 0.011, 0.7}});
-  const auto rubbing = at<TestType>(ph::damping_and_friction{0.03, 0.2});
+  const auto rubbing = at<TestType>(ph::damping_and_friction{0.03, 0.2, 1e-5});
   const auto outflow = [&](const auto& f, auto along) {
     wide sum = 0;
     for (int i = 0; i < 3; ++i) sum += wide(f(i)) * wide(f(i)) / wide(along(i));

@@ -143,7 +143,7 @@ TEST_CASE("a hand of limited force draws nothing from reachable_bound, unless it
 
 TEST_CASE("a bound that counts on dry friction survives where there is some, and only there",
           "[adversaries][law]") {
-  const ph::basic_reduced_energy<ph::damping_and_friction> ledger{.damping = {0.03, 0.2}};
+  const ph::dual_ledger ledger{.damping = {0.03, 0.2, 0.0}};  // rigid, as the device's is
   const auto model = following_half_space<d1>(ph::spring{}, ledger, ph::strict_bound{});
   survives_all(model, {.friction = 0.2}, 20);
   for (const sim::verdict& v : sim::challenge_all(model, {}, 20)) {

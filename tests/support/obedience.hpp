@@ -50,6 +50,21 @@ constexpr ph::diagonal_damping<N> every_axis() {
   return d;
 }
 template <class Port, int N = Port::dof>
+constexpr ph::diagonal_damping_and_friction<N> every_friction() {
+  ph::diagonal_damping_and_friction<N> d{.coefficients = every_axis<Port>().coefficients};
+  for (std::size_t i = 0; i < N; ++i) {
+    d.coulomb[i] = 0.05 * static_cast<double>(i);  // none on the first
+    d.presliding[i] = 1e-5 / static_cast<double>(i + 1);
+  }
+  return d;
+}
+template <class Port, int N = Port::dof>
+constexpr ph::encoder_steps<N> every_step() {
+  ph::encoder_steps<N> q;
+  for (std::size_t i = 0; i < N; ++i) q.widths[i] = 1e-5 * static_cast<double>(i);
+  return q;
+}
+template <class Port, int N = Port::dof>
 constexpr ph::diagonal_inertia<N> every_mass() {
   ph::diagonal_inertia<N> m;
   for (std::size_t i = 0; i < N; ++i) m.masses[i] = 0.05 * static_cast<double>(i + 1);

@@ -16,14 +16,6 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The number a ledger is kept in: the port's scalar, or a sum that carries on what rounding cuts off.
-enum class ledger_sum : std::uint8_t { plain, compensated };
-
-namespace detail {
-template <class Scalar, ledger_sum Sum>
-using ledger_number = std::conditional_t<Sum == ledger_sum::plain, Scalar, compensated_sum<Scalar>>;
-}  // namespace detail
-
 /// The reduced energy E1 [J] that has flowed from the hand into the device and is not yet spent:
 ///     E1(n) = E1(n−1) + Δxᵀ(b/dt)Δx − f_held·Δx                                    (2.9, 2.16)
 /// exact for a zero-order hold but for the damping, which it never overstates (lemma L1), and for
@@ -60,6 +52,9 @@ class basic_reduced_energy<Damping, Sum>::on {
   using damping_type = part_at<Damping, P>;
   static_assert(damping_for<Damping, P>,
                 "passive_haptics: the damping does not model damping_for: see concepts.hpp");
+  static_assert(!damping_type::rubs,
+                "passive_haptics: reduced_energy takes what friction holds back elastically for "
+                "spent: dry friction is credited by dual_ledger");
 
   constexpr explicit on(const basic_reduced_energy& p) noexcept
       : damping_(p.damping), loan_(detail::number<scalar>(p.loan)), energy_(loan_) {}

@@ -79,8 +79,8 @@ class reachable_bound::on {
         credit, B, reach<State::latency + 1>(desired, force, force, state));
     if constexpr (State::damping_type::rubs) {
       if (credit < scalar(0)) return share{scalar(0)};  // friction is no licence to go on spending
-      most =
-          (state.damping.friction() + most) * (scalar(1) - scalar(4) * kernels::rounding<scalar>());
+      most = (state.damping.friction(desired) + most) *
+             (scalar(1) - scalar(4) * kernels::rounding<scalar>());
     }
     return share{most < force ? most / force : scalar(1)};
   }
@@ -90,7 +90,10 @@ class reachable_bound::on {
   template <class State>
   [[nodiscard]] constexpr scalar left_for_it(const State& state) const noexcept {
     scalar credit = state.energy;
-    if constexpr (State::latency > 0) promise<1>(credit, state);
+    if constexpr (State::latency > 0) {
+      credit -= state.held_back();
+      promise<1>(credit, state);
+    }
     return credit;
   }
   template <int J, class State>
@@ -99,7 +102,7 @@ class reachable_bound::on {
     const scalar force = Space::norm(h);
     if (force > scalar(0)) {
       scalar beyond = force;
-      if constexpr (State::damping_type::rubs) beyond -= state.damping.friction();
+      if constexpr (State::damping_type::rubs) beyond -= state.damping.friction(h);
       const scalar B = state.damping.per_tick(h, state.longest_tick);
       credit -= kernels::reachable_outflow(beyond, B, reach<J>(h, force, force, state)) *
                 (scalar(1) + kernels::rounding<scalar>());

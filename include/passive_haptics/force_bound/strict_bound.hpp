@@ -4,7 +4,7 @@
 // the force is commanded. What pays is the difference:
 //
 //   strict_bound      |f| ≤ √(4 B E1)         all that was ever saved: fewest cuts, late bursts
-//                     |f| ≤ f_c + √(4 B E1)   with damping_and_friction, where f_c is sure
+//                     |f| ≤ c + √(4 B E1)     on a dual_ledger that credits dry friction c; E1 ≥ 0
 //   memoryless_bound  |f| ≤ |f_held − 2B Δx|  the last force and the last tick only: no bank, so no
 //                                             bursts and no drift; feels like a spring of 2b/T
 //   per_axis_bound    |fᵢ| ≤ √(4 Bᵢ Eᵢ)       one ledger per axis: one axis cannot spend what
@@ -25,7 +25,7 @@ inline namespace v0 {
 /// flight is promised already: ¼ fᵀB⁻¹f ≤ E1 − ¼ Σ_{j=1..k} f(n−j)ᵀB⁻¹f(n−j). (§ 3)
 ///
 /// Assumes: b is a lower bound, every tick ≤ longest_tick, positions exact (or the ledger a
-/// quantised_energy), the held force known. The price (lemma L4): pressed slowly from an empty
+/// dual_ledger), the held force known. The price (lemma L4): pressed slowly from an empty
 /// ledger it shows at most 2b/T N/m.
 struct strict_bound {
   static constexpr guarantee passivity = guarantee::strict;
@@ -53,9 +53,8 @@ struct strict_bound {
 /// Proof: S(h) = ¼ hᵀB⁻¹h with B = b/T, T the longest tick, is the most that h can cost (L3), and
 /// the tick of measured length dt ≤ T brought ΔE ≥ Δxᵀ(b/dt)Δx − h·Δx (L1). The law says
 /// S(f) ≤ S(h) + ΔE, tick after tick, so E ≥ S ≥ 0 for ever; its right side is never negative,
-/// because b/dt ≥ B. With friction f_c the same holds with S = (|h| − f_c)₊²/(4B) and f_c|Δx| more in
-/// ΔE. In a loop k ticks late the force that the last tick paid for is held k + 1 ticks after it: the
-/// ticks fall into k + 1 chains, each with a storage of its own, and nothing else changes.
+/// because b/dt ≥ B. In a loop k ticks late the force that the last tick paid for is held k + 1 ticks
+/// after it: the ticks fall into k + 1 chains, each with a storage of its own, and nothing else changes.
 ///
 /// Assumes what strict_bound does, and exact positions: it reads Δx itself. The force really held may
 /// be smaller than the command: shorter in the same direction, or, with isotropic damping, shorter in

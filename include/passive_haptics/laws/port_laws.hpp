@@ -97,7 +97,8 @@ template <class P, class Observer>
   return true;
 }
 
-/// forfeit() never raises the ledger, never deepens a debt, and covers the worst outflow if it can.
+/// forfeit() never raises the ledger, never deepens a debt, and covers the worst outflow if it can; but for
+/// what elastic friction holds back.
 template <class P, class Observer>
 [[nodiscard]] constexpr bool forfeit_never_credits(const Observer& parameters,
                                                    int ticks = 200) noexcept {
@@ -110,9 +111,14 @@ template <class P, class Observer>
     const typename P::effort held = random.vector<P>();
     const scalar before = observer.value();
     const scalar worst = observer.damping().worst_outflow(held, T);
+    scalar debt = kernels::smaller(before, scalar(0));
+    if constexpr (requires { observer.damping().most_stored(); }) {
+      debt -= scalar(5) * observer.damping().most_stored() *
+              (scalar(1) + scalar(64) * std::numeric_limits<scalar>::epsilon());
+    }
     observer.forfeit(held, T);
     const scalar after = observer.value();
-    if (after > before || (before > scalar(0) && after < scalar(0))) return false;
+    if (after > before || after < debt) return false;
     if (after > scalar(0) && after > before - worst + scalar(1e-6) * before) return false;
   }
   return true;

@@ -4,7 +4,7 @@
 //
 //   isotropic_damping      one b for all directions                       the usual case
 //   diagonal_damping       b per axis, in the frame it was identified in  unequal axes, joints
-//   damping_and_friction   b and a dry friction that is always there      credits f_c|Δx| too
+//   damping_and_friction   b and a dry friction that is always there      dry_friction.hpp
 //
 // Not offered: a full matrix (rotate into its principal axes), a pose-dependent one (use its lower
 // bound). All guarantees scale with b, so use a LOWER bound of the identified value, say half.
@@ -141,67 +141,6 @@ struct diagonal_damping {
 
    private:
     std::array<scalar, static_cast<std::size_t>(Dof)> b_{};
-  };
-};
-
-/// b·I and dry (Coulomb) friction of at least f_c in every direction of motion: credits the work
-/// f_c|Δx| too, and lets out f_c + √(4BE) instead of √(4BE). Idea of the enhanced force bounding
-/// approach (Baek, Park, Ryu; docs/design/mathematics.md § 2(a)); formula and proof there:
-///     min over s ≥ 0 of B s² − (F − f_c) s = −(F − f_c)₊²/(4B)
-/// A ledger in debt lets out nothing. Friction that is less than stated, when warm or worn, breaks
-/// every guarantee: take the least.
-struct damping_and_friction {
-  double coefficient{};  ///< b [N·s/m], > 0, a lower bound
-  double coulomb{};      ///< f_c [N], ≥ 0, a lower bound
-
-  [[nodiscard]] constexpr parameter_fault check() const noexcept {
-    if (!detail::positive(coefficient)) return {"damping", coefficient, "finite and > 0 N·s/m"};
-    if (!detail::not_negative(coulomb)) return {"friction", coulomb, "finite and ≥ 0 N"};
-    return {};
-  }
-
-  template <class Space>
-  class on {
-   public:
-    using scalar = typename Space::scalar;
-    using motion = typename Space::motion;
-    using effort = typename Space::effort;
-    static_assert(
-        requires { typename Space::geometry; },
-        "passive_haptics: damping_and_friction has one number for all directions of a "
-        "space: joints need diagonal_damping");
-
-    constexpr explicit on(const damping_and_friction& p) noexcept
-        : b_(detail::number<scalar>(p.coefficient)), c_(detail::number<scalar>(p.coulomb)) {}
-    [[nodiscard]] constexpr damping_and_friction parameters() const noexcept {
-      return {.coefficient = static_cast<double>(b_), .coulomb = static_cast<double>(c_)};
-    }
-
-    [[nodiscard]] constexpr scalar dissipated(const motion& dx, scalar dt) const noexcept {
-      const scalar square = Space::dot(dx, dx);
-      return b_ * square / dt + c_ * kernels::square_root(square);
-    }
-    [[nodiscard]] constexpr scalar worst_outflow(const effort& f, scalar T) const noexcept {
-      const scalar beyond = kernels::larger(Space::norm(f) - c_, scalar(0));
-      return T * beyond * beyond / (scalar(4) * b_);
-    }
-    [[nodiscard]] constexpr scalar affordable(const effort& f, scalar E, scalar T) const noexcept {
-      if (!(E >= scalar(0))) return scalar(0);
-      const scalar asked = Space::norm(f);
-      const scalar most = (c_ + kernels::strict_force_bound(E, b_ / T)) *
-                          (scalar(1) - scalar(4) * kernels::rounding<scalar>());
-      return asked <= most ? scalar(1) : most / asked;
-    }
-    [[nodiscard]] constexpr scalar per_tick(const effort& /*along*/, scalar T) const noexcept {
-      return b_ / T;
-    }
-    [[nodiscard]] constexpr scalar along_axis(int /*i*/) const noexcept { return b_; }
-    static constexpr bool rubs = true;
-    /// f_c [N], which a force gets for nothing.
-    [[nodiscard]] constexpr scalar friction() const noexcept { return c_; }
-
-   private:
-    scalar b_, c_;
   };
 };
 

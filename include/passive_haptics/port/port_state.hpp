@@ -47,13 +47,23 @@ struct port_state {
   scalar travel_error;                       ///< the true Δx is no farther from it than this
   bool motion_known;  ///< false: the last sample was lost, Δx is unknown and given as zero
 
-  /// ¼ Σ fᵀB⁻¹f over the commands that are still on their way to the motors [J], rounded up (§ 3).
+  /// ¼ Σ fᵀB⁻¹f over the commands that are still on their way to the motors [J], rounded up (§ 3), with
+  /// what elastic friction may hold back meanwhile.
   [[nodiscard]] constexpr scalar in_flight() const noexcept {
-    scalar promised(0);
+    scalar promised = held_back();
     for (std::size_t j = 0; j < static_cast<std::size_t>(Latency); ++j) {
       promised += damping.worst_outflow(commanded[j], longest_tick);
     }
     return promised * (scalar(1) + kernels::rounding<scalar>());
+  }
+  /// What friction that is counted on may hold back while those commands are held, 2 c p in each tick [J]
+  /// (§ 6).
+  [[nodiscard]] constexpr scalar held_back() const noexcept {
+    if constexpr (Latency > 0 && Damping::rubs) {
+      return scalar(4 * Latency) * damping.most_stored();
+    } else {
+      return scalar(0);
+    }
   }
   /// The credit that a new effort may spend [J]: E1 less what is on its way already.
   [[nodiscard]] constexpr scalar credit() const noexcept {

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The ledger for positions that are known to a step only, with dry friction or without.
+//
+//   dual_ledger         dry friction credited: stiff on real encoders    b, c, p and q are stated
+//   basic_dual_ledger   any damping, a step for each axis, a compensated sum
+//   quantised_energy    no friction credited                             quantised_energy.hpp
+//
+//     ph::dual_ledger{.damping = {.coefficient = 0.05, .coulomb = 0.13, .presliding = 15e-6},
+//                     .quantum = 55e-6}
+//
+// Dry friction is what pays on encoders: a force may change by 2c at a position that does not, for
+// nothing, and each step on the way pays c q. So a wall lasts while K q is less than that (design.hpp).
+
+#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/energy_observer/friction_certificates.hpp>
+#include <passive_haptics/no_unique_address.hpp>
+#include <passive_haptics/port/dry_friction.hpp>
+#include <passive_haptics/port/encoder_steps.hpp>
+
+#include <limits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// The least energy that has flowed in, whatever the true positions x = x̂ + e with each |eᵢ| ≤ qᵢ/2 (steps,
+/// a constant shift aside, or noise), and whatever an elastic friction holds back. With a friction u that
+/// is chosen anew in each tick, |u| ≤ c, and f the force held during it, keep
+///     A ← A + (u − f)·Δx̂ − ½ Σ qᵢ|σᵢ + fᵢ − uᵢ| − p|u − u_last|,     σ ← u − f
+/// Then  E ≥ A + σ·e − ½ Σ qᵢ|…|  for every choice: the value is A − ½ Σ qᵢ|σᵢ| − |u|²p/(2c), for the best of
+/// several choices kept at once (friction_certificates.hpp). Without friction u = 0, and this is summation by
+/// parts. Theorem and proof: docs/design/mathematics.md § 6.
+///
+/// The damper is credited beside it, with the larger of what the ticks of a window and the window as a whole
+/// are sure of: Σ Δᵀ(b/dt)Δ with Δ = Δx̂ shortened by qᵢ on each axis, and the same of the way and the time of
+/// all of it (lemma L1), which sees slow motions.
+///
+/// Where friction is elastic the ledger begins at −5/2 c p, and counts that back in as the device slips: then
+/// E ≥ −½ c p − loan for ever, the first of them what the springs of the friction may have held at the start.
+template <class Damping = isotropic_damping, class Steps = encoder_step,
+          ledger_sum Sum = ledger_sum::plain>
+struct basic_dual_ledger {
+  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr bool counts = true;
+  static constexpr bool exact = false;
+
+  Damping damping{};                                     ///< lower bounds, but for presliding
+  Steps quantum{};                                       ///< q [m], an upper bound of one step
+  double loan{};                                         ///< [J]
+  double cap = std::numeric_limits<double>::infinity();  ///< most credit to keep [J] (A9, L7)
+  double window = 0.032;                                 ///< length of a window [s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (const auto fault = damping.check()) return fault;
+    if (const auto fault = quantum.check()) return fault;
+    if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
+    if (!(cap >= 0.0)) return {"cap", cap, "≥ 0 J"};
+    if (!detail::positive(window)) return {"window", window, "finite and > 0 s"};
+    return {};
+  }
+  template <port P>
+  class on;
+};
+
+using dual_ledger = basic_dual_ledger<damping_and_friction>;
+
+template <class Damping, class Steps, ledger_sum Sum>
+template <port P>
+class basic_dual_ledger<Damping, Steps, Sum>::on {
+ public:
+  using scalar = typename P::scalar;
+  using motion = typename P::motion;
+  using effort = typename P::effort;
+  using damping_type = part_at<Damping, P>;
+  static_assert(damping_for<Damping, P>,
+                "passive_haptics: the damping does not model damping_for: see concepts.hpp");
+  static_assert(
+      !damping_type::rubs || detail::friction_for<damping_type, P>,
+      "passive_haptics: this damping credits dry friction, but does not say what of it is "
+      "elastic: see damping_and_friction");
+
+  constexpr explicit on(const basic_dual_ledger& p) noexcept
+      : damping_(p.damping), steps_(p.quantum) {
+    set(p);
+    reset();
+  }
+  constexpr void set(const basic_dual_ledger& p) noexcept {
+    const scalar reserved = reserve();
+    damping_ = damping_type(p.damping);
+    steps_ = steps_type(p.quantum);
+    loan_ = detail::number<scalar>(p.loan);
+    cap_ = detail::number<scalar>(p.cap);
+    window_ = detail::number<scalar>(p.window);
+    if constexpr (rubs) {
+      certificates_.set(damping_, steps_);
+      detail::book(energy_, -kernels::larger(reserve() - reserved, scalar(0)));
+    }
+    take_stock();
+  }
+  [[nodiscard]] constexpr basic_dual_ledger parameters() const noexcept {
+    return {.damping = damping_.parameters(),
+            .quantum = steps_.parameters(),
+            .loan = static_cast<double>(loan_),
+            .cap = static_cast<double>(cap_),
+            .window = static_cast<double>(window_)};
+  }
+
+  constexpr bool update(const motion& shown, const effort& held, scalar dt) noexcept {
+    const effort change = held - effort(last_held_);
+    const scalar doubt = steps_.doubt(change);
+    const bool moved = !(shown == P::zero());
+    auto energy = energy_;
+    detail::book(energy, -doubt);
+    credit_window now = window_now_;
+    now.elapsed += dt;
+    if (moved) {
+      detail::book(energy, detail::sure_gain<P>(scalar(0), held, shown));
+      detail::book(energy, damped(now, shown, dt));
+    }
+    if (!kernels::is_finite(static_cast<scalar>(energy))) return false;
+
+    energy_ = energy;
+    last_held_ = held;
+    window_now_ = now;
+    if (now.elapsed >= window_) begin_window();
+    if constexpr (rubs) {
+      certificates_.follow(change, doubt, damping_, steps_);
+      if (moved) detail::book(energy_, certificates_.slip(shown, damping_, steps_));
+    }
+    take_stock();
+    if (value_ > cap_) {
+      detail::book(energy_, cap_ - value_);
+      take_stock();
+    }
+    return true;
+  }
+
+  /// A tick passed and nobody saw the motion. The worst that `held` can have done is written off, and all
+  /// friction is let go, which costs what its elasticity may keep back: down to what a ledger without a
+  /// loan starts with. forfeit(0, T) lets go alone.
+  constexpr void forfeit(const effort& held, scalar T) noexcept {
+    scalar lost = damping_.worst_outflow(held, T);
+    if constexpr (rubs) {
+      lost += certificates_.given_up(held, effort(last_held_), damping_, steps_);
+      certificates_.reset();
+    }
+    energy_ = detail::written_off(value_, lost, -reserve());
+    last_held_ = P::zero();
+    begin_window();
+    take_stock();
+  }
+  constexpr void reset() noexcept {
+    energy_ = loan_;
+    last_held_ = P::zero();
+    begin_window();
+    if constexpr (rubs) certificates_.reset();
+    detail::book(energy_, -reserve());
+    take_stock();
+  }
+
+  [[nodiscard]] constexpr scalar value() const noexcept { return value_; }
+  /// How far the true Δx may be from the one shown [m].
+  [[nodiscard]] constexpr scalar travel_error() const noexcept { return steps_.travel_error(); }
+  [[nodiscard]] constexpr const damping_type& damping() const noexcept { return damping_; }
+
+ private:
+  using steps_type = part_at<Steps, P>;
+  static constexpr bool rubs = damping_type::rubs;
+  struct no_friction {};
+  using certificates_type = std::conditional_t<rubs, detail::friction_certificates<P>, no_friction>;
+
+  struct credit_window {
+    typename P::stored_pose travel{};  ///< Δx̂ since it began [m]
+    scalar elapsed{};                  ///< since it began [s]
+    scalar summed{};                   ///< credit of its ticks, one by one [J]
+    scalar booked{};                   ///< credit of it that is booked [J]
+  };
+
+  /// 5/2 c p [J], which elastic friction may keep back for a while.
+  [[nodiscard]] constexpr scalar reserve() const noexcept {
+    if constexpr (rubs) {
+      return scalar(5) * damping_.most_stored();
+    } else {
+      return scalar(0);
+    }
+  }
+  /// What the damper has surely taken since this was asked last [J].
+  [[nodiscard]] constexpr scalar damped(credit_window& now, const motion& shown,
+                                        scalar dt) const noexcept {
+    const motion travel = motion(now.travel) + shown;
+    now.travel = travel;
+    now.summed += viscous(steps_.surely(shown), dt);
+    const scalar as_a_whole = viscous(steps_.surely(travel), now.elapsed);
+    const scalar most = kernels::larger(now.summed, as_a_whole) *
+                        (scalar(1) - scalar(8) * kernels::rounding<scalar>());
+    const scalar sure = kernels::larger(now.booked, most);
+    const scalar gained = sure - now.booked;
+    now.booked = sure;
+    return gained;
+  }
+  [[nodiscard]] constexpr scalar viscous(const motion& dx, scalar dt) const noexcept {
+    if constexpr (rubs) {
+      return damping_.viscous(dx, dt);
+    } else {
+      return damping_.dissipated(dx, dt);
+    }
+  }
+  constexpr void begin_window() noexcept {
+    window_now_ = {};
+    window_now_.travel = P::zero();
+  }
+  constexpr void take_stock() noexcept {
+    const effort held = effort(last_held_);
+    if constexpr (rubs) {
+      value_ = static_cast<scalar>(energy_) + certificates_.lead(held, steps_);
+    } else {
+      value_ = static_cast<scalar>(energy_) - steps_.doubt(held);
+    }
+  }
+
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS damping_type damping_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS steps_type steps_;
+  scalar loan_{}, cap_{}, window_{};
+  detail::ledger_number<scalar, Sum> energy_{};      ///< A of the choice u = 0 [J]
+  scalar value_{};                                   ///< [J]
+  typename P::stored_effort last_held_ = P::zero();  ///< −σ of it [N]
+  credit_window window_now_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS certificates_type certificates_{};  ///< of other choices
+};
+
+static_assert(energy_observer_for<dual_ledger, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics
