@@ -273,7 +273,7 @@ class passive_port {
     observer_type dropped = observer_;
     dropped.forfeit(held, limits_.watchdog);
     if (!observer_.update(travel, held, dt)) return false;
-    observer_.forfeit(P::zero(), limits_.watchdog);
+    if constexpr (!Observer::exact) observer_.forfeit(P::zero(), limits_.watchdog);
     if (dropped.value() < observer_.value()) observer_ = dropped;
     return true;
   }
