@@ -33,7 +33,8 @@ class player {
 
   /// One tick; at the end, from the start again.
   void step() {
-    const replay::sample& s = recording_.samples[at_];
+    // The control is interrupted between the last sample and the first: still no other memory is read.
+    const replay::sample& s = recording_.samples[at_ < recording_.ticks ? at_ : 0];
     if (s.news >= 0) subject_.update(recording_.surfaces[s.news]);
     using position = typename Subject::position;
     const auto x = replay::vector_of<position, Subject::dof>(s.x);
