@@ -97,4 +97,6 @@ int main() {
   cost::run_part<cost::part_strict>();
   cost::run_part<cost::part_limited>();
   cost::run_part<cost::part_following>();
+  cost::run_part<cost::part_stepped>();
+  cost::run_part<cost::part_rubbing>();
 }

@@ -117,6 +117,8 @@ std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::cou
   add_part<cost::part_strict>(rows, all, "part_strict");
   add_part<cost::part_limited>(rows, all, "part_limited");
   add_part<cost::part_following>(rows, all, "part_following");
+  add_part<cost::part_stepped>(rows, all, "part_stepped");
+  add_part<cost::part_rubbing>(rows, all, "part_rubbing");
   out.section("What each part costs",
               "Instructions per tick, composed, of the same fixed wall with one part more each "
               "time. A part that a scene has no use for must cost none.");

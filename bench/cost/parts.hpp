@@ -87,4 +87,39 @@ struct part_following : part_base<Scalar, Dof, true> {
   }
 };
 
+/// On encoders with steps: a settling wall, an estimator, a ledger that is sure.
+template <class Scalar, int Dof, bool Rubs>
+struct part_encoder : part_base<Scalar, Dof> {
+  [[nodiscard]] static auto composed(const settings& s) {
+    const auto ledger = [&s] {
+      if constexpr (Rubs) {
+        return ph::dual_ledger{.damping = {s.damping, s.friction, s.presliding},
+                               .quantum = s.quantum};
+      } else {
+        return ph::quantised_energy{.damping = s.damping, .quantum = s.quantum};
+      }
+    }();
+    return ph::local_model{
+        typename part_encoder::space{},
+        part_encoder::supply(s),
+        ph::turn_at_once{},
+        ph::damped_spring{.mass = s.mass, .force_limit = s.force_limit},
+        ledger,
+        ph::bound_chain{ph::reachable_bound{.mass = s.mass, .hand_force = s.hand_force},
+                        ph::actuator_limit{.most = s.force_limit}},
+        limits(s),
+        ph::mass_observer{.mass = s.mass, .quantum = s.quantum}};
+  }
+};
+template <class Scalar, int Dof>
+struct part_stepped : part_encoder<Scalar, Dof, false> {
+  static constexpr const char* name =
+      "encoders: damped_spring, mass_observer, quantised_energy, "
+      "reachable_bound, actuator_limit";
+};
+template <class Scalar, int Dof>
+struct part_rubbing : part_encoder<Scalar, Dof, true> {
+  static constexpr const char* name = "... dual_ledger for quantised_energy: friction is credited";
+};
+
 }  // namespace cost

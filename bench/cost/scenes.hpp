@@ -25,6 +25,7 @@ struct settings {
   double stiffness = 1000;
   double mass = 0.1, hand_force = 5, force_limit = 9;
   double rate = 4, stale_after = 1e30, fade = 0.05;
+  double quantum = 6e-5, friction = 0.2, presliding = 15e-6;
 };
 
 /// A triangle that the environment publishes.
