@@ -58,7 +58,10 @@ inline std::string csv_heading(const record& r) {
 }
 inline std::string csv_line(const record& r, const char* pattern = exactly) {
   std::string text;
-  for (const auto& f : r) text += (&f == r.data() ? "" : ",") + f.csv(pattern);
+  for (const auto& f : r) {
+    if (!text.empty()) text += ',';
+    text += f.csv(pattern);
+  }
   return text;
 }
 inline std::string json_of(const record& r) {
