@@ -4,6 +4,7 @@
 #include "../thesis_experiments/ball.hpp"
 #include "../thesis_experiments/organ.hpp"
 #include "compose_touch.hpp"
+#include <passive_haptics/environment/ball.hpp>
 
 #include <memory>
 
