@@ -5,7 +5,8 @@ namespace encoders {
 
 const std::vector<section>& sections() {
   static const std::vector<section> all{{"gentle_touch", run_gentle_touch},
-                                        {"endurance", run_endurance}};
+                                        {"endurance", run_endurance},
+                                        {"guarantee", run_guarantee}};
   return all;
 }
 
@@ -17,11 +18,11 @@ std::vector<std::string> some_sections(const std::string& text) {
   for (std::string name; std::getline(in, name, ',');) {
     const auto is = [&name](const section& s) { return name == s.name; };
     if (std::none_of(sections().begin(), sections().end(), is)) {
-      ex::complain("--only " + name + ": there are gentle_touch, endurance");
+      ex::complain("--only " + name + ": there are gentle_touch, endurance, guarantee");
     }
     list.push_back(name);
   }
-  if (list.empty()) ex::complain("--only: name some of gentle_touch, endurance");
+  if (list.empty()) ex::complain("--only: name some of gentle_touch, endurance, guarantee");
   return list;
 }
 

@@ -30,6 +30,7 @@ struct section {
 [[nodiscard]] const std::vector<section>& sections();
 [[nodiscard]] std::vector<std::string> run_gentle_touch(const session& s);
 [[nodiscard]] std::vector<std::string> run_endurance(const session& s);
+[[nodiscard]] std::vector<std::string> run_guarantee(const session& s);
 
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);

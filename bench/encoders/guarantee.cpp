@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Does the promise hold on encoders? Every adversary of the challenge, and a search for the worst hand,
+// against strict_bound and reachable_bound on dual_ledger, where positions have steps or noise and dry
+// friction is elastic. Control: a ledger that is told of exact positions and a rigid friction.
+#include "program.hpp"
+#include <passive_haptics/simulation/challenge.hpp>
+#include <passive_haptics/simulation/search.hpp>
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+namespace encoders {
+
+namespace {
+
+constexpr double accepted_loss = 1e-12;  // [J]: rounding
+
+struct guarantee_row {
+  int dimensions = 1;
+  sim::circumstances world{};
+  std::string composition{};
+  bool promised = false;  ///< to a hand that does this
+  std::string hand{};
+  int runs = 0;
+  double least_energy = 0.0;   ///< of all runs, what friction took and stores included [J]
+  double largest_force = 0.0;  ///< commanded [N]
+};
+
+ex::record record_of(const guarantee_row& r) {
+  return {{"dimensions", static_cast<double>(r.dimensions), "%.0f"},
+          {"step_um", r.world.quantum * 1e6, "%.0f"},
+          {"noise_um", r.world.noise * 1e6, "%.0f"},
+          {"presliding_um", r.world.presliding * 1e6, "%.0f"},
+          {"latency", static_cast<double>(r.world.latency), "%.0f"},
+          {"composition", r.composition},
+          {"hand", r.hand},
+          {"promised", std::string(r.promised ? "yes" : "no")},
+          {"runs", static_cast<double>(r.runs), "%.0f"},
+          {"least_energy_J", r.least_energy},
+          {"largest_force_N", r.largest_force}};
+}
+
+/// One composition in one world: makes the rows of all hands.
+struct cell {
+  sim::circumstances world{};
+  std::function<std::vector<guarantee_row>(const sim::circumstances&, int runs)> judge{};
+};
+
+/// What the ledger is told. A spring on every axis gives way by p each, so by p √n in all.
+template <class Space>
+ph::dual_ledger told(const sim::circumstances& world) {
+  return {.damping = {world.damping, world.friction, world.presliding * std::sqrt(Space::dof)},
+          .quantum = world.quantum + world.noise};
+}
+
+template <class Space, int Latency>
+auto port_of(const auto& ledger, const auto& bound) {
+  return ph::local_model{
+      Space{},
+      ph::followed<ph::half_space<Space>>{},
+      ph::turn_at_once{},
+      ph::spring{},
+      ledger,
+      bound,
+      ph::late_loop_limits<Latency>{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3}};
+}
+
+template <class Space>
+guarantee_row row_of(const sim::circumstances& world, const char* composition) {
+  return {.dimensions = Space::dof, .world = world, .composition = composition};
+}
+
+/// All adversaries in turn, `runs` in all, and as many tries of one that is tuned.
+template <class Space, int Latency>
+std::vector<guarantee_row> under_attack(const sim::circumstances& world, int runs,
+                                        const char* composition, bool limited_hands_only,
+                                        bool promises, const auto& model) {
+  std::vector<sim::adversary> hands;
+  const auto invite = [&](sim::adversary by) {
+    if (!limited_hands_only || sim::is_force_limited(by)) hands.push_back(by);
+  };
+  for (const auto by : sim::all_adversaries) invite(by);
+  for (const auto by : sim::encoder_adversaries) invite(by);
+  const int each = runs / static_cast<int>(hands.size()) + 1;
+  std::vector<guarantee_row> rows;
+  for (const auto by : hands) {
+    const auto v = sim::challenge(model, by, world, each);
+    guarantee_row r = row_of<Space>(world, composition);
+    r.promised = promises;
+    r.hand = to_string(by);
+    r.runs = v.runs;
+    r.least_energy = v.least_energy;
+    r.largest_force = v.largest_force;
+    rows.push_back(r);
+  }
+  guarantee_row searched = row_of<Space>(world, composition);
+  const auto worst = limited_hands_only ? sim::worst_push(model, world, runs)
+                                        : sim::worst_motion(model, world, runs);
+  searched.promised = promises;
+  searched.hand = limited_hands_only ? "worst push" : "worst motion";
+  searched.runs = worst.evaluations;
+  searched.least_energy = std::min(0.0, worst.energy);
+  rows.push_back(searched);
+  return rows;
+}
+
+template <int Dof, int Latency>
+std::vector<guarantee_row> strict(const sim::circumstances& world, int runs) {
+  using Space = ph::space<double, Dof>;
+  return under_attack<Space, Latency>(
+      world, runs, "dual_ledger, strict_bound", false, true,
+      port_of<Space, Latency>(told<Space>(world), ph::strict_bound{}));
+}
+template <int Dof, int Latency>
+std::vector<guarantee_row> reachable(const sim::circumstances& world, int runs) {
+  using Space = ph::space<double, Dof>;
+  return under_attack<Space, Latency>(
+      world, runs, "dual_ledger, reachable_bound", true, true,
+      port_of<Space, Latency>(
+          told<Space>(world),
+          ph::reachable_bound{.mass = world.mass,
+                              .hand_force = world.hand_force + world.friction * std::sqrt(Dof)}));
+}
+template <int Dof>
+std::vector<guarantee_row> exact(const sim::circumstances& world, int runs) {
+  using Space = ph::space<double, Dof>;
+  return under_attack<Space, 0>(
+      world, runs / 10, "control: told exact and rigid", false, false,
+      port_of<Space, 0>(ph::dual_ledger{.damping = {world.damping, world.friction, 0.0}},
+                        ph::strict_bound{}));
+}
+
+std::vector<cell> cells(bool quick) {
+  std::vector<cell> all;
+  const auto add = [&all](sim::circumstances world, int latency, auto judge) {
+    world.latency = latency;
+    all.push_back({world, judge});
+  };
+  for (const double p : {5e-6, 30e-6}) {
+    if (quick && p > 5e-6) continue;
+    const sim::circumstances stepped{.friction = 0.2, .presliding = p, .quantum = 60e-6};
+    sim::circumstances noisy{.friction = 0.2,
+                             .presliding = p,
+                             .rubs_like = sim::friction_kind::three_springs,
+                             .noise = 60e-6};
+    for (const auto& world : {stepped, noisy}) {
+      add(world, 0, strict<1, 0>);
+      add(world, 0, reachable<1, 0>);
+      add(world, 0, exact<1>);
+      if (quick) continue;
+      add(world, 1, strict<1, 1>);
+      add(world, 2, strict<1, 2>);
+      add(world, 3, strict<1, 3>);
+      add(world, 1, reachable<1, 1>);
+      add(world, 3, reachable<1, 3>);
+      add(world, 0, strict<2, 0>);
+      add(world, 0, strict<3, 0>);
+      add(world, 2, strict<3, 2>);
+      add(world, 0, reachable<3, 0>);
+      add(world, 0, exact<3>);
+    }
+  }
+  return all;
+}
+
+/// The worst of all hands in each world, by composition.
+std::vector<guarantee_row> worst_of_each(const std::vector<guarantee_row>& rows) {
+  std::vector<guarantee_row> worst;
+  for (const auto& r : rows) {
+    const auto same = [&r](const guarantee_row& w) {
+      return w.dimensions == r.dimensions && w.composition == r.composition &&
+             w.world.latency == r.world.latency && w.world.presliding == r.world.presliding &&
+             w.world.noise == r.world.noise;
+    };
+    const auto known = std::find_if(worst.begin(), worst.end(), same);
+    if (known == worst.end()) {
+      worst.push_back(r);
+      continue;
+    }
+    const int runs = known->runs + r.runs;
+    const double force = std::max(known->largest_force, r.largest_force);
+    if (r.least_energy < known->least_energy) *known = r;
+    known->runs = runs;
+    known->largest_force = force;
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::vector<std::string> run_guarantee(const session& s) {
+  const int runs = s.chosen.quick ? 100 : 1000;
+  const auto rows = s.rows("guarantee.csv", "adversaries", cells(s.chosen.quick),
+                           [runs](const cell& c) { return c.judge(c.world, runs); });
+  std::vector<std::string> found;
+  bool control_lost = false;
+  for (const auto& r : rows) {
+    if (!r.promised) control_lost |= r.least_energy < -1e-6;
+    if (!r.promised || r.least_energy >= -accepted_loss) continue;
+    found.push_back(r.composition + ex::format(", %g dimensions", r.dimensions) +
+                    ex::format(", presliding %g µm, ", r.world.presliding * 1e6) + r.hand +
+                    ex::format(": lost %.3g J", -r.least_energy));
+  }
+  if (!control_lost) found.push_back("the control lost nothing: these adversaries are too weak");
+  s.out.section("Guarantee",
+                "The least energy at the port, what friction took and stores included, over all "
+                "adversaries of a row. Steps and noise of 60 µm, dry friction of 0.2 N on every "
+                "axis, elastic: one spring where there are steps, three where there is noise. "
+                "reachable_bound: the three hands that are limited to 5 N, for that is what it "
+                "promises.");
+  s.out.show(ex::table_of(worst_of_each(rows)));
+  s.out.member("guarantee", ex::json_of(rows));
+  return found;
+}
+
+}  // namespace encoders
