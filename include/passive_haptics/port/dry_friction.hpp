@@ -17,7 +17,8 @@
 //                  moves on for less than c a metre, for ever, whatever p is stated
 //
 // State the least c, when warm and worn, and the largest p. Measure p as the way it takes from one sliding
-// direction to the other, halved. A p of zero is a claim, too: that of a rigid friction.
+// direction to the other, halved; where each of n axes has a friction of its own, damping_and_friction is
+// told p √n, because n springs give way together. A p of zero is a claim, too: that of a rigid friction.
 
 #include <passive_haptics/port/damping.hpp>
 
