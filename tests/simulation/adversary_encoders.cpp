@@ -173,7 +173,7 @@ TEMPLATE_TEST_CASE("strict_bound on dual_ledger loses nothing to steps, noise an
 
 TEST_CASE("dual_ledger that is told too little loses", "[adversaries][law]") {
   const sim::circumstances world{.friction = 0.2, .presliding = 30e-6, .quantum = 60e-6};
-  const auto least = [&world](const ph::dual_ledger& ledger, const sim::circumstances& there) {
+  const auto least = [](const ph::dual_ledger& ledger, const sim::circumstances& there) {
     const auto model = following_half_space<d1>(ph::spring{}, ledger, ph::strict_bound{});
     return worst(sim::challenge_encoders(model, there, 10));
   };
