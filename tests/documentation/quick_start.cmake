@@ -94,7 +94,7 @@ fenced(lists "ci: find_package" cmake)
 file(WRITE ${scratch}/consumer/CMakeLists.txt
   "cmake_minimum_required(VERSION 3.24)\nproject(consumer LANGUAGES CXX)\n${lists}")
 file(WRITE ${scratch}/consumer/my_loop.cpp "${program}")
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${scratch}/consumer -B ${scratch}/consumer/build
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${scratch}/consumer -B ${scratch}/consumer/build -G Ninja
   -D CMAKE_PREFIX_PATH=${scratch}/prefix ${options}
   OUTPUT_VARIABLE said ERROR_VARIABLE said RESULT_VARIABLE code)
 must("${code}" "find_package(passive_haptics)" "${said}")
