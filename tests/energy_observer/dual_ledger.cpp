@@ -9,7 +9,9 @@
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace {
@@ -247,4 +249,50 @@ TEST_CASE("dual_ledger keeps the laws of an observer, and its parameters", "[dua
   const auto model = following_half_space<d1>(ph::spring{}, stated, ph::strict_bound{});
   check_upkeep(model, stated, ph::dual_ledger{.damping = {0.02, 0.2, 1e-5}, .quantum = 1e-5},
                ph::dual_ledger{.damping = {0.02, 0.1}, .quantum = 1e-5});
+}
+
+TEMPLATE_TEST_CASE("numbers at the ends of their range leave dual_ledger a number", "[dual]", d1,
+                   f1, f3) {
+  using scalar = typename TestType::scalar;
+  using limits = std::numeric_limits<scalar>;
+  const std::array<double, 9> odd{0.0,
+                                  double(limits::denorm_min()),
+                                  1e-30,
+                                  1e-3,
+                                  0.2,
+                                  1.0,
+                                  1e18,
+                                  double(limits::max()) / 4,
+                                  double(limits::max())};
+  sim::random_source random(5);
+  const auto any = [&] { return odd[static_cast<std::size_t>(random.uniform(0.0, 8.999))]; };
+  int booked = 0, refused_ticks = 0;
+  for (int run = 0; run < 3000; ++run) {
+    ph::dual_ledger p{.damping = {std::max(any(), 1e-30), any(), any()}, .quantum = any()};
+    if (random.chance(0.5)) p.damping = {0.03, 0.2, 1e-5};
+    if (random.chance(0.5)) p.quantum = 1e-5;
+    REQUIRE_FALSE(p.check());
+    auto ledger = at<TestType>(p);
+    auto plain = at<TestType>(ph::quantised_energy{.damping = 0.03, .quantum = p.quantum});
+    for (int n = 0; n < 20; ++n) {
+      typename TestType::vector dx = TestType::zero(), held = TestType::zero();
+      for (int i = 0; i < TestType::dof; ++i) {
+        TestType::component(dx, i) = static_cast<scalar>(random.chance(0.5) ? any() : -any());
+        TestType::component(held, i) = static_cast<scalar>(random.chance(0.5) ? any() : -any());
+      }
+      const auto dt = static_cast<scalar>(std::max(any(), 1e-30));
+      (ledger.update(dx, held, dt) ? booked : refused_ticks) += 1;
+      (void)plain.update(dx, held, dt);
+      REQUIRE(ph::kernels::is_finite(ledger.value()));
+      REQUIRE(ph::kernels::is_finite(plain.value()));
+      if (random.chance(0.1)) {
+        ledger.forfeit(held, dt);
+        plain.forfeit(held, dt);
+        REQUIRE(ph::kernels::is_finite(ledger.value()));
+        REQUIRE(ph::kernels::is_finite(plain.value()));
+      }
+    }
+  }
+  CHECK(booked > 1000);
+  CHECK(refused_ticks > 1000);
 }

@@ -117,7 +117,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
       detail::book(energy, detail::sure_gain<P>(scalar(0), held, shown));
       detail::book(energy, damped(now, shown, dt));
     }
-    if (!kernels::is_finite(static_cast<scalar>(energy))) return false;
+    if (!kernels::is_finite(static_cast<scalar>(energy) - steps_.doubt(held))) return false;
 
     energy_ = energy;
     last_held_ = held;
@@ -125,7 +125,10 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     if (now.elapsed >= window_) begin_window();
     if constexpr (rubs) {
       certificates_.follow(change, doubt, damping_, steps_);
-      if (moved) detail::book(energy_, certificates_.slip(shown, damping_, steps_));
+      if (moved) {
+        detail::book(energy_, certificates_.slip(shown, damping_, steps_));
+        if (!(static_cast<scalar>(energy_) <= most_kept)) energy_ = most_kept;  // L7
+      }
     }
     take_stock();
     if (value_ > cap_) {
@@ -166,6 +169,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
  private:
   using steps_type = part_at<Steps, P>;
   static constexpr bool rubs = damping_type::rubs;
+  static constexpr scalar most_kept = kernels::largest<scalar>() / scalar(8);  ///< a number [J]
   struct no_friction {};
   using certificates_type = std::conditional_t<rubs, detail::friction_certificates<P>, no_friction>;
 
@@ -179,7 +183,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   /// 5/2 c p [J], which elastic friction may keep back for a while.
   [[nodiscard]] constexpr scalar reserve() const noexcept {
     if constexpr (rubs) {
-      return scalar(5) * damping_.most_stored();
+      return kernels::smaller(scalar(5) * damping_.most_stored(), most_kept);
     } else {
       return scalar(0);
     }
@@ -212,7 +216,8 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   constexpr void take_stock() noexcept {
     const effort held = effort(last_held_);
     if constexpr (rubs) {
-      value_ = static_cast<scalar>(energy_) + certificates_.lead(held, steps_);
+      value_ = kernels::smaller(static_cast<scalar>(energy_) + certificates_.lead(held, steps_),
+                                most_kept);
     } else {
       value_ = static_cast<scalar>(energy_) - steps_.doubt(held);
     }

@@ -77,7 +77,7 @@ class friction_certificates {
                                       const auto& steps) noexcept {
     const effort along = damping.friction_along(shown);
     const scalar most = P::work(along, shown).joules;
-    if (!(most > scalar(0))) return scalar(0);
+    if (!(most > scalar(0) && most < kernels::largest<scalar>() / scalar(8))) return scalar(0);
     std::array<scalar, 2> gain{earned(slipped_[0], shown), earned(slipped_[1], shown)};
 
     const std::size_t i = gain[1] > gain[0] ? 1 : 0;
