@@ -46,6 +46,27 @@ TEST_CASE("strict_force_bound spends the ledger to rounding and nothing in debt 
   static_assert(k::strict_force_bound(-1.0, 1.0) == 0.0);
 }
 
+TEST_CASE("rounding is paid for by the margins that the proof counts (docs/design/stability.md)",
+          "[kernels]") {
+  const double eps = std::numeric_limits<double>::epsilon();
+  const double least = std::numeric_limits<double>::min() / eps;
+  CHECK(k::rounding<double>() == 16 * eps);
+  CHECK(k::spendable(1.0) == 1.0 - 64 * eps);
+  CHECK(k::spendable(0.0) == -least);
+  CHECK(k::spendable(-1.0) < -1.0 + 65 * eps);
+  CHECK(k::sure_gain(1.0, 0.25, 0.5) == 0.75 - 24 * eps);
+  CHECK(k::sum_rounded_down(1.0, 0.75 * eps) == 1.0);  // which rounds to 1 + ε
+  CHECK(k::sum_rounded_down(1.0, -eps / 8) < 1.0);     // which rounds to 1
+  CHECK(k::sum_rounded_down(1.0, 0.5) == 1.5);
+  CHECK(k::outward_reach(0.0, 1.0, 1.0, 0.0, 0.5, 1.0, 1.0) == 2.0 + 32 * eps);
+  CHECK(k::reachable_force_bound(1.0, 0.25, 1.0) <= 1.25 - 80 * eps);
+  CHECK(k::reachable_force_bound(1.0, 0.25, 1.0) >= 1.25 - 90 * eps);
+  CHECK(k::reachable_share(0.5, 1.0, 1.0) <= 0.75 - 42 * eps);
+  CHECK(k::reachable_share(0.5, 1.0, 1.0) >= 0.75 - 48 * eps);
+  CHECK(k::strict_scale(0.25, 1.0) <= 0.5 - 15 * eps);
+  CHECK(k::strict_scale(0.25, 1.0) >= 0.5 - 18 * eps);
+}
+
 TEST_CASE("strict_scale never lets the rounded force spend more than the ledger", "[kernels]") {
   int reduced = 0;
   for (int i = 1; i < 20000; ++i) {
@@ -117,6 +138,8 @@ TEST_CASE("reachable_share and reachable_work say in joules what the others say 
   }
   CHECK(k::reachable_share(0.0, 1.0, std::numeric_limits<double>::max()) == 0.0);  // anything
   CHECK(k::reachable_work(0.0, 1.0) == 0.0);
+  CHECK(k::reachable_work(-1.0, 1.0) == 0.0);
+  CHECK(k::reachable_work(1.0, -1.0) == 0.0);
 }
 
 TEST_CASE("outward_reach bounds a mass under the worst admissible forces, and is met (L6)",
