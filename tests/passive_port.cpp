@@ -118,6 +118,28 @@ TEST_CASE("a composition promises no more than its weakest part", "[local_model]
   CHECK(promise(ph::no_observer{}, ph::no_bound{}, spring) == ph::guarantee::none);
 }
 
+TEST_CASE("a fault in any part of a port is told, and such a port ticks with force zero",
+          "[port]") {
+  const auto fault_of = [](const ph::given_force& rule, const ph::reduced_energy& ledger,
+                           const ph::actuator_limit& bound, const ph::loop_limits& limits,
+                           const ph::mass_observer& estimator) {
+    ph::passive_port guard{d1{}, rule, ledger, bound, limits, estimator};
+    const auto out = guard.tick(0.0, 1e-3, 1.0);
+    const auto fault = guard.check();
+    CHECK((out.what == ph::event::rejected_parameters) == bool(fault));
+    CHECK(out.force == (fault ? 0.0 : 1.0));
+    return std::string(fault ? fault.parameter : "");
+  };
+  const ph::actuator_limit motors{.most = 2.0};
+  const ph::mass_observer known{.mass = 0.1};
+  CHECK(fault_of({}, thesis_ledger(), motors, thesis_loop, known).empty());
+  CHECK(fault_of({.fade = 0.0}, thesis_ledger(), motors, thesis_loop, known) == "fade");
+  CHECK(fault_of({}, {.damping = 0.0}, motors, thesis_loop, known) == "damping");
+  CHECK(fault_of({}, thesis_ledger(), {.most = -1.0}, thesis_loop, known) == "most");
+  CHECK(fault_of({}, thesis_ledger(), motors, {}, known) == "longest_tick");
+  CHECK(fault_of({}, thesis_ledger(), motors, thesis_loop, {}) == "mass");
+}
+
 TEST_CASE("a port knows where its device is, once it has been told", "[port]") {
   ph::passive_port guard{d1{}, ph::given_force{}, thesis_ledger(), ph::strict_bound{}, thesis_loop};
   CHECK_FALSE(guard.has_position());

@@ -65,6 +65,19 @@ TEST_CASE("what is released fades at once, from where it is, and is never called
   CHECK(news.weight() == 0.0);
 }
 
+TEST_CASE("a rule for stale news is refused with its name", "[freshness]") {
+  const auto refused = [](const ph::freshness& rule) {
+    const auto fault = rule.check();
+    return std::string(fault ? fault.parameter : "");
+  };
+  const double nan = std::nan("");
+  CHECK(refused({}).empty());
+  CHECK(refused({.stale_after = 0.0, .fade = 1e-3}).empty());
+  CHECK(refused({.stale_after = -1e-3}) == "stale_after");
+  CHECK(refused({.stale_after = nan}) == "stale_after");
+  for (const double bad : {0.0, -1.0, nan, HUGE_VAL}) CHECK(refused({.fade = bad}) == "fade");
+}
+
 TEST_CASE("news may be stale at once, and its rule may change meanwhile", "[freshness]") {
   clock_of_news news({.stale_after = 0.0, .fade = 0.1});
   news.hear();

@@ -131,8 +131,8 @@ TEST_CASE("mass_observer starts anew after lost samples and absurd forces", "[mo
   CHECK(observer.estimate(0.02F, 0.0F, 0.0F, 1e-3F, false).velocity == 0.0F);
   for (const float force : {1e38F, -1e38F, 3e38F}) {
     const auto seen = observer.estimate(0.02F, 0.0F, force, 1e-3F, true);
-    CHECK(f1::is_finite(seen.velocity));
-    CHECK(f1::is_finite(seen.position));
+    CHECK(seen.velocity == 0.0F);
+    CHECK(seen.position == 0.02F + 0.5e-5F);  // the middle of the step
   }
   CHECK(std::string(ph::mass_observer{}.check().parameter) == "mass");
   CHECK(std::string(ph::mass_observer{.mass = 1.0, .quantum = -1.0}.check().parameter) ==

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a bound is told of the port.
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+
+using Catch::Matchers::WithinRel;
+
+TEST_CASE("what is in flight is all that was commanded and is not yet held, rounded up (§ 3)",
+          "[port]") {
+  // f²/(4B) of 2 N and of 3 N, B = 30 N/m; the last one is held already
+  const situation<d1, ph::isotropic_damping, 2> late{.energy = 1.0, .commanded = {2.0, -3.0, 50.0}};
+  const auto port = late.port();
+  CHECK_THAT(port.in_flight(), WithinRel(13.0 / 120.0, 1e-14));
+  CHECK(port.in_flight() > 13.0 / 120.0);
+  CHECK(port.credit() == 1.0 - port.in_flight());
+  const situation<d1> at_once{.energy = 1.0, .commanded = {50.0}};
+  CHECK(at_once.port().in_flight() == 0.0);
+  CHECK(at_once.port().credit() == 1.0);
+}
+
+TEST_CASE("a port tells what its last tick has brought", "[port]") {
+  const situation<d1> pressed{.dt = 2e-3, .held = -1.0, .travel = 1e-3};
+  CHECK_THAT(pressed.port().gain(), WithinRel(0.03 * 1e-6 / 2e-3 + 1e-3, 1e-12));
+  const situation<d1> left{.dt = 2e-3, .held = -1.0, .travel = -1e-3};
+  CHECK_THAT(left.port().gain(), WithinRel(0.03 * 1e-6 / 2e-3 - 1e-3, 1e-12));
+}
