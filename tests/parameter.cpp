@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include <passive_haptics/force_bound/energy_bounding.hpp>
+#include <passive_haptics/force_bound/energy_tank.hpp>
+#include <passive_haptics/force_bound/passivity_controller.hpp>
+#include <passive_haptics/force_bound/sector_bound.hpp>
+#include <passive_haptics/shaper/reference_energy.hpp>
+#include <passive_haptics/shaper/set_position_modulation.hpp>
+#include <passive_haptics/shaper/stiffness_augmentation.hpp>
+#include <passive_haptics/two_port/energy.hpp>
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -15,7 +25,57 @@ bool same(S a, S b) {
   return a == b && std::signbit(a) == std::signbit(b);
 }
 
+/// A part gives back the numbers it was made with, and those that it takes later.
+template <class Port = d1, class Part>
+void gives_back(const Part& first, const Part& other) {
+  const auto numbers = [](const Part& p) {
+    return std::bit_cast<std::array<double, sizeof(Part) / sizeof(double)>>(p);
+  };
+  REQUIRE_FALSE(first.check());
+  REQUIRE_FALSE(other.check());
+  ph::part_at<Part, Port> part(first);
+  CHECK((numbers(part.parameters()) == numbers(first)));
+  ph::detail::take<Part, Port>(part, other);
+  CHECK((numbers(part.parameters()) == numbers(other)));
+}
+
 }  // namespace
+
+TEST_CASE("every part gives its parameters back, and those that it takes later", "[parameter]") {
+  gives_back(ph::isotropic_damping{1}, {2});
+  gives_back<d2>(ph::diagonal_damping<2>{{1, 2}}, {{3, 4}});
+  gives_back(ph::damping_and_friction{1, 2}, {3, 4});
+  gives_back(ph::isotropic_inertia{1}, {2});
+  gives_back<d2>(ph::diagonal_inertia<2>{{1, 2}}, {{3, 4}});
+  gives_back(ph::loop_limits{1, 2, 3, 4}, {5, 6, 7, 8});
+  gives_back(ph::freshness{1, 2}, {3, 4});
+  gives_back(ph::mass_observer{1, 2}, {3, 4});
+  gives_back(ph::reduced_energy{1, 2}, {3, 4});
+  gives_back(ph::capped_energy{1, 2, 3, 4}, {5, 6, 7, 8});
+  gives_back(ph::quantised_energy{1, 2, 3, 4, 5}, {6, 7, 8, 9, 10});
+  gives_back(ph::two_port_energy{1, 0.5, 3, 4}, {5, 0.25, 7, 8});
+  gives_back(ph::actuator_limit{1}, {2});
+  gives_back<d2>(ph::motor_limits<2>{{1, 2}}, {{3, 4}});
+  gives_back(ph::per_axis_bound{1}, {2});
+  gives_back(ph::reachable_bound{1, 2}, {3, 4});
+  gives_back(ph::reachable_work_bound<1>{{{1}}, 2}, {{{3}}, 4});
+  gives_back(ph::energy_bounding{1, 2}, {3, 4});
+  gives_back(ph::tight_energy_bounding{1}, {2});
+  gives_back(ph::sector_bound{1}, {2});
+  gives_back(ph::energy_tank{1}, {2});
+  gives_back(ph::two_layer_tank{1, 2, 3, 4, 5, 6}, {7, 8, 9, 10, 11, 12});
+  gives_back(ph::series_passivity_controller{1, 2, 3, 4, 5, 6}, {7, 8, 9, 10, 11, 12});
+  gives_back(ph::given_force{1, 2}, {3, 4});
+  gives_back(ph::damped_spring{1, 0.5, 3, 0.25, 5}, {6, 0.75, 8, 0.125, 10});
+  gives_back(ph::virtual_coupling{1, 2}, {3, 4});
+  gives_back(ph::turn_limited{1}, {2});
+  gives_back(ph::force_rate_limit{1}, {2});
+  gives_back(ph::nonlinear_coupling{1, 2, 3}, {4, 5, 6});
+  gives_back(ph::stiffness_increment{1, 2, 3}, {4, 5, 6});
+  gives_back(ph::force_augmentation{1, 2}, {3, 4});
+  gives_back(ph::set_position_modulation{1, 2, 3}, {4, 5, 6});
+  gives_back(ph::reference_energy{{1, 2, 3, 4, 5, 6}, 0.5}, {{7, 8, 9, 10, 11, 12}, 0.25});
+}
 
 TEST_CASE("a parameter that is finite and not zero is so in float, too", "[parameter]") {
   using limits = std::numeric_limits<float>;
