@@ -39,6 +39,9 @@ TEMPLATE_TEST_CASE("degenerate and useless planes are refused (A17)", "[geometry
   CHECK_FALSE(plane({{0, 0, 0}, {0, 0, 1}, 0}));
   CHECK_FALSE(plane({{0, 0, 0}, {0, 0, 1}, -1}));
   CHECK_FALSE(plane({{0, 0, 0}, {0, 0, 1}, nan}));
+  CHECK_FALSE(plane({{0, 0, 0}, {0, 0, 1}, inf}));
+  const scalar huge = ph::kernels::largest<scalar>();  // finite, and its length is not
+  CHECK_FALSE(plane({{0, 0, 0}, {0, huge, 0}, 1}));
 }
 
 TEST_CASE("a half_space is a constant expression where there is no Eigen in it", "[geometry]") {

@@ -12,6 +12,8 @@ TEST_CASE("segment has its normal on the right and ends at its nodes", "[geometr
   CHECK(s.at({0.01, 0.001}).covered());
   CHECK_FALSE(s.at({-0.001, 0.001}).covered());
   CHECK_FALSE(s.at({0.021, 0.001}).covered());
+  CHECK(s.at({0, 0.001}).covered());  // its ends are its own: two segments leave no gap
+  CHECK(s.at({0.02, 0.001}).covered());
   ph::segment<d2> point{.a = {1, 1}, .b = {1, 1}, .stiffness = 100};
   CHECK_FALSE(point.prepare());
 }
@@ -30,6 +32,9 @@ TEMPLATE_TEST_CASE("degenerate and useless segments are refused (A17)", "[geomet
     s.stiffness = bad;
     CHECK_FALSE(usable(s));
   }
+  auto endless = good;
+  endless.b = {ph::kernels::largest<scalar>(), 0};  // finite, and its length is not
+  CHECK_FALSE(usable(endless));
   for (const scalar nothing : {scalar(0), scalar(-5)}) {
     auto s = good;
     s.stiffness = nothing;
@@ -45,6 +50,7 @@ TEST_CASE("segment ends at its thickness (A18)", "[geometry]") {
   REQUIRE(s.prepare());
   CHECK(s.at({0.01, 0.009}).covered());
   CHECK_FALSE(s.at({0.01, 0.011}).covered());
+  CHECK(s.at({0.01, 0.01}).covered());
 }
 
 TEST_CASE("a segment's nodes follow the lines of Fig. 2.5, too", "[geometry]") {

@@ -82,6 +82,10 @@ TEST_CASE("triangle ends at its thickness (A18)", "[geometry]") {
   REQUIRE(t.prepare());
   CHECK_FALSE(t.at(deep).covered());
   CHECK(t.at({0.005, 0.005, -0.009}).covered());
+  CHECK(t.at({0.005, 0.005, -0.01}).covered());
+  for (const d3::vector& node : {d3::vector(t.a), d3::vector(t.b), d3::vector(t.c)}) {
+    CHECK(t.at(node).covered());  // nodes and edges are its own: two triangles leave no gap
+  }
 }
 
 TEMPLATE_TEST_CASE("degenerate and useless constraints are refused (A17)", "[geometry]", d3, f3) {
@@ -96,6 +100,9 @@ TEMPLATE_TEST_CASE("degenerate and useless constraints are refused (A17)", "[geo
   CHECK_FALSE(usable(t));  // collinear
   t.c = t.b = t.a;
   CHECK_FALSE(usable(t));  // a point
+  const scalar huge = std::pow(ph::kernels::largest<scalar>(), scalar(0.3));
+  t = {.a = {0, 0, 0}, .b = {huge, 0, 0}, .c = {0, huge, 0}, .stiffness = 1};
+  CHECK_FALSE(usable(t));  // finite, and the square of its area is not
   for (const scalar bad : {nan, inf, -inf}) {
     t = good;
     t.b = {bad, 0, 0};

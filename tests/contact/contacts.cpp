@@ -17,6 +17,25 @@ template <class Space>
 auto still(const ph::half_space<Space>& plane) {
   return ph::local_contact{ph::fixed{plane}, ph::turn_at_once{}, ph::spring{}};
 }
+/// A bound that does not reduce: it returns so many times the desired force, and this much more.
+struct turning_bound {
+  static constexpr ph::guarantee passivity = ph::guarantee::none;
+  static constexpr ph::bound_traits traits{};
+  double times = 1.0;
+  double more = 0.0;
+  [[nodiscard]] constexpr ph::parameter_fault check() const noexcept { return {}; }
+  template <class Port>
+  struct on {
+    double times;
+    double more;
+    constexpr explicit on(const turning_bound& p) noexcept : times(p.times), more(p.more) {}
+    [[nodiscard]] typename Port::effort limit(const typename Port::effort& desired,
+                                              const auto& /*state*/) const noexcept {
+      return desired * times + Port::effort::UnitX() * more;
+    }
+  };
+};
+
 template <class Space, class Source, class Bound>
 auto port_of(const Source& source, const Bound& bound, double loan = 0.0) {
   return ph::passive_port{Space{}, source, ph::reduced_energy{.damping = 0.03, .loan = loan}, bound,
@@ -107,6 +126,32 @@ TEST_CASE(
   const auto free = corner.tick({0.001, -0.004}, 1e-3);
   CHECK_THAT(free.force(1), WithinRel(2.5, 1e-12));
   CHECK(wall_here.local().point.values == wall_here.target().point.values);
+}
+
+TEST_CASE(
+    "a bound that turns a force round, or adds to it, moves no local model beyond its contact",
+    "[contacts]") {
+  const d2::vector x(-0.003, -0.004);
+  const auto depths = [&x](const turning_bound& bound) {
+    auto corner = port_of<d2>(ph::contacts{moving<d2>(), moving<d2>()}, bound);
+    auto& wall_here = corner.source().contact<0>();
+    auto& floor_here = corner.source().contact<1>();
+    REQUIRE(wall_here.update({{0, 0}, right, 1000}));
+    REQUIRE(floor_here.update({{0, 0}, up, 1000}));
+    CHECK(corner.tick(x, 1e-3).limited);
+    return d2::vector(wall_here.local().at(x).depth, floor_here.local().at(x).depth);
+  };
+  CHECK((depths({.times = 0.5}) - d2::vector(0.0015, 0.002)).norm() < 1e-15);  // the control
+  CHECK(depths({.times = -1.0}).norm() < 1e-15);
+  CHECK((depths({.times = 2.0}) - d2::vector(0.003, 0.004)).norm() < 1e-15);
+
+  // between two plates that ask for nothing together, nobody has a share of what is added
+  auto plates = port_of<d2>(ph::contacts{moving<d2>(), moving<d2>()}, turning_bound{.more = 1.0});
+  REQUIRE(plates.source().contact<0>().update({{0.002, 0}, right, 1000}));
+  REQUIRE(plates.source().contact<1>().update({{-0.002, 0}, {-1, 0}, 1000}));
+  CHECK(plates.tick({0, 0}, 1e-3).force(0) == 1.0);
+  CHECK(std::abs(plates.source().contact<0>().local().at({0, 0}).depth) < 1e-15);
+  CHECK(std::abs(plates.source().contact<1>().local().at({0, 0}).depth) < 1e-15);
 }
 
 TEST_CASE("two plates that squeeze a device press on it with the difference", "[contacts]") {

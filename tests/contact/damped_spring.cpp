@@ -48,6 +48,8 @@ TEST_CASE("parameters of damped_spring are refused with their name", "[contact]"
     return std::string(fault ? fault.parameter : "");
   };
   CHECK(refused({.mass = 0.1}).empty());
+  CHECK(refused({.mass = 0.1, .stiffness_fraction = 1.0, .damping_fraction = 1.0}).empty());
+  CHECK(refused({.mass = 0.1, .damping_ratio = 0.0, .damping_fraction = 0.0}).empty());
   CHECK(refused({.mass = 0.0}) == "mass");
   CHECK(refused({.mass = -1.0}) == "mass");
   CHECK(refused({.mass = std::nan("")}) == "mass");

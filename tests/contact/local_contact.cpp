@@ -146,6 +146,20 @@ TEST_CASE("sliding sideways into a deep triangle costs what an update costs (A18
   CHECK_THAT(out.force(2), WithinRel(std::sqrt(4 * 30 * (0.01 + 30 * 4e-8)), 1e-9));
 }
 
+TEST_CASE("an environment that falls silent is noticed outside of contact, too", "[local_model]") {
+  ph::local_model model{d1{},
+                        ph::followed<ph::half_space<d1>>{{.stale_after = 0.01, .fade = 0.01}},
+                        ph::turn_at_once{},
+                        ph::spring{},
+                        thesis_ledger(),
+                        ph::strict_bound{},
+                        thesis_loop};
+  model.update(wall<d1>(500));
+  for (int n = 0; n < 8; ++n) CHECK(model.tick(-0.01, 1e-3).what == ph::event::nominal);
+  for (int n = 0; n < 8; ++n) (void)model.tick(-0.01, 1e-3);
+  CHECK(model.tick(-0.01, 1e-3).what == ph::event::stale_target);
+}
+
 TEST_CASE("a surface that appears over the device costs what an update costs", "[local_model]") {
   const double f_max = std::sqrt(4 * 30 * 0.01);
   ph::local_model model{d1{},
