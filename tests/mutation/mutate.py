@@ -6,9 +6,9 @@
     mutate.py --sample 40 'force_bound/*'     of these headers
     mutate.py --list                          how many there are; nothing is compiled
 
-A mutant is killed by a test that fails, crashes or takes ten times as long. One that does not compile
-counts for nothing. One that computes the same stands in equivalent.txt, with the reason. The rest has
-survived: a test is missing.
+A mutant is killed by a test that fails or crashes, or when the tests take ten times as long. One that
+does not compile counts for nothing. One that computes the same stands in equivalent.txt, with the
+reason. The rest has survived: a test is missing.
 
 Needs what the tests need: CMake, Ninja, g++ or CXX, Eigen, Catch2. Works in build/mutation/ on a copy
 of the tree, with all mutants in one program: MUTANT=7 build/mutation/objects/tests/core_tests runs the
@@ -39,6 +39,7 @@ INCLUDE = pathlib.Path("include/passive_haptics")
 HEADERS = ["passive_port.hpp", "local_model.hpp", "kernels.hpp", "ledger.hpp", "parameter.hpp",
            "concepts.hpp", "port/*", "energy_observer/*", "force_bound/*", "contact/*",
            "constraint_geometry/*", "normal_interpolation/*"]
+SWITCH = INCLUDE / "mutation.hpp"  # which mutant is executed; in the copy alone
 FOLDER = REPOSITORY / "build" / "mutation"
 MEMORY = 4 << 30  # bytes that a mutant may take
 
@@ -101,7 +102,7 @@ class Program:
         self.known = FOLDER / "invalid.txt"  # what did not compile is not tried again next time
 
     def build(self, texts, numbered):
-        """Returns the numbers of the mutants that compile."""
+        """Returns the mutants that compile."""
         self._copy()
         names = {number: self._name(texts[m.file], m) for number, m in numbered.items()}
         invalid = set(self.known.read_text().split()) if self.known.exists() else set()
@@ -114,12 +115,12 @@ class Program:
             for name, text in texts.items():
                 inside = {n: m for n, m in valid.items() if m.file == name}
                 self._write(INCLUDE / name, mutants.together(text, inside) if inside else text)
-            self._write(INCLUDE / "mutation.hpp", mutants.SWITCH)
+            self._write(SWITCH, mutants.SWITCH)
             print(f"building the core tests with {len(valid)} mutants in them", flush=True)
             good, said = self._try("cmake", "--build", self.objects, "--target", "core_tests",
                                    "--parallel", str(self.jobs), "--", "-k", "0")
             if good:
-                return set(valid)
+                return valid
             wrong = blamed(said) & set(valid)
             if not wrong:
                 raise Broken(f"the core tests do not build:\n{said}")
@@ -128,28 +129,34 @@ class Program:
             self.known.write_text("\n".join(sorted(invalid)))
 
     def seconds(self):
-        """How long the tests take without a mistake."""
-        began = time.monotonic()
-        if not self.passes(0, None):
+        """The CPU time that the tests take without a mistake."""
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if not self._pass(0, resource.RLIM_INFINITY):
             raise Broken(f"{self.tests}: fails without a mutant")
-        return time.monotonic() - began
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
-    def passes(self, number, seconds):
+    def notices(self, number, mutant, seconds):
+        """Does a test fail? Those in the file of the same name are asked first, then all."""
+        stem = pathlib.Path(mutant.file).stem
+        own = ["-#", f"[#{stem}]"]
+        return (self._pass(0, seconds, *own) and not self._pass(number, seconds, *own)
+                or not self._pass(number, seconds))
+
+    def _pass(self, number, seconds, *which):
         def limited():
+            resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
-        try:
-            return subprocess.run(
-                [self.tests, "--abort"], env={**os.environ, "MUTANT": str(number)}, cwd=FOLDER,
-                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=seconds,
-                preexec_fn=limited, check=False).returncode == 0
-        except subprocess.TimeoutExpired:
-            return False
+        return subprocess.run(
+            [self.tests, "--abort", *which], env={**os.environ, "MUTANT": str(number)}, cwd=FOLDER,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=limited,
+            check=False).returncode == 0
 
     def _copy(self):
         """Brings the copy of the tree up to date; what is the same keeps its time."""
-        wanted = set()
+        wanted = {SWITCH}
         for path in sorted(REPOSITORY.rglob("*")):
             name = path.relative_to(REPOSITORY)
             if name.parts[0] in ("build", ".git") or "__pycache__" in name.parts or path.is_dir():
@@ -185,14 +192,14 @@ class Program:
             raise Broken(said)
 
 
-def judged(program, numbers, jobs):
+def judged(program, numbered, jobs):
     """Yields (number, whether it was killed)."""
-    most = 5 + 10 * program.seconds()
+    most = round(5 + 10 * program.seconds())
     pool = concurrent.futures.ThreadPoolExecutor(jobs)
     try:
-        trials = {pool.submit(program.passes, n, most): n for n in numbers}
+        trials = {pool.submit(program.notices, n, m, most): n for n, m in numbered.items()}
         for trial in concurrent.futures.as_completed(trials):
-            yield trials[trial], not trial.result()
+            yield trials[trial], trial.result()
     finally:
         pool.shutdown(cancel_futures=True)
 
@@ -261,12 +268,11 @@ def main():
     valid = program.build(texts, untried)
     outcome |= {n: "invalid" for n in untried if n not in valid}
     try:
-        for number, killed in judged(program, sorted(valid), wanted.jobs):
-            outcome[number] = "killed" if killed else "survived"
-            m = todo[number]
+        for number, killed in judged(program, valid, wanted.jobs):
+            outcome[number], m = "killed" if killed else "survived", todo[number]
+            print(f"{number:4} {outcome[number]:8} {m.file}:{m.line} ({m.kind})", flush=True)
             if not killed:
-                print(f"survived: {number} {m.file}:{m.line} ({m.kind})\n- {m.before}\n+ {m.after}",
-                      flush=True)
+                print(f"- {m.before}\n+ {m.after}", flush=True)
     finally:  # after Ctrl-C, what there is
         outcomes = [(todo[n], what) for n, what in sorted(outcome.items())]
         count = collections.Counter(what for _, what in outcomes)
