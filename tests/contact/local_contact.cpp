@@ -146,6 +146,17 @@ TEST_CASE("sliding sideways into a deep triangle costs what an update costs (A18
   CHECK_THAT(out.force(2), WithinRel(std::sqrt(4 * 30 * (0.01 + 30 * 4e-8)), 1e-9));
 }
 
+TEST_CASE("a sample that nobody can believe shows no depth", "[local_model]") {
+  auto model = following_half_space<d1>(ph::spring{}, thesis_ledger(), ph::no_bound{});
+  model.update(wall<d1>(500));
+  CHECK(model.tick(1e-3, 1e-3).depth == 1e-3);  // the control
+  const auto out = model.tick(std::nan(""), 1e-3);
+  CHECK(out.what == ph::event::rejected_sample);
+  CHECK(out.depth == 0.0);
+  CHECK(out.force == 0.0);
+  CHECK_FALSE(out.limited);
+}
+
 TEST_CASE("an environment that falls silent is noticed outside of contact, too", "[local_model]") {
   ph::local_model model{d1{},
                         ph::followed<ph::half_space<d1>>{{.stale_after = 0.01, .fade = 0.01}},

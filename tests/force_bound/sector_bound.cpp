@@ -38,6 +38,8 @@ TEST_CASE("sector_bound rises by at most β and falls by β to 2b/T, and only wi
   CHECK(next(-9.0, 1.0, 0.0) == 1.0);
   CHECK_THAT(next(9.0, 0.0, -0.01), WithinRel(0.2, 1e-14));  // which has its turn from zero
   CHECK_THAT(next(-9.0, 0.0, 0.01), WithinRel(-0.2, 1e-14));
+  CHECK_THAT(next(0.5, 0.0, -0.01), WithinRel(0.2, 1e-14));  // however little is asked for
+  CHECK_THAT(next(-0.5, 0.0, 0.01), WithinRel(-0.2, 1e-14));
   CHECK(next(-9.0, 0.0, -0.01) == 0.0);
   CHECK(next(0.0, 0.0, 0.01) == 0.0);
 }

@@ -83,6 +83,8 @@ TEST_CASE("bounds in a row are each shown what is left, and one that limits is e
   CHECK(bounded_by(bound_chain{leaving{0.5}, leaving{1.0}}, -4.0).limited);
   CHECK(bounded_by(bound_chain{leaving{1.0}, leaving{0.5}}, -4.0).limited);
   CHECK_FALSE(bounded_by(bound_chain{leaving{1.0}, leaving{1.0}}, -4.0).limited);
+  const auto constant = at<d1>(bound_chain{leaving{0.5}, leaving{0.5}});  // they keep nothing
+  CHECK(ph::detail::applied<d1>(constant, -4.0, situation<d1>{}.port()).force == -1.0);
 }
 
 TEST_CASE("the first fault in a row is told", "[composing]") {
