@@ -4,7 +4,8 @@
 The headers are read as clang-format leaves them: a binary operator has a space on both sides, an
 angle bracket of a template has not, the brace of a block follows a space and that of an initialiser
 does not. Nothing is changed that the compiler evaluates by itself, such as a template argument, the
-condition of `if constexpr`, a `requires` or a `static constexpr`: it would refuse most of it."""
+condition of `if constexpr`, a `requires` or a `static constexpr`: it would refuse most of it. What is
+computed in constant expressions alone is left alone, too: a program cannot switch it."""
 
 import collections
 import hashlib
@@ -31,6 +32,10 @@ SWAPS = {
     "boundary": {"<": "<=", ">": ">=", "<=": "<", ">=": ">"},
     "logic": {"&&": "||", "||": "&&"},
 }
+# What the compiler alone calls, to know what a composition promises: tests/compile_fail/ is for them.
+COMPILED = {"assumptions_of", "promise_of", "spends_ledger", "are_bounds", "reduces", "keeps_nothing",
+            "count_takers", "chain_promise", "wants_local_model", "shapers_reduce",
+            "shapers_keep_zero"}
 EXTREMES = {"smaller": "larger", "larger": "smaller"}
 SYMMETRIC = {"smaller", "larger", "dot"}  # of their arguments
 # What `return {}` would return anyway.
@@ -82,11 +87,16 @@ class Header:
         """The tokens of a body that are not the compiler's own business."""
         i = first + 1
         while i < last:
-            if self.word(i) in ("static", "using", "static_assert") or (
+            if self.word(i) == "if" and "is_constant_evaluated" in self.between(i, self.after(i + 1)):
+                i = self.after(self.after(i + 1))  # past the condition, and past what only it sees
+            elif self.word(i) in ("static", "using", "static_assert") or (
                     self.word(i) == "constexpr" and self.word(i - 1) != "if"):
                 i = self.end_of_statement(i) + 1
             elif self.word(i) == "constexpr":
+                smaller = "saves_bytes" in self.between(i, self.after(i + 1))  # machines than this
                 i = self.after(i + 1)
+                if smaller:
+                    i = self.after(i) if self.word(i) == "{" else self.end_of_statement(i) + 1
             elif self.word(i) in ("<", "[[") and i in self.partner:
                 i = self.after(i)
             elif self.word(i) == "requires":
@@ -117,7 +127,8 @@ class Header:
             elif self.word(i) == "{" and not self.is_block(i):
                 i = self.after(i)
             elif self.word(i) == "{" and self._is_function(i):
-                yield i, self.partner[i]
+                if self._name(i) not in COMPILED:
+                    yield i, self.partner[i]
                 i = self.after(i)
             else:
                 i += 1
@@ -132,6 +143,12 @@ class Header:
                 return False
             i = self.opening.get(i, i) - 1
         return True
+
+    def _name(self, brace):
+        """Of the function whose body begins there, when it has no arguments."""
+        while self.word(brace - 1) in ("const", "noexcept"):
+            brace -= 1
+        return self.word(brace - 3) if self.word(brace - 2) == "(" else ""
 
     def _after_requires(self, i):
         """Past a clause `requires(…)`, `requires concept<…>`, or an expression `requires(…) {…}`."""
@@ -174,7 +191,8 @@ def _edits(header, i):
             yield "return", i + 1, end - 1, "{}"
     if word(i + 1) == "(" and re.match(r"\w", text):
         yield from _call(header, i)
-    if word(i - 1) in (";", "{", "}", ")", "else") and text not in KEPT:
+    if text not in KEPT and (word(i - 1) in (";", "{", "}", "else") or word(i - 1) == ")" and word(
+            header.opening[i - 1] - 1) in ("if", "constexpr", "for", "while")):
         yield from _dropped(header, i)
 
 
