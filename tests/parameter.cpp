@@ -44,7 +44,12 @@ void gives_back(const Part& first, const Part& other) {
 TEST_CASE("every part gives its parameters back, and those that it takes later", "[parameter]") {
   gives_back(ph::isotropic_damping{1}, {2});
   gives_back<d2>(ph::diagonal_damping<2>{{1, 2}}, {{3, 4}});
-  gives_back(ph::damping_and_friction{1, 2}, {3, 4});
+  gives_back(ph::damping_and_friction{1, 2, 3}, {4, 5, 6});
+  gives_back<d2>(ph::diagonal_damping_and_friction<2>{{1, 2}, {3, 4}, {5, 6}},
+                 {{7, 8}, {9, 10}, {11, 12}});
+  gives_back<d2>(ph::encoder_steps<2>{{1, 2}}, {{3, 4}});
+  gives_back(ph::dual_ledger{.damping = {1, 2, 3}, .quantum = 4, .loan = 5, .cap = 6, .window = 7},
+             {.damping = {8, 9, 10}, .quantum = 11, .loan = 12, .cap = 13, .window = 14});
   gives_back(ph::isotropic_inertia{1}, {2});
   gives_back<d2>(ph::diagonal_inertia<2>{{1, 2}}, {{3, 4}});
   gives_back(ph::loop_limits{1, 2, 3, 4}, {5, 6, 7, 8});
