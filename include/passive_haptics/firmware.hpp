@@ -29,10 +29,12 @@
 #include <passive_haptics/force_bound/reachable_bound.hpp>
 #include <passive_haptics/force_bound/sector_bound.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
+#include <passive_haptics/force_bound/thermal_limit.hpp>
 #include <passive_haptics/local_model.hpp>
 #include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 #include <passive_haptics/normal_interpolation/turn_limited.hpp>
 #include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/edge_observer.hpp>
 #include <passive_haptics/port/mass_observer.hpp>
 #include <passive_haptics/shaper/force_rate_limit.hpp>
 #include <passive_haptics/shaper/reference_energy.hpp>

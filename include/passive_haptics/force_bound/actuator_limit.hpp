@@ -4,6 +4,7 @@
 //
 //   actuator_limit    |f| ≤ what the motors give      always, with motors
 //   motor_limits      |fᵢ| ≤ what motor i gives       joints, or motors along the axes
+//   thermal_limit     and less for ever than at once  thermal_limit.hpp
 //   no_bound          f = f*                          for comparison, and for worlds proved otherwise
 
 #include <passive_haptics/concepts.hpp>

@@ -5,6 +5,8 @@
 //   last_difference   x̂ and Δx̂/dt                       the default; for fine encoders
 //   mass_observer     a mass under the force held,       for encoders whose steps are felt; needs
 //                     kept within the step shown         the mass; settles on ideal devices
+//   edge_observer     surely known at the edges of a     for the same with dry friction, which it
+//                     step, going on in between          spends least of
 //
 // Geometry and contact law look at the estimate. Ledger and bound never do: they count what was
 // measured, so no estimate, however wrong, costs the guarantee.

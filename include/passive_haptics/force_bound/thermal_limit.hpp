@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The limit of motors that hold more for a while than for ever (the menu is in actuator_limit.hpp).
+//
+//   thermal_limit   |f| ≤ peak, and its mean square stays below the continuous one's
+//
+//     ph::thermal_limit motors{.peak = 3.3, .continuous = 0.88, .time_constant = 20.0};  // a Touch, say
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// |f| ≤ `peak` at any time, and the mean square of what was commanded, filtered by the winding's time
+/// constant τ, never exceeds `continuous`² (a winding warms with the square of its current, I²t):
+///     m ← m + (f² − m) dt/(τ + dt),      f² ≤ m + (c² − m)/ε,     ε = 1/32, or T/(τ + T) where that is more
+/// for every f of a tick of dt ≤ T: as a tick takes at most the share ε of the way from m to f², m stays
+/// ≤ c². The force does not drop all at once but is eased down to c as the winding nears its limit. What
+/// is counted is what this bound lets through, so stand it last in a chain; a tick that is refused counts
+/// as held. A winding is cold at the start: wait, or reset with care.
+///
+/// A limit that only reduces takes nothing from any promise before it (bound_chain.hpp). Where the motors
+/// really saturate, or cool, is theirs: without a device that reports what it held, `peak` must be right.
+struct thermal_limit {
+  static constexpr guarantee passivity = guarantee::none;
+  static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
+
+  double peak{};           ///< largest force at any time [N]
+  double continuous{};     ///< c, what can be held for ever [N]; ∞: as much as `peak`
+  double time_constant{};  ///< τ of the winding [s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::not_negative(peak)) return {"peak", peak, "finite and ≥ 0 N"};
+    if (!(continuous >= 0.0)) return {"continuous", continuous, "≥ 0 N"};
+    if (!(continuous < peak) || detail::positive(time_constant)) return {};
+    return {"time_constant", time_constant, "finite and > 0 s"};
+  }
+
+  template <port Space>
+  class on;
+};
+
+template <port Space>
+class thermal_limit::on {
+ public:
+  using scalar = typename Space::scalar;
+  static_assert(
+      requires { typename Space::geometry; },
+      "passive_haptics: thermal_limit bounds the length of a force: joints need motor_limits");
+
+  constexpr explicit on(const thermal_limit& p) noexcept { set(p); }
+  constexpr void set(const thermal_limit& p) noexcept {
+    peak_ = detail::number<scalar>(p.peak);
+    heats_ = p.continuous < p.peak;
+    continuous_ = detail::number<scalar>(p.continuous);
+    time_constant_ = detail::number<scalar>(p.time_constant);
+  }
+  [[nodiscard]] constexpr thermal_limit parameters() const noexcept {
+    return {.peak = static_cast<double>(peak_),
+            .continuous = static_cast<double>(continuous_),
+            .time_constant = static_cast<double>(time_constant_)};
+  }
+  constexpr void reset() noexcept { mean_square_ = held_square_ = scalar(0); }
+
+  [[nodiscard]] constexpr share<scalar> limit(const typename Space::effort& desired,
+                                              const auto& state) noexcept {
+    const scalar force = Space::norm(desired);
+    scalar most = peak_;
+    if (heats_) {
+      const scalar c2 = continuous_ * continuous_;
+      const scalar T = state.longest_tick;
+      mean_square_ += (held_square_ - mean_square_) * (state.dt / (time_constant_ + state.dt));
+      const scalar largest = kernels::larger(scalar(1) / scalar(32), T / (time_constant_ + T));
+      const scalar room = kernels::larger(c2 - mean_square_, scalar(0));
+      most = kernels::smaller(most, kernels::square_root(mean_square_ + room / largest));
+      const scalar held = kernels::smaller(force, most);
+      held_square_ = held * held;
+    }
+    return {force > most ? most / force : scalar(1)};
+  }
+  /// How warm the winding is, of what it stands, in [0, 1].
+  [[nodiscard]] constexpr scalar warmth() const noexcept {
+    return heats_ && continuous_ > scalar(0) ? mean_square_ / (continuous_ * continuous_)
+                                             : scalar(0);
+  }
+
+ private:
+  scalar peak_{}, continuous_{}, time_constant_{};
+  scalar mean_square_{}, held_square_{};  ///< m and f² of the last tick [N²]
+  bool heats_ = false;
+};
+
+static_assert(force_bound_for<thermal_limit, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The estimator for encoders on a device with dry friction: what it knows at an edge, what it makes of a
+// motion in between, and what the force that follows from it costs a ledger that is sure.
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/laws.hpp>
+#include <passive_haptics/port/edge_observer.hpp>
+#include <passive_haptics/port/last_difference.hpp>
+
+#include <cmath>
+#include <numbers>
+
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+constexpr double q = 60e-6, T = 1e-3;
+
+double shown(double x) {
+  return q * std::floor(x / q);
+}
+
+/// A motion estimator behind encoders that cut off.
+template <class Motion>
+struct seeing {
+  ph::part_at<Motion, d1> motion;
+  double last = 0.0;
+  bool known = false;
+
+  explicit seeing(const Motion& parameters) : motion(parameters) {}
+  auto at(double x) {
+    const double now = shown(x), way = known ? now - last : 0.0;
+    last = now;
+    return motion.estimate(last, way, 0.0, T, std::exchange(known, true));
+  }
+};
+
+/// What a swing into a wall K costs the certificate that counts on no friction, over K q for each metre
+/// of the way: Σ f Δx̂ + ½ q |change of f|, f = −K x.
+template <class Motion>
+double cost_of_a_swing(const Motion& parameters, double depth, double frequency) {
+  seeing<Motion> seen(parameters);
+  double f = 0.0, last = 0.0, cost = 0.0, way = 0.0;
+  for (int n = 0; n < 20000; ++n) {
+    const double x = 5e-3 + depth / 2 * std::sin(2 * std::numbers::pi * frequency * n * T);
+    const double before = seen.known ? seen.last : shown(x);
+    const double next = -seen.at(x).position;  // of a wall of 1 N/m
+    if (n >= 10000) {
+      cost += f * (seen.last - before) + q / 2 * std::abs(next - f);
+      way += std::abs(x - last);
+    }
+    f = next;
+    last = x;
+  }
+  return cost / (q * way);
+}
+
+/// The middle of the step that is shown.
+struct middle {
+  [[nodiscard]] constexpr ph::parameter_fault check() const noexcept { return {}; }
+  template <class P>
+  struct on {
+    constexpr explicit on(const middle& /*p*/) noexcept {}
+    struct seen {
+      double position;
+    };
+    constexpr seen estimate(double x, double /*dx*/, double /*f*/, double /*dt*/,
+                            bool /*known*/) const noexcept {
+      return {x + q / 2};
+    }
+  };
+};
+
+}  // namespace
+
+TEST_CASE("edge_observer does not move for a device that chatters at an edge", "[motion]") {
+  seeing eyes(ph::edge_observer{q});
+  for (int n = 0; n < 200; ++n) (void)eyes.at(n * 1e-6);  // comes at 1 mm/s and stops past an edge
+  for (int n = 0; n < 40; ++n) (void)eyes.at(n % 2 == 0 ? 178e-6 : 182e-6);
+  for (int n = 0; n < 40; ++n) {
+    const auto now = eyes.at(n % 3 == 0 ? 178e-6 : 182e-6);
+    CHECK_THAT(now.position, WithinAbs(3 * q, 1e-9));
+    CHECK(std::abs(now.along(1.0)) == 0.0);
+  }
+}
+
+TEST_CASE("edge_observer stays within the step shown, wherever it goes", "[motion]") {
+  seeing eyes(ph::edge_observer{q});
+  CHECK_THAT(eyes.at(0.3 * q).position, WithinRel(q / 2, 1e-12));  // it may be anywhere in it
+  ph::laws::samples random(1);
+  double x = 0.0;
+  for (int n = 0; n < 5000; ++n) {
+    x += random.number<double>() * (n % 100 < 50 ? 2e-5 : 4e-4);
+    const double seen = eyes.at(x).position;
+    REQUIRE(seen >= shown(x));
+    REQUIRE(seen <= shown(x) + q);
+  }
+}
+
+TEST_CASE("edge_observer follows an even motion better than its steps do", "[motion]") {
+  for (const double v : {2e-3, 8e-3, -31e-3, 0.11, -0.4}) {
+    seeing eyes(ph::edge_observer{q});
+    double square = 0.0, of_steps = 0.0, speed = 0.0;
+    for (int n = 0; n < 1000; ++n) {
+      const double x = v * n * T;
+      const auto now = eyes.at(x);
+      if (n < 200) continue;
+      square += (now.position - x) * (now.position - x) / 800;
+      of_steps += (shown(x) + q / 2 - x) * (shown(x) + q / 2 - x) / 800;
+      speed += now.velocity / 800;
+    }
+    CAPTURE(v, square, of_steps);
+    CHECK(square < (std::abs(v) * T < q ? 0.5 : 1.3) * of_steps);
+    CHECK_THAT(speed, WithinRel(v, 0.05));
+  }
+}
+
+TEST_CASE("edge_observer damps no motion that is slower than a quarter of a step a tick",
+          "[motion]") {
+  for (const double v : {0.01, 0.1}) {
+    seeing eyes(ph::edge_observer{q});
+    double along = 0.0;
+    for (int n = 0; n < 400; ++n) along = eyes.at(v * n * T).along(-1.0);
+    CHECK_THAT(along, WithinAbs(-std::max(0.0, v - q / (4 * T)), 0.1 * v));
+  }
+}
+
+TEST_CASE("a swing seen by edge_observer costs a sure ledger 5/6 of what it does seen by its steps",
+          "[motion]") {
+  for (const double depth : {0.5e-3, 1e-3}) {
+    for (const double frequency : {1.0, 3.0}) {
+      CAPTURE(depth, frequency);
+      CHECK_THAT(cost_of_a_swing(middle{}, depth, frequency), WithinAbs(1.0, 0.15));
+      CHECK_THAT(cost_of_a_swing(ph::edge_observer{q}, depth, frequency),
+                 WithinAbs(5.0 / 6.0, 0.05));
+    }
+  }
+}
+
+TEST_CASE("edge_observer of exact positions is the last difference", "[motion]") {
+  ph::part_at<ph::edge_observer, d3> edges(ph::edge_observer{});
+  ph::part_at<ph::last_difference, d3> difference(ph::last_difference{});
+  d3::vector x = d3::zero();
+  (void)edges.estimate(x, d3::zero(), d3::zero(), T, false);
+  for (int n = 1; n < 50; ++n) {
+    const d3::vector dx{1e-5 * std::sin(n), n % 5 == 0 ? 0.0 : 1e-6, -1e-4};
+    x += dx;
+    const auto a = edges.estimate(x, dx, d3::zero(), T, true);
+    const auto b = difference.estimate(x, dx, d3::zero(), T, true);
+    CHECK((a.position - x).norm() < 1e-15);
+    CHECK_THAT(a.along(d3::vector(0.6, 0.8, 0.0)),
+               WithinAbs(b.along(d3::vector(0.6, 0.8, 0.0)), 1e-12));
+  }
+}
+
+TEST_CASE("edge_observer begins anew after a sample that was lost, and takes new parameters",
+          "[motion]") {
+  seeing eyes(ph::edge_observer{q});
+  for (int n = 0; n < 100; ++n) (void)eyes.at(n * 2e-5);
+  eyes.known = false;
+  const auto now = eyes.at(5e-3);
+  CHECK_THAT(now.position, WithinRel(shown(5e-3) + q / 2, 1e-12));
+  CHECK(now.along(1.0) == 0.0);
+  eyes.motion.set(ph::edge_observer{2 * q});
+  CHECK(eyes.motion.parameters().quantum == 2 * q);
+  CHECK(ph::edge_observer{-1.0}.check());
+  CHECK(ph::edge_observer{std::nan("")}.check());
+  CHECK_FALSE(ph::edge_observer{}.check());
+}
