@@ -24,40 +24,51 @@ constexpr bool near(double a, double b) {
 }
 
 // half of what a Touch may have: (0.13 + 0.05·0.005)/55e-6 by slow kneading; 45e-3·0.1/1e-6 by the mass;
-// at 50 mm/s it makes 50 µm a tick, less than a step: (0.13 + 0.05·0.05)/55e-6; 2·0.13/55e-6 at rest
-constexpr stated_device touch{
-    .mass = 0.045, .damping = 0.05, .friction = 0.13, .quantum = 55e-6, .force_limit = 3.3};
+// at 12 mm/s it makes 12 µm a tick, less than a step: (0.13 + 0.05·0.012)/55e-6; 2·0.13/55e-6 at rest
+constexpr stated_device touch{.mass = 0.045,
+                              .damping = 0.05,
+                              .friction = 0.13,
+                              .presliding = 0.0,
+                              .quantum = 55e-6,
+                              .force_limit = 3.3};
 constexpr auto of_touch = stiffness_budget(touch);
 static_assert(near(of_touch.stiffness, 0.13025 / 55e-6));
 static_assert(of_touch.binding == stiffness_limit::slow_kneading);
 static_assert(near(of_touch.limit(stiffness_limit::sampled_mass), 4500.0));
-static_assert(near(of_touch.limit(stiffness_limit::fast_kneading), 0.1325 / 55e-6));
+static_assert(near(of_touch.limit(stiffness_limit::fast_kneading), 0.1306 / 55e-6));
 static_assert(near(of_touch.limit(stiffness_limit::holding), 0.26 / 55e-6));
 // 3 N need 27.5 µm and a reach of 55 µm + 8 N (1 ms)²/45 g; the motors' 3.3 N for a step
 static_assert(near(of_touch.working_capital, 3.0 * (27.5e-6 + 55e-6 + 8e-6 / 0.045)));
 static_assert(near(of_touch.loan, 3.3 * 55e-6));
 static_assert(of_touch.crossing == 0.0);  // rigid friction holds it for nothing
 
-// presliding of 15 µm over swings of 1 mm takes 2·0.13·0.015 N of it, and a crossing K q p
+// presliding of 15 µm makes each turn of a swing of 0.4 N cost 2·0.13·15e-6/0.4 m for each newton per metre,
+// and a crossing K q p
 constexpr auto elastic_touch = [] {
   stated_device d = touch;
   d.presliding = 15e-6;
   return d;
 }();
-static_assert(near(stiffness_budget(elastic_touch).stiffness, (0.13025 - 0.0039) / 55e-6));
+static_assert(near(stiffness_budget(elastic_touch).stiffness, 0.13025 / (55e-6 + 9.75e-6)));
 static_assert(near(stiffness_budget(elastic_touch).crossing,
-                   (0.13025 - 0.0039) / 55e-6 * 55e-6 * 15e-6));
-static_assert(stiffness_budget(elastic_touch, {.stroke = 20e-6}).stiffness == 0.0);
+                   0.13025 / (55e-6 + 9.75e-6) * 55e-6 * 15e-6));
+static_assert(stiffness_budget(elastic_touch, {.swing = 1e-3}).stiffness < 40.0);
+static_assert(near(stiffness_budget(elastic_touch, {.swing = 1e9}).stiffness, 0.13025 / 55e-6));
 
 // a light device with fine encoders is held by its mass; a slow loop, by its sampling
-static_assert(
-    near(stiffness_budget({.mass = 0.02, .friction = 0.2, .quantum = 1e-6, .force_limit = 5.0})
-             .stiffness,
-         2000.0));
-constexpr stated_device fine{
-    .mass = 1.0, .damping = 0.5, .friction = 0.05, .quantum = 1e-6, .force_limit = 5.0};
+static_assert(near(
+    stiffness_budget(
+        {.mass = 0.02, .friction = 0.2, .presliding = 0.0, .quantum = 1e-6, .force_limit = 5.0})
+        .stiffness,
+    2000.0));
+constexpr stated_device fine{.mass = 1.0,
+                             .damping = 0.5,
+                             .friction = 0.05,
+                             .presliding = 0.0,
+                             .quantum = 1e-6,
+                             .force_limit = 5.0};
 static_assert(stiffness_budget(fine).binding == stiffness_limit::fast_kneading);
-static_assert(near(stiffness_budget(fine).stiffness, 2.0 * (0.05 + 0.025) / (1e-6 + 50e-6)));
+static_assert(near(stiffness_budget(fine).stiffness, 2.0 * (0.05 + 0.006) / (1e-6 + 12e-6)));
 // exact positions and no friction: Colgate's 2b/T, at any speed
 static_assert(near(stiffness_budget({.mass = 1.0, .damping = 0.3, .force_limit = 5.0}).stiffness,
                    600.0));
@@ -76,7 +87,14 @@ static_assert(stiffness_budget({}).binding == stiffness_limit::not_stated);
 static_assert(stiffness_budget({}).stiffness == 0.0);
 static_assert(stiffness_budget(touch, {.slowest = 0.1}).binding == stiffness_limit::not_stated);
 static_assert(stated_device{.mass = 0.1}.check());
-static_assert(design::intended_use{.stroke = 0.0}.check());
+// friction is stated with what of it is elastic, and a continuous force with its time constant
+static_assert(stiffness_budget({.mass = 0.1, .friction = 0.1, .quantum = 1e-5, .force_limit = 3.0})
+                  .binding == stiffness_limit::not_stated);
+static_assert(stated_device{.mass = 0.1, .force_limit = 3.0, .continuous_force = 1.0}.check());
+static_assert(!stated_device{
+    .mass = 0.1, .force_limit = 3.0, .continuous_force = 1.0, .winding_time = 10.0}
+                   .check());
+static_assert(design::intended_use{.swing = 0.0}.check());
 
 constexpr double c = 0.1;  // [N]
 
@@ -117,7 +135,8 @@ TEST_CASE("a swing into a wall costs K (q + max(q, vT))/2 for each metre of it",
 TEST_CASE("a budget leaves a swing at either end of its speeds what it costs, and no more",
           "[design][devices]") {
   for (const double q : {1e-6, 10e-6, 60e-6}) {
-    const stated_device device{.mass = 1.0, .friction = c, .quantum = q, .force_limit = 9.0};
+    const stated_device device{
+        .mass = 1.0, .friction = c, .presliding = 0.0, .quantum = q, .force_limit = 9.0};
     const design::intended_use use{.slowest = 1.7e-3, .fastest = 0.31};
     const auto budget = stiffness_budget(device, use);
     CAPTURE(q, budget.stiffness);
@@ -148,6 +167,7 @@ TEST_CASE("the simulated devices, half of b and c stated, can promise what a tab
     const auto budget = stiffness_budget({.mass = preset.mass,
                                           .damping = preset.damping / 2,
                                           .friction = preset.friction / 2,
+                                          .presliding = 0.0,
                                           .quantum = preset.quantum,
                                           .force_limit = preset.force_limit});
     CAPTURE(preset.name, budget.stiffness, to_string(budget.binding));

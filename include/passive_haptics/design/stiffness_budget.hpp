@@ -3,23 +3,30 @@
 // How stiff a guaranteed wall may be on a device as it is stated, so that its ledger does not run dry.
 //
 //     constexpr design::stated_device grip{.mass = 0.045, .damping = 0.05, .friction = 0.13,
-//                                          .quantum = 55e-6, .force_limit = 3.3};
-//     constexpr auto budget = design::stiffness_budget(grip);     // 2368 N/m
+//                                          .presliding = 15e-6, .quantum = 55e-6, .force_limit = 3.3};
+//     constexpr auto budget = design::stiffness_budget(grip);     // 2012 N/m
 //     std::puts(budget.because());                                // what binds, and what raises it
 //     ph::capped law{ph::damped_spring{.mass = grip.mass}, budget.stiffness};
 //
 // A bound that spends only what a sure ledger holds is passive with any stiffness. What too much of it
 // costs is the wall: each step of a swing drains the ledger, and when it is empty the hand sinks in. The
-// largest stiffness that is paid for, per metre of the way, at a speed v:
+// largest stiffness that is paid for, per metre of the way, at a speed v, by a swing of S newtons:
 //
-//     K (q + max(q, v T))/2 ≤ c + b v − 2 c p/D
+//     K (q + max(q, v T))/2 ≤ c + b v − 2 c p/D,     D = S/K the depth of the swing
 //
 // On the left, what is not known of the position costs (a step q, changes of the force at q/2 each) and
 // what happens between two samples (lemma L2). On the right, what dry friction and damping take, less
-// what a presliding p gives back at every reversal of a swing of depth D (ours; docs/design/mathematics.md).
-// Where v T ≤ q this is K ≤ (c + b v)/q − 2 c p/(q D), as q → 0 it is 2 b/T + 2 c/(v T), Colgate's 2 b/T
-// for fast motions. Beside it K ≤ 2 c/q, for the chatter of a hand that holds still at the edge of a
-// step (Abbott and Okamura, 2005), and K ≤ κ m/T², what a sampled mass can be held with (§ 9).
+// what a presliding p gives back at every reversal (ours; docs/design/mathematics.md § 6). So
+//
+//     K ≤ (c + b v)/((q + max(q, v T))/2 + 2 c p/S)
+//
+// Where v T ≤ q and p = 0 this is (c + b v)/q, as q → 0 it is 2 b/T + 2 c/(v T), Colgate's 2 b/T for fast
+// motions. Beside it K ≤ 2 c/q, for the chatter of a hand that holds still at the edge of a step (Abbott
+// and Okamura, 2005), and K ≤ κ m/T², what a sampled mass can be held with (§ 9).
+//
+// The hand's swings are larger than S by what the friction takes of them. One that stays within the
+// presliding, to and fro over 2p and more than a step, is paid by nothing: friction gives back all it
+// takes. It drains `crossing` for each step of it, whatever K is (measured: docs/design/encoders.md).
 //
 // Without dry friction all that is left at slow speeds is b v/q, some newtons per metre: nothing stiff
 // is guaranteed there, and the budget says 0.
@@ -40,10 +47,14 @@ struct stated_device {
   double mass{};               ///< m, smallest over all directions [kg]
   double damping{};            ///< b [N·s/m]
   double friction{};           ///< c, dry; the least level, where it varies [N]
-  double presliding{};         ///< p, over which friction is elastic [m]
+  double presliding = none;    ///< p, over which friction is elastic [m]; stated where c > 0
   double quantum{};            ///< q, step of the position, noise included [m]
   double force_limit{};        ///< what the motors hold [N]
   double longest_tick = 1e-3;  ///< T [s]
+
+  double continuous_force =
+      std::numeric_limits<double>::infinity();  ///< what they hold for ever [N]
+  double winding_time = 0.0;  ///< time constant with which they warm, if that is less [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     const auto not_negative = [](double x) { return passive_haptics::detail::not_negative(x); };
@@ -51,19 +62,29 @@ struct stated_device {
     if (!positive(mass)) return {"mass", mass, "finite and > 0 kg"};
     if (!not_negative(damping)) return {"damping", damping, "finite and ≥ 0 N·s/m"};
     if (!not_negative(friction)) return {"friction", friction, "finite and ≥ 0 N"};
-    if (!not_negative(presliding)) return {"presliding", presliding, "finite and ≥ 0 m"};
+    if (friction > 0.0 && !not_negative(presliding)) {
+      return {"presliding", presliding,
+              "finite and ≥ 0 m, stated: over how far the friction is elastic"};
+    }
     if (!not_negative(quantum)) return {"quantum", quantum, "finite and ≥ 0 m"};
     if (!positive(force_limit)) return {"force_limit", force_limit, "finite and > 0 N"};
     if (!positive(longest_tick)) return {"longest_tick", longest_tick, "finite and > 0 s"};
+    if (!(continuous_force >= 0.0)) return {"continuous_force", continuous_force, "≥ 0 N"};
+    if (continuous_force < force_limit && !positive(winding_time)) {
+      return {"winding_time", winding_time, "finite and > 0 s"};
+    }
     return {};
   }
+
+ private:
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What the wall is to be sustained for.
 struct intended_use {
   double slowest = 5e-3;            ///< speed of the slowest kneading [m/s]
-  double fastest = 50e-3;           ///< and of the fastest [m/s]
-  double stroke = 1e-3;             ///< D, depth of its swings [m]
+  double fastest = 12e-3;           ///< and of the fastest [m/s]
+  double swing = 0.4;               ///< S, least swing of the wall's force, friction overcome [N]
   double force = 3.0;               ///< held with; no more than the motors' [N]
   double hand_force = 5.0;          ///< the most the hand pushes with [N]
   double stiffness_fraction = 0.1;  ///< κ, as in damped_spring
@@ -74,7 +95,7 @@ struct intended_use {
     if (!(fastest >= slowest) || !positive(fastest)) {
       return {"fastest", fastest, "finite and ≥ slowest"};
     }
-    if (!positive(stroke)) return {"stroke", stroke, "finite and > 0 m"};
+    if (!positive(swing)) return {"swing", swing, "finite and > 0 N"};
     if (!(force >= 0.0)) return {"force", force, "≥ 0 N"};
     if (!(hand_force >= 0.0)) return {"hand_force", hand_force, "≥ 0 N"};
     if (!(stiffness_fraction > 0.0 && stiffness_fraction <= 1.0)) {
@@ -127,11 +148,9 @@ struct budget {
         return "A mass sampled so slowly can be held with no more than kappa m/T^2: "
                "a faster loop or a heavier grip raises it.";
       case stiffness_limit::slow_kneading:
-        return stiffness > 0.0
-                   ? "Kneading slowly, friction and damping pay for no more than (c + b v)/q - "
-                     "2 c p/(q D): finer encoders or more sure friction raise it."
-                   : "Friction gives back at each reversal what it takes on a stroke that short: "
-                     "only less presliding or a longer stroke helps.";
+        return "Kneading slowly, friction and damping pay for no more than (c + b v)/(q + 2 c "
+               "p/S): "
+               "finer encoders, more sure friction or less presliding raise it.";
       case stiffness_limit::fast_kneading:
         return "Kneading fast, sampling costs more than friction and damping take: "
                "a faster loop raises it.";
@@ -150,11 +169,11 @@ struct budget {
 
 namespace detail {
 
-/// The largest K for swings at speed v [N/m].
-[[nodiscard]] constexpr double kneaded(const stated_device& d, double v, double stroke) noexcept {
-  const double paid = d.friction + d.damping * v - 2.0 * d.friction * d.presliding / stroke;
-  const double cost = (d.quantum + kernels::larger(d.quantum, v * d.longest_tick)) / 2.0;
-  return kernels::larger(paid, 0.0) / cost;
+/// The largest K for swings of so many newtons at speed v [N/m].
+[[nodiscard]] constexpr double kneaded(const stated_device& d, double v, double swing) noexcept {
+  const double known = (d.quantum + kernels::larger(d.quantum, v * d.longest_tick)) / 2.0;
+  const double turned = d.friction > 0.0 ? 2.0 * d.friction * d.presliding / swing : 0.0;
+  return (d.friction + d.damping * v) / (known + turned);
 }
 
 }  // namespace detail
@@ -166,13 +185,13 @@ namespace detail {
   if (device.check() || use.check()) return {};
   const double T = device.longest_tick;
   const double q = device.quantum;
-  constexpr double none = std::numeric_limits<double>::infinity();
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
   budget b;
   b.limits = {use.stiffness_fraction * device.mass / (T * T),
-              detail::kneaded(device, use.slowest, use.stroke),
-              detail::kneaded(device, use.fastest, use.stroke),
-              q > 0.0 ? 2.0 * device.friction / q : none};
-  b.stiffness = none;
+              detail::kneaded(device, use.slowest, use.swing),
+              detail::kneaded(device, use.fastest, use.swing),
+              q > 0.0 ? 2.0 * device.friction / q : unlimited};
+  b.stiffness = unlimited;
   for (std::size_t i = 0; i < b.limits.size(); ++i) {
     if (b.limits[i] < b.stiffness) {
       b.stiffness = b.limits[i];
@@ -183,7 +202,8 @@ namespace detail {
   const double reach = q + (F + use.hand_force) * T * T / device.mass;
   b.working_capital = F * (q / 2.0 + reach);
   b.loan = device.force_limit * q;
-  b.crossing = b.stiffness * q * kernels::smaller(device.presliding, q);
+  b.crossing =
+      b.stiffness * q * (device.friction > 0.0 ? kernels::smaller(device.presliding, q) : q);
   return b;
 }
 
