@@ -108,9 +108,9 @@ std::vector<std::string> run_z_width(const session& s) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (static_cast<int>(i) % of == part - 1) mine.push_back(all[i]);
   }
-  const std::string suffix =
-      of == 1 ? "" : "_" + std::to_string(part) + "_of_" + std::to_string(of);
-  const std::string file = "z_width" + suffix + ".csv";
+  std::string file = "z_width";
+  if (of > 1) file += ex::format("_%g", part) + ex::format("_of_%g", of);
+  file += ".csv";
   const auto rows = s.rows(file, "z-width", mine, judge_z);
   if (of == 1) {
     show_z_width(s, rows);
