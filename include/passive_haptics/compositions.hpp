@@ -4,6 +4,8 @@
 //
 //   touch<Space>   make_touch(device, longest_tick)   a surface that the environment publishes: settles,
 //                                                     stiff, passive for the device and hand stated
+//   encoder_touch<Space>  make_encoder_touch(device, hand)   the same on encoders whose steps are felt: as
+//                                                     stiff as dry friction can pay for, and not lost
 //   force_guard<Port>  make_force_guard(damping, T)  force in, force out: strictly passive
 //
 //     class hand_loop {
@@ -12,15 +14,20 @@
 
 #include <passive_haptics/constraint_geometry/followed.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/contact/capped.hpp>
 #include <passive_haptics/contact/damped_spring.hpp>
 #include <passive_haptics/contact/given_force.hpp>
+#include <passive_haptics/design/stiffness_budget.hpp>
+#include <passive_haptics/energy_observer/dual_ledger.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/force_bound/bound_chain.hpp>
 #include <passive_haptics/force_bound/reachable_bound.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
+#include <passive_haptics/force_bound/thermal_limit.hpp>
 #include <passive_haptics/local_model.hpp>
 #include <passive_haptics/normal_interpolation/turn_limited.hpp>
+#include <passive_haptics/port/edge_observer.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -51,6 +58,38 @@ template <class Space, class Constraint = half_space<Space>>
           bound_chain{reachable_bound{.mass = device.mass, .hand_force = device.hand_force},
                       actuator_limit{.most = device.force_limit}},
           loop_limits{.longest_tick = longest_tick}};
+}
+
+/// What we recommend where the encoders' steps are felt and dry friction is sure: conditional, like
+/// reachable_bound, with E ≥ −½ c p − loan for ever. A surface is no stiffer than what the device can pay
+/// for; law().is_capped() says so.
+template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
+using encoder_touch =
+    local_model<Space, followed<Constraint>, turn_limited, capped<damped_spring>, dual_ledger,
+                bound_chain<reachable_bound, thermal_limit>, Limits, edge_observer>;
+
+/// Of a device as it is stated, and of the most that hand, load and friction push with [N]. One without
+/// dry friction has no budget: check() then refuses `most`, and make_touch with a mass_observer, soft at
+/// first, is what is left.
+template <class Space, class Constraint = half_space<Space>>
+[[nodiscard]] constexpr encoder_touch<Space, Constraint> make_encoder_touch(
+    const design::stated_device& device, double hand_force, const design::intended_use& use = {},
+    double turn_rate = 2.0) noexcept {
+  return {Space{},
+          followed<Constraint>{},
+          turn_limited{.rate = turn_rate},
+          capped{damped_spring{.mass = device.mass, .force_limit = device.force_limit},
+                 design::stiffness_budget(device, use).stiffness},
+          dual_ledger{.damping = {.coefficient = device.damping,
+                                  .coulomb = device.friction,
+                                  .presliding = device.presliding},
+                      .quantum = device.quantum},
+          bound_chain{reachable_bound{.mass = device.mass, .hand_force = hand_force},
+                      thermal_limit{.peak = device.force_limit,
+                                    .continuous = device.continuous_force,
+                                    .time_constant = device.winding_time}},
+          loop_limits{.longest_tick = device.longest_tick},
+          edge_observer{.quantum = device.quantum}};
 }
 
 /// For a force that you have already: strict, so soft where the ledger is empty.
