@@ -26,17 +26,22 @@ ph::mass_observer observer(const design::stated_device& d) {
   return {.mass = d.mass, .quantum = d.quantum};
 }
 
-wall recommended(const design::stated_device& d) {
+wall recommended(const design::stated_device& d, double /*most*/) {
   return settling(d, ph::quantised_energy{.damping = d.damping, .quantum = d.quantum}, observer(d));
 }
-wall with_rigid_friction(const design::stated_device& d) {
+wall with_rigid_friction(const design::stated_device& d, double /*most*/) {
   return settling(d, ph::dual_ledger{.damping = {d.damping, d.friction, 0.0}, .quantum = d.quantum},
                   observer(d));
 }
-wall of_exact_positions(const design::stated_device& d) {
+wall encoder_touch(const design::stated_device& d, double most) {
+  auto made = ph::make_encoder_touch<line>(d, hand_force);
+  (void)made.set(ph::capped{ph::damped_spring{.mass = d.mass, .force_limit = d.force_limit}, most});
+  return made;
+}
+wall of_exact_positions(const design::stated_device& d, double /*most*/) {
   return settling(d, ph::reduced_energy{.damping = d.damping}, ph::last_difference{});
 }
-wall unbounded(const design::stated_device& d) {
+wall unbounded(const design::stated_device& d, double /*most*/) {
   return ph::local_model{line{},
                          ph::followed<half_space<line>>{},
                          ph::turn_at_once{},
@@ -51,6 +56,7 @@ wall unbounded(const design::stated_device& d) {
 
 const std::vector<composition>& compositions() {
   static const std::vector<composition> all{
+      {.name = "dual ledger", .is_capped = true, .make = encoder_touch},
       {.name = "quantised energy", .make = recommended},
       {.name = "dual ledger, rigid friction",
        .takes_friction_as_rigid = true,
@@ -60,9 +66,9 @@ const std::vector<composition>& compositions() {
   return all;
 }
 
-wall wall_of(const composition& c, const machine& m, double K) {
-  wall made = c.make(m.stated());
-  (void)made.update({0.0, -1.0, K});
+wall wall_of(const composition& c, const machine& m, double K, double most) {
+  wall made = c.make(m.stated(), most);
+  (void)made.update({surface_of(m), -1.0, K});
   return made;
 }
 

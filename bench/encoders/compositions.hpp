@@ -39,6 +39,9 @@ struct machine {
             .quantum = preset.quantum,
             .force_limit = preset.force_limit};
   }
+  [[nodiscard]] design::budget budget() const noexcept {
+    return design::stiffness_budget(stated());
+  }
   /// The static stiffness that damped_spring displays of a wall K [N/m].
   [[nodiscard]] double displayed(double K) const noexcept {
     return ph::kernels::sampled_stiffness(K, 0.1, preset.mass, 1e-3);
@@ -56,12 +59,22 @@ struct composition {
   bool takes_positions_as_exact = false;
   bool takes_friction_as_rigid = false;
   bool promises = true;
-  wall (*make)(const design::stated_device&) = nullptr;
+  bool is_capped = false;  ///< its law is no stiffer than the budget
+  wall (*make)(const design::stated_device&,
+               double most) = nullptr;  ///< if capped, at `most` [N/m]
 
   /// Does its promise hold on that machine?
   [[nodiscard]] bool covers(const machine& m) const noexcept {
     return promises && !(takes_positions_as_exact && m.preset.quantum > 0.0) &&
            !(takes_friction_as_rigid && m.rubs_elastically());
+  }
+  /// Does it make a wall for that machine at all?
+  [[nodiscard]] bool fits(const machine& m) const noexcept {
+    return !is_capped || m.budget().stiffness > 0.0;
+  }
+  /// The static stiffness that its law displays of a wall K [N/m].
+  [[nodiscard]] double displayed(const machine& m, double K) const noexcept {
+    return m.displayed(is_capped ? std::min(K, m.budget().stiffness) : K);
   }
 };
 
@@ -85,10 +98,12 @@ struct composition {
   return use(device);
 }
 
-/// A wall of stiffness K [N/m]: the device is in it where x > 0.
-[[nodiscard]] wall wall_of(const composition& c, const machine& m, double K);
+inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// Where its surface is on average, for encoders that cut off [m]: somewhere within a step.
+/// A wall of stiffness K [N/m], no stiffer than `most`: the device is in it where x > surface_of(m).
+[[nodiscard]] wall wall_of(const composition& c, const machine& m, double K, double most);
+
+/// Where its surface is [m]: somewhere within a step of encoders that cut off.
 [[nodiscard]] inline double surface_of(const machine& m) noexcept {
   return 0.37 * m.preset.quantum;
 }

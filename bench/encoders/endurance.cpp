@@ -40,7 +40,7 @@ struct lasted {
 lasted last(const machine& m, const composition& what, pressing how, double K, int seconds) {
   const double surface = surface_of(m), displayed = m.displayed(K);
   const double per_newton = 1.0 / hand_stiffness + 1.0 / displayed;
-  wall model = wall_of(what, m, K);
+  wall model = wall_of(what, m, K, unlimited);
   return with_device(m, surface - 3e-3, [&](auto& device) {
     const press first = press_at(how, 0.0, m.preset.force_limit);
     const double way = 3e-3 + first.force * per_newton, approach = way / 10e-3;
@@ -83,7 +83,7 @@ struct endurance_row {
 };
 
 ex::record record_of(const endurance_row& r) {
-  const auto budget = design::stiffness_budget(r.m.stated());
+  const auto budget = r.m.budget();
   return {{"device", std::string(r.m.preset.name)},
           {"presliding_um", r.m.presliding * 1e6, "%.0f"},
           {"composition", std::string(r.what == nullptr ? "" : r.what->name)},
@@ -102,9 +102,9 @@ endurance_row judge(endurance_row row) {
     row.least_energy = std::min(row.least_energy, found.least_energy);
     return found.seconds;
   };
-  const double budget = design::stiffness_budget(row.m.stated()).stiffness;
+  const double budget = row.m.budget().stiffness;
   row.at_budget = budget > 0.0 ? lasts(budget) : std::nan("");
-  double low = 30.0, high = row.m.displayed(1e9);
+  double low = budget > 0.0 ? budget / 4.0 : 30.0, high = row.m.displayed(1e9);
   if (lasts(high) >= row.seconds) {
     row.largest = high;
     return row;
@@ -121,11 +121,11 @@ endurance_row judge(endurance_row row) {
 std::vector<endurance_row> cells(const session& s) {
   std::vector<endurance_row> all;
   for (const auto& preset : sim::all_presets) {
-    if (s.chosen.quick && preset.name != sim::touch_like.name && preset.name != sim::ideal.name)
-      continue;
-    for (const double presliding : {0.0, 15e-6}) {
+    if (s.chosen.quick && !is_quick(preset)) continue;
+    for (const double presliding : {0.0, 15e-6, 30e-6}) {
       if (presliding > 0.0 && (s.chosen.quick || !(preset.friction > 0.0))) continue;
       for (const auto& what : s.judged) {
+        if (!what.fits({preset, presliding})) continue;
         for (const auto how : {pressing::kneading, pressing::holding}) {
           all.push_back({{preset, presliding}, &what, how, s.chosen.quick ? 5 : 60});
         }
@@ -139,7 +139,7 @@ std::vector<endurance_row> cells(const session& s) {
 void plot_budget(const session& s, const std::vector<endurance_row>& rows) {
   std::map<std::string, std::vector<std::pair<double, double>>> points;
   for (const auto& r : rows) {
-    const double budget = design::stiffness_budget(r.m.stated()).stiffness;
+    const double budget = r.m.budget().stiffness;
     if (r.how == pressing::kneading && budget > 0.0 && r.what->promises) {
       points[r.what->name].emplace_back(budget, std::max(r.largest, 1.0));
     }

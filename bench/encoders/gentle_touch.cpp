@@ -24,7 +24,7 @@ struct leg {
 };
 
 /// One session of so many touches; the seed chooses speeds, forces and pauses.
-std::vector<leg> session_of(const machine& m, double K, int touches, std::uint64_t seed) {
+std::vector<leg> session_of(const machine& m, double displayed, int touches, std::uint64_t seed) {
   sim::random_source random(seed);
   std::vector<leg> legs;
   double target = -3e-3;
@@ -41,7 +41,7 @@ std::vector<leg> session_of(const machine& m, double K, int touches, std::uint64
     constexpr std::array speeds{5e-3, 10e-3, 20e-3};
     const double speed = speeds[static_cast<std::size_t>(random.uniform(0.0, 3.0))];
     const double force = std::min(2.0, 0.6 * m.preset.force_limit) * random.uniform(0.3, 1.0);
-    const double depth = force / hand_stiffness + force / m.displayed(K);
+    const double depth = force / hand_stiffness + force / displayed;
     go(20e-3, -random.uniform(1e-3, 4e-3));
     stay(random.uniform(0.2, 1.0), false);
     go(speed, depth);
@@ -57,8 +57,10 @@ struct touch_row {
   const composition* what = nullptr;
   std::vector<double> ratios{};  ///< of each touch, over what the law displays
   double first_three = 0.0;      ///< mean of the first three of each session
+  double buzz = 0.0;             ///< largest swing of the device while it is held [m]
   double least_energy = 0.0;     ///< at the port, friction included [J]
 
+  [[nodiscard]] double displayed() const { return what->displayed(m, stiffness); }
   [[nodiscard]] double share(double least) const {
     const auto n =
         std::count_if(ratios.begin(), ratios.end(), [=](double r) { return r >= least; });
@@ -73,7 +75,7 @@ struct touch_row {
 };
 
 ex::record record_of(const touch_row& r) {
-  const double budget = design::stiffness_budget(r.m.stated()).stiffness;
+  const double budget = r.m.budget().stiffness;
   return {{"device", std::string(r.m.preset.name)},
           {"stiffness", r.stiffness, "%.0f"},
           {"presliding_um", r.m.presliding * 1e6, "%.0f"},
@@ -82,24 +84,31 @@ ex::record record_of(const touch_row& r) {
           {"share_080", r.share(0.8), "%.2f"},
           {"median_ratio", r.median(), "%.2f"},
           {"first_three_ratio", r.first_three, "%.2f"},
+          {"buzz_steps", r.buzz / r.m.preset.quantum, "%.1f"},
           {"least_energy_J", r.least_energy}};
 }
 
 /// The touches of one session; returns the least energy at the port.
-double touch(const touch_row& job, int touches, std::uint64_t seed, std::vector<double>& ratios) {
-  const std::vector<leg> legs = session_of(job.m, job.stiffness, touches, seed);
+double touch(touch_row& job, int touches, std::uint64_t seed, std::vector<double>& ratios) {
+  const double surface = surface_of(job.m), displayed = job.displayed();
+  const std::vector<leg> legs = session_of(job.m, displayed, touches, seed);
   const int ticks = std::accumulate(legs.begin(), legs.end(), 0,
                                     [](int sum, const leg& l) { return sum + l.ticks; });
-  const double surface = surface_of(job.m), displayed = job.m.displayed(job.stiffness);
-  wall model = wall_of(*job.what, job.m, job.stiffness);
+  wall model = wall_of(*job.what, job.m, job.stiffness,
+                       job.what->is_capped ? job.m.budget().stiffness : unlimited);
   return with_device(job.m, surface - 3e-3, [&](auto& device) {
     std::size_t at = 0;
     int in_leg = 0;
     double target = surface - 3e-3, force = 0.0, depth = 0.0;
+    double lowest = unlimited, highest = -unlimited;
     const auto hand = [&](const auto&) {
       while (at < legs.size() && in_leg == legs[at].ticks) {
-        if (legs[at].felt) ratios.push_back(depth > 0.0 ? force / depth / displayed : 0.0);
+        if (legs[at].felt) {
+          ratios.push_back(depth > 0.0 ? force / depth / displayed : 0.0);
+          job.buzz = std::max(job.buzz, highest - lowest);
+        }
         force = depth = 0.0;
+        lowest = unlimited, highest = -unlimited;
         in_leg = 0;
         ++at;
       }
@@ -111,6 +120,8 @@ double touch(const touch_row& job, int touches, std::uint64_t seed, std::vector<
       if (!legs[at].felt || 2 * in_leg <= legs[at].ticks) return;
       force -= now.force;
       depth += std::max(0.0, now.position - surface);
+      lowest = std::min(lowest, now.position);
+      highest = std::max(highest, now.position);
     };
     return sim::run(device, model, ticks, sim::idle, hand, watch).least_energy;
   });
@@ -119,13 +130,14 @@ double touch(const touch_row& job, int touches, std::uint64_t seed, std::vector<
 std::vector<touch_row> cells(const session& s) {
   std::vector<touch_row> all;
   for (const auto& preset : sim::all_presets) {
-    if (s.chosen.quick && preset.name != sim::touch_like.name && preset.name != sim::ideal.name)
-      continue;
+    if (s.chosen.quick && !is_quick(preset)) continue;
     for (const double presliding : {0.0, 5e-6, 15e-6, 30e-6}) {
       if (presliding > 0.0 && !(preset.friction > 0.0)) continue;
       if (s.chosen.quick && presliding > 0.0 && presliding != 15e-6) continue;
       for (const double K : {1e3, 3e3, 1e4}) {
-        for (const auto& what : s.judged) all.push_back({{preset, presliding}, K, &what});
+        for (const auto& what : s.judged) {
+          if (what.fits({preset, presliding})) all.push_back({{preset, presliding}, K, &what});
+        }
       }
     }
   }
