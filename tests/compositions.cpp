@@ -67,6 +67,51 @@ TEST_CASE("a composition by name is the one that is spelt out", "[local_model]")
                   .check());
 }
 
+TEST_CASE("make_encoder_touch is as stiff as the device can pay for, and says so",
+          "[local_model]") {
+  constexpr ph::design::stated_device grip{.mass = 0.045,
+                                           .damping = 0.05,
+                                           .friction = 0.13,
+                                           .presliding = 15e-6,
+                                           .quantum = 55e-6,
+                                           .force_limit = 3.3,
+                                           .continuous_force = 0.88,
+                                           .winding_time = 10.0};
+  static_assert(ph::encoder_touch<f1>::passivity == ph::guarantee::conditional);
+  constexpr auto in_float = ph::make_encoder_touch<f1>(grip, 5.0);
+  static_assert(!in_float.check());
+  class {
+   public:
+    ph::encoder_touch<d3> touch{};  // a member, as a client has it
+  } loop;
+  CHECK(loop.touch.check());
+  loop.touch = ph::make_encoder_touch<d3>(grip, 5.0);
+  CHECK_FALSE(loop.touch.check());
+  loop.touch.update({d3::zero(), d3::vector(0, 0, 1), 1e4});
+  (void)loop.touch.tick({0, 0, 1e-3}, 1e-3);
+  CHECK(loop.touch.law().is_capped());
+  CHECK_THAT(loop.touch.law().stiffness(),
+             WithinRel(ph::design::stiffness_budget(grip).stiffness, 1e-12));
+  loop.touch.update({d3::zero(), d3::vector(0, 0, 1), 800.0});
+  (void)loop.touch.tick({0, 0, 1e-3}, 1e-3);
+  CHECK_FALSE(loop.touch.law().is_capped());
+
+  const auto refused = [](ph::design::stated_device device) {
+    const auto fault = ph::make_encoder_touch<d1>(device, 5.0).check();
+    return std::string(fault ? fault.parameter : "");
+  };
+  CHECK(refused(grip).empty());
+  auto other = grip;
+  other.friction = 0.0;  // no budget
+  CHECK(refused(other) == "most");
+  other = grip;
+  other.presliding = ph::design::stated_device{}.presliding;  // not stated
+  CHECK_FALSE(refused(other).empty());
+  other = grip;
+  other.winding_time = 0.0;
+  CHECK_FALSE(refused(other).empty());
+}
+
 TEST_CASE("make_touch and make_force_guard refuse what cannot be, with its name", "[local_model]") {
   const auto refused = [](const ph::known_device& device, double T) {
     const auto fault = ph::make_touch<d1>(device, T).check();

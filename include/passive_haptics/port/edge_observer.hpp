@@ -19,7 +19,7 @@ inline namespace v0 {
 /// So a device that chatters at one edge makes no change of force at all, one that rests costs nothing, and
 /// one that moves meets each edge with nearly the force that belongs there. That is what a sure ledger pays
 /// least for: a swing into a wall K costs it 5/6 K q for each metre of the way, where the middle of the step
-/// costs K q, and a position that lags by the step 3/2 K q. Speeds below q/(4 dt) do not count: damping them
+/// costs K q, and a position that lags by the step 3/2 K q. Speeds below q/(8 dt) do not count: damping them
 /// would change the force with every edge.
 ///
 /// It settles where dry friction holds the device within a step, K q ≤ 2c. Without friction the wall hunts,
@@ -79,7 +79,7 @@ class edge_observer::on {
         start(i, step);
       }
     }
-    return {position_, velocity_, quantum_ / (scalar(4) * dt)};
+    return {position_, velocity_, quantum_ / (scalar(8) * dt)};
   }
 
  private:

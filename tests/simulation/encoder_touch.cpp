@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A sample of bench/encoders: a gentle touch of a wall of 10 kN/m on a light device with encoders of
+// 55 µm, whose friction is elastic. It stays as stiff as the device can pay for; a ledger that credits no
+// friction starves, and the hand sinks in.
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/compositions.hpp>
+#include <passive_haptics/energy_observer/quantised_energy.hpp>
+#include <passive_haptics/port/mass_observer.hpp>
+#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/loop.hpp>
+#include <passive_haptics/simulation/presets.hpp>
+
+namespace sim = ph::simulation;
+
+namespace {
+
+constexpr sim::device_preset preset = sim::touch_like;
+constexpr double presliding = 15e-6;
+constexpr double surface = 0.37 * preset.quantum;
+
+constexpr ph::design::stated_device stated{.mass = preset.mass,
+                                           .damping = preset.damping / 2,
+                                           .friction = preset.friction / 2,
+                                           .presliding = presliding,
+                                           .quantum = preset.quantum,
+                                           .force_limit = preset.force_limit};
+
+struct felt {
+  double least_stiffness = 1e9;  ///< of the touches [N/m]
+  double least_energy = 0.0;     ///< at the port [J]
+};
+
+/// Five touches: from 3 mm outside at 10 mm/s till a hand of 300 N/m presses with 1.2 N, a second of
+/// rest there, and away. The stiffness is that of the half second after.
+template <class Space, class Model>
+felt touched(Model model, double displayed) {
+  using scalar = typename Space::scalar;
+  using hand = sim::impedance_hand<Space>;
+  auto p = preset.without_friction<Space>();
+  p.start = surface - 3e-3;
+  sim::device<Space, hand, sim::slider_and_spring> device(
+      p, hand{.stiffness = 300.0, .damping = 5.0, .own_mass = 0.15},
+      preset.friction_of(presliding));
+  (void)model.update({scalar(surface), scalar(-1), scalar(1e4)});
+  const double deep = 1.2 / 300.0 + 1.2 / displayed;
+  const int there = static_cast<int>((3e-3 + deep) / 10e-6);
+  const int one = 2 * there + 1000;
+  double force = 0.0, depth = 0.0;
+  felt result;
+  const auto go = [&](const auto& now) {
+    const int n = now.tick % one;
+    const double at = n < there ? n * 10e-6 : n < there + 1000 ? there * 10e-6 : (one - n) * 10e-6;
+    device.hand().aim(surface - 3e-3 + at,
+                      n < there          ? 10e-3
+                      : n < there + 1000 ? 0.0
+                                         : -10e-3,
+                      device.time());
+  };
+  const auto feel = [&](const auto& now) {
+    const int n = now.tick % one - there;
+    if (n == 499) force = depth = 0.0;
+    if (n >= 500 && n < 1000) {
+      force -= static_cast<double>(now.force);
+      depth += std::max(0.0, now.position - surface);
+    }
+    if (n == 999) {
+      result.least_stiffness = std::min(result.least_stiffness, depth > 0.0 ? force / depth : 0.0);
+    }
+  };
+  result.least_energy = sim::run(device, model, 5 * one, sim::idle, go, feel).least_energy;
+  return result;
+}
+
+template <class Space>
+auto without_friction() {
+  return ph::local_model{
+      Space{},
+      ph::followed<ph::half_space<Space>>{},
+      ph::turn_limited{.rate = 2.0},
+      ph::damped_spring{.mass = stated.mass, .force_limit = stated.force_limit},
+      ph::quantised_energy{.damping = stated.damping, .quantum = stated.quantum},
+      ph::bound_chain{ph::reachable_bound{.mass = stated.mass, .hand_force = 5.0},
+                      ph::actuator_limit{.most = stated.force_limit}},
+      ph::loop_limits{.longest_tick = stated.longest_tick},
+      ph::mass_observer{.mass = stated.mass, .quantum = stated.quantum}};
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("a gentle touch of encoder_touch is as stiff as was budgeted, first and last",
+                   "[simulation]", d1, f1) {
+  const double budget = ph::design::stiffness_budget(stated).stiffness;
+  const felt wall = touched<TestType>(ph::make_encoder_touch<TestType>(stated, 5.0), budget);
+  CHECK(budget > 2000.0);
+  CHECK(wall.least_stiffness > 0.9 * budget);
+  CHECK(wall.least_stiffness < 1.1 * budget);
+  CHECK(wall.least_energy >= -1e-12);
+}
+
+TEST_CASE("a gentle touch on encoders is lost where no friction is credited", "[simulation]") {
+  const felt wall = touched<d1>(without_friction<d1>(), 2000.0);
+  CHECK(wall.least_stiffness < 500.0);
+  CHECK(wall.least_energy >= -1e-12);
+}
