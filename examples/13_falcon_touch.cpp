@@ -4,27 +4,27 @@
 //     13_falcon_touch --simulate         a simulated Falcon, and a hand that pushes with 2.9 N
 //
 // A packet device holds a command one tick late: late_loop_limits<1> says so, once, for every bound.
-// reduced_energy takes the encoders' steps for exact positions. quantised_energy does not, and keeps
-// its promise on them; a hand that comes at 50 mm/s or slower then sinks into this wall.
+// encoder_touch keeps its promise on the steps of the encoders: dry friction, stated from below, pays
+// for them, and the wall is no stiffer than it can pay for.
 
 #include "falcon_ready.hpp"
 #include <passive_haptics/passive_haptics.hpp>
 
 template <class Device>
 int touch(Device& grip) {
-  // What nobody has published of a Falcon: identify your own, and state less damping than it has.
-  constexpr double mass = 0.1;          // kg
-  constexpr double damping = 0.2;       // N·s/m
-  constexpr double quantum = 1.03e-4;   // m, a count of every leg
+  // What nobody has published of a Falcon: identify your own, and state less damping and friction than
+  // it has, and more presliding.
+  constexpr ph::design::stated_device stated{.mass = 0.1,         // kg
+                                             .damping = 0.2,      // N·s/m
+                                             .friction = 0.15,    // N
+                                             .presliding = 1e-5,  // m
+                                             .quantum = 1.03e-4,  // m, a count of every leg
+                                             .force_limit = 8.0,  // N
+                                             .longest_tick = 2.5e-3};
   constexpr double strongest_hand = 5;  // N
-  ph::local_model wall{scene{},
-                       ph::fixed{ph::half_space<scene>{{0, 0, 0.12}, {0, 0, 1}, 800.0}},
-                       ph::turn_at_once{},
-                       ph::damped_spring{.mass = mass, .force_limit = 8.0},
-                       ph::reduced_energy{.damping = damping},
-                       ph::reachable_bound{.mass = mass, .hand_force = strongest_hand},
-                       ph::late_loop_limits<1>{.longest_tick = 2.5e-3},
-                       ph::mass_observer{.mass = mass, .quantum = quantum}};
+  using plane = ph::half_space<scene>;
+  auto wall = ph::make_encoder_touch<scene, plane, ph::late_loop_limits<1>>(stated, strongest_hand);
+  wall.update({{0, 0, 0.12}, {0, 0, 1}, 800.0});
 
   scene::vector force = scene::zero();
   double least_energy = 0;
@@ -37,13 +37,15 @@ int touch(Device& grip) {
                   ph::to_string(out.what));
     }
   }
-  std::printf("the ledger was never below %.0f J\n", least_energy);
+  std::printf("asked for 800 N/m, displays %.0f N/m\n", wall.law().stiffness());
+  std::printf("the ledger was never below %.1f uJ, where it begins\n", least_energy * 1e6);
   return 0;
 }
 
 int main(int argc, char** argv) {
   falcon::mock_parameters simulated{.runs = true, .homed = true};
   simulated.body.damping = 0.4;
+  simulated.body.friction = 0.3;
   const ph::simulation::impedance_hand<scene> hand{// comes slowly, then pushes on
                                                    .stiffness = 300,
                                                    .limit = 2.9,

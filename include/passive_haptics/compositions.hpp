@@ -71,8 +71,8 @@ using encoder_touch =
 /// Of a device as it is stated, and of the most that hand, load and friction push with [N]. One without
 /// dry friction has no budget: check() then refuses `most`, and make_touch with a mass_observer, soft at
 /// first, is what is left.
-template <class Space, class Constraint = half_space<Space>>
-[[nodiscard]] constexpr encoder_touch<Space, Constraint> make_encoder_touch(
+template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
+[[nodiscard]] constexpr encoder_touch<Space, Constraint, Limits> make_encoder_touch(
     const design::stated_device& device, double hand_force, const design::intended_use& use = {},
     double turn_rate = 2.0) noexcept {
   return {Space{},
@@ -88,7 +88,7 @@ template <class Space, class Constraint = half_space<Space>>
                       thermal_limit{.peak = device.force_limit,
                                     .continuous = device.continuous_force,
                                     .time_constant = device.winding_time}},
-          loop_limits{.longest_tick = device.longest_tick},
+          Limits{.longest_tick = device.longest_tick},
           edge_observer{.quantum = device.quantum}};
 }
 
