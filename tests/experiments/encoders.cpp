@@ -61,14 +61,15 @@ TEST_CASE("gentle touches tell a wall that stays from one that the hand sinks th
   CHECK(unbounded >= 0.75);  // the wall is there to be felt
   CHECK(counted >= 0.0);
   CHECK(counted < 0.25);  // and a starved ledger lets the hand through
+  CHECK(share_of("dual ledger") == 1.0);
 }
 
 TEST_CASE("a composition that promises what it does not keep on encoders fails the run",
           "[encoders]") {
   const folder out("encoders_liar");
-  const encoders::composition liar{.name = "liar", .make = [](const design::stated_device&) {
-                                     return encoders::wall(pusher{});
-                                   }};
+  const encoders::composition liar{
+      .name = "liar",
+      .make = [](const design::stated_device&, double) { return encoders::wall(pusher{}); }};
   const outcome found = run_quietly({"--quick", "--only", "endurance", "--out", out / ""}, {liar});
   CHECK(found.code == 1);
   CHECK(found.complaint.find("liar, Touch, kneading, presliding 0 µm: lost") != std::string::npos);
