@@ -12,9 +12,9 @@ inline namespace v0 {
 
 /// On each axis, of encoders that show only the step [x̂, x̂ + q] the device is in: when it crosses an edge
 /// it is AT that edge, and the time since the last one says how fast it is:
-///     an edge again     x = the edge,    v ← v + g (Δx̂/t − v),  t since the last one;  g = 1/4 a tick, at most 1
+///     an edge again     x = the edge,    v ← v + g (Δx̂/t − v)       t since the last, g = t/(4 dt) ≤ 1
 ///     an edge back      x = the edge,    v ← −4/5 min(|v|, 4q/t)    it turned round within the step
-///     between edges     x ← x + v dt, up to 2/3 q past the edge;  |v| ≤ q/t
+///     between edges     x ← x + v dt     up to 2/3 q past the edge, with |v| ≤ q/t
 ///
 /// So a device that chatters at one edge makes no change of force at all, one that rests costs nothing, and
 /// one that moves meets each edge with nearly the force that belongs there. That is what a sure ledger pays
