@@ -7,6 +7,7 @@
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
 #include <passive_haptics/port/mass_observer.hpp>
+#include <passive_haptics/simulation/challenge.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/presets.hpp>
@@ -102,4 +103,26 @@ TEST_CASE("a gentle touch on encoders is lost where no friction is credited", "[
   const felt wall = touched<d1>(without_friction<d1>(), 2000.0);
   CHECK(wall.least_stiffness < 500.0);
   CHECK(wall.least_energy >= -1e-12);
+}
+
+TEST_CASE("no hand of 5 N taps or trembles energy out of encoder_touch", "[simulation]") {
+  sim::circumstances world{.damping = preset.damping,
+                           .mass = preset.mass,
+                           .friction = preset.friction,
+                           .presliding = presliding,
+                           .hand_force = 5.0,
+                           .quantum = preset.quantum,
+                           .force_limit = preset.force_limit};
+  const auto touch = ph::make_encoder_touch<d1>(stated, world.hand_force + preset.friction);
+  const auto bare = following_half_space<d1>(ph::spring{}, ph::no_observer{}, ph::no_bound{});
+  double control = 0.0;
+  for (const auto by :
+       {sim::adversary::tapping, sim::adversary::random_tapping, sim::adversary::trembling}) {
+    const auto verdict = sim::challenge(touch, by, world, 40);
+    CAPTURE(to_string(by), verdict.least_energy, verdict.worst_seed);
+    CHECK(verdict.least_energy >= -1e-12);
+    CHECK(verdict.largest_force > 0.1);
+    control = std::min(control, sim::challenge(bare, by, world, 40).least_energy);
+  }
+  CHECK(control < -1e-6);
 }
