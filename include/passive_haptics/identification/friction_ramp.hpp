@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Break-away force and presliding displacement, from a force that grows slowly until the device slips.
+//
+// Up to break-away it gives way elastically: x = C g, and p = C times the break-away force. That it has
+// broken away is seen late, when it has gone so many steps: a mass m that a force beyond friction by R t
+// drives has gone R t³/(6 m) by then, against a damper alone R t²/(2 b). What the ramp has gained
+// meanwhile is taken off, so the break-away force is a lower bound: with a Stribeck curve the device
+// goes faster than that.
+
+#include <passive_haptics/kernels.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace identification {
+
+/// What is needed of the device to say how late a slip was seen.
+struct slip_detection {
+  double rate = 0.0;     ///< R [N/s]
+  double mass = 0.0;     ///< m [kg]
+  double damping = 0.0;  ///< b [N·s/m]
+  double step = 0.0;     ///< q [m]
+};
+
+class friction_ramp {
+ public:
+  enum class state : std::uint8_t { holding, broken, backwards };
+
+  /// Begins a device whose friction is about `level` [N].
+  void begin_all(double level) noexcept {
+    *this = {};
+    width_ = level / 24.0;
+  }
+  /// Begins a ramp that way, from rest at `position` [m].
+  void begin(int way, double position) noexcept {
+    way_ = way;
+    reference_ = position;
+    bins_.fill({});
+  }
+  /// A position [m] under the force g [N] along the way; it has slipped once it has gone `far` [m].
+  state book(double g, double x, double far) noexcept {
+    const double gone = way_ * (x - reference_);
+    bin& b = bins_[std::min(static_cast<std::size_t>(g / width_), bins_.size() - 1)];
+    b.gone += gone;
+    b.force += g;
+    ++b.count;
+    return gone > far ? state::broken : gone < -far ? state::backwards : state::holding;
+  }
+  /// It has slipped, seen at g [N] and `far` [m].
+  void conclude(double g, double far, const slip_detection& by) noexcept {
+    double low = kernels::larger(g - gained(by, far + by.step), 0.0);
+    const double near = 1.2 * by.step + 10e-6;
+    const double give = between(0.5 * low, 0.8 * low);
+    for (const bin& b : bins_) {
+      if (b.count == 0 || b.mean_force() < 0.8 * low) continue;
+      if (b.mean_gone() - give * b.mean_force() > near) {
+        low = kernels::larger(low, b.mean_force() - gained(by, near + by.step));
+        break;
+      }
+    }
+    auto& of = ways_[way_ > 0 ? 1 : 0];
+    of.least = kernels::smaller(of.least, low);
+    of.most = kernels::larger(of.most, g);
+    of.largest_low = kernels::larger(of.largest_low, low);
+    const double compliance = between(0.5 * low, 0.8 * low);
+    if (!(low > 0.0) || compliance < 0.0 - 1.0) return;
+    ++count_;
+    sum_ += compliance;
+    squares_ += compliance * compliance;
+    lows_ += low;
+  }
+
+  [[nodiscard]] int way() const noexcept { return way_; }
+  [[nodiscard]] int count() const noexcept { return count_; }
+  /// The least and the largest break-away force, going forward (1) or backward (0) [N].
+  [[nodiscard]] double least(int forward) const noexcept { return side(forward).least; }
+  [[nodiscard]] double most(int forward) const noexcept { return side(forward).most; }
+  [[nodiscard]] double least() const noexcept { return kernels::smaller(least(0), least(1)); }
+  [[nodiscard]] double most() const noexcept { return kernels::larger(most(0), most(1)); }
+  /// By which share of its middle the break-away force varies from place to place.
+  [[nodiscard]] double unevenness() const noexcept {
+    double worst = 0.0;
+    for (const auto& one : ways_) {
+      if (!(one.largest_low > 0.0)) return 1.0;
+      worst = kernels::larger(worst, (one.largest_low - one.least) / (one.largest_low + one.least));
+    }
+    return worst;
+  }
+  /// C [m/N]: the mean, and three deviations above it.
+  [[nodiscard]] double compliance() const noexcept { return count_ > 0 ? sum_ / count_ : 0.0; }
+  [[nodiscard]] double compliance_at_most(double step) const noexcept {
+    if (count_ < 4) return std::numeric_limits<double>::infinity();
+    const double n = count_;
+    const double mean = sum_ / n;
+    const double spread = kernels::larger(squares_ / n - mean * mean, 0.0) / (n - 1.0);
+    const double steps = 0.41 * step / (0.65 * lows_ / n) / std::sqrt(n);  // of two rounded positions
+    return kernels::larger(mean, 0.0) + 3.0 * kernels::larger(std::sqrt(spread), steps);
+  }
+
+ private:
+  struct bin {
+    double gone = 0.0, force = 0.0;
+    int count = 0;
+    [[nodiscard]] double mean_gone() const noexcept { return gone / count; }
+    [[nodiscard]] double mean_force() const noexcept { return force / count; }
+  };
+  struct one_way {
+    double least = std::numeric_limits<double>::infinity(), most = 0.0, largest_low = 0.0;
+  };
+  [[nodiscard]] const one_way& side(int forward) const noexcept { return ways_[forward > 0 ? 1 : 0]; }
+
+  /// How much the ramp gains while a slip goes so far [N].
+  [[nodiscard]] static double gained(const slip_detection& by, double far) noexcept {
+    return by.rate * (std::cbrt(6.0 * by.mass * far / by.rate) +
+                      std::sqrt(2.0 * kernels::larger(by.damping, 0.0) * far / by.rate));
+  }
+  /// Displacement over force, of the forces from g1 to g2 [m/N].
+  [[nodiscard]] double between(double g1, double g2) const noexcept {
+    double gone = 0.0, force = 0.0;
+    for (const bin& b : bins_) {
+      if (b.count == 0 || b.mean_force() < g1 || b.mean_force() > g2) continue;
+      gone += b.gone;
+      force += b.force;
+    }
+    return force > 0.0 ? gone / force : 0.0;
+  }
+
+  std::array<bin, 112> bins_{};
+  std::array<one_way, 2> ways_{};
+  double width_ = 1.0, reference_ = 0.0;
+  double sum_ = 0.0, squares_ = 0.0, lows_ = 0.0;
+  int way_ = 1, count_ = 0;
+};
+
+}  // namespace identification
+}  // namespace v0
+}  // namespace passive_haptics
