@@ -33,14 +33,17 @@ class axis_identification {
     missing_ = 0;
     ++samples_;
     if (samples_ == 1) start_ = position;
+    last_x_ = x_;
     x_ = position - start_;
     ticks_.book(dt);
     track_velocity(dt);
     regression_.sample(x_, dt);
     clock_.book(samples_, position);
-    steps_.book(position, phase_ == phase::push || phase_ == phase::cycle);
+    steps_.book(position, phase_ == phase::rest && in_phase_ > 0.1);
     if (kernels::magnitude(x_) > p_.workspace) {
-      fail("it left the workspace: nothing may push it, or state a larger workspace or a shorter stroke");
+      fail(
+          "it left the workspace: nothing may push it, or state a larger workspace or a shorter "
+          "stroke");
       return 0.0;
     }
     dt_ = dt;
@@ -64,9 +67,7 @@ class axis_identification {
 
   [[nodiscard]] axis_found result() const noexcept {
     axis_found found;
-    found.problem = problem_ != nullptr ? problem_
-                    : done()            ? nullptr
-                                        : "it is not at its end";
+    found.problem = problem_ != nullptr ? problem_ : done() ? nullptr : "it is not at its end";
     if (found.problem != nullptr) return found;
     const motion_found& m = motion_;
     found.mass = kernels::larger(margin * m.mass.at_least(3.0), 0.0);
@@ -93,10 +94,22 @@ class axis_identification {
   }
 
  private:
-  enum class phase : std::uint8_t { settle, sweep, kick, park, balance, push, release, cycle, done };
+  enum class phase : std::uint8_t {
+    settle,
+    sweep,
+    kick,
+    park,
+    balance,
+    condition,
+    rest,
+    push,
+    release,
+    cycle,
+    done
+  };
   static constexpr double elastic = 120e-6;  // motion that is no slip [m]
-  static constexpr double margin = 0.95;   // of what no statistics sees
-  static constexpr double slowest = 0.03;  // of the windows that count [m/s]
+  static constexpr double margin = 0.95;     // of what no statistics sees
+  static constexpr double slowest = 0.03;    // of the windows that count [m/s]
 
   void fail(const char* why) noexcept {
     problem_ = why;
@@ -123,8 +136,7 @@ class axis_identification {
     for (int j = 0; j < back; ++j) {
       lasted += recent_[static_cast<std::size_t>(seen_ - j) % recent_.size()].length;
     }
-    const double before =
-        recent_[static_cast<std::size_t>(seen_ - back) % recent_.size()].position;
+    const double before = recent_[static_cast<std::size_t>(seen_ - back) % recent_.size()].position;
     v_ = lasted > 0.0 ? (x_ - before) / lasted : 0.0;
   }
 
@@ -140,6 +152,10 @@ class axis_identification {
         return park();
       case phase::balance:
         return balance();
+      case phase::condition:
+        return condition();
+      case phase::rest:
+        return rest();
       case phase::push:
         return push();
       case phase::release:
@@ -163,7 +179,8 @@ class axis_identification {
       return;
     }
     double share = shares[static_cast<std::size_t>(passed_)];
-    const bool resolved = found.presliding_best > step() / 3.0;
+    const bool resolved = found.presliding_best > step() / 3.0 &&
+                          0.08 * found.presliding_best * cycles_ > 1.5 * step();
     if (passed_ > 0) share *= 0.7;
     if (passed_ == 0 && !resolved) share = 0.6;
     found.creep = share;
@@ -174,6 +191,11 @@ class axis_identification {
   double relay(double force, double amplitude) noexcept {
     return relay_.tick(x_, v_, force, amplitude, 1.5 * steps_.so_far() + 20e-6);
   }
+  double swing(double force, double amplitude) noexcept {
+    if (force != swung_) relay_.change(swung_, force, rubs_, pulls_, p_.stroke);
+    swung_ = force;
+    return relay(force, amplitude);
+  }
   /// Finds out how fast it goes to and fro with all the force there may be.
   double settle() noexcept {
     const double force = relay(p_.force, p_.stroke);
@@ -181,7 +203,9 @@ class axis_identification {
       window_since_ = relay_.sweeps();
       window_ = std::clamp(relay_.ticks_of_last() / 2, 8, 64);
     }
-    if (samples_ % 2 == 0) regression_.book(window_, relay_.sweeps(), slowest, steps_.so_far());
+    if (samples_ % 2 == 0) {
+      regression_.book(window_, relay_.sweeps(), slowest, steps_.so_far(), relay_.turned_at());
+    }
     if (in_phase_ > 4.0 && relay_.sweeps() < 4) {
       fail(in_phase_ > 4.0 && farthest() < 1e-3
                ? "it hardly moves: let go of the device, or allow more force"
@@ -190,16 +214,21 @@ class axis_identification {
     }
     if (in_phase_ < 1.0 || relay_.sweeps() < 12) return force;
     if (relay_.reached() < 0.5 * p_.stroke) {
-      if (in_phase_ > 4.0) fail("it does not get across the stroke: let go of the device, or allow more force");
+      if (in_phase_ > 4.0)
+        fail("it does not get across the stroke: let go of the device, or allow more force");
       return force;
     }
     const motion_found first = regression_.conclude();
     swing_ = p_.force;
     if (first.windows > 50 && first.explained > 0.5) {
-      const double against = std::abs(first.load.value) + 2.0 * std::abs(first.friction.value);
+      const double against =
+          3.0 * std::abs(first.load.value) + 2.5 * std::abs(first.friction.value);
       const double calm = 2.0 * first.mass.value * p_.stroke / (0.04 * 0.04);
-      swing_ = std::min(p_.force, std::max({1.4 * against, calm, 0.2 * p_.force}));
+      swing_ = std::min(p_.force, std::max({against, calm, 0.2 * p_.force}));
     }
+    rubs_ = first.friction.value;
+    pulls_ = first.load.value;
+    swung_ = p_.force;
     regression_.clear();
     enter(phase::sweep);
     return force;
@@ -207,7 +236,7 @@ class axis_identification {
   double sweep() noexcept {
     const int sweeps = relay_.sweeps();
     const bool hard = (sweeps / 6) % 2 == 1;
-    const double force = relay(hard ? std::min(p_.force, 1.5 * swing_) : swing_,
+    const double force = swing(hard ? std::min(p_.force, 1.5 * swing_) : swing_,
                                (sweeps / 12) % 2 == 1 ? 0.6 * p_.stroke : p_.stroke);
     if (relay_.sweeps() != window_since_) {
       window_since_ = relay_.sweeps();
@@ -221,7 +250,7 @@ class axis_identification {
     if (samples_ % 3 == 0) {
       const int group = static_cast<int>(in_phase_ / p_.sweep_time * motion_regression::groups);
       regression_.book(window_, std::min(group, motion_regression::groups - 1), slowest,
-                       steps_.so_far());
+                       steps_.so_far(), relay_.turned_at());
     }
     return force;
   }
@@ -248,7 +277,8 @@ class axis_identification {
       return "it moves too slowly or too little: allow more force, or a longer stroke";
     }
     if (!(motion_.explained > 0.9)) {
-      return "the force explains too little of the motion: let go of the device, or allow more force";
+      return "the force explains too little of the motion: let go of the device, or allow more "
+             "force";
     }
     const double spring = motion_.stiffness.value;
     if (kernels::magnitude(spring) > 4.0 * motion_.stiffness.deviation &&
@@ -267,18 +297,20 @@ class axis_identification {
 
   // ------------------------------------------------------------------ slow: friction broken away
   double kick() noexcept {
-    if (relay_.sweeps() - kicked_from_ >= 2 + place_ % 3 || in_phase_ > 2.0) {
-      target_ = std::clamp(x_, -0.5 * p_.stroke, 0.5 * p_.stroke);
+    constexpr double golden = 0.6180339887498949;  // places that no period of gears or cables meets
+    const double share = golden * (place_ + 1) - std::floor(golden * (place_ + 1));
+    const double wanted = (1.2 * share - 0.6) * p_.stroke;
+    const bool there = (x_ - wanted) * (last_x_ - wanted) <= 0.0;
+    if ((relay_.sweeps() - kicked_from_ >= 2 && there) || in_phase_ > 3.0) {
+      target_ = x_;
       enter(phase::park);
       rest_.restart();
     }
-    return relay(swing_, 0.6 * p_.stroke);
+    return swing(swing_, 0.8 * p_.stroke);
   }
   [[nodiscard]] double step() const noexcept { return steps_.so_far(); }
   /// For how long it has been at rest [s], but for what friction's spring rings.
-  [[nodiscard]] double resting() noexcept {
-    return rest_.still(x_, dt_, 1.01 * step() + elastic);
-  }
+  [[nodiscard]] double resting() noexcept { return rest_.still(x_, dt_, 1.01 * step() + elastic); }
   [[nodiscard]] double balanced(double friction_force) const noexcept {
     return friction_force - motion_.load.value;
   }
@@ -286,8 +318,7 @@ class axis_identification {
   double park() noexcept {
     const double m = motion_.mass.value;
     const double omega = std::clamp(12.0 / std::sqrt(m), 12.0, 40.0);
-    const double force =
-        balanced(-m * omega * omega * (x_ - target_) - 1.6 * m * omega * v_);
+    const double force = balanced(-m * omega * omega * (x_ - target_) - 1.6 * m * omega * v_);
     if (resting() > 0.1) {
       parked_force_ = force;
       enter(phase::balance);
@@ -305,23 +336,46 @@ class axis_identification {
       if (cycling_) {
         next_level();
       } else {
-        begin_push(place_ % 2 == 0 ? 1 : -1, 2);
+        after_slip_ = false;
+        pushes_left_ = 3;
+        way_ = place_ % 2 == 0 ? 1 : -1;
+        enter(phase::condition);
       }
     } else if (in_phase_ > 1.0) {
-      if (++slipped_ > 6) return give_up("dry friction: not found, it does not hold the device at rest");
-      target_ = std::clamp(x_, -0.5 * p_.stroke, 0.5 * p_.stroke);
-      rest_.restart();
-      enter(phase::park);
+      return park_again();
     }
     return force;
   }
-  void begin_push(int way, int left) noexcept {
-    pushes_left_ = left;
-    ramp_.begin(way, rest_.mean());
-    enter(phase::push);
+  /// What still rings on friction's spring is slipped away by a force that comes and goes.
+  double condition() noexcept {
+    constexpr double lasts = 0.4;  // [s]
+    const double peak = 0.8 * kernels::smaller(ramp_.least(), kinetic_);
+    const double g = peak * kernels::larger(1.0 - std::abs(2.0 * in_phase_ / lasts - 1.0), 0.0);
+    if (in_phase_ >= lasts) {
+      rest_.restart();
+      enter(phase::rest);
+    }
+    return balanced(-way_ * g);
+  }
+  double rest() noexcept {
+    if (resting() > 0.2) {
+      ramp_.begin(way_, rest_.mean());
+      enter(phase::push);
+    } else if (in_phase_ > 1.0) {
+      return park_again();
+    }
+    return balanced(0.0);
+  }
+  double park_again() noexcept {
+    if (++slipped_ > 8)
+      return give_up("dry friction: not found, it does not hold the device at rest");
+    target_ = std::clamp(x_, -0.5 * p_.stroke, 0.5 * p_.stroke);
+    rest_.restart();
+    enter(phase::park);
+    return balanced(0.0);
   }
   double push() noexcept {
-    const double rate = motion_.friction.value / 0.6;
+    const double rate = motion_.friction.value / 0.5;
     const double g = rate * in_phase_;
     const double force = balanced(ramp_.way() * g);
     if (kernels::magnitude(force) >= p_.force) {
@@ -330,36 +384,36 @@ class axis_identification {
     const double moved = 0.25e-3 + 2.0 * step();
     const auto state = ramp_.book(g, x_, moved);
     if (state == friction_ramp::state::broken) {
-      ramp_.conclude(g, moved,
-                     {.rate = rate,
-                      .mass = motion_.mass.value,
-                      .damping = kernels::larger(motion_.damping[0].value, motion_.damping[1].value),
-                      .step = step()});
+      ramp_.conclude(
+          g, moved, after_slip_,
+          {.rate = rate,
+           .mass = motion_.mass.value,
+           .damping = kernels::larger(motion_.damping[0].value, motion_.damping[1].value),
+           .step = step()});
       --pushes_left_;
+      after_slip_ = true;
+      go_on_ = (++slips_ * 5) % 8;  // ticks, so that it stops anywhere between two steps
       enter(phase::release);
       rest_.restart();
-      return balanced(0.0);
+      return force;
     }
     if (state == friction_ramp::state::backwards) {
-      if (++slipped_ > 6) return give_up("dry friction: not found, it does not hold the device at rest");
-      enter(phase::park);
-      rest_.restart();
+      return park_again();
     }
     return force;
   }
   /// After a slip; friction brakes.
   double release() noexcept {
+    if (--go_on_ >= 0) return balanced(ramp_.way() * ramp_.most(ramp_.way()));
     const double still = resting();
     const bool away = kernels::magnitude(x_) > 1.5 * p_.stroke;
     if (away || in_phase_ > 1.5) {
-      target_ = std::clamp(x_, -0.5 * p_.stroke, 0.5 * p_.stroke);
-      if (pushes_left_ == 0) ++place_;
-      rest_.restart();
-      enter(phase::park);
-      if (++slipped_ > 12) return give_up("dry friction: not found, it does not hold the device at rest");
-    } else if (still > 0.2) {
+      return park_again();
+    }
+    if (still > 0.1) {
       if (pushes_left_ > 0) {
-        begin_push(-ramp_.way(), pushes_left_);
+        way_ = -way_;
+        enter(phase::condition);
       } else if (++place_ < p_.places) {
         kicked_from_ = relay_.sweeps();
         relay_.restart(x_);
@@ -373,7 +427,7 @@ class axis_identification {
 
   // ------------------------------------------------------------------ does it creep?
   void begin_cycles() noexcept {
-    cap_ = 0.95 * kinetic_ * kernels::larger(1.0 - 1.2 * ramp_.unevenness(), 0.0);
+    cap_ = 0.95 * kinetic_ * kernels::larger(1.0 - 1.25 * ramp_.unevenness(), 0.0);
     cap_ = std::min(cap_, ramp_.least());
     level_ = 0;
     next_level();
@@ -381,7 +435,7 @@ class axis_identification {
   void next_level() noexcept {
     const double softest = ramp_.compliance_at_most(step());  // [m/N]
     const double omega = 1.0 / std::sqrt(motion_.mass.value * softest);
-    frequency_ = std::min(50.0, omega / (6.0 * 2.0 * pi));
+    frequency_ = std::min(50.0, omega / (4.0 * 2.0 * pi));
     cycle_ref_ = rest_.mean();
     first_ = last_ = {};
     enter(phase::cycle);
@@ -390,7 +444,8 @@ class axis_identification {
     const double peak = shares[static_cast<std::size_t>(level_)] * cap_;
     const double t = in_phase_;
     const double edge = std::max(0.3, std::ceil(0.3 * frequency_) / frequency_);
-    const double end = std::max(p_.creep_time, 6.0 * edge);
+    const double end = std::clamp(p_.creep_cycles / frequency_, 6.0 * edge, 12.0);
+    cycles_ = static_cast<int>((end - 2.0 * edge) * frequency_);
     const double g = peak * (0.5 - 0.5 * std::cos(2.0 * pi * frequency_ * t));
     if (t > edge && t <= 2.0 * edge) first_.book(x_);
     if (t > end - edge) last_.book(x_);
@@ -452,15 +507,17 @@ class axis_identification {
   motion_found motion_{};
   std::array<seen, 32> recent_{};
   int seen_ = 0, samples_ = 0, missed_ = 0, missing_ = 0;
-  double start_ = 0.0, x_ = 0.0, v_ = 0.0, dt_ = 0.0, time_ = 0.0, in_phase_ = 0.0;
+  double start_ = 0.0, x_ = 0.0, last_x_ = 0.0, v_ = 0.0, dt_ = 0.0, time_ = 0.0, in_phase_ = 0.0;
   int window_ = 16, window_since_ = 0, park_window_ = 8;
-  double swing_ = 0.0;    // force of the sweeps [N]
-  double kinetic_ = 0.0;  // friction at speed, from below [N]
+  double swing_ = 0.0;                             // force of the sweeps [N]
+  double swung_ = 0.0, rubs_ = 0.0, pulls_ = 0.0;  // with it, friction and load, roughly [N]
+  double kinetic_ = 0.0;                           // friction at speed, from below [N]
   int kicked_from_ = 0, place_ = 0, pushes_left_ = 0, slipped_ = 0;
   double target_ = 0.0, parked_force_ = 0.0;
   double cap_ = 0.0, frequency_ = 0.0, cycle_ref_ = 0.0;
   int level_ = 0, passed_ = -1;
-  bool cycling_ = false;
+  bool cycling_ = false, after_slip_ = false;
+  int way_ = 1, slips_ = 0, go_on_ = 0, cycles_ = 0;
   mean_of first_, last_;
 };
 

@@ -26,7 +26,8 @@ class encoder_step {
     }
     ++count_;
     const double moved = kernels::magnitude(position - last_);
-    const double blur = 16.0 * rounding_ * (kernels::magnitude(position) + kernels::magnitude(first_));
+    const double blur =
+        16.0 * rounding_ * (kernels::magnitude(position) + kernels::magnitude(first_));
     if (count_ > 1 && moved > blur && moved < least_ * (1.0 - 0.05)) {
       least_ = moved;
       misfits_ = asked_ = 0;

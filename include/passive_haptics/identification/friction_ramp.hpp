@@ -53,15 +53,22 @@ class friction_ramp {
     ++b.count;
     return gone > far ? state::broken : gone < -far ? state::backwards : state::holding;
   }
-  /// It has slipped, seen at g [N] and `far` [m].
-  void conclude(double g, double far, const slip_detection& by) noexcept {
+  /// It has slipped, seen at g [N] and `far` [m]. Where it was after a slip, and not parked by a
+  /// control that reacts to the very edges of the steps, its displacement counts.
+  void conclude(double g, double far, bool counts, const slip_detection& by) noexcept {
     double low = kernels::larger(g - gained(by, far + by.step), 0.0);
-    const double near = 1.2 * by.step + 10e-6;
-    const double give = between(0.5 * low, 0.8 * low);
+    const double softness =
+        kernels::smaller(between(0.15 * low, 0.5 * low), between(0.5 * low, 0.8 * low));
+    double wobble = 0.0;  // of a mass on friction's spring
     for (const bin& b : bins_) {
-      if (b.count == 0 || b.mean_force() < 0.8 * low) continue;
-      if (b.mean_gone() - give * b.mean_force() > near) {
-        low = kernels::larger(low, b.mean_force() - gained(by, near + by.step));
+      if (b.count == 0 || b.mean_force() > 0.4 * low) continue;
+      wobble = kernels::larger(wobble, b.mean_gone() - softness * b.mean_force());
+    }
+    const double near = 1.2 * by.step + 10e-6 + 1.5 * wobble;
+    for (const bin& b : bins_) {
+      if (b.count == 0 || b.mean_force() < 0.4 * low) continue;
+      if (b.mean_gone() - softness * b.mean_force() > near) {
+        low = kernels::larger(0.0, b.mean_force() - gained(by, near + by.step));
         break;
       }
     }
@@ -69,16 +76,13 @@ class friction_ramp {
     of.least = kernels::smaller(of.least, low);
     of.most = kernels::larger(of.most, g);
     of.largest_low = kernels::larger(of.largest_low, low);
-    const double compliance = between(0.5 * low, 0.8 * low);
-    if (!(low > 0.0) || compliance < 0.0 - 1.0) return;
-    ++count_;
-    sum_ += compliance;
-    squares_ += compliance * compliance;
-    lows_ += low;
+    if (!counts || !(low > 0.0)) return;
+    early_.book(between(0.15 * low, 0.5 * low), 0.325 * low);
+    late_.book(between(0.5 * low, 0.8 * low), 0.65 * low);
   }
 
   [[nodiscard]] int way() const noexcept { return way_; }
-  [[nodiscard]] int count() const noexcept { return count_; }
+  [[nodiscard]] int count() const noexcept { return late_.count; }
   /// The least and the largest break-away force, going forward (1) or backward (0) [N].
   [[nodiscard]] double least(int forward) const noexcept { return side(forward).least; }
   [[nodiscard]] double most(int forward) const noexcept { return side(forward).most; }
@@ -93,15 +97,14 @@ class friction_ramp {
     }
     return worst;
   }
-  /// C [m/N]: the mean, and three deviations above it.
-  [[nodiscard]] double compliance() const noexcept { return count_ > 0 ? sum_ / count_ : 0.0; }
+  /// C [m/N]: the mean, and three deviations above it, for positions known to `step` [m]. Where friction
+  /// rises along the way the device creeps up that slope before it breaks away, so the smaller forces,
+  /// which the steps hide more of, may say less.
+  [[nodiscard]] double compliance() const noexcept {
+    return kernels::larger(kernels::smaller(early_.mean(), late_.mean()), 0.0);
+  }
   [[nodiscard]] double compliance_at_most(double step) const noexcept {
-    if (count_ < 4) return std::numeric_limits<double>::infinity();
-    const double n = count_;
-    const double mean = sum_ / n;
-    const double spread = kernels::larger(squares_ / n - mean * mean, 0.0) / (n - 1.0);
-    const double steps = 0.41 * step / (0.65 * lows_ / n) / std::sqrt(n);  // of two rounded positions
-    return kernels::larger(mean, 0.0) + 3.0 * kernels::larger(std::sqrt(spread), steps);
+    return kernels::smaller(early_.at_most(step), late_.at_most(step));
   }
 
  private:
@@ -111,10 +114,32 @@ class friction_ramp {
     [[nodiscard]] double mean_gone() const noexcept { return gone / count; }
     [[nodiscard]] double mean_force() const noexcept { return force / count; }
   };
+  /// Displacement over force, of several ramps.
+  struct give {
+    double sum = 0.0, squares = 0.0, forces = 0.0;
+    int count = 0;
+
+    void book(double compliance, double force) noexcept {
+      ++count;
+      sum += compliance;
+      squares += compliance * compliance;
+      forces += force;
+    }
+    [[nodiscard]] double mean() const noexcept { return count > 0 ? sum / count : 0.0; }
+    [[nodiscard]] double at_most(double step) const noexcept {
+      if (count < 4) return std::numeric_limits<double>::infinity();
+      const double n = count;
+      const double spread = kernels::larger(squares / n - mean() * mean(), 0.0) / (n - 1.0);
+      const double rounded = 0.41 * step / (forces / n) / std::sqrt(n);  // two positions, by steps
+      return kernels::larger(mean(), 0.0) + 3.0 * kernels::larger(std::sqrt(spread), rounded);
+    }
+  };
   struct one_way {
     double least = std::numeric_limits<double>::infinity(), most = 0.0, largest_low = 0.0;
   };
-  [[nodiscard]] const one_way& side(int forward) const noexcept { return ways_[forward > 0 ? 1 : 0]; }
+  [[nodiscard]] const one_way& side(int forward) const noexcept {
+    return ways_[forward > 0 ? 1 : 0];
+  }
 
   /// How much the ramp gains while a slip goes so far [N].
   [[nodiscard]] static double gained(const slip_detection& by, double far) noexcept {
@@ -135,8 +160,8 @@ class friction_ramp {
   std::array<bin, 112> bins_{};
   std::array<one_way, 2> ways_{};
   double width_ = 1.0, reference_ = 0.0;
-  double sum_ = 0.0, squares_ = 0.0, lows_ = 0.0;
-  int way_ = 1, count_ = 0;
+  give early_, late_;
+  int way_ = 1;
 };
 
 }  // namespace identification

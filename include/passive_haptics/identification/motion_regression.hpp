@@ -53,7 +53,7 @@ struct motion_found {
   estimate stiffness{};               ///< k of whatever holds it like a spring [N/m]
   int latency = 0;                    ///< d [ticks]
   estimate exactly{};                 ///< d with its fraction
-  double explained = 0.0;             ///< share of the changes of velocity that the equation explains
+  double explained = 0.0;  ///< share of the changes of velocity that the equation explains
   int windows = 0;
 };
 
@@ -62,6 +62,7 @@ class motion_regression {
  public:
   static constexpr int longest_window = 96;  ///< [ticks]
   static constexpr int groups = 12;          ///< of the jackknife
+  static constexpr double elastic = 0.4e-3;  ///< way after a turn that does not count [m]
 
   /// The position [m] at the end of a tick of that length [s].
   void sample(double position, double length) noexcept {
@@ -81,9 +82,11 @@ class motion_regression {
   }
 
   /// Books the window of the last `ticks` ticks in a group, if the device went one way in it, nowhere
-  /// slower than `slowest` [m/s], by positions known to `step` [m]. False if not.
-  bool book(int ticks, int group, double slowest, double step) noexcept {
+  /// slower than `slowest` [m/s], by positions known to `step` [m], and had left the place of its last
+  /// turn by more than friction is elastic. False if not.
+  bool book(int ticks, int group, double slowest, double step, double turn) noexcept {
     if (ticks < 6 || ticks > longest_window || kept_ < ticks + latencies + 1) return false;
+    if (!(kernels::magnitude(at(newest_ - ticks).position - turn) > elastic + step)) return false;
     const int sign = direction(ticks, slowest, step);
     if (sign == 0) return false;
     double whole = 0.0;
@@ -101,7 +104,8 @@ class motion_regression {
           (next - now.position) / now.length - (now.position - before.position) / before.length;
       const double lasted = (now.length + before.length) / 2.0;
       for (int d = 0; d < latencies; ++d) {
-        z(d) += phi * (now.length * at(j - d).command + before.length * at(j - 1 - d).command) / 2.0;
+        z(d) +=
+            phi * (now.length * at(j - d).command + before.length * at(j - 1 - d).command) / 2.0;
       }
       z(sign > 0 ? forward : backward) -= phi * (next - before.position) / 2.0;
       z(rubbed) -= phi * lasted * sign;
@@ -109,7 +113,8 @@ class motion_regression {
       z(sprung) -= phi * lasted * now.position;
       z(turned) += phi * changed;
     }
-    z *= std::pow(static_cast<double>(ticks), 1.5);  // windows of different lengths are equally sure
+    z *=
+        std::pow(static_cast<double>(ticks), 1.5);  // windows of different lengths are equally sure
     sums_[static_cast<std::size_t>(group % groups)] += z * z.transpose();
     ++windows_;
     return true;
@@ -133,7 +138,7 @@ class motion_regression {
     solution whole;
     static_cast<void>(solve(all, d, whole));
     jackknife<7> of;
-    of.whole = {whole.of[0], whole.of[1], whole.of[2],          whole.of[3],
+    of.whole = {whole.of[0], whole.of[1], whole.of[2],         whole.of[3],
                 whole.of[4], whole.of[5], d + fraction(all, d)};
     for (const table& one : sums_) {
       if (!(one(turned, turned) > 0.0)) continue;
@@ -229,7 +234,9 @@ class motion_regression {
     }
     for (int i = 0; i < n; ++i) {
       r(i) = z(which[static_cast<std::size_t>(i)], turned) * scale(i);
-      for (int j = 0; j < n; ++j) a(i, j) = z(which[static_cast<std::size_t>(i)], which[static_cast<std::size_t>(j)]) * scale(i) * scale(j);
+      for (int j = 0; j < n; ++j)
+        a(i, j) = z(which[static_cast<std::size_t>(i)], which[static_cast<std::size_t>(j)]) *
+                  scale(i) * scale(j);
       if (scale(i) == 0.0) a(i, i) = 1.0;
     }
     const Eigen::LDLT<square<Extra>> factors(a);

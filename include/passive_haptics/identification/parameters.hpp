@@ -13,10 +13,11 @@ struct identification_parameters {
   double force = 3.0;  ///< the most that is ever commanded, either way [N]
   double stroke =
       8e-3;  ///< how far it swings to either side of where it began [m]; the longer, the surer
-  double workspace = 40e-3;  ///< farther than this from where it began, the force is zero for good [m]
-  double sweep_time = 8.0;   ///< of fast motion: mass, damping, friction, latency [s]
-  int places = 6;            ///< where friction is broken away, both ways
-  double creep_time = 3.0;   ///< of force cycles below break-away, at each level that is tried [s]
+  double workspace =
+      40e-3;  ///< farther than this from where it began, the force is zero for good [m]
+  double sweep_time = 8.0;  ///< of fast motion: mass, damping, friction, latency [s]
+  int places = 8;           ///< where friction is broken away, both ways
+  int creep_cycles = 150;   ///< of a force below break-away, at each level that is tried
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!passive_haptics::detail::positive(force)) return {"force", force, "finite and > 0 N"};
@@ -24,9 +25,12 @@ struct identification_parameters {
     if (!(workspace >= 2.0 * stroke) || !kernels::is_finite(workspace)) {
       return {"workspace", workspace, "finite and ≥ 2 strokes"};
     }
-    if (!(sweep_time >= 1.0 && sweep_time <= 600.0)) return {"sweep_time", sweep_time, "1 to 600 s"};
+    if (!(sweep_time >= 1.0 && sweep_time <= 600.0))
+      return {"sweep_time", sweep_time, "1 to 600 s"};
     if (places < 2 || places > 16) return {"places", static_cast<double>(places), "2 to 16"};
-    if (!(creep_time >= 1.0 && creep_time <= 60.0)) return {"creep_time", creep_time, "1 to 60 s"};
+    if (creep_cycles < 10 || creep_cycles > 10000) {
+      return {"creep_cycles", static_cast<double>(creep_cycles), "10 to 10000"};
+    }
     return {};
   }
 };

@@ -27,6 +27,7 @@ class relay_motion {
     if (braking_ && peak_ - along > retreat && way_ * v < 0.0) {
       over = std::clamp(over + 0.4 * (stroke - peak_), -0.9 * stroke, 0.7 * stroke);
       reached_[way_ > 0.0 ? 1 : 0] = peak_;
+      turned_at_ = way_ * peak_;
       way_ = -way_;
       peak_ = -along;
       braking_ = false;
@@ -36,6 +37,12 @@ class relay_motion {
     }
     return (braking_ ? -way_ : way_) * force;
   }
+  /// The force will be another: by so much the change-over moves on a device of that friction and load [N].
+  void change(double from, double to, double friction, double load, double stroke) noexcept {
+    const double share = stroke * (1.0 / to - 1.0 / from);
+    over_[1] = std::clamp(over_[1] + share * (friction - load), -0.9 * stroke, 0.7 * stroke);
+    over_[0] = std::clamp(over_[0] + share * (friction + load), -0.9 * stroke, 0.7 * stroke);
+  }
   /// Begins anew from here; what it has learned stays.
   void restart(double x) noexcept {
     way_ = x > 0.0 ? -1.0 : 1.0;
@@ -44,16 +51,19 @@ class relay_motion {
     ticks_ = 0;
   }
 
-  [[nodiscard]] int sweeps() const noexcept { return sweeps_; }        ///< so far
-  [[nodiscard]] int ticks_of_last() const noexcept { return last_; }  ///< sweep
+  [[nodiscard]] double turned_at() const noexcept { return turned_at_; }  ///< the last time [m]
+  [[nodiscard]] int sweeps() const noexcept { return sweeps_; }           ///< so far
+  [[nodiscard]] int ticks_of_last() const noexcept { return last_; }      ///< sweep
   /// The shorter of the last two turns [m].
-  [[nodiscard]] double reached() const noexcept { return kernels::smaller(reached_[0], reached_[1]); }
+  [[nodiscard]] double reached() const noexcept {
+    return kernels::smaller(reached_[0], reached_[1]);
+  }
 
  private:
   static constexpr double lead = 3e-3;  // what a latency and the estimate of v cost, roughly [s]
 
   std::array<double, 2> over_{}, reached_{};
-  double way_ = 1.0, peak_ = 0.0;
+  double way_ = 1.0, peak_ = 0.0, turned_at_ = 0.0;
   bool braking_ = false;
   int ticks_ = 0, last_ = 0, sweeps_ = 0;
 };
