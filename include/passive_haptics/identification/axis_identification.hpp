@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -21,7 +22,10 @@ namespace identification {
 
 class axis_identification {
  public:
-  explicit axis_identification(const identification_parameters& p = {}) noexcept : p_(p) {
+  /// `rounding` is that of the scalar in which positions come.
+  explicit axis_identification(const identification_parameters& p = {},
+                               double rounding = std::numeric_limits<double>::epsilon()) noexcept
+      : p_(p), steps_(rounding) {
     if (p.check()) fail("a parameter is out of its range: ask identification_parameters::check()");
   }
 
@@ -60,6 +64,8 @@ class axis_identification {
   /// A sentence why it ended early; null if it has not.
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
   [[nodiscard]] double time() const noexcept { return time_; }  ///< so far [s]
+  /// In place of tick(), when nothing was read: the force is 0.
+  double lost() noexcept { return missed(); }
   /// Ends it: the force is zero from now on.
   void stop() noexcept {
     if (!done()) fail("it was stopped before the end");
@@ -83,9 +89,9 @@ class axis_identification {
     found.noise = steps_.noise();
     found.latency = m.latency;
     found.longest_tick = ticks_.longest();
-    found.mass_best = m.mass.value;
-    found.damping_best = (m.damping[0].value + m.damping[1].value) / 2.0;
-    found.friction_best = m.friction.value;
+    found.likely_mass = m.mass.value;
+    found.likely_damping = (m.damping[0].value + m.damping[1].value) / 2.0;
+    found.likely_friction = m.friction.value;
     found.load = m.load.value;
     found.explained = m.explained;
     found.remark = friction_problem_;
@@ -108,8 +114,9 @@ class axis_identification {
     done
   };
   static constexpr double elastic = 120e-6;  // motion that is no slip [m]
-  static constexpr double margin = 0.95;     // of what no statistics sees
-  static constexpr double slowest = 0.03;    // of the windows that count [m/s]
+  static constexpr double untold = 0.6;    // share of friction that is taken not to creep, unasked
+  static constexpr double margin = 0.95;   // of what no statistics sees
+  static constexpr double slowest = 0.03;  // of the windows that count [m/s]
 
   void fail(const char* why) noexcept {
     problem_ = why;
@@ -120,6 +127,7 @@ class axis_identification {
     in_phase_ = 0.0;
   }
   double missed() noexcept {
+    if (done()) return 0.0;
     ++missed_;
     regression_.interrupt();
     seen_ = 0;
@@ -171,18 +179,20 @@ class axis_identification {
   void state_friction(axis_found& found) const noexcept {
     found.uneven = ramp_.unevenness();
     const double soft = ramp_.compliance_at_most(step());
-    found.presliding = 1.05 * soft * ramp_.most();
-    found.presliding_best = kernels::larger(ramp_.compliance(), 0.0) * ramp_.most();
-    found.creep_seen = passed_ != 0;
+    found.presliding = 1.15 * soft * ramp_.most();
+    found.likely_presliding = kernels::larger(ramp_.compliance(), 0.0) * ramp_.most();
     if (passed_ < 0) {
       found.remark = "dry friction: none to rely on, it creeps under a force that comes and goes";
       return;
     }
+    // A device that creeps from 0.6 of its friction on (untold) goes by about 3.2 (s − 0.6)³ p in a cycle
+    // up to the share s of it (dupont_friction): was that enough to be seen?
+    const double beyond = kernels::larger(cap_ / kinetic_ - untold, 0.0);
+    const double surely = found.likely_presliding - 0.2 * step();
+    const bool telling = 3.2 * beyond * beyond * beyond * surely * cycles_ > 1.6 * step();
     double share = shares[static_cast<std::size_t>(passed_)];
-    const bool resolved = found.presliding_best > step() / 3.0 &&
-                          0.08 * found.presliding_best * cycles_ > 1.5 * step();
     if (passed_ > 0) share *= 0.7;
-    if (passed_ == 0 && !resolved) share = 0.6;
+    if (passed_ == 0 && !telling) share = untold;
     found.creep = share;
     found.friction = share * cap_;
   }
@@ -191,7 +201,10 @@ class axis_identification {
   double relay(double force, double amplitude) noexcept {
     return relay_.tick(x_, v_, force, amplitude, 1.5 * steps_.so_far() + 20e-6);
   }
-  double swing(double force, double amplitude) noexcept {
+  double swing(double wanted, double amplitude) noexcept {
+    if (relay_.sweeps() == eased_at_) return relay(swung_, amplitude);
+    eased_at_ = relay_.sweeps();
+    const double force = kernels::larger(wanted, 0.8 * swung_);  // less by little and little
     if (force != swung_) relay_.change(swung_, force, rubs_, pulls_, p_.stroke);
     swung_ = force;
     return relay(force, amplitude);
@@ -297,8 +310,7 @@ class axis_identification {
 
   // ------------------------------------------------------------------ slow: friction broken away
   double kick() noexcept {
-    constexpr double golden = 0.6180339887498949;  // places that no period of gears or cables meets
-    const double share = golden * (place_ + 1) - std::floor(golden * (place_ + 1));
+    const double share = golden(place_ + 1);  // places that no period of gears or cables meets
     const double wanted = (1.2 * share - 0.6) * p_.stroke;
     const bool there = (x_ - wanted) * (last_x_ - wanted) <= 0.0;
     if ((relay_.sweeps() - kicked_from_ >= 2 && there) || in_phase_ > 3.0) {
@@ -309,6 +321,11 @@ class axis_identification {
     return swing(swing_, 0.8 * p_.stroke);
   }
   [[nodiscard]] double step() const noexcept { return steps_.so_far(); }
+  /// The n-th of numbers in [0, 1) that never repeat and never crowd.
+  [[nodiscard]] static double golden(int n) noexcept {
+    const double x = 0.6180339887498949 * n;
+    return x - std::floor(x);
+  }
   /// For how long it has been at rest [s], but for what friction's spring rings.
   [[nodiscard]] double resting() noexcept { return rest_.still(x_, dt_, 1.01 * step() + elastic); }
   [[nodiscard]] double balanced(double friction_force) const noexcept {
@@ -337,7 +354,7 @@ class axis_identification {
         next_level();
       } else {
         after_slip_ = false;
-        pushes_left_ = 3;
+        pushes_left_ = 4;
         way_ = place_ % 2 == 0 ? 1 : -1;
         enter(phase::condition);
       }
@@ -392,7 +409,8 @@ class axis_identification {
            .step = step()});
       --pushes_left_;
       after_slip_ = true;
-      go_on_ = (++slips_ * 5) % 8;  // ticks, so that it stops anywhere between two steps
+      go_on_ =
+          static_cast<int>(12.0 * golden(++slips_));  // ticks, so that it stops anywhere in a step
       enter(phase::release);
       rest_.restart();
       return force;
@@ -508,7 +526,7 @@ class axis_identification {
   std::array<seen, 32> recent_{};
   int seen_ = 0, samples_ = 0, missed_ = 0, missing_ = 0;
   double start_ = 0.0, x_ = 0.0, last_x_ = 0.0, v_ = 0.0, dt_ = 0.0, time_ = 0.0, in_phase_ = 0.0;
-  int window_ = 16, window_since_ = 0, park_window_ = 8;
+  int eased_at_ = 0, window_ = 16, window_since_ = 0, park_window_ = 8;
   double swing_ = 0.0;                             // force of the sweeps [N]
   double swung_ = 0.0, rubs_ = 0.0, pulls_ = 0.0;  // with it, friction and load, roughly [N]
   double kinetic_ = 0.0;                           // friction at speed, from below [N]

@@ -18,18 +18,19 @@ namespace identification {
 
 class encoder_step {
  public:
+  /// `rounding` is that of the scalar in which positions come.
+  explicit encoder_step(double rounding = std::numeric_limits<double>::epsilon()) noexcept
+      : rounding_(rounding) {}
+
   /// A position [m]; `slow` says that the device is at rest or next to it.
   void book(double position, bool slow) noexcept {
-    if (count_ == 0) {
-      first_ = position;
-      rounding_ = std::numeric_limits<double>::epsilon();
-    }
     ++count_;
     const double moved = kernels::magnitude(position - last_);
     const double blur =
-        16.0 * rounding_ * (kernels::magnitude(position) + kernels::magnitude(first_));
+        2.0 * rounding_ * (kernels::magnitude(position) + kernels::magnitude(last_));
     if (count_ > 1 && moved > blur && moved < least_ * (1.0 - 0.05)) {
       least_ = moved;
+      blur_ = blur;
       misfits_ = asked_ = 0;
     }
     if (count_ > 1 && moved > blur) look(position);
@@ -47,7 +48,7 @@ class encoder_step {
     return asked_ >= 20 && misfits_ * 50 <= asked_ && kernels::is_finite(least_);
   }
   /// q [m], an upper bound; 0 if there is no lattice.
-  [[nodiscard]] double step() const noexcept { return has_step() ? least_ * (1.0 + 1e-6) : 0.0; }
+  [[nodiscard]] double step() const noexcept { return has_step() ? least_ + blur_ : 0.0; }
   /// What a position may be off by beside the step, from end to end [m].
   [[nodiscard]] double noise() const noexcept {
     return has_step() ? kernels::larger(largest_turn_ - 2.0 * least_, 0.0) : largest_turn_;
@@ -66,7 +67,7 @@ class encoder_step {
     if (off > 0.02 + 1e-4 * kernels::magnitude(steps)) ++misfits_;
   }
 
-  double first_ = 0.0, last_ = 0.0, before_ = 0.0, rounding_ = 0.0;
+  double rounding_, last_ = 0.0, before_ = 0.0, blur_ = 0.0;
   double least_ = std::numeric_limits<double>::infinity();
   double largest_turn_ = 0.0;
   long count_ = 0, asked_ = 0, misfits_ = 0;

@@ -215,6 +215,11 @@ class motion_regression {
       const double way = sign * (at(to).position - at(from).position);
       if (!(way > slowest * lasted + step)) return 0;
     }
+    const int last = ticks / 8 > 2 ? ticks / 8 : 2;  // it may have begun to turn
+    double lasted = 0.0;
+    for (int j = newest_ - last; j < newest_; ++j) lasted += at(j).length;
+    const double way = sign * (at(newest_).position - at(newest_ - last).position);
+    if (!(way > slowest * lasted + step)) return 0;
     return up ? 1 : -1;
   }
 
@@ -223,8 +228,9 @@ class motion_regression {
 
   /// Least squares by Cholesky's factors of the scaled normal equations.
   template <int Extra>
-  [[nodiscard]] static bool least_squares(const table& z, const std::array<int, 6 + Extra>& which,
-                                          Eigen::Matrix<double, 6 + Extra, 1>& share) noexcept {
+  [[nodiscard]] static bool least_squares(
+      const table& z, const std::array<int, static_cast<std::size_t>(6 + Extra)>& which,
+      Eigen::Matrix<double, 6 + Extra, 1>& share) noexcept {
     constexpr int n = 6 + Extra;
     square<Extra> a;
     Eigen::Matrix<double, n, 1> r, scale;

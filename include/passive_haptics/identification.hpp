@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What a device is, measured on it: before a promise rests on numbers, let it say them itself.
+//
+//   identify.hpp               identify<P>(device): every axis, in a loop of its own
+//   axis_identification.hpp    tick(position, dt) → force, then result(): one axis, in yours
+//   axis_found.hpp             the bounds, and stated(), what a promise may rest on
+//   describe.hpp               a table, the composition to paste, its stiffness budget
+//   identification_file.hpp    save(), load()
+//
+// The method, what it has been tried on and what it cannot find: docs/design/identification.md.
+
+#include <passive_haptics/identification/describe.hpp>
+#include <passive_haptics/identification/identification_file.hpp>
+#include <passive_haptics/identification/identify.hpp>

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What was found, for people: a table, the composition to paste, and how stiff its walls may be.
+
+#include <passive_haptics/identification/axis_found.hpp>
+
+#include <cstdio>
+#include <string>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace identification {
+
+namespace detail {
+
+/// printf with numbers.
+template <class... Numbers>
+[[nodiscard]] std::string text(const char* pattern, const Numbers&... numbers) {
+  char line[600];
+  std::snprintf(line, sizeof line, pattern, numbers...);
+  return line;
+}
+/// A lower bound in three digits, and an upper one: never beyond what was found.
+[[nodiscard]] inline double rounded(double x, bool up) noexcept {
+  if (!(x > 0.0)) return 0.0;
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2.0);
+  return (up ? std::ceil(x / unit - 1e-9) : std::floor(x / unit + 1e-9)) * unit;
+}
+
+}  // namespace detail
+
+/// One line for each number of an axis.
+[[nodiscard]] inline std::string table_of(const axis_found& a) {
+  using detail::text;
+  if (a.problem != nullptr) return std::string("  ") + a.problem + '\n';
+  std::string all;
+  all += text("  mass                 at least %8.3f kg      likely %.3f\n", a.mass, a.likely_mass);
+  all += a.damping > 0.0
+             ? text("  damping              at least %8.3f N·s/m   likely %.3f, at most %.3f\n",
+                    a.damping, a.likely_damping, a.damping_max)
+             : text("  damping              not found               at most %.3f N·s/m\n",
+                    a.damping_max);
+  if (a.friction > 0.0) {
+    all += text("  dry friction         at least %8.3f N       likely %.3f in motion\n", a.friction,
+                a.likely_friction);
+    all +=
+        text("    breaks away at     %.3f to %.3f N forward, %.3f to %.3f N backward\n",
+             a.breakaway_least[1], a.breakaway_most[1], a.breakaway_least[0], a.breakaway_most[0]);
+    all += text("  presliding           at most  %8.1f µm      likely %.1f\n", 1e6 * a.presliding,
+                1e6 * a.likely_presliding);
+  } else {
+    all += "  dry friction         not found\n";
+  }
+  if (a.remark != nullptr) all += std::string("    ") + a.remark + '\n';
+  all += a.quantum > 0.0 ? text("  step of the position at most  %8.2f µm\n", 1e6 * a.quantum)
+                         : std::string("  step of the position none seen\n");
+  all += text("  noise beside it      at most  %8.2f µm\n", 1e6 * a.noise);
+  all += text("  latency              %d ticks\n", a.latency);
+  all += text("  longest tick seen    %.3f ms\n", 1e3 * a.longest_tick);
+  all += text("  constant load        %.2f N; the motion is explained to %.2f %%\n", a.load,
+              100.0 * a.explained);
+  return all;
+}
+
+/// The composition that rests on what was found, to be pasted, and its stiffness budget.
+template <int Dof>
+[[nodiscard]] std::string composition_of(const device_found<Dof>& found,
+                                         const design::intended_use& use = {}) {
+  using detail::rounded;
+  using detail::text;
+  if (found.problem() != nullptr) return std::string(found.problem()) + '\n';
+  const design::stated_device d = found.stated();
+  if (!(d.damping > 0.0)) {
+    return "There is no viscous damping to rely on, so no ledger can be composed: identify again "
+           "with "
+           "a longer stroke, a longer sweep_time or more force.\n";
+  }
+  const double m = rounded(d.mass, false), q = rounded(d.quantum, true);
+  std::string all = text("using scene = ph::space<double, %d>;\n", Dof);
+  all +=
+      "ph::local_model wall{scene{},\n"
+      "                     ph::followed<ph::half_space<scene>>{},\n"
+      "                     ph::turn_limited{.rate = 2},\n";
+  all += text("                     ph::damped_spring{.mass = %.3g, .force_limit = %.3g},\n", m,
+              rounded(d.force_limit, false));
+  if (q > 0.0) {
+    all += text(
+        "                     ph::dual_ledger{.damping = {.coefficient = %.3g,\n"
+        "                                                 .coulomb = %.3g,\n"
+        "                                                 .presliding = %.3g},\n"
+        "                                     .quantum = %.3g},\n",
+        rounded(d.damping, false), rounded(d.friction, false), rounded(d.presliding, true), q);
+  } else {
+    all += text("                     ph::reduced_energy{.damping = %.3g},\n",
+                rounded(d.damping, false));
+  }
+  all += text(
+      "                     ph::bound_chain{\n"
+      "                         ph::reachable_bound{.mass = %.3g, .hand_force = %.3g},\n"
+      "                         ph::actuator_limit{.most = %.3g}},\n",
+      m, use.hand_force, rounded(d.force_limit, false));
+  all += text("                     ph::late_loop_limits<%d>{.longest_tick = %.3g}",
+              found.latency(), rounded(d.longest_tick, true));
+  all += q > 0.0
+             ? text(",\n                     ph::mass_observer{.mass = %.3g, .quantum = %.3g}};\n",
+                    m, q)
+             : std::string("};\n");
+  all += "// ph::strict_bound{} in place of reachable_bound: for any hand, and softer.\n";
+  const design::budget b = design::stiffness_budget(d, use);
+  all += text("// Its ledger pays for walls of up to %.0f N/m: %s binds.\n", b.stiffness,
+              to_string(b.binding));
+  all += std::string("// ") + b.because() + '\n';
+  return all;
+}
+
+}  // namespace identification
+}  // namespace v0
+}  // namespace passive_haptics

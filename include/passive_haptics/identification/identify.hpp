@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Identifies a device axis by axis, in a loop of its own, before a promise is made on it.
+//
+//     std::printf("let go of the device: it will push with up to %g N\n", p.force);
+//     const auto found = identification::identify<scene>(device, p, [&] { return stop.load(); });
+//     if (found.problem()) std::puts(found.problem());
+//     else std::cout << identification::composition_of(found);        // describe.hpp
+//
+// A minute an axis. Meanwhile a soft damped spring keeps each of the others where it began. However it
+// ends, stopped or with a problem, the last command is a force of zero: hold the device by then. What is
+// one's own loop calls axis_identification::tick() instead.
+
+#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/identification/axis_identification.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace identification {
+
+namespace detail {
+
+/// Keeps an axis that is not measured where it was, softly: lighter than 30 g or later than 5 ticks it
+/// would ring.
+class soft_hold {
+ public:
+  double tick(double position, double dt, double most) noexcept {
+    if (!kernels::is_finite(position) || !passive_haptics::detail::positive(dt)) return 0.0;
+    if (!begun_) home_ = last_ = position;
+    begun_ = true;
+    speed_ += ((position - last_) / dt - speed_) * dt / (dt + filter);
+    last_ = position;
+    return std::clamp(-stiffness * (position - home_) - damping * speed_, -most, most);
+  }
+
+ private:
+  static constexpr double stiffness = 100.0;  // [N/m]
+  static constexpr double damping = 1.5;      // [N·s/m]
+  static constexpr double filter = 3e-3;      // [s]
+
+  double home_ = 0.0, last_ = 0.0, speed_ = 0.0;
+  bool begun_ = false;
+};
+
+}  // namespace detail
+
+/// Measures every axis of `device`, one after the other; stop() is asked once a tick.
+template <port P, haptic_device_for<P> Device, class Stop>
+[[nodiscard]] device_found<P::dof> identify(Device& device, const identification_parameters& p,
+                                            Stop&& stop) {
+  device_found<P::dof> found{.force_limit = p.force};
+  std::array<detail::soft_hold, static_cast<std::size_t>(P::dof)> hold{};
+  for (int axis = 0; axis < P::dof; ++axis) {
+    axis_identification of(p,
+                           static_cast<double>(std::numeric_limits<typename P::scalar>::epsilon()));
+    typename P::effort force = P::zero();
+    while (!of.done()) {
+      const auto sample = device.exchange(force);
+      const typename P::pose x = sample.position;
+      const auto dt = static_cast<double>(sample.dt);
+      if (stop()) of.stop();
+      force = P::zero();
+      for (int i = 0; i < P::dof && !of.done(); ++i) {
+        const auto place = static_cast<double>(P::component(x, i));
+        double f = 0.0;
+        if (i == axis) {
+          f = sample.valid ? of.tick(place, dt) : of.lost();
+        } else if (sample.valid) {
+          f = hold[static_cast<std::size_t>(i)].tick(place, dt, p.force);
+        }
+        P::component(force, i) = static_cast<typename P::scalar>(f);
+      }
+    }
+    static_cast<void>(device.exchange(typename P::effort(P::zero())));
+    found.axes[static_cast<std::size_t>(axis)] = of.result();
+    if (of.problem() != nullptr) {
+      for (int i = axis + 1; i < P::dof; ++i) {
+        found.axes[static_cast<std::size_t>(i)].problem = "not measured: an axis before it failed";
+      }
+      break;
+    }
+  }
+  return found;
+}
+template <port P, haptic_device_for<P> Device>
+[[nodiscard]] device_found<P::dof> identify(Device& device,
+                                            const identification_parameters& p = {}) {
+  return identify<P>(device, p, [] { return false; });
+}
+
+}  // namespace identification
+}  // namespace v0
+}  // namespace passive_haptics
