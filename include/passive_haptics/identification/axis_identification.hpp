@@ -43,7 +43,7 @@ class axis_identification {
     track_velocity(dt);
     regression_.sample(x_, dt);
     clock_.book(samples_, position);
-    steps_.book(position, phase_ == phase::rest && in_phase_ > 0.1);
+    steps_.book(position, phase_ == phase::rest && in_phase_ > 0.1, unchanged_ > 12);
     if (kernels::magnitude(x_) > p_.workspace) {
       fail(
           "it left the workspace: nothing may push it, or state a larger workspace or a shorter "
@@ -57,6 +57,8 @@ class axis_identification {
     if (done()) force = 0.0;
     force = std::clamp(force, -p_.force, p_.force);
     regression_.commanded(force);
+    unchanged_ = force == last_force_ ? unchanged_ + 1 : 0;
+    last_force_ = force;
     return force;
   }
 
@@ -130,7 +132,8 @@ class axis_identification {
     if (done()) return 0.0;
     ++missed_;
     regression_.interrupt();
-    seen_ = 0;
+    steps_.interrupt();
+    seen_ = unchanged_ = 0;
     if (++missing_ > 50 || (missed_ > 200 && missed_ * 20 > samples_)) {
       fail("the device gave too few good samples");
     }
@@ -179,7 +182,7 @@ class axis_identification {
   void state_friction(axis_found& found) const noexcept {
     found.uneven = ramp_.unevenness();
     const double soft = ramp_.compliance_at_most(step());
-    found.presliding = 1.15 * soft * ramp_.most();
+    found.presliding = 1.1 * soft * ramp_.most();
     found.likely_presliding = kernels::larger(ramp_.compliance(), 0.0) * ramp_.most();
     if (passed_ < 0) {
       found.remark = "dry friction: none to rely on, it creeps under a force that comes and goes";
@@ -526,6 +529,8 @@ class axis_identification {
   std::array<seen, 32> recent_{};
   int seen_ = 0, samples_ = 0, missed_ = 0, missing_ = 0;
   double start_ = 0.0, x_ = 0.0, last_x_ = 0.0, v_ = 0.0, dt_ = 0.0, time_ = 0.0, in_phase_ = 0.0;
+  double last_force_ = 0.0;
+  int unchanged_ = 0;  // for so many ticks
   int eased_at_ = 0, window_ = 16, window_since_ = 0, park_window_ = 8;
   double swing_ = 0.0;                             // force of the sweeps [N]
   double swung_ = 0.0, rubs_ = 0.0, pulls_ = 0.0;  // with it, friction and load, roughly [N]

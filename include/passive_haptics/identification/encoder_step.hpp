@@ -4,11 +4,14 @@
 //
 // Positions with steps q lie on a lattice, so two of them differ by a multiple of q: the least difference
 // seen is a multiple of q, never less, and q itself once the device has turned round slowly. Whether they
-// do lie on a lattice is asked of every position; where they do not (noise, kinematics behind the
-// encoders), the largest second difference at rest is what a position may be off by.
+// do lie on a lattice is asked of every position. Where they do not (noise, kinematics behind the
+// encoders), third differences show the error of a position: under a force that does not change the
+// motion has next to none, and errors of deviation s have 20 s². A sum of three uniform errors, which is
+// what three encoders make of a position, is no wider than 6 s; a tenth is added.
 
 #include <passive_haptics/kernels.hpp>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -22,26 +25,35 @@ class encoder_step {
   explicit encoder_step(double rounding = std::numeric_limits<double>::epsilon()) noexcept
       : rounding_(rounding) {}
 
-  /// A position [m]; `slow` says that the device is at rest or next to it.
-  void book(double position, bool slow) noexcept {
+  /// A position [m]; `resting` says that the device is at rest, `steady` that the force on it has not
+  /// changed for some ticks.
+  void book(double position, bool resting, bool steady) noexcept {
     ++count_;
-    const double moved = kernels::magnitude(position - last_);
+    const double moved = kernels::magnitude(position - last_[0]);
     const double blur =
-        2.0 * rounding_ * (kernels::magnitude(position) + kernels::magnitude(last_));
-    if (count_ > 1 && moved > blur && moved < least_ * (1.0 - 0.05)) {
-      least_ = moved;
-      blur_ = blur;
-      misfits_ = asked_ = 0;
+        2.0 * rounding_ * (kernels::magnitude(position) + kernels::magnitude(last_[0]));
+    if (count_ > 1 && moved > blur) {
+      if (moved < 0.95 * least_) {
+        least_ = moved;
+        blur_ = blur;
+        misfits_ = asked_ = 0;
+      }
+      look(moved);
     }
-    if (count_ > 1 && moved > blur) look(position);
-    slow_ = slow ? slow_ + 1 : 0;
-    if (slow_ > 3) {
+    at_rest_ = resting ? at_rest_ + 1 : 0;
+    if (at_rest_ > 3) {
       largest_turn_ =
-          kernels::larger(largest_turn_, kernels::magnitude(position - 2.0 * last_ + before_));
+          kernels::larger(largest_turn_, kernels::magnitude(position - 2.0 * last_[0] + last_[1]));
     }
-    before_ = last_;
-    last_ = position;
+    if (steady && count_ > 3) {
+      const double third = position - 3.0 * last_[0] + 3.0 * last_[1] - last_[2];
+      thirds_ += third * third;
+      ++steady_;
+    }
+    last_ = {position, last_[0], last_[1]};
   }
+  /// A sample is missing.
+  void interrupt() noexcept { count_ = at_rest_ = 0; }
 
   /// The positions lie on a lattice.
   [[nodiscard]] bool has_step() const noexcept {
@@ -51,27 +63,31 @@ class encoder_step {
   [[nodiscard]] double step() const noexcept { return has_step() ? least_ + blur_ : 0.0; }
   /// What a position may be off by beside the step, from end to end [m].
   [[nodiscard]] double noise() const noexcept {
-    return has_step() ? kernels::larger(largest_turn_ - 2.0 * least_, 0.0) : largest_turn_;
+    if (has_step()) return kernels::larger(largest_turn_ - 2.0 * least_, 0.0);
+    return kernels::larger(largest_turn_, 6.6 * deviation());
   }
   /// To go on with while nothing is known for sure [m].
-  [[nodiscard]] double so_far() const noexcept {
-    return has_step() ? least_ : kernels::larger(largest_turn_, 0.0);
-  }
+  [[nodiscard]] double so_far() const noexcept { return has_step() ? least_ : 3.5 * deviation(); }
 
  private:
-  /// Is it a multiple of the least difference away from the first?
-  void look(double position) noexcept {
-    const double steps = (position - last_) / least_;
+  /// Is the way a multiple of the least difference?
+  void look(double moved) noexcept {
+    const double steps = moved / least_;
+    const double blurred = 0.02 + 2.0 * steps * blur_ / least_;
+    if (blurred > 0.2) return;
     ++asked_;
-    const double off = kernels::magnitude(steps - std::round(steps));
-    if (off > 0.02 + 1e-4 * kernels::magnitude(steps)) ++misfits_;
+    if (kernels::magnitude(steps - std::round(steps)) > blurred) ++misfits_;
+  }
+  [[nodiscard]] double deviation() const noexcept {
+    return steady_ > 20 ? std::sqrt(thirds_ / (20.0 * static_cast<double>(steady_))) : 0.0;
   }
 
-  double rounding_, last_ = 0.0, before_ = 0.0, blur_ = 0.0;
+  double rounding_, blur_ = 0.0;
   double least_ = std::numeric_limits<double>::infinity();
-  double largest_turn_ = 0.0;
-  long count_ = 0, asked_ = 0, misfits_ = 0;
-  int slow_ = 0;
+  double largest_turn_ = 0.0, thirds_ = 0.0;
+  std::array<double, 3> last_{};
+  long count_ = 0, asked_ = 0, misfits_ = 0, steady_ = 0;
+  int at_rest_ = 0;
 };
 
 }  // namespace identification

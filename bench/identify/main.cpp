@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// identify: what a device is, measured on it.
+//
+//     identify --device Touch --write touch.txt     a simulated one, and the controller that rests on it
+//     identify --read touch.txt                     the same from the file
+//     identify --study 1000 --out DIR               how often the bounds hold, on devices drawn at random
+//
+// A real device: examples/18_falcon_identify.cpp, or identification::identify() on your own.
+
+#include "program.hpp"
+
+#include <csignal>
+
+namespace {
+
+std::atomic<bool> stop = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, [](int) { stop = true; });
+  return identify::run({argv + 1, argv + argc}, stop);
+}

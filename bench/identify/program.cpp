@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program.hpp"
+
+#include <passive_haptics/environment/decimal.hpp>
+#include <passive_haptics/simulation/presets.hpp>
+
+namespace identify {
+
+namespace {
+
+ex::option a_quantity(const std::string& name, const std::string& unit, const std::string& help,
+                      double scale, double& where) {
+  return {name + " " + unit, help, [&where, name, unit, scale](const std::string& text) {
+            const auto value = ph::environment::to_decimal(text);
+            if (!value || !(*value >= 0.0) || !ph::kernels::is_finite(*value)) {
+              ex::complain(name + " " + text + ": give a number of " + unit + ", ≥ 0");
+            }
+            where = *value * scale;
+          }};
+}
+
+const sim::device_preset* preset_of(const std::string& name) {
+  for (const auto& preset : sim::all_presets) {
+    if (name == preset.name) return &preset;
+  }
+  return nullptr;
+}
+
+int show(const identification::device_found<1>& found) {
+  std::cout << identification::table_of(found.axes[0]) << '\n'
+            << identification::composition_of(found);
+  return found.problem() == nullptr ? 0 : 1;
+}
+
+int show_file(const std::string& file) {
+  const auto loaded = identification::load<1>(file);
+  if (!loaded.fault.empty()) {
+    std::cerr << "identify: " << loaded.fault << '\n';
+    return 1;
+  }
+  std::cout << loaded.device << '\n';
+  return show(loaded.found);
+}
+
+int identify_simulated(const settings& chosen, const std::atomic<bool>& stop) {
+  const auto& preset = *preset_of(chosen.device);
+  std::cout << preset.name << ", simulated: up to " << chosen.how.force << " N, "
+            << 1e3 * chosen.how.stroke << " mm to either side of where it is, about a minute\n";
+  const auto work = [&](auto device) {
+    const auto found =
+        identification::identify<line>(device, chosen.how, [&] { return stop.load(); });
+    if (stop) throw ex::interrupted("stopped: the force is zero, nothing was written");
+    const int code = show(found);
+    if (code == 0 && !chosen.file.empty()) {
+      const auto fault = identification::save(chosen.file, found, preset.name);
+      if (!fault.empty()) throw std::runtime_error(fault);
+    }
+    return code;
+  };
+  if (preset.friction > 0.0 && chosen.presliding > 0.0) {
+    return work(sim::device<line, sim::no_hand<line>, sim::slider_and_spring>(
+        preset.without_friction<line>(), {}, preset.friction_of(chosen.presliding)));
+  }
+  return work(sim::device<line>(preset.parameters<line>()));
+}
+
+}  // namespace
+
+settings parse(const std::vector<std::string>& arguments) {
+  settings chosen;
+  ex::read_options(
+      "identify",
+      {{"--device NAME", "of the simulated ones (default: Touch)",
+        [&](const std::string& name) {
+          std::string all;
+          for (const auto& preset : sim::all_presets) {
+            all += (all.empty() ? "" : "; ") + std::string(preset.name);
+          }
+          if (preset_of(name) == nullptr) ex::complain("--device " + name + ": there are " + all);
+          chosen.device = name;
+        }},
+       a_quantity("--presliding", "UM", "of its friction (default: 15)", 1e-6, chosen.presliding),
+       a_quantity("--force", "N", "the most that is commanded (default: 3)", 1.0, chosen.how.force),
+       a_quantity("--stroke", "MM", "to either side (default: 8)", 1e-3, chosen.how.stroke),
+       a_quantity("--workspace", "MM", "beyond this the force is zero (default: 40)", 1e-3,
+                  chosen.how.workspace),
+       ex::a_text("--write FILE", "keep what was found", chosen.file),
+       ex::a_text("--read FILE", "show what was kept, and measure nothing", chosen.read),
+       ex::a_number("--study", "devices drawn at random: how often do the bounds hold?",
+                    chosen.study),
+       ex::a_number("--seed", "of the first of them (default: 1)", chosen.seed),
+       ex::a_text("--out DIR", "where the study goes (default: identify)", chosen.out),
+       ex::a_number("--threads", "(default: as many as the machine has)", chosen.threads)},
+      arguments, [&] {
+        if (const auto fault = chosen.how.check()) {
+          ex::complain(std::string(fault.parameter) + " = " + ex::format("%g", fault.value) +
+                       ", must be " + fault.remedy);
+        }
+      });
+  return chosen;
+}
+
+int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop) {
+  return ex::guarded("identify", [&] {
+    const settings chosen = parse(arguments);
+    if (chosen.study > 0) return run_study(chosen, stop);
+    if (!chosen.read.empty()) return show_file(chosen.read);
+    return identify_simulated(chosen, stop);
+  });
+}
+
+}  // namespace identify

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The program, apart from main(), so that a test can run it.
+
+#include "../common/rows.hpp"
+#include "subject.hpp"
+
+namespace identify {
+
+namespace ex = experiments;
+
+struct settings {
+  std::string device = "Touch";  ///< simulated: a name of sim::all_presets
+  double presliding = 15e-6;     ///< of its friction [m]
+  std::string file;              ///< to write what was found; empty: none
+  std::string read;              ///< a file to read instead
+  std::string out = "identify";  ///< folder of the study
+  int study = 0;                 ///< devices; 0: no study
+  int seed = 1;                  ///< of the first of them
+  int threads = 0;               ///< 0: as many as the machine has
+  identification::identification_parameters how{};
+};
+
+/// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
+[[nodiscard]] settings parse(const std::vector<std::string>& arguments);
+
+/// 0: all is well. 1: nothing was found, a file was refused, or a bound of the study holds for fewer
+/// than 99 of 100 devices. 2: an argument is wrong. 130: stopped, and nothing is half written.
+[[nodiscard]] int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop);
+
+/// A device of the study as a row of its table.
+[[nodiscard]] ex::record record_of(const verdict& v);
+
+/// The study, into a folder: a row for each device and a summary.
+[[nodiscard]] int run_study(const settings& chosen, const std::atomic<bool>& stop);
+
+}  // namespace identify

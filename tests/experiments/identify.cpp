@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A sample of the study of identified devices; `identify --study 1000` is the whole of it.
+#include "../bench/identify/program.hpp"
+#include "programs.hpp"
+#include "support/catch.hpp"
+
+using namespace programs;
+
+namespace {
+
+outcome run_quietly(const std::vector<std::string>& arguments, bool stopped = false) {
+  const std::atomic<bool> stop = stopped;
+  return quietly([&] { return identify::run(arguments, stop); });
+}
+
+}  // namespace
+
+TEST_CASE("bounds hold on devices drawn at random, and are near the truth", "[identify]") {
+  std::vector<double> masses, frictions;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const auto v = identify::identified(identify::draw(seed));
+    CAPTURE(seed, to_string(v.truth.like), v.truth.friction, v.found.friction);
+    CHECK(v.all());
+    masses.push_back(v.found.mass / v.truth.mass);
+    if (v.truth.friction > 0.05) frictions.push_back(v.found.friction / v.truth.friction);
+  }
+  std::sort(masses.begin(), masses.end());
+  std::sort(frictions.begin(), frictions.end());
+  CHECK(masses[masses.size() / 2] > 0.9);
+  CHECK(frictions[frictions.size() / 2] > 0.5);
+}
+
+TEST_CASE("the study's judge knows a bound that does not hold", "[identify]") {
+  identify::verdict v;
+  v.truth = {.mass = 0.1, .damping = 0.1, .friction = 0.1, .presliding = 10e-6, .quantum = 1e-5};
+  v.found = {.mass = 0.1,
+             .damping = 0.1,
+             .damping_max = 0.1,
+             .friction = 0.1,
+             .presliding = 10e-6,
+             .quantum = 1e-5,
+             .longest_tick = 1e-3};
+  CHECK(v.all());
+  auto wrong = v;
+  wrong.found.mass = 0.101;
+  CHECK_FALSE(wrong.all());
+  wrong = v;
+  wrong.found.friction = 0.101;
+  CHECK_FALSE(wrong.all());
+  wrong = v;
+  wrong.found.presliding = 9.9e-6;
+  CHECK_FALSE(wrong.all());
+  wrong.found.friction = 0.0;  // nobody asks for it then
+  CHECK(wrong.all());
+  wrong = v;
+  wrong.found.damping_max = 0.09;
+  CHECK_FALSE(wrong.all());
+}
+
+TEST_CASE(
+    "the identify program writes what it found, reads it back, and leaves nothing half written",
+    "[identify]") {
+  const folder out("identify");
+  const std::string file = out / "touch.txt";
+  CHECK(run_quietly({"--device", "Touch", "--write", file}, true).code == 130);
+  CHECK_FALSE(std::filesystem::exists(file));
+  CHECK(run_quietly({"--device", "Touch", "--write", file}).code == 0);
+  CHECK(run_quietly({"--read", file}).code == 0);
+  std::ofstream(file, std::ios::app) << "more\n";
+  const auto spoilt = run_quietly({"--read", file});
+  CHECK(spoilt.code == 1);
+  CHECK(spoilt.complaint.find("nothing may follow") != std::string::npos);
+  CHECK(run_quietly({"--device", "Touch", "--force", "0.1"}).code == 1);
+}
+
+TEST_CASE("the identify program says what it does not understand", "[identify]") {
+  CHECK(run_quietly({"--device", "Nobody"}).complaint.find("Touch") != std::string::npos);
+  CHECK(run_quietly({"--force", "many"}).code == 2);
+  CHECK(run_quietly({"--force", "0"}).code == 2);
+  CHECK(run_quietly({"--nonsense"}).code == 2);
+  CHECK(run_quietly({"--help"}).code == 0);
+}
