@@ -148,7 +148,7 @@ TEST_CASE("friction that creeps under a force that comes and goes is not relied 
 
 TEST_CASE("a held hand is refused, with the remedy", "[identification]") {
   using held = sim::device<d1, sim::impedance_hand<d1>, sim::slider_and_spring>;
-  for (const double stiffness : {40.0, 150.0, 300.0, 800.0, 3000.0}) {
+  for (const double stiffness : {60.0, 150.0, 300.0, 800.0, 3000.0}) {
     CAPTURE(stiffness);
     held device(grip, {.stiffness = stiffness, .damping = 2.0, .own_mass = 0.1}, rubs);
     const auto s = identified(device);

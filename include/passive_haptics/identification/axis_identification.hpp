@@ -1,6 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Identifies one axis of a device, a tick at a time.
+// Identifies one axis of a device, a tick at a time; docs/design/identification.md has the method.
+//
+//     axis_identification of({.force = 3.0, .stroke = 8e-3});
+//     while (!of.done()) sample = device.exchange(of.tick(sample.position, sample.dt));
+//     const auto found = of.result();
+//
+//   settle, sweep   to and fro across the stroke: mass, damping, friction in motion, load, latency
+//   for each place: kick there, park, balance the load, and four times
+//     condition     slip away what still rings on friction's spring
+//     rest          where is it?
+//     push          until it breaks away: break-away force, presliding
+//     release       friction brakes
+//   cycle           below break-away, does it come back?
 
 #include <passive_haptics/identification/axis_found.hpp>
 #include <passive_haptics/identification/encoder_step.hpp>
@@ -83,8 +95,6 @@ class axis_identification {
       const estimate& b = m.damping[1 - i];
       found.damping_ways[i] = kernels::larger(margin * b.at_least(3.0), 0.0);
       found.damping_max = kernels::larger(found.damping_max, b.at_most(3.0) / margin);
-      found.breakaway_least[i] = ramp_.count() > 0 ? ramp_.least(static_cast<int>(i)) : 0.0;
-      found.breakaway_most[i] = ramp_.most(static_cast<int>(i));
     }
     found.damping = kernels::smaller(found.damping_ways[0], found.damping_ways[1]);
     found.quantum = steps_.step();
@@ -180,6 +190,10 @@ class axis_identification {
   }
 
   void state_friction(axis_found& found) const noexcept {
+    for (int forward = 0; forward < 2; ++forward) {
+      found.breakaway_least[forward] = ramp_.least(forward);
+      found.breakaway_most[forward] = ramp_.most(forward);
+    }
     found.uneven = ramp_.unevenness();
     const double soft = ramp_.compliance_at_most(step());
     found.presliding = 1.1 * soft * ramp_.most();
@@ -223,7 +237,7 @@ class axis_identification {
       regression_.book(window_, relay_.sweeps(), slowest, steps_.so_far(), relay_.turned_at());
     }
     if (in_phase_ > 4.0 && relay_.sweeps() < 4) {
-      fail(in_phase_ > 4.0 && farthest() < 1e-3
+      fail(relay_.reached() < 1e-3
                ? "it hardly moves: let go of the device, or allow more force"
                : "it does not swing: let go of the device, or allow more force");
       return 0.0;
@@ -289,6 +303,9 @@ class axis_identification {
     return force;
   }
   [[nodiscard]] const char* motion_problem() const noexcept {
+    if (clock_.period() > 1) {
+      return "the sensor is slower than the loop: tick when it has something new";
+    }
     if (motion_.windows < 100) {
       return "it moves too slowly or too little: allow more force, or a longer stroke";
     }
@@ -298,11 +315,8 @@ class axis_identification {
     }
     const double spring = motion_.stiffness.value;
     if (kernels::magnitude(spring) > 4.0 * motion_.stiffness.deviation &&
-        kernels::magnitude(spring) * p_.stroke > 0.1 * p_.force) {
+        kernels::magnitude(spring) * p_.stroke > 0.05 * p_.force) {
       return "something holds it like a spring: let go of the device, and keep off its stops";
-    }
-    if (clock_.period() > 1) {
-      return "the sensor is slower than the loop: tick when it has something new";
     }
     if (kernels::magnitude(motion_.exactly.value - motion_.latency) >
         0.15 + 3.0 * motion_.exactly.deviation) {
@@ -451,7 +465,13 @@ class axis_identification {
     cap_ = 0.95 * kinetic_ * kernels::larger(1.0 - 1.25 * ramp_.unevenness(), 0.0);
     cap_ = std::min(cap_, ramp_.least());
     level_ = 0;
-    next_level();
+    if (cap_ > 0.0 && kernels::is_finite(ramp_.compliance_at_most(step()))) {
+      next_level();
+    } else {
+      friction_problem_ =
+          "dry friction: not found, it breaks away too differently from place to place";
+      enter(phase::done);
+    }
   }
   void next_level() noexcept {
     const double softest = ramp_.compliance_at_most(step());  // [m/N]
@@ -496,7 +516,6 @@ class axis_identification {
     enter(phase::done);
     return 0.0;
   }
-  [[nodiscard]] double farthest() const noexcept { return relay_.reached(); }
 
   struct mean_of {
     double sum = 0.0;

@@ -42,6 +42,16 @@ class soft_hold {
   bool begun_ = false;
 };
 
+/// Commands zero force at the end, however that comes.
+template <class P, class Device>
+struct no_force_at_the_end {
+  Device& device;
+  explicit no_force_at_the_end(Device& d) noexcept : device(d) {}
+  no_force_at_the_end(const no_force_at_the_end&) = delete;
+  no_force_at_the_end& operator=(const no_force_at_the_end&) = delete;
+  ~no_force_at_the_end() { static_cast<void>(device.exchange(typename P::effort(P::zero()))); }
+};
+
 }  // namespace detail
 
 /// Measures every axis of `device`, one after the other; stop() is asked once a tick.
@@ -53,6 +63,7 @@ template <port P, haptic_device_for<P> Device, class Stop>
   for (int axis = 0; axis < P::dof; ++axis) {
     axis_identification of(p,
                            static_cast<double>(std::numeric_limits<typename P::scalar>::epsilon()));
+    const detail::no_force_at_the_end<P, Device> end(device);
     typename P::effort force = P::zero();
     while (!of.done()) {
       const auto sample = device.exchange(force);
@@ -71,7 +82,6 @@ template <port P, haptic_device_for<P> Device, class Stop>
         P::component(force, i) = static_cast<typename P::scalar>(f);
       }
     }
-    static_cast<void>(device.exchange(typename P::effort(P::zero())));
     found.axes[static_cast<std::size_t>(axis)] = of.result();
     if (of.problem() != nullptr) {
       for (int i = axis + 1; i < P::dof; ++i) {
