@@ -293,11 +293,3 @@ TEST_CASE("every axis of a device is identified, in float as well, and stop() en
   CHECK(std::string(stopped.problem()).find("stopped") != std::string::npos);
   CHECK(identification::composition_of(stopped).find("dual_ledger") == std::string::npos);
 }
-
-TEST_CASE("without damping to rely on there is no composition", "[identification]") {
-  identification::device_found<1> found{.force_limit = 3.0};
-  found.axes[0] = {.mass = 0.1, .quantum = 1e-5, .longest_tick = 1e-3};
-  CHECK(identification::composition_of(found).find("no viscous damping") != std::string::npos);
-  found.axes[0].damping = 0.1;
-  CHECK(identification::composition_of(found).find("dual_ledger") != std::string::npos);
-}

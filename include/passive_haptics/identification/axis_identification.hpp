@@ -15,11 +15,11 @@
 //   cycle           below break-away, does it come back?
 
 #include <passive_haptics/identification/axis_found.hpp>
-#include <passive_haptics/identification/encoder_step.hpp>
 #include <passive_haptics/identification/friction_ramp.hpp>
 #include <passive_haptics/identification/motion_regression.hpp>
 #include <passive_haptics/identification/parameters.hpp>
 #include <passive_haptics/identification/relay_motion.hpp>
+#include <passive_haptics/identification/step_finder.hpp>
 #include <passive_haptics/port/measure_latency.hpp>
 #include <passive_haptics/port/measure_ticks.hpp>
 
@@ -538,7 +538,7 @@ class axis_identification {
   const char* problem_ = nullptr;
   const char* friction_problem_ = nullptr;
   tick_lengths ticks_;
-  encoder_step steps_;
+  step_finder steps_;
   passive_haptics::detail::sensor_clock clock_;
   motion_regression regression_;
   relay_motion relay_;

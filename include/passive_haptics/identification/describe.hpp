@@ -4,6 +4,7 @@
 
 #include <passive_haptics/identification/axis_found.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -83,16 +84,19 @@ template <int Dof>
       "                     ph::turn_limited{.rate = 2},\n";
   all += text("                     ph::damped_spring{.mass = %.3g, .force_limit = %.3g},\n", m,
               rounded(d.force_limit, false));
-  if (q > 0.0) {
+  if (!(q > 0.0)) {
+    all += text("                     ph::reduced_energy{.damping = %.3g},\n",
+                rounded(d.damping, false));
+  } else if (!(d.friction > 0.0)) {
+    all += text("                     ph::quantised_energy{.damping = %.3g, .quantum = %.3g},\n",
+                rounded(d.damping, false), q);
+  } else {
     all += text(
         "                     ph::dual_ledger{.damping = {.coefficient = %.3g,\n"
         "                                                 .coulomb = %.3g,\n"
         "                                                 .presliding = %.3g},\n"
         "                                     .quantum = %.3g},\n",
         rounded(d.damping, false), rounded(d.friction, false), rounded(d.presliding, true), q);
-  } else {
-    all += text("                     ph::reduced_energy{.damping = %.3g},\n",
-                rounded(d.damping, false));
   }
   all += text(
       "                     ph::bound_chain{\n"

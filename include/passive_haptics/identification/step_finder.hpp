@@ -19,10 +19,10 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
 
-class encoder_step {
+class step_finder {
  public:
   /// `rounding` is that of the scalar in which positions come.
-  explicit encoder_step(double rounding = std::numeric_limits<double>::epsilon()) noexcept
+  explicit step_finder(double rounding = std::numeric_limits<double>::epsilon()) noexcept
       : rounding_(rounding) {}
 
   /// A position [m]; `resting` says that the device is at rest, `steady` that the force on it has not

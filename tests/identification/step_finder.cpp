@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The step of a sensor: exact where positions have one, and never taken for exact where they have none.
 #include "support/catch.hpp"
-#include <passive_haptics/identification/encoder_step.hpp>
+#include <passive_haptics/identification/step_finder.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
 namespace ph = passive_haptics;
 using Catch::Matchers::WithinRel;
-using ph::identification::encoder_step;
+using ph::identification::step_finder;
 
 namespace {
 
 /// Two seconds to and fro, then at rest.
-encoder_step seen(auto shown, double rounding = std::numeric_limits<double>::epsilon()) {
-  encoder_step steps(rounding);
+step_finder seen(auto shown, double rounding = std::numeric_limits<double>::epsilon()) {
+  step_finder steps(rounding);
   for (int n = 0; n < 2000; ++n) {
     steps.book(shown(8e-3 * std::sin(7.0 * n * 1e-3)), false, n % 100 > 20);
   }
