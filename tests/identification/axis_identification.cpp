@@ -20,7 +20,7 @@ using identification::identification_parameters;
 using d1 = ph::space<double, 1>;
 using d2 = ph::space<float, 2>;
 using free_hand = sim::no_hand<d1>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 namespace {
 
@@ -181,13 +181,13 @@ TEST_CASE("samples that are no numbers give no force, few are borne, many end it
   axis_identification of;
   (void)of.tick(0.0, 1e-3);
   CHECK(of.tick(0.0, 1e-3) != 0.0);  // the control
-  CHECK(of.tick(nan, 1e-3) == 0.0);
-  CHECK(of.tick(0.0, nan) == 0.0);
+  CHECK(of.tick(no_number, 1e-3) == 0.0);
+  CHECK(of.tick(0.0, no_number) == 0.0);
   CHECK(of.tick(0.0, 0.0) == 0.0);
   CHECK(of.tick(0.0, -1e-3) == 0.0);
   CHECK(of.lost() == 0.0);
   const auto few = identified(device(), {}, [](int n, auto& sample) {
-    if (n % 997 == 0) sample.position = nan;
+    if (n % 997 == 0) sample.position = no_number;
   });
   REQUIRE(few.found.problem == nullptr);
   CHECK(few.found.mass <= 0.1);
@@ -195,11 +195,11 @@ TEST_CASE("samples that are no numbers give no force, few are borne, many end it
   CHECK(few.found.damping <= 0.3);
   CHECK(few.found.friction <= 0.2);
   const auto many = identified(device(), {}, [](int n, auto& sample) {
-    if (n % 3 == 0) sample.position = nan;
+    if (n % 3 == 0) sample.position = no_number;
   });
   CHECK(many.says("too few good samples"));
   const auto silent = identified(device(), {}, [](int n, auto& sample) {
-    if (n > 5000) sample.dt = nan;
+    if (n > 5000) sample.dt = no_number;
   });
   CHECK(silent.says("too few good samples"));
   CHECK(silent.last == 0.0);
@@ -245,13 +245,14 @@ TEST_CASE("an identification can be stopped, and refuses parameters out of their
   CHECK(of.tick(0.0, 1e-3) == 0.0);
   CHECK(std::string(of.result().problem).find("stopped") != std::string::npos);
   CHECK_FALSE(identification_parameters{}.check());
-  for (const identification_parameters& wrong : {identification_parameters{.force = 0.0},
-                                                 {.force = nan},
-                                                 {.stroke = -1.0},
-                                                 {.workspace = 10e-3},
-                                                 {.sweep_time = 0.1},
-                                                 {.places = 1},
-                                                 {.creep_cycles = 1}}) {
+  for (const identification_parameters& wrong :
+       std::initializer_list<identification_parameters>{{.force = 0.0},
+                                                        {.force = no_number},
+                                                        {.stroke = -1.0},
+                                                        {.workspace = 10e-3},
+                                                        {.sweep_time = 0.1},
+                                                        {.places = 1},
+                                                        {.creep_cycles = 1}}) {
     CHECK(wrong.check());
     axis_identification refused(wrong);
     CHECK(refused.done());

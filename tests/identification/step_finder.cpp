@@ -16,6 +16,7 @@ step_finder seen(auto shown, double rounding = std::numeric_limits<double>::epsi
   for (int n = 0; n < 2000; ++n) {
     steps.book(shown(8e-3 * std::sin(7.0 * n * 1e-3)), false, n % 100 > 20);
   }
+  steps.interrupt();  // elsewhere
   for (int n = 0; n < 500; ++n) steps.book(shown(3.14159e-3), true, true);
   return steps;
 }
