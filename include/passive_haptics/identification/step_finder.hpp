@@ -7,7 +7,7 @@
 // do lie on a lattice is asked of every position. Where they do not (noise, kinematics behind the
 // encoders), third differences show the error of a position: under a force that does not change the
 // motion has next to none, and errors of deviation s have 20 s². A sum of three uniform errors, which is
-// what three encoders make of a position, is no wider than 6 s; a tenth is added.
+// what three encoders make of a position, is no wider than 6 s; a fifth is added.
 
 #include <passive_haptics/kernels.hpp>
 
@@ -64,7 +64,7 @@ class step_finder {
   /// What a position may be off by beside the step, from end to end [m].
   [[nodiscard]] double noise() const noexcept {
     if (has_step()) return kernels::larger(largest_turn_ - 2.0 * least_, 0.0);
-    return kernels::larger(largest_turn_, 6.6 * deviation());
+    return kernels::larger(largest_turn_, 7.2 * deviation());
   }
   /// To go on with while nothing is known for sure [m].
   [[nodiscard]] double so_far() const noexcept { return has_step() ? least_ : 3.5 * deviation(); }
