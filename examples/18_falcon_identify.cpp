@@ -21,7 +21,7 @@ int identify(Device& grip) {
               p.force, 1e3 * p.stroke);
   const auto found = identification::identify<scene>(grip, p, [] { return stop.load(); });
   if (found.problem() != nullptr) return std::puts(found.problem()), 1;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     std::printf("%c\n%s", "xyz"[axis], identification::table_of(found.axes[axis]).c_str());
   }
   std::printf("\n%s", identification::composition_of(found).c_str());
