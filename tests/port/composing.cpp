@@ -7,8 +7,8 @@ namespace {
 
 /// Leaves a share, whatever it is asked.
 struct leaving {
-  static constexpr ph::guarantee passivity = ph::guarantee::none;
-  static constexpr ph::bound_traits traits{};
+  [[maybe_unused]] static constexpr ph::guarantee passivity = ph::guarantee::none;
+  [[maybe_unused]] static constexpr ph::bound_traits traits{};
   double factor = 1.0;
   [[nodiscard]] constexpr ph::parameter_fault check() const noexcept {
     if (factor == 0.0) return {"factor", factor, "not 0 in this test"};
@@ -27,8 +27,8 @@ struct leaving {
 };
 /// Answers with an effort of its own.
 struct answering {
-  static constexpr ph::guarantee passivity = ph::guarantee::none;
-  static constexpr ph::bound_traits traits{};
+  [[maybe_unused]] static constexpr ph::guarantee passivity = ph::guarantee::none;
+  [[maybe_unused]] static constexpr ph::bound_traits traits{};
   double answer = 1.0;
   [[nodiscard]] constexpr ph::parameter_fault check() const noexcept { return {}; }
   template <class Port>
