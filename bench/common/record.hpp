@@ -6,6 +6,7 @@
 #include "text.hpp"
 
 #include <concepts>
+#include <cstdint>
 
 namespace experiments {
 

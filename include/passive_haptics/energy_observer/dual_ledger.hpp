@@ -127,7 +127,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
       certificates_.follow(change, doubt, damping_, steps_);
       if (moved) {
         detail::book(energy_, certificates_.slip(shown, damping_, steps_));
-        if (!(static_cast<scalar>(energy_) <= most_kept)) energy_ = most_kept;  // L7
+        if (!(static_cast<scalar>(energy_) <= most_kept())) energy_ = most_kept();  // L7
       }
     }
     take_stock();
@@ -169,7 +169,10 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
  private:
   using steps_type = part_at<Steps, P>;
   static constexpr bool rubs = damping_type::rubs;
-  static constexpr scalar most_kept = kernels::largest<scalar>() / scalar(8);  ///< a number [J]
+  /// So that it stays a number [J].
+  [[nodiscard]] static constexpr scalar most_kept() noexcept {
+    return kernels::largest<scalar>() / scalar(8);
+  }
   struct no_friction {};
   using certificates_type = std::conditional_t<rubs, detail::friction_certificates<P>, no_friction>;
 
@@ -183,7 +186,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   /// 5/2 c p [J], which elastic friction may keep back for a while.
   [[nodiscard]] constexpr scalar reserve() const noexcept {
     if constexpr (rubs) {
-      return kernels::smaller(scalar(5) * damping_.most_stored(), most_kept);
+      return kernels::smaller(scalar(5) * damping_.most_stored(), most_kept());
     } else {
       return scalar(0);
     }
@@ -217,7 +220,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     const effort held = effort(last_held_);
     if constexpr (rubs) {
       value_ = kernels::smaller(static_cast<scalar>(energy_) + certificates_.lead(held, steps_),
-                                most_kept);
+                                most_kept());
     } else {
       value_ = static_cast<scalar>(energy_) - steps_.doubt(held);
     }
