@@ -152,7 +152,7 @@ class axis_identification {
   void track_velocity(double dt) noexcept {
     const std::size_t i = static_cast<std::size_t>(++seen_) % recent_.size();
     recent_[i] = {x_, dt};
-    const int back = std::min(seen_ - 1, phase_ == phase::park ? park_window_ : 6);
+    const int back = (std::min)(seen_ - 1, phase_ == phase::park ? park_window_ : 6);
     double lasted = 0.0;
     for (int j = 0; j < back; ++j) {
       lasted += recent_[static_cast<std::size_t>(seen_ - j) % recent_.size()].length;
@@ -254,7 +254,7 @@ class axis_identification {
       const double against =
           3.0 * std::abs(first.load.value) + 2.5 * std::abs(first.friction.value);
       const double calm = 2.0 * first.mass.value * p_.stroke / (0.04 * 0.04);
-      swing_ = std::min(p_.force, std::max({against, calm, 0.2 * p_.force}));
+      swing_ = (std::min)(p_.force, (std::max)({against, calm, 0.2 * p_.force}));
     }
     rubs_ = first.friction.value;
     pulls_ = first.load.value;
@@ -266,7 +266,7 @@ class axis_identification {
   double sweep() noexcept {
     const int sweeps = relay_.sweeps();
     const bool hard = (sweeps / 6) % 2 == 1;
-    const double force = swing(hard ? std::min(p_.force, 1.5 * swing_) : swing_,
+    const double force = swing(hard ? (std::min)(p_.force, 1.5 * swing_) : swing_,
                                (sweeps / 12) % 2 == 1 ? 0.6 * p_.stroke : p_.stroke);
     if (relay_.sweeps() != window_since_) {
       window_since_ = relay_.sweeps();
@@ -279,7 +279,7 @@ class axis_identification {
     }
     if (samples_ % 3 == 0) {
       const int group = static_cast<int>(in_phase_ / p_.sweep_time * motion_regression::groups);
-      regression_.book(window_, std::min(group, motion_regression::groups - 1), slowest,
+      regression_.book(window_, (std::min)(group, motion_regression::groups - 1), slowest,
                        steps_.so_far(), relay_.turned_at());
     }
     return force;
@@ -364,7 +364,7 @@ class axis_identification {
   }
   /// The spring is let go; friction holds the device, or does not.
   double balance() noexcept {
-    const double share = std::min(in_phase_ / 0.06, 1.0);
+    const double share = (std::min)(in_phase_ / 0.06, 1.0);
     const double force = balanced((1.0 - share) * (parked_force_ + motion_.load.value));
     if (resting() > 0.2 && in_phase_ > 0.2) {
       if (cycling_) {
@@ -463,7 +463,7 @@ class axis_identification {
   // ------------------------------------------------------------------ does it creep?
   void begin_cycles() noexcept {
     cap_ = 0.95 * kinetic_ * kernels::larger(1.0 - 1.25 * ramp_.unevenness(), 0.0);
-    cap_ = std::min(cap_, ramp_.least());
+    cap_ = (std::min)(cap_, ramp_.least());
     level_ = 0;
     if (cap_ > 0.0 && kernels::is_finite(ramp_.compliance_at_most(step()))) {
       next_level();
@@ -476,7 +476,7 @@ class axis_identification {
   void next_level() noexcept {
     const double softest = ramp_.compliance_at_most(step());  // [m/N]
     const double omega = 1.0 / std::sqrt(motion_.mass.value * softest);
-    frequency_ = std::min(50.0, omega / (4.0 * 2.0 * pi));
+    frequency_ = (std::min)(50.0, omega / (4.0 * 2.0 * pi));
     cycle_ref_ = rest_.mean();
     first_ = last_ = {};
     enter(phase::cycle);
@@ -484,7 +484,7 @@ class axis_identification {
   double cycle() noexcept {
     const double peak = shares[static_cast<std::size_t>(level_)] * cap_;
     const double t = in_phase_;
-    const double edge = std::max(0.3, std::ceil(0.3 * frequency_) / frequency_);
+    const double edge = (std::max)(0.3, std::ceil(0.3 * frequency_) / frequency_);
     const double end = std::clamp(p_.creep_cycles / frequency_, 6.0 * edge, 12.0);
     cycles_ = static_cast<int>((end - 2.0 * edge) * frequency_);
     const double g = peak * (0.5 - 0.5 * std::cos(2.0 * pi * frequency_ * t));

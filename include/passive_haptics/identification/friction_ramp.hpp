@@ -44,19 +44,19 @@ class friction_ramp {
     reference_ = position;
     bins_.fill({});
   }
-  /// A position [m] under the force g [N] along the way; it has slipped once it has gone `far` [m].
-  state book(double g, double x, double far) noexcept {
+  /// A position [m] under the force g [N] along the way; it has slipped once it has gone so far, `distant` [m].
+  state book(double g, double x, double distant) noexcept {
     const double gone = way_ * (x - reference_);
-    bin& b = bins_[std::min(static_cast<std::size_t>(g / width_), bins_.size() - 1)];
+    bin& b = bins_[(std::min)(static_cast<std::size_t>(g / width_), bins_.size() - 1)];
     b.gone += gone;
     b.force += g;
     ++b.count;
-    return gone > far ? state::broken : gone < -far ? state::backwards : state::holding;
+    return gone > distant ? state::broken : gone < -distant ? state::backwards : state::holding;
   }
-  /// It has slipped, seen at g [N] and `far` [m]. Where it was after a slip, and not parked by a
+  /// It has slipped, seen at g [N] and `distant` [m]. Where it was after a slip, and not parked by a
   /// control that reacts to the very edges of the steps, its displacement counts.
-  void conclude(double g, double far, bool counts, const slip_detection& by) noexcept {
-    double low = kernels::larger(g - gained(by, far + by.step), 0.0);
+  void conclude(double g, double distant, bool counts, const slip_detection& by) noexcept {
+    double low = kernels::larger(g - gained(by, distant + by.step), 0.0);
     const double softness =
         kernels::smaller(between(0.15 * low, 0.5 * low), between(0.5 * low, 0.8 * low));
     double wobble = 0.0;  // of a mass on friction's spring
@@ -64,11 +64,11 @@ class friction_ramp {
       if (b.count == 0 || b.mean_force() > 0.4 * low) continue;
       wobble = kernels::larger(wobble, b.mean_gone() - softness * b.mean_force());
     }
-    const double near = 1.2 * by.step + 10e-6 + 1.5 * wobble;
+    const double close = 1.2 * by.step + 10e-6 + 1.5 * wobble;
     for (const bin& b : bins_) {
       if (b.count == 0 || b.mean_force() < 0.4 * low) continue;
-      if (b.mean_gone() - softness * b.mean_force() > near) {
-        low = kernels::larger(0.0, b.mean_force() - gained(by, near + by.step));
+      if (b.mean_gone() - softness * b.mean_force() > close) {
+        low = kernels::larger(0.0, b.mean_force() - gained(by, close + by.step));
         break;
       }
     }
@@ -142,9 +142,9 @@ class friction_ramp {
   }
 
   /// How much the ramp gains while a slip goes so far [N].
-  [[nodiscard]] static double gained(const slip_detection& by, double far) noexcept {
-    return by.rate * (std::cbrt(6.0 * by.mass * far / by.rate) +
-                      std::sqrt(2.0 * kernels::larger(by.damping, 0.0) * far / by.rate));
+  [[nodiscard]] static double gained(const slip_detection& by, double distant) noexcept {
+    return by.rate * (std::cbrt(6.0 * by.mass * distant / by.rate) +
+                      std::sqrt(2.0 * kernels::larger(by.damping, 0.0) * distant / by.rate));
   }
   /// Displacement over force, of the forces from g1 to g2 [m/N].
   [[nodiscard]] double between(double g1, double g2) const noexcept {
