@@ -260,7 +260,7 @@ TEST_CASE("the committed baseline is readable and has all scenes of both compile
   for (const auto& [compiler, rows] : committed) {
     INFO(compiler);
     CHECK(rows.size() ==
-          124);  // 64 of the scenes, two sides of 2 x 5 + 6 paths, and 60 of the parts
+          144);  // 64 of the scenes, two sides of 2 x 5 + 6 paths, and 80 of the parts
   }
   std::istringstream broken("heading\ng++,wall,float,composed,air,many\n");
   CHECK_THROWS_AS(cost::read_baseline(broken), std::runtime_error);
