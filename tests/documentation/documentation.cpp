@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 #include <passive_haptics/version.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -113,7 +114,11 @@ TEST_CASE("README's figures are what the programs print", "[documentation]") {
   }
   for (const auto& line : printed) {
     INFO(line);
-    CHECK(line.size() <= 100);  // a terminal shows the tables as tables
+    // in characters, and where the results are depends on who asked
+    const auto wide =
+        std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    CHECK(
+        (wide <= 100 || line.rfind("results: ", 0) == 0));  // a terminal shows the tables as tables
   }
   CHECK(std::filesystem::exists(folder / "out" / "results.json"));
   CHECK(std::filesystem::exists(folder / "out" / "index.html"));
