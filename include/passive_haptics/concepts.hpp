@@ -12,7 +12,8 @@
 //   what is asked of it
 //     source                an effort for every tick               local_contact, contacts, ...
 //   a contact                                                      contact/
-//     constraint geometry   a piece of the world: plane, triangle  constraint_geometry/
+//     surface               a piece of the world: plane, quadric   constraint_geometry/
+//     constraint geometry   one that the local model follows       constraint_geometry/
 //     supply                who owns the constraint, who moves it  constraint_geometry/
 //     normal interpolation  how fast the contact normal may turn   normal_interpolation/
 //     contact law           depth and speed to desired force       contact/
@@ -33,6 +34,7 @@
 #include <passive_haptics/port/space.hpp>
 
 #include <concepts>
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 
@@ -199,21 +201,39 @@ concept source_for = plain_value<part_at<S, P>, P> &&
   requires noexcept(s.refused(r, dt));
 };
 
+/// How the normal of a surface changes along it: not at all, evenly with its curvature, or in jumps.
+/// What is not stated is faceted: then no turn of the normal is taken for curvature.
+enum class surface_kind : std::uint8_t { flat, smooth, faceted };
+
+template <class G>
+[[nodiscard]] constexpr surface_kind kind_of() noexcept {
+  if constexpr (requires { G::kind; }) return G::kind;
+  return surface_kind::faceted;
+}
+
 /// A value that crosses threads: a piece of the world as the environment publishes it. prepare()
 /// normalises it and is false when it is unusable. at(x) probes it: `depth` [m], > 0 inside;
-/// outward(), the unit normal there; covered(), the edge test. toward(target, x, n, d) is the same
-/// piece moved so that x lies d [m] deep under the normal n.
+/// outward(), the unit normal there; covered(), the edge test. Where depth is not the distance to the
+/// surface, its gradient is not the normal: then the probe has push(), −∇depth, along which a force
+/// K·depth must act so that it gives nothing out on closed paths (docs/design/contacts.md).
 template <class G, class Space>
-concept constraint_for = plain_value<G, Space> && std::default_initializable<G> &&
+concept surface_for = plain_value<G, Space> && std::default_initializable<G> &&
     requires(G g, const G c, const typename Space::vector v, typename Space::scalar s) {
   { c.stiffness } -> std::convertible_to<typename Space::scalar>;
   { g.prepare() } -> std::same_as<bool>;
   { c.at(v).depth } -> std::convertible_to<typename Space::scalar>;
   { c.at(v).outward() } -> std::convertible_to<typename Space::vector>;
   { c.at(v).covered() } -> std::same_as<bool>;
-  { c.toward(c, v, v, s) } -> std::same_as<G>;
   requires noexcept(g.prepare());
   requires noexcept(c.at(v));
+};
+
+/// A surface that the local model of the thesis can follow: toward(target, x, n, d) is the same piece
+/// moved so that x lies d [m] deep under the normal n. Its depth falls by s when x moves by s along n.
+template <class G, class Space>
+concept constraint_for = surface_for<G, Space> &&
+    requires(const G c, const typename Space::vector v, typename Space::scalar s) {
+  { c.toward(c, v, v, s) } -> std::same_as<G>;
 };
 
 /// local() is the constraint that is felt, target() the environment's newest. One that `moves` also

@@ -28,6 +28,7 @@ struct half_space {
   using space_type = Space;
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
+  static constexpr surface_kind kind = surface_kind::flat;
 
   typename Space::coordinates point{};   ///< p, any point of the surface [m]
   typename Space::coordinates normal{};  ///< n, outward, any length but zero

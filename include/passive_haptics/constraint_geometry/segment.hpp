@@ -18,6 +18,7 @@ requires(Space::dof == 2) struct segment {
   using space_type = Space;
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
+  static constexpr surface_kind kind = surface_kind::flat;
 
   typename Space::coordinates a{}, b{};           ///< nodes [m]
   scalar stiffness{};                             ///< K [N/m], > 0

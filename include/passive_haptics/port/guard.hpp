@@ -19,10 +19,7 @@ class last_tick {
   using effort = typename P::effort;
   using commands = std::array<typename P::stored_effort, static_cast<std::size_t>(Latency) + 1>;
 
-  constexpr last_tick() noexcept {
-    commanded_.fill(P::zero());
-    position_ = P::zero();
-  }
+  constexpr last_tick() noexcept { commanded_.fill(P::zero()); }
 
   /// Where the last good sample was, if there has been one.
   [[nodiscard]] constexpr pose last() const noexcept { return position_; }
@@ -39,7 +36,7 @@ class last_tick {
 
  private:
   commands commanded_{};
-  typename P::stored_pose position_{};  ///< of the last good sample
+  typename P::stored_pose position_{};  ///< of the last good sample; the origin before the first
 };
 
 /// One per device.
