@@ -61,7 +61,7 @@ template <class Space, class Constraint = half_space<Space>>
 }
 
 /// What we recommend where the encoders' steps are felt and dry friction is sure: conditional, like
-/// reachable_bound, with E ≥ −½ c p − loan for ever. A surface is no stiffer than what the device can pay
+/// reachable_bound, with E ≥ −½ c p for ever. A surface is no stiffer than what the device can pay
 /// for; law().is_capped() says so.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
 using encoder_touch =
@@ -69,8 +69,8 @@ using encoder_touch =
                 bound_chain<reachable_bound, thermal_limit>, Limits, edge_observer>;
 
 /// Of a device as it is stated, and of the most that hand, load and friction push with [N]. One without
-/// dry friction has no budget: check() then refuses `most`, and make_touch with a mass_observer, soft at
-/// first, is what is left.
+/// dry friction has no budget: check() then refuses `most`, and what is left is quantised_energy with a
+/// mass_observer, soft at first.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
 [[nodiscard]] constexpr encoder_touch<Space, Constraint, Limits> make_encoder_touch(
     const design::stated_device& device, double hand_force, const design::intended_use& use = {},

@@ -10,7 +10,7 @@
 //                     .quantum = 55e-6}
 //
 // Dry friction is what pays on encoders: a force may change by 2c at a position that does not, for
-// nothing, and each step on the way pays c q. So a wall lasts while K q is less than that (design.hpp).
+// nothing, and each step on the way pays c q. So a wall lasts while K q is less than that (design/stiffness_budget.hpp).
 
 #include <passive_haptics/concepts.hpp>
 #include <passive_haptics/energy_observer/friction_certificates.hpp>
