@@ -54,22 +54,22 @@ struct damping_and_friction {
   }
 
   template <class Space>
-  class on {
+  class on : public isotropic_damping::on<Space> {
+    using damper = isotropic_damping::on<Space>;
+
    public:
-    using scalar = typename Space::scalar;
-    using motion = typename Space::motion;
-    using effort = typename Space::effort;
+    using typename damper::effort, typename damper::motion, typename damper::scalar;
     static_assert(
         requires { typename Space::geometry; },
         "passive_haptics: damping_and_friction has one number for all directions of a "
         "space: joints need diagonal_damping_and_friction");
 
     constexpr explicit on(const damping_and_friction& p) noexcept
-        : b_(detail::number<scalar>(p.coefficient)),
+        : damper(p.coefficient),
           c_(detail::number<scalar>(p.coulomb)),
           p_(detail::number<scalar>(p.presliding)) {}
     [[nodiscard]] constexpr damping_and_friction parameters() const noexcept {
-      return {.coefficient = static_cast<double>(b_),
+      return {.coefficient = damper::parameters().coefficient,
               .coulomb = static_cast<double>(c_),
               .presliding = static_cast<double>(p_)};
     }
@@ -80,24 +80,20 @@ struct damping_and_friction {
     }
     [[nodiscard]] constexpr scalar worst_outflow(const effort& f, scalar T) const noexcept {
       const scalar beyond = kernels::larger(Space::norm(f) - c_, scalar(0));
-      return T * beyond * beyond / (scalar(4) * b_);
+      return T * beyond * beyond / (scalar(4) * this->along_axis(0));
     }
     [[nodiscard]] constexpr scalar affordable(const effort& f, scalar E, scalar T) const noexcept {
       if (!(E >= scalar(0))) return scalar(0);
       const scalar asked = Space::norm(f);
-      const scalar most = (c_ + kernels::strict_force_bound(E, b_ / T)) *
+      const scalar most = (c_ + kernels::strict_force_bound(E, this->per_tick(f, T))) *
                           (scalar(1) - scalar(4) * kernels::rounding<scalar>());
       return asked <= most ? scalar(1) : most / asked;
     }
-    [[nodiscard]] constexpr scalar per_tick(const effort& /*along*/, scalar T) const noexcept {
-      return b_ / T;
-    }
-    [[nodiscard]] constexpr scalar along_axis(int /*i*/) const noexcept { return b_; }
 
     static constexpr bool rubs = true;
     /// Δxᵀ (b/dt) Δx [J], the damper's part alone.
     [[nodiscard]] constexpr scalar viscous(const motion& dx, scalar dt) const noexcept {
-      return b_ * Space::dot(dx, dx) / dt;
+      return damper::dissipated(dx, dt);
     }
     /// c [N], which a force gets for nothing along any direction.
     [[nodiscard]] constexpr scalar friction(const effort& /*along*/) const noexcept { return c_; }
@@ -133,7 +129,7 @@ struct damping_and_friction {
     [[nodiscard]] constexpr scalar sure() const noexcept {
       return c_ * (scalar(1) - kernels::rounding<scalar>());
     }
-    scalar b_, c_, p_;
+    scalar c_, p_;
   };
 };
 
