@@ -12,6 +12,8 @@
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/presets.hpp>
 
+#include <random>
+
 namespace sim = ph::simulation;
 
 namespace {
@@ -33,9 +35,9 @@ struct felt {
 };
 
 /// Five touches: from 3 mm outside at 10 mm/s till a hand of 300 N/m presses with 1.2 N, a second of
-/// rest there, and away. The stiffness is that of the half second after.
+/// rest there, and away. The stiffness is that of the half second after. Ticks of 1 ms (1 ± jitter).
 template <class Space, class Model>
-felt touched(Model model, double displayed) {
+felt touched(Model model, double displayed, double jitter = 0.0) {
   using scalar = typename Space::scalar;
   using hand = sim::impedance_hand<Space>;
   auto p = preset.without_friction<Space>();
@@ -49,7 +51,10 @@ felt touched(Model model, double displayed) {
   const int one = 2 * there + 1000;
   double force = 0.0, depth = 0.0;
   felt result;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> either_way(-1.0, 1.0);
   const auto go = [&](const auto& now) {
+    if (jitter > 0.0) REQUIRE(device.set_period(1e-3 * (1.0 + jitter * either_way(random))));
     const int n = now.tick % one;
     const double at = n < there ? n * 10e-6 : n < there + 1000 ? there * 10e-6 : (one - n) * 10e-6;
     device.hand().aim(surface - 3e-3 + at,
@@ -99,6 +104,17 @@ TEMPLATE_TEST_CASE("a gentle touch of encoder_touch is as stiff as was budgeted,
   CHECK(wall.least_energy >= -1e-12);
 }
 
+TEST_CASE("a gentle touch of encoder_touch stays what it is in ticks of 0.95 to 1.05 ms",
+          "[simulation][jitter]") {
+  auto loop = stated;
+  loop.longest_tick = 1.05e-3;
+  const double budget = ph::design::stiffness_budget(loop).stiffness;
+  const felt wall = touched<d1>(ph::make_encoder_touch<d1>(loop, 5.0), budget, 0.05);
+  CHECK(wall.least_stiffness > 0.9 * budget);
+  CHECK(wall.least_stiffness < 1.1 * budget);
+  CHECK(wall.least_energy >= -1e-12);
+}
+
 TEST_CASE("a gentle touch on encoders is lost where no friction is credited", "[simulation]") {
   const felt wall = touched<d1>(without_friction<d1>(), 2000.0);
   CHECK(wall.least_stiffness < 500.0);
@@ -123,6 +139,32 @@ TEST_CASE("no hand of 5 N taps or trembles energy out of encoder_touch", "[simul
     CHECK(verdict.least_energy >= -1e-12);
     CHECK(verdict.largest_force > 0.1);
     control = std::min(control, sim::challenge(bare, by, world, 40).least_energy);
+  }
+  CHECK(control < -1e-6);
+}
+
+TEST_CASE("encoder_touch a tick late loses nothing to hands of 5 N, and on time it would",
+          "[simulation]") {
+  sim::circumstances world{.damping = preset.damping,
+                           .mass = preset.mass,
+                           .friction = preset.friction,
+                           .presliding = presliding,
+                           .hand_force = 5.0,
+                           .quantum = preset.quantum,
+                           .force_limit = preset.force_limit,
+                           .latency = 1};
+  const double push = world.hand_force + preset.friction;
+  const auto told =
+      ph::make_encoder_touch<d1, ph::half_space<d1>, ph::late_loop_limits<1>>(stated, push);
+  const auto untold = ph::make_encoder_touch<d1>(stated, push);
+  double control = 0.0;
+  for (const auto by :
+       {sim::adversary::tapping, sim::adversary::random_tapping, sim::adversary::trembling}) {
+    const auto verdict = sim::challenge(told, by, world, 40);
+    CAPTURE(to_string(by), verdict.least_energy, verdict.worst_seed);
+    CHECK(verdict.least_energy >= -1e-12);
+    CHECK(verdict.largest_force > 0.1);
+    control = std::min(control, sim::challenge(untold, by, world, 40).least_energy);
   }
   CHECK(control < -1e-6);
 }
