@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What lies in a surface, taken along when the surface turns.
+
+#include <passive_haptics/port/space.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// a, turned by the least rotation that takes the unit normal `from` to the unit normal `to`:
+///     a − s (s·a)/(1 + from·to) + 2 to (from·a),   s = from + to
+/// (parallel transport along the shorter great circle). It keeps lengths, and what was across `from` is across `to`.
+/// Opposite normals have no such rotation: a is returned as it is.
+template <class Space>
+[[nodiscard]] constexpr typename Space::vector carry(const typename Space::vector& a,
+                                                     const typename Space::vector& from,
+                                                     const typename Space::vector& to) noexcept {
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  if constexpr (Space::dof == 1) {
+    return a;
+  } else {
+    const scalar together = scalar(1) + Space::dot(from, to);
+    if (!(together > scalar(1) / scalar(1 << 20))) return a;
+    const vector sum = from + to;
+    return a - sum * (Space::dot(sum, a) / together) + to * (scalar(2) * Space::dot(from, a));
+  }
+}
+
+}  // namespace v0
+}  // namespace passive_haptics
