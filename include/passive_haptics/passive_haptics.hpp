@@ -22,6 +22,7 @@
 #include <passive_haptics/constraint_geometry/segment.hpp>
 #include <passive_haptics/constraint_geometry/triangle.hpp>
 #include <passive_haptics/contact/capped.hpp>
+#include <passive_haptics/contact/contact_set.hpp>
 #include <passive_haptics/contact/contacts.hpp>
 #include <passive_haptics/contact/damped_spring.hpp>
 #include <passive_haptics/contact/given_force.hpp>

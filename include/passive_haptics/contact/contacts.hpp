@@ -9,36 +9,10 @@
 // Why not one port for each: they would spend the same damping twice (docs/design/mathematics.md § 4).
 
 #include <passive_haptics/contact/local_contact.hpp>
-
-#include <utility>
+#include <passive_haptics/contact/row.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
-
-namespace detail {
-
-/// A tuple that is trivially copyable where its elements are.
-template <std::size_t I, class T>
-struct cell {
-  T value;
-};
-template <class Indices, class... T>
-struct cells;
-template <std::size_t... I, class... T>
-struct cells<std::index_sequence<I...>, T...> : cell<I, T>... {};
-template <class... T>
-using row = cells<std::index_sequence_for<T...>, T...>;
-
-template <std::size_t I, class T>
-[[nodiscard]] constexpr T& get(cell<I, T>& of) noexcept {
-  return of.value;
-}
-template <std::size_t I, class T>
-[[nodiscard]] constexpr const T& get(const cell<I, T>& of) noexcept {
-  return of.value;
-}
-
-}  // namespace detail
 
 /// The sum of what the sources ask for. What the bound leaves of it is shared out alike, so that each
 /// local model stands where its own part of the force says. Nothing is assumed of how many there are.

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// One slot of a set of contacts: the newest surface that the world has told, and what is felt of it, which
+// follows at a limited speed. The news are limited, the motion never:
+//
+//   new shape     its own depth stays what it was: the lag ℓ takes up the difference        d = d_target − ℓ
+//   appears       no deeper than what the contacts that are there press anyway, so with λ = 0
+//   every tick    |ℓ| falls by ρ dt, or by what makes up for the last news within t_c, if that is more; the
+//                 own normal turns towards the target's at a limited rate
+//   vanishes      ℓ grows by ρ dt and by whatever the device goes deeper, until λ = 0
+//
+// Where the target is smooth, the own normal is carried along its curvature first: sliding is no news,
+// however fast. Source: docs/design/contacts.md.
+
+#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/contact/proxy.hpp>
+#include <passive_haptics/no_unique_address.hpp>
+#include <passive_haptics/normal_interpolation/carry.hpp>
+#include <passive_haptics/normal_interpolation/turn_limited.hpp>
+
+#include <cstdint>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// How fast what is felt follows the world.
+struct pursuit {
+  double speed = 0.05;     ///< ρ, of a surface under the finger, at least [m/s]
+  double catch_up = 0.04;  ///< t_c, in which news of what is pressed are made up for [s]
+  double turn_rate = 2.0;  ///< of a normal [rad/s]
+  double stale_after = std::numeric_limits<double>::infinity();  ///< without news it vanishes [s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(speed)) return {"speed", speed, "finite and > 0 m/s"};
+    if (!(catch_up > 0.0)) return {"catch_up", catch_up, "> 0 s"};
+    if (!detail::positive(turn_rate)) return {"turn_rate", turn_rate, "finite and > 0 rad/s"};
+    if (!(stale_after > 0.0)) return {"stale_after", stale_after, "> 0 s"};
+    return {};
+  }
+  template <class Space>
+  class on;
+};
+
+template <class Space>
+class pursuit::on {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+
+  constexpr explicit on(const pursuit& p) noexcept
+      : speed_(detail::number<scalar>(p.speed)),
+        catch_up_(detail::number<scalar>(p.catch_up)),
+        stale_after_(detail::number<scalar>(p.stale_after)),
+        turn_({.rate = p.turn_rate}) {}
+  [[nodiscard]] constexpr pursuit parameters() const noexcept {
+    return {.speed = static_cast<double>(speed_),
+            .catch_up = static_cast<double>(catch_up_),
+            .turn_rate = turn_.parameters().rate,
+            .stale_after = static_cast<double>(stale_after_)};
+  }
+
+  /// How fast a lag ℓ is to be made up for [m/s].
+  [[nodiscard]] constexpr scalar speed_for(scalar lag) const noexcept {
+    return kernels::larger(speed_, kernels::magnitude(lag) / catch_up_);
+  }
+  /// What a contact that ends loses of its depth in dt, at an outward speed v [m].
+  [[nodiscard]] constexpr scalar receding(scalar v, scalar dt) const noexcept {
+    return (speed_ + kernels::larger(-v, scalar(0))) * dt;
+  }
+  [[nodiscard]] constexpr vector turned(const vector& from, const vector& to,
+                                        scalar dt) const noexcept {
+    return turn_.step(from, to, dt);
+  }
+  [[nodiscard]] constexpr bool stale(scalar age) const noexcept { return age > stale_after_; }
+
+ private:
+  scalar speed_, catch_up_, stale_after_;
+  turn_limited::on<Space> turn_;
+};
+
+/// What one slot has to say in a tick.
+template <class Space>
+struct felt_surface {
+  typename Space::vector normal;  ///< of its own, unit, outward
+  typename Space::vector
+      push;  ///< direction of the force for a depth of 1; the normal, for a distance
+  typename Space::scalar depth;  ///< of its own, ≤ 0 outside [m]
+};
+
+/// A slot. λ is told to it after each tick.
+template <class Surface, class Space>
+class pursued {
+  static constexpr bool smooth = kind_of<Surface>() == surface_kind::smooth;
+
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  using felt = felt_surface<Space>;
+  static_assert(surface_for<Surface, Space>,
+                "passive_haptics: the surface does not model surface_for: see concepts.hpp");
+
+  /// Takes a new surface while the device is at `here`, or refuses it and keeps the last good one. One
+  /// that is pressed keeps the force it has; any other is met anew.
+  constexpr bool update(Surface next, const vector& here, const proxy_spring::at<scalar>& rule,
+                        const pursuit::on<Space>& pace, scalar longest_tick) noexcept {
+    if (!next.prepare()) return false;
+    const auto spring = rule.sampled(next.stiffness, longest_tick);
+    if (pressed_ > scalar(0)) {
+      const auto shown = next.at(here);
+      const vector normal = shown.outward();
+      const scalar own = target_.at(here).depth - lag_;
+      const scalar lag = shown.depth - own * (spring_.stiffness / spring.stiffness);
+      if (!kernels::is_finite(lag) || !Space::is_finite(normal)) return false;
+      lag_ = lag;
+      speed_ = pace.speed_for(lag);
+      if constexpr (smooth) shown_ = normal;
+      state_ = state::there;
+    } else {
+      state_ = state::expected;
+    }
+    target_ = next;
+    spring_ = spring;
+    age_ = scalar(0);
+    return true;
+  }
+  /// Nothing is there any more: what is pressed recedes until it is not.
+  constexpr void release() noexcept {
+    state_ = pressed_ > scalar(0) ? state::leaving : state::empty;
+  }
+  constexpr void reset() noexcept { *this = {}; }
+  constexpr void begin(const proxy_spring::at<scalar>& rule, scalar longest_tick) noexcept {
+    if (taken()) spring_ = rule.sampled(target_.stiffness, longest_tick);
+  }
+
+  [[nodiscard]] constexpr bool taken() const noexcept { return state_ != state::empty; }
+  [[nodiscard]] constexpr bool stale() const noexcept { return state_ == state::stale; }
+  [[nodiscard]] constexpr const Surface& target() const noexcept { return target_; }
+  [[nodiscard]] constexpr scalar lag() const noexcept { return lag_; }  ///< ℓ [m]
+  [[nodiscard]] constexpr scalar speed() const noexcept {
+    return speed_;
+  }  ///< of its way there [m/s]
+  [[nodiscard]] constexpr scalar pressed() const noexcept { return pressed_; }  ///< λ [N]
+  [[nodiscard]] constexpr vector normal() const noexcept { return normal_; }    ///< its own
+  constexpr void press(scalar lambda) noexcept { pressed_ = lambda; }
+  [[nodiscard]] constexpr const sampled_spring<scalar>& spring() const noexcept { return spring_; }
+
+  /// Time goes by [s]: a surface without news for too long leaves.
+  constexpr void grow_older(scalar dt, const pursuit::on<Space>& pace) noexcept {
+    age_ += dt;
+    if (state_ == state::there && pace.stale(age_)) state_ = state::stale;
+  }
+
+  /// Goes on to x, where `motion` is the device's, and says in `own` what is felt there; false: nothing.
+  /// `others` is the force of all contacts in the last tick over K_c [m].
+  [[nodiscard, gnu::always_inline]] constexpr bool follow(const vector& x, const auto& motion,
+                                                          scalar dt, const vector& others,
+                                                          const pursuit::on<Space>& pace,
+                                                          felt& own) noexcept {
+    const auto shown = target_.at(x);
+    own.normal = own.push = shown.outward();
+    if constexpr (requires { shown.push(); }) own.push = shown.push();
+    own.depth = shown.depth;
+    const bool ends = state_ == state::leaving || state_ == state::stale || !shown.covered();
+    if (!kernels::is_finite(own.depth) || !Space::is_finite(own.push)) [[unlikely]] {
+      return true;  // the caller sees what has come of it
+    }
+    if (!(pressed_ > scalar(0))) {
+      if (ends) return leave();
+      if (state_ == state::expected) {
+        meet(own, others, pace);
+      } else if (own.depth <= scalar(0) && others == vector(Space::zero())) {
+        keep(scalar(0), own.normal);  // nothing is felt of any: there is nothing to limit
+      }
+    }
+    const scalar lag =
+        ends ? lag_ + pace.receding(motion.along(own.normal), dt) : shortened(lag_, speed_ * dt);
+    const vector goal = own.normal;
+    const vector before = normal_;
+    vector normal = before;
+    if constexpr (smooth) {
+      const vector then = shown_;
+      normal = carry<Space>(before, then, goal);
+      shown_ = goal;
+    }
+    own.normal = pace.turned(normal, goal, dt);
+    if (!(own.normal == goal)) own.push = carry<Space>(own.push, goal, own.normal);
+    own.depth -= lag;
+    lag_ = lag;
+    normal_ = own.normal;
+    return true;
+  }
+
+ private:
+  enum class state : std::uint8_t { empty, expected, there, leaving, stale };
+
+  /// What ends and is not pressed: gone, or met anew where it is covered again.
+  constexpr bool leave() noexcept {
+    if (state_ == state::leaving || state_ == state::stale) state_ = state::empty;
+    if (state_ == state::there) state_ = state::expected;
+    return false;
+  }
+  /// A surface that has just appeared is no deeper than it can be with λ = 0, whatever the speed (S2).
+  constexpr void meet(const felt& here, const vector& others,
+                      const pursuit::on<Space>& pace) noexcept {
+    scalar most = Space::dot(here.push, others);
+    if (most > scalar(0)) most = most / scalar(inward_limit);
+    keep(here.depth - kernels::smaller(here.depth, most), here.normal);
+    speed_ = pace.speed_for(scalar(0));
+    state_ = state::there;
+  }
+  constexpr void keep(scalar lag, const vector& normal) noexcept {
+    lag_ = lag;
+    normal_ = normal;
+    if constexpr (smooth) shown_ = normal;
+  }
+
+  /// ℓ, nearer to zero by a step [m].
+  [[nodiscard]] static constexpr scalar shortened(scalar lag, scalar step) noexcept {
+    if (kernels::magnitude(lag) <= step) return scalar(0);
+    return lag < scalar(0) ? lag + step : lag - step;
+  }
+
+  struct nothing {};
+  using coordinates = typename Space::coordinates;
+
+  Surface target_{};
+  sampled_spring<scalar> spring_{};
+  coordinates normal_{};  ///< its own, unit
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<smooth, coordinates, nothing>
+      shown_{};       ///< the target's, where the device was last
+  scalar lag_{};      ///< ℓ [m]
+  scalar speed_{};    ///< with which it is made up for [m/s]
+  scalar pressed_{};  ///< λ in the last tick [N]
+  scalar age_{};      ///< since the last news [s]
+  state state_ = state::empty;
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

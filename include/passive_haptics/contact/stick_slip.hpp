@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Dry friction of a contact: a bristle that bends while the surface holds the finger and slips when it
+// cannot any more.
+//
+//   stick_slip     |f_t| ≤ μ f_n,  μ from static to kinetic as it slips, and back as it sticks
+//   frictionless   f_t = 0, and no byte of it
+//
+// One bristle for each contact, in its own cone: on the resultant of two walls it would creep along their
+// groove (docs/design/contacts.md).
+
+#include <passive_haptics/normal_interpolation/carry.hpp>
+#include <passive_haptics/parameter.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+struct frictionless {
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
+};
+
+/// The elasto-plastic bristle of Hayward and Armstrong (2000) with a static and a kinetic coefficient:
+///     z ← carry(z + Δx − (Δx·n₀) n₀;  n₀ → n)             Δx of the tick, n₀ and n the normal before and after
+///     r = μ f_n/k_t;  |z| > r, slipping by s = |z| − r:   μ ← μ_d + (μ − μ_d)/(1 + s/D),  z ← r z/|z|
+///                     else, sticking:                     μ ← μ + (μ_s − μ) dt/(dt + t_h)
+///     f_t = −k_t z − B_t v_t,  shortened to μ f_n
+/// z returns when the finger does, so a finger that trembles stays where it is as long as the normal
+/// does; a normal that wobbles by α winds z up by the solid angle that it encloses, and the finger creeps.
+/// Passive without a ledger on a surface at rest for K, k_t ≤ 2b/T, and under the port's bound always.
+struct stick_slip {
+  double static_coefficient = 0.6;   ///< μ_s
+  double kinetic_coefficient = 0.4;  ///< μ_d ≤ μ_s
+  double weakening = 2e-4;           ///< D, the slip that halves what is above μ_d [m]
+  double healing = 0.02;             ///< t_h, of sticking until μ_s is back [s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::not_negative(static_coefficient)) {
+      return {"static_coefficient", static_coefficient, "finite and ≥ 0"};
+    }
+    if (!(kinetic_coefficient >= 0.0 && kinetic_coefficient <= static_coefficient)) {
+      return {"kinetic_coefficient", kinetic_coefficient, "in [0, static_coefficient]"};
+    }
+    if (!detail::positive(weakening)) return {"weakening", weakening, "finite and > 0 m"};
+    if (!detail::positive(healing)) return {"healing", healing, "finite and > 0 s"};
+    return {};
+  }
+  template <class Space>
+  class on;
+  template <class Space>
+  class bristle;
+};
+
+/// The coefficients in the scalar that computes.
+template <class Space>
+class stick_slip::on {
+ public:
+  using scalar = typename Space::scalar;
+  constexpr explicit on(const stick_slip& p) noexcept
+      : most(detail::number<scalar>(p.static_coefficient)),
+        least(detail::number<scalar>(p.kinetic_coefficient)),
+        weakening(detail::number<scalar>(p.weakening)),
+        healing(detail::number<scalar>(p.healing)) {}
+  [[nodiscard]] constexpr stick_slip parameters() const noexcept {
+    return {.static_coefficient = static_cast<double>(most),
+            .kinetic_coefficient = static_cast<double>(least),
+            .weakening = static_cast<double>(weakening),
+            .healing = static_cast<double>(healing)};
+  }
+  scalar most, least, weakening, healing;
+};
+
+/// The state of one contact.
+template <class Space>
+class stick_slip::bristle {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+
+  constexpr void reset() noexcept { *this = {}; }
+
+  /// f_t [N] after the device has moved by `travel` [m] in dt [s], at `velocity` [m/s], under a normal force
+  /// f_n [N] along n. `stiffness` is k_t [N/m], `damping` B_t [N·s/m].
+  [[nodiscard, gnu::always_inline]] constexpr vector rub(const on<Space>& rule, scalar f_n,
+                                                         const vector& n, const vector& travel,
+                                                         const vector& velocity, scalar stiffness,
+                                                         scalar damping, scalar dt) noexcept {
+    if (!(f_n > scalar(0))) {
+      touching_ = false;
+      return Space::zero();
+    }
+    if (!touching_) {
+      bend_ = Space::zero();
+      coefficient_ = rule.most;
+      touching_ = true;
+    } else {
+      const vector before = normal_;
+      vector bend = bend_;
+      bend = bend + travel;
+      bend = bend - before * Space::dot(bend, before);
+      if (!(before == n)) bend = carry<Space>(bend, before, n);
+      bend_ = bend;
+    }
+    normal_ = n;
+
+    vector bend = bend_;
+    const scalar length = Space::norm(bend);
+    scalar reach = coefficient_ * f_n / stiffness;
+    if (length > reach) {
+      const scalar slip = length - reach;
+      coefficient_ = rule.least + (coefficient_ - rule.least) / (scalar(1) + slip / rule.weakening);
+      reach = coefficient_ * f_n / stiffness;
+      bend = bend * (reach / length);
+      bend_ = bend;
+    } else {
+      coefficient_ += (rule.most - coefficient_) * dt / (dt + rule.healing);
+    }
+
+    const vector across = velocity - n * Space::dot(velocity, n);
+    const vector force = bend * -stiffness - across * damping;
+    const scalar most = coefficient_ * f_n;
+    const scalar asked = Space::norm(force);
+    return asked > most ? vector(force * (most / asked)) : force;
+  }
+  [[nodiscard]] constexpr scalar coefficient() const noexcept { return coefficient_; }  ///< μ
+
+ private:
+  typename Space::coordinates bend_{};    ///< z [m], across the normal
+  typename Space::coordinates normal_{};  ///< n of the last tick
+  scalar coefficient_{};
+  bool touching_ = false;
+};
+
+}  // namespace v0
+}  // namespace passive_haptics
