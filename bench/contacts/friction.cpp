@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Dry friction of contacts: it stays inside its cone, sticks and slips, holds a finger that trembles where
+// it is, and lets it come to rest. What a normal that wobbles does to it is shown as well.
+#include "program.hpp"
+#include <passive_haptics/laws/samples.hpp>
+
+namespace contacts {
+
+namespace {
+
+constexpr double mass = 0.1, pi = 180.0 * degree;
+constexpr ph::stick_slip rough{};
+
+/// A hand that is a force in time, and a spring to a target that moves.
+struct pushing_hand {
+  vector steady = vector::Zero();  ///< [N]
+  vector tremor = vector::Zero();  ///< amplitude [N]
+  double frequency = 9.0;          ///< of the tremor [Hz]
+  vector pulled = vector::Zero();  ///< velocity of a target [m/s]
+  double stiffness = 0.0;          ///< of a spring to it, along its way [N/m]
+
+  [[nodiscard]] vector force(double t, const vector& x, const vector& /*v*/) const noexcept {
+    vector f = steady + tremor * std::sin(2.0 * pi * frequency * t);
+    if (stiffness > 0.0) {
+      const vector way = pulled.normalized();
+      f += way * (stiffness * (pulled.norm() * t - way.dot(x)));
+    }
+    return f;
+  }
+  [[nodiscard]] double mass() const noexcept { return 0.0; }
+  [[nodiscard]] ph::parameter_fault check() const noexcept { return {}; }
+};
+using rubbed_device = sim::device<d3, pushing_hand>;
+
+/// The mean over whole periods of a tremor, second by second, of where the device is.
+struct drift_row {
+  std::string scene;
+  double seconds = 60.0;
+  double drift = 0.0;         ///< of the mean along the surface, from the second second on [m]
+  double largest_ratio = 0;   ///< of friction to normal force, over the static coefficient
+  double least_energy = 0.0;  ///< [J]
+};
+ex::record record_of(const drift_row& r) {
+  return {{"scene", r.scene},
+          {"seconds", r.seconds, "%.0f"},
+          {"drift_um", r.drift * 1e6, "%.3f"},
+          {"least_energy_J", r.least_energy}};
+}
+
+/// Holds on for so long; `along` is the direction whose drift counts. `turn` moves the planes.
+template <int Count>
+drift_row hold(const std::string& name, const planes& scene, const pushing_hand& hand,
+               const std::vector<vector>& along, double seconds, double wobble = 0.0) {
+  drift_row row{.scene = name, .seconds = seconds};
+  auto port = port_of<Count>(scene, mass, 1e3, beside<ph::stick_slip>{.push = 8.0});
+  rubbed_device device(
+      {.mass = mass, .damping = damping, .period = T, .start = vector(0.0, 0.0, 1e-4)}, hand);
+  const int window = 1000;  // nine periods of the tremor
+  vector mean = vector::Zero(), first = vector::Zero();
+  row.least_energy = sim::run(
+                         device, port, static_cast<int>(seconds / T),
+                         [&](const auto& now) {
+                           if (wobble == 0.0) return;
+                           const double a = 2.0 * pi * 10.0 * now.time;
+                           const vector n(wobble * std::cos(a), wobble * std::sin(a), 1.0);
+                           port.source().update(0, plane{vector(0.0, 0.0, 0.0), n, 1e3});
+                         },
+                         sim::idle,
+                         [&](const auto& now) {
+                           mean += device.position() / window;
+                           if ((now.tick + 1) % window != 0) return;
+                           if (now.tick + 1 == 2 * window) first = mean;
+                           if (now.tick + 1 > 2 * window) {
+                             for (const auto& way : along) {
+                               row.drift = std::max(row.drift, std::abs(way.dot(mean - first)));
+                             }
+                           }
+                           mean = vector::Zero();
+                         })
+                         .least_energy;
+  return row;
+}
+
+/// Pulled by a spring along a plane: how often does it slip?
+struct stick_slip_row {
+  double normal_force = 2.0, speed = 0.010, spring = 300.0;
+  double slips_per_second = 0.0;
+  double least_force = 0.0, largest_force = 0.0;  ///< of friction while it goes on [N]
+};
+ex::record record_of(const stick_slip_row& r) {
+  return {{"normal_force_N", r.normal_force},
+          {"speed_m_per_s", r.speed},
+          {"spring", r.spring, "%.0f"},
+          {"slips_per_second", r.slips_per_second, "%.2f"},
+          {"least_friction_N", r.least_force, "%.2f"},
+          {"largest_friction_N", r.largest_force, "%.2f"}};
+}
+stick_slip_row pull() {
+  stick_slip_row row;
+  auto port = port_of<1>(all_planes()[0], mass, 1e3, beside<ph::stick_slip>{});
+  rubbed_device device({.mass = mass, .damping = damping, .period = T},
+                       {.steady = vector(0.0, 0.0, -row.normal_force),
+                        .pulled = vector(row.speed, 0.0, 0.0),
+                        .stiffness = row.spring});
+  bool sticks = true;
+  int slips = 0;
+  row.least_force = 1e9;
+  sim::run(device, port, 20000, sim::idle, sim::idle, [&](const auto& now) {
+    if (now.tick < 2000) return;
+    const double v = device.velocity().x();
+    if (sticks && v > 5.0 * row.speed) {
+      sticks = false;
+      ++slips;
+    }
+    if (!sticks && v < 0.5 * row.speed) sticks = true;
+    row.least_force = std::min(row.least_force, -now.force.x());
+    row.largest_force = std::max(row.largest_force, -now.force.x());
+  });
+  row.slips_per_second = slips / 18.0;
+  return row;
+}
+
+/// Asked for anything: is the friction of one plane inside its cone?
+double largest_ratio(int ticks) {
+  auto port = port_of<1>(all_planes()[0], mass, 1e3, beside<ph::stick_slip>{});
+  ph::laws::samples random(1);
+  double most = 0.0;
+  vector x(0.0, 0.0, 0.0);
+  for (int i = 0; i < ticks; ++i) {
+    x += random.vector<d3>() * 2e-4;
+    x.z() = std::clamp(x.z(), -4e-3, 1e-3);
+    if (i % 200 == 0) {
+      vector n = vector::UnitZ() + 0.3 * random.direction<d3>();
+      port.source().update(0, plane{vector(0.0, 0.0, 0.0), n, 1e3});
+    }
+    const vector f = port.tick(x, T).force;
+    const auto& slot = port.source().slot(0);
+    if (!(slot.pressed() > 0.0) || f.norm() == 0.0) continue;
+    const vector n = slot.normal();
+    const double normal = f.dot(n), across = (f - n * normal).norm();
+    most = std::max(most, across / normal / rough.static_coefficient);
+  }
+  return most;
+}
+
+/// Thrown on a rough plane: does it stop?
+struct stop_row {
+  int cases = 0, unsettled = 0;
+  double slowest = 0.0, least_energy = 0.0;
+};
+ex::record record_of(const stop_row& r) {
+  return {{"cases", r.cases},
+          {"unsettled", r.unsettled},
+          {"slowest_s", r.slowest, "%.2f"},
+          {"least_energy_J", r.least_energy}};
+}
+stop_row stop() {
+  stop_row row;
+  for (const double m : {0.05, 0.1, 0.15, 0.5}) {
+    for (const double K : {1e2, 1e3, 1e4, 1e6, 1e9}) {
+      auto port = port_of<1>(all_planes()[0], m, K, beside<ph::stick_slip>{});
+      sim::device<d3> device({.mass = m,
+                              .damping = damping,
+                              .load = vector(0.0, 0.0, -gravity * m),
+                              .period = T,
+                              .start = vector(0.0, 0.0, 0.02),
+                              .start_velocity = vector(0.32, 0.0, 0.0)});
+      const settled s = settle(device, port, 6.0);
+      ++row.cases;
+      if (s.swing < 1e-4) {
+        row.slowest = std::max(row.slowest, s.seconds);
+      } else {
+        ++row.unsettled;
+      }
+      row.least_energy = std::min(row.least_energy, s.least_energy);
+    }
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<std::string> run_friction(const session& s) {
+  std::vector<std::string> found;
+  const double seconds = s.chosen.quick ? 10.0 : 60.0;
+  const vector x = vector::UnitX(), y = vector::UnitY();
+
+  s.out.section(
+      "Friction: drift",
+      "A hand presses with 2 N and pulls along the surface with 0.5 N and a tremor of 0.3 N "
+      "at 9 Hz; how far the mean of a second wanders. On a normal that wobbles, at 10 Hz "
+      "by an angle, it creeps: that is reported.");
+  const pushing_hand on_plane{.steady = vector(0.5, 0.0, -2.0), .tremor = vector(0.2, 0.15, 0.15)};
+  const planes groove_90{"groove of 90 deg",
+                         {tilted(45.0 * degree, 0.0), tilted(45.0 * degree, 180.0 * degree)}};
+  const pushing_hand in_groove{.steady = vector(0.0, 0.3, -2.0), .tremor = vector(0.4, 0.0, 0.2)};
+  std::vector<drift_row> drifts{
+      hold<1>("plane at rest", all_planes()[0], on_plane, {x, y}, seconds),
+      hold<2>("groove of 90 deg", groove_90, in_groove, {y}, seconds)};
+  for (const double angle : {1.0, 3.0}) {
+    drifts.push_back(hold<1>("plane that wobbles by " + ex::format("%.0f deg", angle),
+                             all_planes()[0], on_plane, {x, y}, seconds, angle * degree));
+  }
+  s.out.show(ex::table_of(drifts));
+  s.out.member("drift", ex::json_of(drifts));
+  for (const auto& r : {drifts[0], drifts[1]}) {
+    expect(found, r.drift <= 2e-6, r.scene + ": the finger drifts");
+    expect(found, r.least_energy >= -1e-12, r.scene + ": loses energy");
+  }
+
+  s.out.section("Friction: stick and slip", "Pulled along a plane by a spring.");
+  const std::vector<stick_slip_row> pulled{pull()};
+  s.out.show(ex::table_of(pulled));
+  s.out.member("stick_slip", ex::json_of(pulled));
+  expect(found, pulled[0].slips_per_second > 1.0, "it does not slip again and again");
+
+  s.out.section("Friction: stopping",
+                "Thrown along a rough plane at 0.32 m/s, 0.05 to 0.5 kg on "
+                "1e2 to 1e9 N/m.");
+  const std::vector<stop_row> stopped{stop()};
+  s.out.show(ex::table_of(stopped));
+  s.out.member("stopping", ex::json_of(stopped));
+  expect(found, stopped[0].unsettled == 0, "some do not stop on a rough plane");
+  expect(found, stopped[0].least_energy >= -1e-12, "stopping on a rough plane loses energy");
+
+  const double ratio = largest_ratio(s.chosen.quick ? 20'000 : 1'000'000);
+  s.out.section("Friction: the cone",
+                "Largest friction over the static coefficient times the normal force, in random "
+                "motion on a plane that turns: " +
+                    ex::format("%.15f", ratio) + ".");
+  s.out.member("cone", ex::json_number(ratio));
+  expect(found, ratio <= 1.0 + 1e-13, "friction outside its cone");
+  return found;
+}
+
+}  // namespace contacts

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Does a restless world get energy out of a set of contacts? 1 to 16 planes that appear, jump, turn and
+// vanish every 30 ticks, smooth and rough, on time and a tick late, against every adversary. And does it out
+// of what people would do otherwise: a ledger for each contact, or none?
+#include "program.hpp"
+#include <passive_haptics/energy_observer/no_observer.hpp>
+#include <passive_haptics/force_bound/actuator_limit.hpp>
+#include <passive_haptics/laws/samples.hpp>
+#include <passive_haptics/simulation/challenge.hpp>
+
+namespace contacts {
+
+namespace {
+
+constexpr ph::proxy_spring press{.mass = 0.1};
+constexpr ph::pursuit hasty{.speed = 0.5, .turn_rate = 20.0};
+
+/// Tells the slots of a port, every 30 ticks, of planes round where the device is.
+struct restless {
+  ph::laws::samples random{1};
+  int tick = 0;
+  double stiffness = 1e4;
+
+  template <class Update, class Release>
+  void tell(const vector& here, int count, const Update& update, const Release& release) {
+    if (tick++ % 30 != 0) return;
+    for (int i = 1; i < count; ++i) {
+      const double what = random.number<double>();
+      if (what < -0.5) {
+        release(i);
+      } else if (what < 0.7) {
+        const vector n = random.direction<d3>();
+        update(i, plane{vector(here + n * (2e-3 * random.number<double>())), n, stiffness});
+      }
+    }
+  }
+};
+
+/// All contacts in one port.
+template <class Port, int Count>
+struct one_port {
+  using space_type = d3;
+  static constexpr int count = Count;
+  Port port;
+  restless world{};
+
+  vector tick(const ph::device_sample<d3>& sample) {
+    auto& source = port.source();
+    world.tell(
+        sample.position, Count, [&](int i, const plane& p) { source.update(i, p); },
+        [&](int i) { source.release(i); });
+    return port.tick(sample).force;
+  }
+  bool lay(const plane& first) { return port.source().update(0, first); }
+};
+
+/// A port for each, which is what the sets are there to replace: each spends the same damping.
+template <class Port, int Count>
+struct port_each {
+  using space_type = d3;
+  std::array<Port, static_cast<std::size_t>(Count)> ports;
+  restless world{};
+
+  explicit port_each(const Port& one) { ports.fill(one); }
+  vector tick(const ph::device_sample<d3>& sample) {
+    world.tell(
+        sample.position, Count,
+        [&](int i, const plane& p) { ports[static_cast<std::size_t>(i)].source().update(0, p); },
+        [&](int i) { ports[static_cast<std::size_t>(i)].source().release(0); });
+    vector sum = vector::Zero();
+    for (auto& port : ports) {  // each is told what it commanded itself
+      sum += sample.valid ? vector(port.tick(sample.position, sample.dt).force)
+                          : vector(port.tick(sample).force);
+    }
+    return sum;
+  }
+  bool lay(const plane& first) { return ports[0].source().update(0, first); }
+};
+
+constexpr auto lay = [](auto& model, const sim::surface_state<d3>& s) {
+  model.world.stiffness = s.stiffness;
+  return model.lay(plane{s.point, s.normal, s.stiffness});
+};
+
+enum class carried : std::uint8_t { one_ledger, ledger_each, nothing };
+const char* to_string(carried c) {
+  switch (c) {
+    case carried::one_ledger:
+      return "one ledger";
+    case carried::ledger_each:
+      return "a ledger each";
+    case carried::nothing:
+      return "no bound";
+  }
+  return "";
+}
+
+struct passive_row {
+  int contacts = 3;
+  bool rough = false;
+  bool reachable = false;
+  int latency = 0;
+  carried by{};
+  int runs = 1000;
+  double least_energy = 0.0;  ///< [J]
+  std::string worst{};
+  double largest_force = 0.0;  ///< [N]
+};
+ex::record record_of(const passive_row& r) {
+  return {{"contacts", r.contacts},
+          {"rough", r.rough},
+          {"bound", r.by == carried::nothing ? "none"
+                    : r.reachable            ? "reachable"
+                                             : "strict"},
+          {"late", r.latency},
+          {"carried_by", std::string(to_string(r.by))},
+          {"runs", r.runs},
+          {"least_energy_J", r.least_energy},
+          {"worst", r.worst},
+          {"largest_force_N", r.largest_force, "%.1f"}};
+}
+
+template <class Model>
+passive_row challenged(passive_row row, const Model& model) {
+  const sim::circumstances world{.latency = row.latency, .watchdog = false, .ticks = 600};
+  const auto attack = [&](sim::adversary by, int runs) {
+    const auto v = sim::challenge(model, by, world, runs, 1, lay);
+    row.largest_force = std::max(row.largest_force, v.largest_force);
+    if (!(v.least_energy >= row.least_energy)) {
+      row.least_energy = v.least_energy;
+      row.worst = to_string(by);
+    }
+  };
+  std::vector<sim::adversary> all;
+  for (const auto by : sim::all_adversaries) {
+    const bool covered = sim::is_force_limited(by);  // what a conditional promise holds for
+    const bool late = by == sim::adversary::overruns || by == sim::adversary::kitchen_sink;
+    if (!late && (covered || !row.reachable)) all.push_back(by);
+  }
+  for (const auto by : all) attack(by, std::max(1, row.runs / static_cast<int>(all.size())) + 1);
+  return row;
+}
+
+template <int Count, class Friction, class Bound, class Limits>
+passive_row judge(const passive_row& row, const Friction& friction, const Bound& bound,
+                  const Limits& limits) {
+  const ph::reduced_energy ledger{.damping = damping};
+  if (row.by == carried::one_ledger) {
+    ph::passive_port port{d3{}, ph::contact_set{press, hasty, friction, ph::slots<plane, Count>{}},
+                          ledger, bound, limits};
+    return challenged(row, one_port<decltype(port), Count>{port});
+  }
+  if (row.by == carried::nothing) {
+    ph::passive_port port{d3{}, ph::contact_set{press, hasty, friction, ph::slots<plane, Count>{}},
+                          ph::no_observer{}, ph::no_bound{}, limits};
+    return challenged(row, one_port<decltype(port), Count>{port});
+  }
+  ph::passive_port port{d3{}, ph::contact_set{press, hasty, friction, ph::slots<plane, 1>{}},
+                        ledger, bound, limits};
+  return challenged(row, port_each<decltype(port), Count>(port));
+}
+
+template <int Count, class Friction>
+passive_row judge(const passive_row& row, const Friction& friction) {
+  const ph::reachable_bound reachable{.mass = 0.1, .hand_force = hand_force};
+  const ph::loop_limits now{.longest_tick = T, .top_speed = 100.0};
+  const ph::late_loop_limits<1> late{.longest_tick = T, .top_speed = 100.0};
+  if (row.latency > 0) {
+    return row.reachable ? judge<Count>(row, friction, reachable, late)
+                         : judge<Count>(row, friction, ph::strict_bound{}, late);
+  }
+  return row.reachable ? judge<Count>(row, friction, reachable, now)
+                       : judge<Count>(row, friction, ph::strict_bound{}, now);
+}
+template <int Count>
+passive_row judge(const passive_row& row) {
+  return row.rough ? judge<Count>(row, ph::stick_slip{}) : judge<Count>(row, ph::frictionless{});
+}
+
+}  // namespace
+
+std::vector<std::string> run_passive(const session& s) {
+  s.out.section(
+      "Passive",
+      "Planes that appear, jump, turn and vanish every 30 ticks, against the adversaries "
+      "that the promise of the bound covers. The least true energy at the port; controls: "
+      "a ledger for each contact, and none.");
+  std::vector<passive_row> jobs;
+  const int runs = s.chosen.quick ? 60 : 1200;
+  for (const int n : {1, 3, 16}) {
+    for (const bool rough : {false, true}) {
+      for (const bool reachable : {false, true}) {
+        for (const int latency : {0, 1}) {
+          jobs.push_back({n, rough, reachable, latency, carried::one_ledger, runs});
+        }
+      }
+    }
+  }
+  for (const bool reachable : {false, true}) {
+    jobs.push_back({3, false, reachable, 0, carried::ledger_each, runs});
+  }
+  jobs.push_back({3, false, false, 0, carried::nothing, runs});
+  jobs.push_back({3, true, false, 0, carried::nothing, runs});
+  const auto rows = s.rows("passive.csv", "passive", jobs, [](const passive_row& r) {
+    return r.contacts == 1 ? judge<1>(r) : r.contacts == 3 ? judge<3>(r) : judge<16>(r);
+  });
+  s.out.show(ex::table_of(rows));
+  s.out.member("passive", ex::json_of(rows));
+
+  std::vector<std::string> found;
+  for (const auto& r : rows) {
+    const std::string name =
+        std::to_string(r.contacts) + " contacts, " + to_string(r.by) + ", " + r.worst;
+    if (r.by == carried::one_ledger) {
+      expect(found, r.least_energy >= -1e-12, name + ": loses energy");
+      expect(found, r.largest_force > 0.1, name + ": never pushes");
+    } else {
+      expect(found, r.least_energy < -1e-4, name + ": the control loses nothing");
+    }
+  }
+  return found;
+}
+
+}  // namespace contacts

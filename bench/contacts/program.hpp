@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The program, apart from main(), so that a test can run it; and what its sections share.
+
+#include "../common/rows.hpp"
+#include "scenes.hpp"
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+namespace contacts {
+
+namespace ex = experiments;
+
+struct settings {
+  std::string out = "contacts";
+  std::vector<std::string> only;  ///< sections; empty: all
+  bool quick = false;
+  int threads = 0;  ///< 0: as many as the machine has
+};
+
+struct session : ex::workshop {
+  const settings& chosen;
+};
+
+/// A part of the run. It adds itself to the report and returns a sentence for each promise that was
+/// broken.
+struct section {
+  const char* name;
+  std::vector<std::string> (*run)(const session&);
+};
+[[nodiscard]] const std::vector<section>& sections();
+[[nodiscard]] std::vector<std::string> run_settling(const session& s);
+[[nodiscard]] std::vector<std::string> run_touch(const session& s);
+[[nodiscard]] std::vector<std::string> run_news(const session& s);
+[[nodiscard]] std::vector<std::string> run_friction(const session& s);
+[[nodiscard]] std::vector<std::string> run_passive(const session& s);
+
+/// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
+[[nodiscard]] settings parse(const std::vector<std::string>& arguments);
+
+/// 0: all is well. 1: a promise was broken, or something could not be written. 2: an argument is
+/// wrong. 130: stopped; what is on disk has been said.
+[[nodiscard]] int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop);
+
+/// Adds a sentence to `found` unless it holds.
+inline void expect(std::vector<std::string>& found, bool holds, const std::string& sentence) {
+  if (!holds) found.push_back(sentence);
+}
+
+}  // namespace contacts
