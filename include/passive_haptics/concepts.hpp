@@ -3,7 +3,7 @@
 // The contract of each role, on one page. What a concept cannot say is a law in laws.hpp.
 //
 //   the port                                                       port/
-//     port                  pose, motion, effort, work             space.hpp, joint_space.hpp
+//     port                  pose, motion, effort, work             space.hpp, joint_space.hpp, ...
 //     damping               what the device pays with              damping.hpp
 //     inertia               what cannot turn round within a tick   inertia.hpp
 //     energy observer       counts the energy at the port          energy_observer/
@@ -50,7 +50,8 @@ concept plain_value = std::is_trivially_copyable_v<V> ||
 
 /// What a device is: effort times motion is energy. between() is the motion from one pose to another,
 /// work() what an effort did over it, squared() the square of its length or of its fastest joint.
-/// `stored_` types are the same at rest. Geometry is apart: a port in a space names it `geometry`.
+/// `stored_` types are the same at rest; a motion at rest is a stored_effort. Geometry is apart: a port in
+/// a space names it `geometry`. One whose poses are no vectors says by place() where they are.
 template <class P>
 concept port = requires(typename P::pose x, typename P::motion m, typename P::effort f, int i) {
   requires real<typename P::scalar>;

@@ -267,9 +267,9 @@ class passive_port {
   }
   /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of
   /// the two, and what only one of them covers, a ledger that is more than a number forgets. Vectors by
-  /// value, so that the ordinary tick keeps its own in registers.
+  /// value and at rest, so that the ordinary tick keeps its own in registers.
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_cut_short(
-      typename P::stored_pose travel, typename P::stored_effort held, scalar dt) noexcept {
+      typename P::stored_effort travel, typename P::stored_effort held, scalar dt) noexcept {
     observer_type dropped = observer_;
     dropped.forfeit(held, limits_.watchdog);
     if (!observer_.update(travel, held, dt)) return false;

@@ -177,10 +177,10 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   using certificates_type = std::conditional_t<rubs, detail::friction_certificates<P>, no_friction>;
 
   struct credit_window {
-    typename P::stored_pose travel{};  ///< Δx̂ since it began [m]
-    scalar elapsed{};                  ///< since it began [s]
-    scalar summed{};                   ///< credit of its ticks, one by one [J]
-    scalar booked{};                   ///< credit of it that is booked [J]
+    typename P::stored_effort travel{};  ///< Δx̂ since it began [m]
+    scalar elapsed{};                    ///< since it began [s]
+    scalar summed{};                     ///< credit of its ticks, one by one [J]
+    scalar booked{};                     ///< credit of it that is booked [J]
   };
 
   /// 5/2 c p [J], which elastic friction may keep back for a while.

@@ -71,10 +71,13 @@ class guard : public last_tick<P, Latency> {
     const scalar square = P::squared(travel);
     return square + dt <= largest && square <= farthest * farthest;
   }
-  /// Positions in other units than the model's are soon outside. Joints may turn as often as they like.
+  /// Positions in other units than the model's are soon outside. Joints may turn as often as they like. Of a
+  /// pose that turns, the place is asked.
   [[nodiscard, gnu::always_inline]] static constexpr bool within(const pose& position,
                                                                  scalar workspace) noexcept {
-    if constexpr (requires { typename P::geometry; }) {
+    if constexpr (requires { P::place(position); }) {
+      return P::body_space::squared(P::place(position)) <= workspace * workspace;
+    } else if constexpr (requires { typename P::geometry; }) {
       return P::squared(position) <= workspace * workspace;
     } else {
       return true;
