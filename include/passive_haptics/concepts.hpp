@@ -68,10 +68,34 @@ concept port = requires(typename P::pose x, typename P::motion m, typename P::ef
   requires std::convertible_to<typename P::stored_effort, typename P::effort>;
 };
 
+namespace detail {
+/// Is the path of a tick unknown, so that a held torque may have done other work than τ·θ? So it is where the
+/// port turns and nobody reports the work.
+template <class P>
+[[nodiscard]] constexpr bool turns() noexcept {
+  if constexpr (requires { P::turns; }) return P::turns;
+  return false;
+}
+/// Does a driver report what its motors did (reported_work.hpp)?
+template <class P>
+[[nodiscard]] constexpr bool reports_work() noexcept {
+  if constexpr (requires { P::reports_work; }) return P::reports_work;
+  return false;
+}
+/// A damping that says how much less than its ends show a turn may have brought.
+template <class D, class P>
+concept knows_turns = requires(const D d, const typename P::motion m, const typename P::effort f,
+                               typename P::scalar s) {
+  { d.unsure(m, f, s) } -> std::same_as<typename P::scalar>;
+  requires noexcept(d.unsure(m, f, s));
+};
+}  // namespace detail
+
 /// dissipated(Δx, dt) [J] is never more than the device took; worst_outflow(f, T) [J] is the most that
 /// f can hand out in T, the conjugate of it; affordable(f, E, T) is the share of f that E covers.
 /// `rubs` says whether dry friction is credited; then dissipated() and worst_outflow() take it for rigid,
-/// and what it owes beside them is in friction_certificates.hpp.
+/// and what it owes beside them is in friction_certificates.hpp. Where a port
+/// turns, unsure(Δx, f, dt) [J] is what a tick may have brought less than dissipated() − f·Δx.
 template <class D, class P>
 concept damping_for = requires(const part_at<D, P> d, const typename P::motion m,
                                const typename P::effort f, typename P::scalar s) {
@@ -93,7 +117,9 @@ concept inertia_for = requires(const part_at<M, P> m, const typename P::effort f
 /// update() books one tick: the motion, the effort held while it happened, its length [s]; false, and
 /// nothing is booked, when the energy would be no finite number. forfeit() writes off a tick whose
 /// motion is unknown and never raises the ledger. value() is E1 [J]. `counts` is false for the one
-/// that counts nothing; `exact` is false for one that takes positions as known to a step only.
+/// that counts nothing; `exact` is false for one that takes positions as known to a step only. One that
+/// also books the work that a device reports takes it as a fourth argument [J]; one that books what is
+/// unsure of a turn says `turns`.
 template <class O, class P>
 concept energy_observer_for = plain_value<part_at<O, P>, P> &&
     requires(part_at<O, P> o, const part_at<O, P> c, const typename P::motion m,
@@ -116,6 +142,9 @@ struct bound_traits {
   bool needs_ledger = false;  ///< it spends what an observer must have counted
   bool exact_travel = true;   ///< it takes Δx as exact: not for encoders with steps
   int latency = 0;            ///< most ticks of delay for which it holds
+  bool turns = false;         ///< it holds at a port that turns
+  bool reported_work =
+      false;  ///< it reads nothing of a tick but the ledger: the work may be reported
 };
 inline constexpr int any_latency = kernels::largest<int>();
 
@@ -126,6 +155,7 @@ template <class Bound>
   if constexpr (requires { Bound::passivity; }) {
     if (Bound::passivity == guarantee::none) {
       all.exact_travel = false;
+      all.turns = all.reported_work = true;
       all.latency = any_latency;
     }
   }

@@ -11,6 +11,7 @@
 //   2(a′)  reachable_force_bound     largest force whose work over that reach the ledger covers
 //   2(a′)  reachable_outflow         most energy a force can hand over within that reach
 //   2(a′)  reachable_share, reachable_work             the same two in joules, for any port
+//   C      coning, coning_share      what a turn may hide from its ends, and the torque it is known for
 //   § 9    sampled_stiffness, sampled_damping          what a sampled mass can take
 //   -      spendable, sure_gain, sum_rounded_down     rounding costs force, never the promise
 //   2.30   half_angle_turn           cos φ and sin φ of a small turn, without cos and sin
@@ -241,6 +242,35 @@ template <real S>
     return smaller(S(1), (credit / reach + reach / (S(4) * W)) * (S(1) - rounding<S>()));
   }
   return strict_scale(E1, W);
+}
+
+/// dt|θ × τ|²/(36 b_ω) [J], rounded up: the most by which a turn from one pose to another brings less than
+/// b_ω|θ|²/dt − τ·θ, if |θ| ≤ 1 rad and |τ| ≤ 4b_ω/dt. `across` is |θ × τ|². (lemma C)
+template <real S>
+[[nodiscard]] constexpr S coning(S across, S b, S dt) noexcept {
+  return dt * across / (S(36) * b) * (S(1) + rounding<S>());
+}
+/// The share of an effort, lowered so far that its torque is at most 4b_ω/T, rounded towards zero.
+/// `squared` is |τ|². (lemma C)
+template <real S>
+[[nodiscard]] constexpr S coning_share(S share, S squared, S b, S T) noexcept {
+  const S most = S(4) * b / T * (S(1) - rounding<S>());
+  if (!(share * share * squared > most * most)) return share;
+  return most / square_root(squared) * (S(1) - rounding<S>());
+}
+
+/// The most [rad] by which the path of a tick of length dt may have turned beside θ, its rate never changing by
+/// more than α [rad/s²]: |Ω| α dt²/12 to first order, |Ω| itself known but for the same.
+template <real S>
+[[nodiscard]] constexpr S unseen_turn(S theta, S alpha, S dt) noexcept {
+  const S gained = alpha * dt * dt;
+  return (theta + gained) * gained / S(12);
+}
+/// What an effort of that norm can reach in a tick [J] because of what was held the tick before and is held
+/// in it, ‖h‖ and ‖w‖, both of length T, beside the `pushed` of all else. (§ 3)
+template <real S>
+[[nodiscard]] constexpr S later_reach(S norm, S before, S last, S pushed, S T) noexcept {
+  return norm * (before + last + S(2) * pushed) * T * T / S(2) * (S(1) + rounding<S>());
 }
 
 /// K_s = min(K, κ m/T²) [N/m]: the stiffness that a mass sampled every T can be held with. (§ 9)

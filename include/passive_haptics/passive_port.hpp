@@ -75,6 +75,21 @@ class passive_port {
   static_assert(latency <= assumptions_of<Bound>().latency,
                 "passive_haptics: this bound is not proved for a loop that is so late: "
                 "use strict_bound or reachable_bound");
+  static_assert(
+      !detail::turns<P>() || detail::books_turns<Observer>(),
+      "passive_haptics: this port turns, and this observer takes every turn for a straight one: "
+      "use reduced_energy with rigid_damping");
+  static_assert(!detail::turns<P>() || assumptions_of<Bound>().turns,
+                "passive_haptics: this bound is not proved for a port that turns: "
+                "use strict_bound or rigid_reachable_bound");
+  static_assert(
+      !detail::reports_work<P>() || detail::books_work<observer_type, P>,
+      "passive_haptics: this port reports the work of its motors, and this observer does not "
+      "book it: use reduced_energy");
+  static_assert(
+      !detail::reports_work<P>() || assumptions_of<Bound>().reported_work,
+      "passive_haptics: this port reports the work of its motors, and this bound takes it from "
+      "the motion: use strict_bound");
 
   /// The weakest of what counts, what bounds, and what the loop is known by.
   static constexpr guarantee passivity =
@@ -135,6 +150,9 @@ class passive_port {
   /// One tick: the device is at `position`, `dt` [s] after the last one. The effort of the last tick
   /// is taken to have been held exactly.
   [[nodiscard, gnu::flatten]] constexpr result_type tick(const pose& position, scalar dt) noexcept {
+    static_assert(!detail::reports_work<P>(),
+                  "passive_haptics: this port reports the work of its motors: tick with a "
+                  "device_sample, which says it");
     return advance(position, dt, guard_.commanded().back());
   }
   /// The same for a device that reports the effort it really held.
@@ -144,7 +162,11 @@ class passive_port {
         return refuse(event::rejected_sample, sample.dt);
       }
     }
-    return advance(sample.position, sample.dt, sample.held);
+    if constexpr (detail::reports_work<P>()) {
+      return advance(sample.position, sample.dt, sample.held, sample.work);
+    } else {
+      return advance(sample.position, sample.dt, sample.held);
+    }
   }
   /// The same two with an effort of your own making for this tick, from a source that takes one.
   template <class Own = source_type>
@@ -186,7 +208,8 @@ class passive_port {
       source_type::asks_for_numbers && detail::reduces<Bound, P, state_type>();
 
   [[nodiscard, gnu::always_inline, gnu::flatten]] constexpr result_type advance(
-      const pose position, scalar dt, const typename P::stored_effort& held) noexcept {
+      const pose position, scalar dt, const typename P::stored_effort& held,
+      std::same_as<scalar> auto... work) noexcept {
     if (!sound_) [[unlikely]] {
       return refuse(event::rejected_parameters, dt);
     }
@@ -199,7 +222,7 @@ class passive_port {
     const bool known = guard_.knows_motion();
     if (!known) [[unlikely]] {
       travel = resume(held, dt);
-    } else if (!book(travel, held, dt)) [[unlikely]] {
+    } else if (!book(travel, held, dt, work...)) [[unlikely]] {
       return refuse(event::rejected_sample, dt);
     }
     guard_.move_to(position);
@@ -257,22 +280,23 @@ class passive_port {
   }
 
   /// One tick into the ledger; false if its energy is no number.
-  [[nodiscard, gnu::always_inline]] constexpr bool book(const motion& travel,
-                                                        const typename P::stored_effort& held,
-                                                        scalar dt) noexcept {
+  [[nodiscard, gnu::always_inline]] constexpr bool book(
+      const motion& travel, const typename P::stored_effort& held, scalar dt,
+      std::same_as<scalar> auto... work) noexcept {
     if constexpr (!trusting) {
-      if (dt > limits_.watchdog) return book_cut_short(travel, held, dt);
+      if (dt > limits_.watchdog) return book_cut_short(travel, held, dt, work...);
     }
-    return observer_.update(travel, held, dt);
+    return observer_.update(travel, held, dt, work...);
   }
   /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of
   /// the two, and what only one of them covers, a ledger that is more than a number forgets. Vectors by
   /// value and at rest, so that the ordinary tick keeps its own in registers.
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_cut_short(
-      typename P::stored_effort travel, typename P::stored_effort held, scalar dt) noexcept {
+      typename P::stored_effort travel, typename P::stored_effort held, scalar dt,
+      std::same_as<scalar> auto... work) noexcept {
     observer_type dropped = observer_;
     dropped.forfeit(held, limits_.watchdog);
-    if (!observer_.update(travel, held, dt)) return false;
+    if (!observer_.update(travel, held, dt, work...)) return false;
     if constexpr (!Observer::exact) observer_.forfeit(P::zero(), limits_.watchdog);
     if (dropped.value() < observer_.value()) observer_ = dropped;
     return true;

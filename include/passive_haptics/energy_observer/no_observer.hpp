@@ -15,6 +15,7 @@ struct no_observer {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bool counts = false;
   static constexpr bool exact = true;
+  static constexpr bool turns = true;
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
 
@@ -35,7 +36,8 @@ struct no_observer {
     };
 
     constexpr explicit on(const no_observer& /*p*/) noexcept {}
-    constexpr bool update(const motion& /*dx*/, const effort& /*held*/, scalar /*dt*/) noexcept {
+    constexpr bool update(const motion& /*dx*/, const effort& /*held*/, scalar /*dt*/,
+                          std::same_as<scalar> auto... /*work*/) noexcept {
       return true;
     }
     constexpr void forfeit(const effort& /*held*/, scalar /*T*/) noexcept {}

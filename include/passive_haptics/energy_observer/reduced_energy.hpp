@@ -20,13 +20,14 @@ inline namespace v0 {
 ///     E1(n) = E1(n−1) + Δxᵀ(b/dt)Δx − f_held·Δx                                    (2.9, 2.16)
 /// exact for a zero-order hold but for the damping, which it never overstates (lemma L1), and for
 /// rounding, which only lowers it (docs/design/stability.md). `dt` is the measured length of the
-/// tick. A negative E1 is a debt: it is kept, it is visible, it is repaid. With a loan the guarantee
+/// tick. At a port that turns it is not exact either, and books what is sure (rigid_damping). A negative E1 is a debt: it is kept, it is visible, it is repaid. With a loan the guarantee
 /// becomes E ≥ −loan (A8).
 template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
 struct basic_reduced_energy {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bool counts = true;
   static constexpr bool exact = true;
+  static constexpr bool turns = true;
 
   Damping damping{};  ///< b [N·s/m], a lower bound
   double loan{};      ///< E1 at the start [J]
@@ -55,6 +56,10 @@ class basic_reduced_energy<Damping, Sum>::on {
   static_assert(!damping_type::rubs,
                 "passive_haptics: reduced_energy takes what friction holds back elastically for "
                 "spent: dry friction is credited by dual_ledger");
+  static_assert(
+      !detail::turns<P>() || detail::knows_turns<damping_type, P>,
+      "passive_haptics: this port turns, and a turn may do other work than its ends show: "
+      "reduced_energy needs rigid_damping there, which knows by how much");
 
   constexpr explicit on(const basic_reduced_energy& p) noexcept
       : damping_(p.damping), loan_(detail::number<scalar>(p.loan)), energy_(loan_) {}
@@ -68,12 +73,13 @@ class basic_reduced_energy<Damping, Sum>::on {
 
   [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held,
                                                scalar dt) noexcept {
-    const scalar gain = detail::sure_gain<P>(damping_.dissipated(dx, dt), held, dx);
-    if (!kernels::is_finite(value() + gain)) [[unlikely]] {
-      return false;
-    }
-    detail::book(energy_, gain);
-    return true;
+    return take(detail::sure_gain<P>(damping_, dx, held, dt));
+  }
+  /// The same where the device reports what its motors did [J]: E1 += Δxᵀ(b/dt)Δx − work (lemma J).
+  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& /*held*/, scalar dt,
+                                               scalar work) noexcept {
+    const scalar dissipated = damping_.dissipated(dx, dt);
+    return take(kernels::sure_gain(dissipated, work, kernels::magnitude(work)));
   }
 
   /// A tick passed and nobody saw the motion: write off the worst that `held` can have done, down
@@ -94,6 +100,14 @@ class basic_reduced_energy<Damping, Sum>::on {
   }
 
  private:
+  [[gnu::always_inline]] constexpr bool take(scalar gain) noexcept {
+    if (!kernels::is_finite(value() + gain)) [[unlikely]] {
+      return false;
+    }
+    detail::book(energy_, gain);
+    return true;
+  }
+
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS damping_type damping_;
   scalar loan_;
   detail::ledger_number<scalar, Sum> energy_;  ///< E1 [J]
@@ -106,6 +120,7 @@ struct basic_capped_energy {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bool counts = true;
   static constexpr bool exact = true;
+  static constexpr bool turns = true;
 
   Damping damping{};                                     ///< b [N·s/m], a lower bound
   double loan{};                                         ///< E1 at the start [J]
@@ -151,9 +166,10 @@ class basic_capped_energy<Damping, Sum>::on
             .reset_after = static_cast<double>(reset_after_)};
   }
 
-  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held,
-                                               scalar dt) noexcept {
-    if (!ledger::update(dx, held, dt)) return false;
+  /// `work` [J] where the device reports it.
+  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held, scalar dt,
+                                               std::same_as<scalar> auto... work) noexcept {
+    if (!ledger::update(dx, held, dt, work...)) return false;
     idle_ = held == P::zero() ? idle_ + dt : scalar(0);
     this->keep_at_most(idle_ >= reset_after_ ? scalar(0) : cap_);
     return true;

@@ -22,7 +22,10 @@ struct bound_chain : detail::sequence<First, Rest...> {
       .needs_ledger = First::traits.needs_ledger || (Rest::traits.needs_ledger || ...),
       .exact_travel =
           assumptions_of<First>().exact_travel || (assumptions_of<Rest>().exact_travel || ...),
-      .latency = (std::min)({assumptions_of<First>().latency, assumptions_of<Rest>().latency...})};
+      .latency = (std::min)({assumptions_of<First>().latency, assumptions_of<Rest>().latency...}),
+      .turns = assumptions_of<First>().turns && (assumptions_of<Rest>().turns && ...),
+      .reported_work =
+          assumptions_of<First>().reported_work && (assumptions_of<Rest>().reported_work && ...)};
 
   using detail::sequence<First, Rest...>::sequence;
 

@@ -36,7 +36,9 @@ struct basic_energy_tank {
       Outflow == tank_outflow::worst_case ? guarantee::strict : guarantee::none;
   static constexpr bound_traits traits{.needs_ledger = true,
                                        .exact_travel = Outflow == tank_outflow::predicted,
-                                       .latency = any_latency};
+                                       .latency = any_latency,
+                                       .turns = true,
+                                       .reported_work = true};
 
   double reserve{};  ///< ε [J], never spent
 

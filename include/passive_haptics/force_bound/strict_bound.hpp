@@ -29,8 +29,11 @@ inline namespace v0 {
 /// ledger it shows at most 2b/T N/m.
 struct strict_bound {
   static constexpr guarantee passivity = guarantee::strict;
-  static constexpr bound_traits traits{
-      .needs_ledger = true, .exact_travel = false, .latency = any_latency};
+  static constexpr bound_traits traits{.needs_ledger = true,
+                                       .exact_travel = false,
+                                       .latency = any_latency,
+                                       .turns = true,
+                                       .reported_work = true};
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
 
@@ -63,7 +66,7 @@ struct strict_bound {
 /// 2b/T/(k + 1) with latency; and after a lost sample or a late tick the force starts again from zero.
 struct memoryless_bound {
   static constexpr guarantee passivity = guarantee::strict;
-  static constexpr bound_traits traits{.needs_ledger = true, .latency = any_latency};
+  static constexpr bound_traits traits{.needs_ledger = true, .latency = any_latency, .turns = true};
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
 

@@ -152,16 +152,28 @@ template <class P, class Observer>
   return observer.value() == first;
 }
 
+/// A damping that a port may have, 0.03 in every direction.
+template <class P>
+[[nodiscard]] constexpr auto a_damping() noexcept {
+  if constexpr (detail::turns<P>()) {
+    return typename P::damping_of_turns{0.03, 0.03};
+  } else {
+    diagonal_damping<P::dof> b;
+    b.coefficients.fill(0.03);
+    return b;
+  }
+}
+
 /// The port as a bound may find it.
 template <class P>
 class random_port {
  public:
   using scalar = typename P::scalar;
-  using damping_type = detail::some_damping<P>;
+  using damping_type = part_at<decltype(a_damping<P>()), P>;
   using state_type = port_state<P, damping_type>;
 
   constexpr explicit random_port(std::uint64_t seed) noexcept
-      : random_(seed), damping_(every_axis()) {}
+      : random_(seed), damping_(a_damping<P>()) {}
 
   /// Everything finite, the ledger anywhere from debt to plenty.
   [[nodiscard]] constexpr state_type next() noexcept {
@@ -180,12 +192,6 @@ class random_port {
   [[nodiscard]] constexpr samples& random() noexcept { return random_; }
 
  private:
-  [[nodiscard]] static constexpr diagonal_damping<P::dof> every_axis() noexcept {
-    diagonal_damping<P::dof> d;
-    d.coefficients.fill(0.03);
-    return d;
-  }
-
   samples random_;
   damping_type damping_;
   typename state_type::commands commanded_{};
@@ -284,6 +290,17 @@ template <class P, class Bound>
   return true;
 }
 
+/// The pose that a motion leads to.
+template <class P>
+[[nodiscard]] constexpr typename P::pose after(const typename P::pose& x,
+                                               const typename P::motion& dx) noexcept {
+  if constexpr (requires { P::moved(x, dx); }) {
+    return P::moved(x, dx);
+  } else {
+    return x + dx;
+  }
+}
+
 /// One run of random wanted forces and motions, the worst ones among them, through a port that is so
 /// many ticks late. The energy is booked here, from the forces really held.
 template <int Latency, class P, class Bound>
@@ -292,36 +309,45 @@ template <int Latency, class P, class Bound>
   using scalar = typename P::scalar;
   using effort = typename P::effort;
   using motion = typename P::motion;
-  diagonal_damping<P::dof> b;
-  b.coefficients.fill(0.03);
-  const typename diagonal_damping<P::dof>::template on<P> damping(b);
-  using ledger = basic_reduced_energy<diagonal_damping<P::dof>>;
+  constexpr auto b = a_damping<P>();
+  const part_at<decltype(a_damping<P>()), P> damping(b);
+  using ledger = basic_reduced_energy<std::remove_const_t<decltype(b)>>;
   passive_port device{P{}, given_force{}, ledger{.damping = b}, bound,
                       late_loop_limits<Latency>{.longest_tick = 0.001, .top_speed = 1e3}};
   samples random(seed);
   std::array<effort, static_cast<std::size_t>(Latency) + 1> commanded{};
   commanded.fill(P::zero());
-  typename P::pose x = P::zero();
+  effort acting = P::zero();
+  scalar done(0);  // by it, over the last tick [J]
+  typename P::pose x = typename P::stored_pose{};
   scalar energy(0), least(0), passed(0);
   const scalar T = scalar(0.001);
   for (int i = 0; i < enough(ticks); ++i) {
     const scalar size = random.number<scalar>();
     const effort wanted = random.vector<P>() * (size * scalar(10));
-    const effort next = device.tick(x, T, wanted).force;
+    effort next = P::zero();
+    if constexpr (detail::reports_work<P>()) {
+      next =
+          device.tick({.position = x, .held = acting, .dt = T, .valid = true, .work = done}, wanted)
+              .force;
+    } else {
+      next = device.tick(x, T, wanted).force;
+    }
     for (std::size_t j = commanded.size() - 1; j > 0; --j) commanded[j] = commanded[j - 1];
     commanded[0] = next;
-    const effort acting = commanded.back();  // until the next tick
+    acting = commanded.back();  // until the next tick
     motion dx = random.vector<P>() * scalar(2e-4);
     if (random.number<scalar>() > scalar(0)) {  // the worst of L3, now and then a multiple
       for (int k = 0; k < P::dof; ++k) {
         P::component(dx, k) = P::component(acting, k) * T / (scalar(2) * damping.along_axis(k));
       }
     }
-    const typename P::pose moved = x + dx;
+    const typename P::pose moved = after<P>(x, dx);
     dx = P::between(x, moved);  // as it comes out in this scalar
     x = moved;
     const auto work = P::work(acting, dx);
-    energy += damping.dissipated(dx, T) - work.joules;
+    done = work.joules;
+    energy += damping.dissipated(dx, T) - done;
     passed += damping.dissipated(dx, T) + work.passed;
     const scalar slack = scalar(64) * std::numeric_limits<scalar>::epsilon() * passed;
     least = kernels::smaller(least, energy + slack);

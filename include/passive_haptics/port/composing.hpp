@@ -19,6 +19,20 @@ template <class Part>
   return false;
 }
 
+/// Does an observer book what is unsure of a turn?
+template <class Observer>
+[[nodiscard]] constexpr bool books_turns() noexcept {
+  if constexpr (requires { Observer::turns; }) return Observer::turns;
+  return false;
+}
+/// Does it book the work that a device reports?
+template <class Observer, class P>
+concept books_work = requires(Observer o, const typename P::motion m, const typename P::effort f,
+                              typename P::scalar s) {
+  { o.update(m, f, s, s) } -> std::same_as<bool>;
+  requires noexcept(o.update(m, f, s, s));
+};
+
 /// Is none of them a shaper?
 template <class... Bounds>
 [[nodiscard]] constexpr bool are_bounds() noexcept {

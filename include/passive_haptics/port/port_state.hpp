@@ -73,9 +73,9 @@ struct port_state {
       return energy - in_flight();
     }
   }
-  /// What the last tick brought, Δxᵀ(b/dt)Δx − f_held·Δx [J], rounded down.
+  /// What the last tick brought, Δxᵀ(b/dt)Δx − f_held·Δx [J], rounded down, at least.
   [[nodiscard]] constexpr scalar gain() const noexcept {
-    return detail::sure_gain<Port>(damping.dissipated(travel, dt), held, travel);
+    return detail::sure_gain<Port>(damping, travel, effort(held), dt);
   }
 };
 

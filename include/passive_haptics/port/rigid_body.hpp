@@ -19,6 +19,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
+struct rigid_damping;
+
 /// Where a handle is and how it is turned, at rest and to compute with. A plain value.
 template <real Scalar>
 struct rigid_pose {
@@ -57,7 +59,8 @@ struct rigid_body : detail::rigid_poses<Scalar> {
 
  public:
   static constexpr int dof = 6;
-  static constexpr bool turns = true;  ///< the path of a tick is not known from its ends
+  static constexpr bool turns = true;      ///< the path of a tick is not known from its ends
+  using damping_of_turns = rigid_damping;  ///< one that knows what a turn may hide
   using vector = typename algebra::vector;
   using coordinates = typename algebra::coordinates;
   using triple = typename poses::body_space::vector;

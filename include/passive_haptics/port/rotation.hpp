@@ -67,10 +67,10 @@ namespace detail {
 /// asin(s)/s from its series, for s² < 1e-4: four terms in double.
 template <real S>
 [[nodiscard]] constexpr S arc_over_sine(S squared) noexcept {
-  S sum(1), term(1);
+  S sum(1), term(1), odd(1);
   for (int k = 0; k < 64; ++k) {
-    const S odd(2 * k + 1);
-    term = term * squared * odd * odd / (S(2 * k + 2) * S(2 * k + 3));
+    term = term * squared * odd * odd / ((odd + S(1)) * (odd + S(2)));
+    odd = odd + S(2);
     const S next = sum + term;
     if (!(next > sum)) break;
     sum = next;

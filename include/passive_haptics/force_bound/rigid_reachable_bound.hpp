@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Bounds of a wrench, for a port that turns.
+//
+//   rigid_reachable_bound   what a handle of known inertia can reach must be covered, in joules
+//   rigid_actuator_limit    |f| and |τ| that the motors give, one common share
+//
+// One share for the whole wrench: a force and a torque that are bounded apart spend one ledger twice.
+
+#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/rigid_damping.hpp>
+#include <passive_haptics/port/rigid_inertia.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// reachable_work_bound for a rigid_body. With ‖w‖ of rigid_inertia and W = ¼wᵀB⁻¹w, the most work that w can
+/// do in the tick that begins now is
+///     η = w·Δξ T/T₀ + ‖w‖ ((‖held‖ + F) T₀T + (‖w‖ + F) T²)/2 + |τ|(|θ| + α T₀²)α T₀T/12
+/// where F is the norm of all else that pushes:
+///     hand_force + 2 b_max|Δp|/T₀, hand_torque + 2 b_ω,max|θ|/T₀      the hand, and the damper at most
+///     |ω|² √(m|c|² + (I_max − I_min)²/(4I)), |ω| = 2|θ|/T₀            the body as it turns
+/// and the last term is what the path of the last tick may have turned beside θ, α = (‖held‖ + F)/√I the
+/// most that its rate could change. The share s that is left hands out no more than E1 over it:
+///     s = E1/η + η/(4W) where η² < 4 W E1,  √(E1/W) elsewhere
+/// In a loop that is one tick late the wrench h on its way is covered first, over its own tick, and w over
+/// the one after it:   max of η' − η'²/(4W(h)) over 0 ≤ η' ≤ η(h), and
+///     η₂ = η of w with h in its place as the one held next, + ‖w‖ ((‖h‖ + F) + (‖w‖ + F)) T²/2
+///
+/// Passive (the true E ≥ 0; the ledger, which knows less, may show a debt) under ALL of these:
+///   - the inertia is nowhere below that of rigid_inertia, in any pose; the hand's wrench at the handle point
+///     is within its two lengths;
+///   - the damping at the handle is between the ledger's and the two numbers here, in any direction;
+///   - the handle is at most twice as fast in the coming ticks as it was on average in the last, or so slow
+///     that what it does by itself is nothing beside the hand;
+///   - ticks ≤ longest_tick, exact poses, the wrench held in the world frame, and known.
+/// Motors that hold joint torques are another device: take reported_work and strict_bound.
+struct rigid_reachable_bound {
+  static constexpr guarantee passivity = guarantee::conditional;
+  static constexpr bound_traits traits{.needs_ledger = true, .latency = 1, .turns = true};
+
+  rigid_inertia inertia{};        ///< a lower bound
+  double hand_force{};            ///< largest force of everything but motors and damper [N]
+  double hand_torque{};           ///< largest torque of the same about the handle point [N·m]
+  double linear_damping_most{};   ///< b_max, an upper bound in any direction [N·s/m]
+  double angular_damping_most{};  ///< b_ω,max [N·m·s/rad]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (const auto fault = inertia.check()) return fault;
+    if (!detail::not_negative(hand_force)) return {"hand_force", hand_force, "finite and ≥ 0 N"};
+    if (!detail::not_negative(hand_torque)) {
+      return {"hand_torque", hand_torque, "finite and ≥ 0 N·m"};
+    }
+    if (!detail::positive(linear_damping_most)) {
+      return {"linear_damping_most", linear_damping_most, "finite and > 0 N·s/m: an upper bound"};
+    }
+    if (!detail::positive(angular_damping_most)) {
+      return {"angular_damping_most", angular_damping_most,
+              "finite and > 0 N·m·s/rad: an upper bound"};
+    }
+    return {};
+  }
+  template <port P>
+  class on;
+};
+
+template <port P>
+class rigid_reachable_bound::on {
+ public:
+  using scalar = typename P::scalar;
+  using effort = typename P::effort;
+  static_assert(
+      requires(effort w) { P::angular(w); },
+      "passive_haptics: rigid_reachable_bound knows the inertia of a handle that moves and turns: "
+      "other ports need reachable_bound or reachable_work_bound");
+
+  constexpr explicit on(const rigid_reachable_bound& p) noexcept
+      : inertia_(p.inertia),
+        hand_force_(detail::number<scalar>(p.hand_force)),
+        hand_torque_(detail::number<scalar>(p.hand_torque)),
+        linear_most_(detail::number<scalar>(p.linear_damping_most)),
+        angular_most_(detail::number<scalar>(p.angular_damping_most)) {}
+  [[nodiscard]] constexpr rigid_reachable_bound parameters() const noexcept {
+    return {.inertia = inertia_.parameters(),
+            .hand_force = static_cast<double>(hand_force_),
+            .hand_torque = static_cast<double>(hand_torque_),
+            .linear_damping_most = static_cast<double>(linear_most_),
+            .angular_damping_most = static_cast<double>(angular_most_)};
+  }
+
+  template <class State>
+  [[nodiscard]] constexpr share<scalar> limit(const effort& desired,
+                                              const State& state) const noexcept {
+    const scalar T = state.longest_tick;
+    const scalar torque = inertia_.template length<3>(desired);
+    const scalar known =
+        kernels::coning_share(scalar(1), scalar(torque * torque), state.damping.along_axis(3), T);
+    const effort wrench = desired * known;
+    const surroundings all = around(state);
+    const scalar norm = inertia_.norm(wrench);
+    scalar credit = state.energy;
+    scalar before = norm;
+    scalar later(0);
+    if constexpr (State::latency > 0) {
+      const effort coming = state.commanded[0];
+      before = inertia_.norm(coming);
+      later = kernels::later_reach(norm, before, norm, all.pushed, T);
+      if (before > scalar(0)) {
+        const scalar W = state.damping.worst_outflow(coming, T);
+        credit -= kernels::reachable_work(W, reach(coming, before, before, all, state)) *
+                  (scalar(1) + kernels::rounding<scalar>());
+      }
+    }
+    const scalar W = state.damping.worst_outflow(wrench, T);
+    if (W <= kernels::spendable(credit) || !(norm > scalar(0))) return share{known};
+    const scalar most = reach(wrench, norm, before, all, state) + later;
+    return share{known * kernels::reachable_share(credit, W, most)};
+  }
+
+ private:
+  /// What pushed over the last tick, and goes on.
+  struct surroundings {
+    scalar held;     ///< ‖held‖ [√J/s]
+    scalar pushed;   ///< F, all else [√J/s]
+    scalar turn;     ///< |θ| [rad]
+    scalar turning;  ///< α [rad/s²]
+  };
+  [[nodiscard]] constexpr surroundings around(const auto& state) const noexcept {
+    const scalar travel = inertia_.template length<0>(state.travel);
+    const scalar turn = inertia_.template length<3>(state.travel);
+    const scalar speed = scalar(2) / state.dt;
+    const scalar rate = speed * turn;
+    const scalar held = inertia_.norm(effort(state.held));
+    const scalar pushed = inertia_.norm(scalar(hand_force_ + linear_most_ * speed * travel),
+                                        scalar(hand_torque_ + angular_most_ * rate)) +
+                          inertia_.of_turning(rate);
+    return {held, pushed, turn, inertia_.turning_by(held + pushed)};
+  }
+
+  /// η [J] of a wrench of that norm in the tick that begins now, where one of the norm `next` is held.
+  [[nodiscard]] constexpr scalar reach(const effort& w, scalar norm, scalar next,
+                                       const surroundings& all, const auto& state) const noexcept {
+    if (!state.motion_known || !(all.turn <= scalar(1))) return kernels::largest<scalar>();
+    const scalar T = state.longest_tick;
+    const auto work = P::work(w, state.travel);
+    const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
+    const scalar pushed =
+        norm * ((all.held + all.pushed) * state.dt * T + (next + all.pushed) * T * T) / scalar(2);
+    const scalar beside = inertia_.template length<3>(w) *
+                          kernels::unseen_turn(all.turn, all.turning, state.dt) * T / state.dt;
+    return outward * T / state.dt + (pushed + beside) * (scalar(1) + kernels::rounding<scalar>());
+  }
+
+  part_at<rigid_inertia, P> inertia_;
+  scalar hand_force_, hand_torque_, linear_most_, angular_most_;
+};
+
+/// |f| ≤ `force` and |τ| ≤ `torque`, direction kept, of the wrench as a whole: what the motors can hold.
+struct rigid_actuator_limit {
+  static constexpr guarantee passivity = guarantee::none;
+  static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
+
+  double force{};   ///< largest force [N]
+  double torque{};  ///< largest torque [N·m]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::not_negative(force)) return {"force", force, "finite and ≥ 0 N"};
+    if (!detail::not_negative(torque)) return {"torque", torque, "finite and ≥ 0 N·m"};
+    return {};
+  }
+
+  template <port P>
+  class on {
+   public:
+    using scalar = typename P::scalar;
+    static_assert(
+        requires(typename P::effort w) { P::angular(w); },
+        "passive_haptics: rigid_actuator_limit bounds a force and a torque: other ports need "
+        "actuator_limit or motor_limits");
+
+    constexpr explicit on(const rigid_actuator_limit& p) noexcept
+        : force_(detail::number<scalar>(p.force)), torque_(detail::number<scalar>(p.torque)) {}
+    [[nodiscard]] constexpr rigid_actuator_limit parameters() const noexcept {
+      return {.force = static_cast<double>(force_), .torque = static_cast<double>(torque_)};
+    }
+    [[nodiscard]] constexpr share<scalar> limit(const typename P::effort& desired,
+                                                const auto& /*state*/) const noexcept {
+      using lengths = part_at<rigid_inertia, P>;
+      const scalar f = lengths::template length<0>(desired);
+      const scalar torque = lengths::template length<3>(desired);
+      scalar least(1);
+      if (f > force_) least = force_ / f;
+      if (torque * least > torque_) least = torque_ / torque;
+      return {least};
+    }
+
+   private:
+    scalar force_, torque_;
+  };
+};
+
+}  // namespace v0
+}  // namespace passive_haptics
