@@ -26,22 +26,14 @@
 #include <passive_haptics/contact/local_contact.hpp>
 #include <passive_haptics/contact/proxy.hpp>
 #include <passive_haptics/contact/pursuit.hpp>
-#include <passive_haptics/contact/row.hpp>
+#include <passive_haptics/contact/slot_room.hpp>
 #include <passive_haptics/contact/stick_slip.hpp>
 
 #include <array>
-#include <tuple>
 #include <utility>
 
 namespace passive_haptics {
 inline namespace v0 {
-
-/// Room for `Count` surfaces of one kind.
-template <class Surface, int Count>
-requires(Count >= 1) struct slots {
-  using surface_type = Surface;
-  static constexpr int count = Count;
-};
 
 /// The surfaces, how they press, how fast they follow, and whether they rub:
 ///     ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::stick_slip{}, ph::slots<…>{}}
@@ -85,14 +77,12 @@ template <port Space>
 class contact_set<Friction, Slots...>::on {
   static constexpr bool rubs = !std::same_as<Friction, frictionless> && Space::dof > 1;
   template <class Surface>
-  static constexpr int kinds = (0 + ... + int(std::same_as<Surface, typename Slots::surface_type>));
-  template <class Group>
-  using room = std::array<pursued<typename Group::surface_type, Space>,
-                          static_cast<std::size_t>(Group::count)>;
+  using slot_of = pursued<Surface, Space>;
+  using all_slots = detail::slot_room<slot_of, Slots...>;
+  using first_kind = typename all_slots::first_kind;
   struct no_friction {
     constexpr explicit no_friction(const Friction& /*f*/) noexcept {}
   };
-  using first_kind = std::tuple_element_t<0, std::tuple<typename Slots::surface_type...>>;
 
  public:
   using scalar = typename Space::scalar;
@@ -124,10 +114,10 @@ class contact_set<Friction, Slots...>::on {
   /// The longest tick of the loop [s], on which the stiffness depends.
   constexpr void begin(scalar longest_tick) noexcept {
     longest_tick_ = longest_tick;
-    for_each([&](auto& slot, std::size_t) { slot.begin(spring_, longest_tick); });
+    slots_.for_each([&](auto& slot, std::size_t) { slot.begin(spring_, longest_tick); });
   }
   constexpr void reset() noexcept {
-    for_each([](auto& slot, std::size_t) { slot.reset(); });
+    slots_.for_each([](auto& slot, std::size_t) { slot.reset(); });
     static_cast<void>(let_go());
     refused_ = false;
   }
@@ -137,7 +127,7 @@ class contact_set<Friction, Slots...>::on {
   template <class Surface>
   constexpr bool update(int i, const Surface& next) noexcept {
     bool taken = false;
-    visit<Surface>(
+    slots_.template visit<Surface>(
         i, [&](auto& slot) { taken = slot.update(next, here_, spring_, pace_, longest_tick_); });
     refused_ = refused_ || !taken;
     return taken;
@@ -145,12 +135,12 @@ class contact_set<Friction, Slots...>::on {
   /// Nothing is there any more: the contact recedes until it presses no longer, and ends.
   template <class Surface = first_kind>
   constexpr void release(int i) noexcept {
-    visit<Surface>(i, [](auto& slot) { slot.release(); });
+    slots_.template visit<Surface>(i, [](auto& slot) { slot.release(); });
   }
   /// Slot i of that kind, 0 ≤ i < Count: its newest surface, its lag ℓ and its λ.
   template <class Surface = first_kind>
   [[nodiscard]] constexpr const auto& slot(int i) const noexcept {
-    return group<Surface>(*this)[static_cast<std::size_t>(i)];
+    return slots_.template slot<Surface>(i);
   }
 
   struct request {
@@ -175,7 +165,7 @@ class contact_set<Friction, Slots...>::on {
     vector pressed = Space::zero(), rubbed = Space::zero(), v = Space::zero();
     if constexpr (rubs) v = velocity(motion);
     std::size_t r = 0;
-    for_each([&](auto& slot, std::size_t i) {
+    slots_.for_each([&](auto& slot, std::size_t i) {
       const bool felt = r < now.rows.count && now.slot[r] == i;
       const scalar lambda = felt ? now.rows.pressed[r] : scalar(0);
       slot.press(lambda);
@@ -203,7 +193,7 @@ class contact_set<Friction, Slots...>::on {
     return {port.force, r.depth, port.energy, port.what, port.limited};
   }
   constexpr result_type refused(const port_result<Space>& port, scalar dt) noexcept {
-    for_each([&](auto& slot, std::size_t) { slot.grow_older(dt, pace_); });
+    slots_.for_each([&](auto& slot, std::size_t) { slot.grow_older(dt, pace_); });
     return {port.force, scalar(0), port.energy, port.what, false};
   }
 
@@ -226,7 +216,7 @@ class contact_set<Friction, Slots...>::on {
   constexpr void gather(const vector& x, const auto& motion, scalar dt, gathered& now,
                         event& what) noexcept {
     const vector others = coupled_;
-    for_each([&](auto& slot, std::size_t i) {
+    slots_.for_each([&](auto& slot, std::size_t i) {
       if (!slot.taken()) return;
       now.empty = false;
       slot.grow_older(dt, pace_);
@@ -248,7 +238,7 @@ class contact_set<Friction, Slots...>::on {
   }
   /// No force, and nothing that was felt is remembered.
   constexpr request let_go() noexcept {
-    for_each([](auto& slot, std::size_t) { slot.press(scalar(0)); });
+    slots_.for_each([](auto& slot, std::size_t) { slot.press(scalar(0)); });
     if constexpr (rubs) {
       for (auto& bristle : bristles_) bristle.reset();
     }
@@ -266,41 +256,7 @@ class contact_set<Friction, Slots...>::on {
   }
   static constexpr auto inner = [](const vector& a, const vector& b) { return Space::dot(a, b); };
 
-  /// act(slot, number) for all of them, kind by kind.
-  constexpr void for_each(auto act) noexcept {
-    std::size_t number = 0;
-    const auto one = [&](auto& group) {
-      for (auto& slot : group) act(slot, number++);
-    };
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (one(detail::get<I>(groups_)), ...);
-    }
-    (std::index_sequence_for<Slots...>{});
-  }
-  template <class Surface, class Self, std::size_t I = 0>
-  [[nodiscard]] static constexpr auto& group(Self& self) noexcept {
-    using here = std::tuple_element_t<I, std::tuple<Slots...>>;
-    if constexpr (std::same_as<typename here::surface_type, Surface>) {
-      return detail::get<I>(self.groups_);
-    } else {
-      return group<Surface, Self, I + 1>(self);
-    }
-  }
-  /// act(slot i) if there is one.
-  template <class Surface>
-  constexpr void visit(int i, auto act) noexcept {
-    static_assert(kinds<Surface> == 1,
-                  "passive_haptics: contact_set has no slots<Surface, Count> for a surface of this "
-                  "kind, or two of them");
-    if constexpr (kinds<Surface> == 1) {
-      auto& slots_of_it = group<Surface>(*this);
-      if (i >= 0 && static_cast<std::size_t>(i) < slots_of_it.size()) {
-        act(slots_of_it[static_cast<std::size_t>(i)]);
-      }
-    }
-  }
-
-  detail::row<room<Slots>...> groups_{};
+  all_slots slots_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS if_it_rubs<stick_slip::bristle<Space>> bristles_{};
   proxy_spring::at<scalar> spring_;
   pursuit::on<Space> pace_;

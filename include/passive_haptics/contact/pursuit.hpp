@@ -101,7 +101,7 @@ class pursued {
 
   /// Takes a new surface while the device is at `here`, or refuses it and keeps the last good one. One
   /// that is pressed keeps the force it has; any other is met anew.
-  constexpr bool update(Surface next, const vector& here, const proxy_spring::at<scalar>& rule,
+  constexpr bool update(Surface next, const vector& here, const auto& rule,
                         const pursuit::on<Space>& pace, scalar longest_tick) noexcept {
     if (!next.prepare()) return false;
     const auto spring = rule.sampled(next.stiffness, longest_tick);
@@ -128,7 +128,7 @@ class pursued {
     state_ = pressed_ > scalar(0) ? state::leaving : state::empty;
   }
   constexpr void reset() noexcept { *this = {}; }
-  constexpr void begin(const proxy_spring::at<scalar>& rule, scalar longest_tick) noexcept {
+  constexpr void begin(const auto& rule, scalar longest_tick) noexcept {
     if (taken()) spring_ = rule.sampled(target_.stiffness, longest_tick);
   }
 
