@@ -110,18 +110,18 @@ template <class Scalar>
   return kernels::smaller(d - s.damping / s.stiffness * v, Scalar(inward_limit) * d);
 }
 
-/// (S1) times K_c. A row is the direction in which a contact pushes: n_i, or a wrench.
+/// (S1) times the largest stiffness K. A row is what a contact does to the device: n_i, or a wrench.
 template <class Row, class Scalar, int Capacity>
 struct proxy_problem {
   static constexpr auto capacity = static_cast<std::size_t>(Capacity);
 
   std::array<Row, capacity> row;         ///< n_i
-  std::array<Scalar, capacity> wish;     ///< K_c d'_i [N]
-  std::array<Scalar, capacity> own;      ///< K_c/K_i
+  std::array<Scalar, capacity> wish;     ///< K d'_i [N]
+  std::array<Scalar, capacity> own;      ///< K A_ii, K/K_i for a point
   std::array<Scalar, capacity> pressed;  ///< λ_i [N]; where iteration begins
   std::size_t count = 0;
 
-  /// A contact more.
+  /// A contact more, by its depth d' [m] and its stiffness [N/m].
   constexpr void add(const Row& n, Scalar depth, Scalar stiffness, Scalar lambda) noexcept {
     row[count] = n;
     wish[count] = depth;
@@ -129,11 +129,11 @@ struct proxy_problem {
     pressed[count] = lambda;
     ++count;
   }
-  /// From depths and stiffnesses to wishes and shares, when K_c [N/m] is known.
-  constexpr void couple(Scalar coupling) noexcept {
+  /// When all are there: from depths and stiffnesses to `wish` and `own`, K [N/m] the scale.
+  constexpr void couple(Scalar K) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
-      wish[i] *= coupling;
-      own[i] = coupling / own[i];
+      wish[i] *= K;
+      own[i] = K / own[i];
     }
   }
 };

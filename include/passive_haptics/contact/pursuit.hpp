@@ -99,16 +99,16 @@ class pursued {
   static_assert(surface_for<Surface, Space>,
                 "passive_haptics: the surface does not model surface_for: see concepts.hpp");
 
-  /// Takes a new surface while the device is at `here`, or refuses it and keeps the last good one. One
-  /// that is pressed keeps the force it has; any other is met anew.
-  constexpr bool update(Surface next, const vector& here, const auto& rule,
+  /// Takes a new surface while the contact is at `here`, and was at `was` with the last one, or refuses it
+  /// and keeps the last good one. One that is pressed keeps the force it has; any other is met anew.
+  constexpr bool update(Surface next, const vector& was, const vector& here, const auto& rule,
                         const pursuit::on<Space>& pace, scalar longest_tick) noexcept {
     if (!next.prepare()) return false;
     const auto spring = rule.sampled(next.stiffness, longest_tick);
     if (pressed_ > scalar(0)) {
       const auto shown = next.at(here);
       const vector normal = shown.outward();
-      const scalar own = target_.at(here).depth - lag_;
+      const scalar own = target_.at(was).depth - lag_;
       const scalar lag = shown.depth - own * (spring_.stiffness / spring.stiffness);
       if (!kernels::is_finite(lag) || !Space::is_finite(normal)) return false;
       lag_ = lag;
@@ -136,9 +136,8 @@ class pursued {
   [[nodiscard]] constexpr bool stale() const noexcept { return state_ == state::stale; }
   [[nodiscard]] constexpr const Surface& target() const noexcept { return target_; }
   [[nodiscard]] constexpr scalar lag() const noexcept { return lag_; }  ///< ℓ [m]
-  [[nodiscard]] constexpr scalar speed() const noexcept {
-    return speed_;
-  }  ///< of its way there [m/s]
+  /// With which it is made up for [m/s].
+  [[nodiscard]] constexpr scalar speed() const noexcept { return speed_; }
   [[nodiscard]] constexpr scalar pressed() const noexcept { return pressed_; }  ///< λ [N]
   [[nodiscard]] constexpr vector normal() const noexcept { return normal_; }    ///< its own
   constexpr void press(scalar lambda) noexcept { pressed_ = lambda; }
@@ -150,10 +149,11 @@ class pursued {
     if (state_ == state::there && pace.stale(age_)) state_ = state::stale;
   }
 
-  /// Goes on to x, where `motion` is the device's, and says in `own` what is felt there; false: nothing.
-  /// `others` is the force of all contacts in the last tick over K_c [m].
-  [[nodiscard, gnu::always_inline]] constexpr bool follow(const vector& x, const auto& motion,
-                                                          scalar dt, const vector& others,
+  /// Goes on to x, where it moves outwards by `along`(n) [m/s], and says in `own` what is felt there; false:
+  /// nothing. `rests`: no contact pressed in the last tick. `unfelt`(push) is the depth up to which one more
+  /// would not [m].
+  [[nodiscard, gnu::always_inline]] constexpr bool follow(const vector& x, const auto& along,
+                                                          scalar dt, bool rests, const auto& unfelt,
                                                           const pursuit::on<Space>& pace,
                                                           felt& own) noexcept {
     const auto shown = target_.at(x);
@@ -167,13 +167,13 @@ class pursued {
     if (!(pressed_ > scalar(0))) {
       if (ends) return leave();
       if (state_ == state::expected) {
-        meet(own, others, pace);
-      } else if (own.depth <= scalar(0) && others == vector(Space::zero())) {
+        meet(own, unfelt(own.push), pace);
+      } else if (rests && own.depth <= scalar(0)) {
         keep(scalar(0), own.normal);  // nothing is felt of any: there is nothing to limit
       }
     }
     const scalar lag =
-        ends ? lag_ + pace.receding(motion.along(own.normal), dt) : shortened(lag_, speed_ * dt);
+        ends ? lag_ + pace.receding(along(own.normal), dt) : shortened(lag_, speed_ * dt);
     const vector goal = own.normal;
     const vector before = normal_;
     vector normal = before;
@@ -200,9 +200,7 @@ class pursued {
     return false;
   }
   /// A surface that has just appeared is no deeper than it can be with λ = 0, whatever the speed (S2).
-  constexpr void meet(const felt& here, const vector& others,
-                      const pursuit::on<Space>& pace) noexcept {
-    scalar most = Space::dot(here.push, others);
+  constexpr void meet(const felt& here, scalar most, const pursuit::on<Space>& pace) noexcept {
     if (most > scalar(0)) most = most / scalar(inward_limit);
     keep(here.depth - kernels::smaller(here.depth, most), here.normal);
     speed_ = pace.speed_for(scalar(0));

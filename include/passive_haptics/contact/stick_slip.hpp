@@ -77,6 +77,8 @@ class stick_slip::bristle {
   using vector = typename Space::vector;
 
   constexpr void reset() noexcept { *this = {}; }
+  /// There is no contact.
+  constexpr void let_go() noexcept { touching_ = false; }
 
   /// f_t [N] after the device has moved by `travel` [m] in dt [s], at `velocity` [m/s], under a normal force
   /// f_n [N] along n. `stiffness` is k_t [N/m], `damping` B_t [N·s/m].
@@ -85,7 +87,7 @@ class stick_slip::bristle {
                                                          const vector& velocity, scalar stiffness,
                                                          scalar damping, scalar dt) noexcept {
     if (!(f_n > scalar(0))) {
-      touching_ = false;
+      let_go();
       return Space::zero();
     }
     if (!touching_) {

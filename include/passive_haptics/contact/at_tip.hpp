@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What a stylus touches with its tip, while its motors push at the gimbal.
+//
+//     ph::passive_port touch{ph::stylus<double>{}, ph::at_tip{ph::contact_set{…}, tip}, …};
+
+#include <passive_haptics/contact/local_contact.hpp>
+#include <passive_haptics/port/stylus.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A source for the tip: it is asked where the tip is and how fast that moves, and its force goes to the
+/// gimbal. The torque r × f is lost where no motor gives it, so the tip turns round its contact freely; the
+/// energy is counted where the motors push, so a tip that is turned into a wall has paid for nothing: start
+/// with a loan, or keep r short (docs/design/six_dof.md).
+template <class Source>
+struct at_tip {
+  Source source{};
+  std::array<double, 3> tip{};  ///< r, from the gimbal, in the frame of the stylus [m]
+
+  constexpr at_tip() noexcept = default;
+  constexpr at_tip(const Source& s, const std::array<double, 3>& r) noexcept : source(s), tip(r) {}
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    for (const double r : tip) {
+      if (!kernels::is_finite(r)) return {"tip", r, "finite"};
+    }
+    return {};
+  }
+  template <port Stylus>
+  class on;
+};
+
+template <class Source>
+template <port Stylus>
+class at_tip<Source>::on {
+ public:
+  using space = typename Stylus::geometry;
+  using scalar = typename Stylus::scalar;
+  using vector = typename space::vector;
+  using source_type = part_at<Source, space>;
+  using result_type = typename source_type::result_type;
+  static constexpr bool asks_for_numbers = source_type::asks_for_numbers;
+  static constexpr bool needs_ledger = detail::spends_ledger<source_type>();
+
+  constexpr explicit on(const at_tip& p) noexcept
+      : source_(p.source),
+        tip_{detail::number<scalar>(p.tip[0]), detail::number<scalar>(p.tip[1]),
+             detail::number<scalar>(p.tip[2])} {}
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    for (int i = 0; i < 3; ++i) {
+      const scalar r = space::component(tip_, i);
+      if (!kernels::is_finite(r)) return {"tip", static_cast<double>(r), "finite"};
+    }
+    return detail::fault_in(source_);
+  }
+  constexpr void begin(scalar longest_tick) noexcept {
+    if constexpr (requires { source_.begin(longest_tick); }) source_.begin(longest_tick);
+  }
+  constexpr void reset() noexcept { detail::restart(source_); }
+  template <class Parameters>
+  static constexpr int takers = detail::takers<Parameters, Source, space>;
+  template <class Parameters>
+  constexpr void take(const Parameters& p) noexcept {
+    detail::take<Source, space>(source_, p);
+  }
+
+  /// What feels at the tip, to update or to release.
+  [[nodiscard]] constexpr source_type& contact() noexcept { return source_; }
+  [[nodiscard]] constexpr const source_type& contact() const noexcept { return source_; }
+
+  /// The tip, as its source sees it.
+  struct seen {
+    vector position, travel;  ///< [m]
+    scalar dt;                ///< [s]
+    [[nodiscard]] scalar along(const vector& n) const noexcept {
+      return space::dot(travel, n) / dt;
+    }
+  };
+  using request = typename source_type::request;
+  template <bool Shortcut>
+  [[nodiscard]] constexpr request ask(const auto& motion, const auto& port, event& what) noexcept {
+    const auto turn = rotation::normalised(motion.position.orientation);
+    const vector arm = rotation::rotate<scalar>(turn, tip_);
+    vector travel = port.travel;
+    if (port.motion_known) travel = travel + (arm - vector(arm_));
+    arm_ = arm;
+    const seen now{vector(Stylus::place(motion.position)) + arm, travel, port.dt};
+    return source_.template ask<Shortcut>(now, port, what);
+  }
+  [[nodiscard]] constexpr result_type answered(const request& r,
+                                               const port_result<Stylus>& port) noexcept {
+    return source_.answered(r, {port.force, port.energy, port.what, port.limited});
+  }
+  constexpr result_type refused(const port_result<Stylus>& port, scalar dt) noexcept {
+    return source_.refused({port.force, port.energy, port.what, port.limited}, dt);
+  }
+
+ private:
+  source_type source_;
+  typename space::coordinates tip_;    ///< r, in the frame of the stylus [m]
+  typename space::coordinates arm_{};  ///< R r in the last tick [m]
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

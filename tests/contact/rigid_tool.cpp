@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/contact/rigid_tool.hpp>
+#include <passive_haptics/laws/samples.hpp>
+#include <passive_haptics/port/rigid_damping.hpp>
+
+#include <string>
+
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+constexpr double T = 1e-3;
+constexpr ph::tool_spring light{.mass = 0.15, .least_inertia = 1e-4};
+
+template <class Scalar>
+using plane_of = ph::half_space<ph::space<Scalar, 3>>;
+using body = ph::rigid_body<double>;
+using pose = ph::rigid_pose<double>;
+using plane = plane_of<double>;
+using vector = d3::vector;
+
+/// A port that gives what the tool asks for.
+template <class Scalar, int Count, class Friction = ph::frictionless>
+auto open_port(const Friction& friction = {}) {
+  return ph::passive_port{
+      ph::rigid_body<Scalar>{},
+      ph::rigid_tool{light, ph::pursuit{}, friction, ph::slots<plane_of<Scalar>, Count>{}},
+      ph::no_observer{}, ph::no_bound{}, thesis_loop};
+}
+const plane floor_{vector(0, 0, 0), vector(0, 0, 1), 1000.0};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("a point of a tool presses with its force and its torque", "[rigid_tool]",
+                   double, float) {
+  using scalar = TestType;
+  auto port = open_port<scalar, 4>();
+  const scalar tiny = sizeof(scalar) == 4 ? scalar(1e-4) : scalar(1e-12);
+  REQUIRE(port.source().update(0, {scalar(0.05), scalar(0), scalar(-0.02)},
+                               plane_of<scalar>{{0, 0, 0}, {0, 0, 1}, scalar(1000)}));
+  (void)port.tick({{0, 0, scalar(0.021)}, {}}, scalar(T));
+  (void)port.tick({{0, 0, scalar(0.019)}, {}}, scalar(T));
+  const auto out = port.tick({{0, 0, scalar(0.019)}, {}}, scalar(T));
+  // k_v = K; k_ω = K ℓ² = 0.9 N·m/rad: 1/K_felt = 1/K + 0.05²/k_ω
+  const double felt = 1.0 / (1.0 / 1000.0 + 0.05 * 0.05 / 0.9);
+  CHECK_THAT(out.force(2), WithinRel(scalar(felt * 1e-3), scalar(1e-3)));
+  CHECK_THAT(out.force(4), WithinRel(scalar(-0.05 * felt * 1e-3), scalar(1e-3)));  // r × f
+  CHECK(std::abs(out.force(3)) <= tiny);
+  CHECK_THAT(out.depth, WithinRel(scalar(1e-3), scalar(1e-3)));
+  CHECK(out.what == ph::event::nominal);
+}
+
+TEST_CASE("a tool is no stiffer with sixteen contacts than its coupling", "[rigid_tool]") {
+  ph::laws::samples random(1);
+  const double k = 1000.0 / 0.9, turns = 0.9 / 0.9;  // C⁻¹/(1 − ε)
+  double steepest = 0.0;
+  for (int n = 0; n < 200; ++n) {
+    auto port = open_port<double, 16>();
+    for (int i = 0; i < 16; ++i) {
+      const vector at = random.vector<d3>() * 0.03, normal = random.direction<d3>();
+      port.source().update(
+          i, at, plane{vector(at + normal * (2e-3 * random.number<double>())), normal, 1000.0});
+    }
+    const auto rest =
+        [&port](const pose& x) {  // the surfaces have caught up, and so have the sweeps
+          for (int i = 0; i < 2000; ++i) (void)port.tick(x, T);
+          return port.tick(x, T).force;
+        };
+    const body::effort here = rest({});
+    const vector way = random.vector<d3>() * 1e-5, turn = random.vector<d3>() * 1e-4;
+    const body::effort there = rest(body::moved({}, body::join(way, turn)));
+    const body::effort change = there - here;
+    const double size = std::sqrt(body::linear(change).squaredNorm() / k +
+                                  body::angular(change).squaredNorm() / turns);
+    const double moved = std::sqrt(way.squaredNorm() * k + turn.squaredNorm() * turns);
+    steepest = std::max(steepest, size / moved);
+  }
+  CHECK(steepest <= 1.02);  // a point of the tool goes round by r|θ|²/2 as well
+  CHECK(steepest > 0.7);
+}
+
+TEST_CASE("a tool refuses what is none, and goes on with what is", "[rigid_tool]") {
+  auto port = open_port<double, 16>();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const pose above{{0, 0, 1e-3}, {}}, here{{0, 0, -1e-3}, {}};
+  CHECK(port.tick(above, T).what == ph::event::no_target);
+  REQUIRE(port.source().update(0, {0.0, 0.0, 0.0}, floor_));
+  (void)port.tick(above, T);
+  (void)port.tick(here, T);
+  const body::effort before = port.tick(here, T).force;
+  REQUIRE(before(2) > 0.9);
+  const auto refused = [&] {
+    const auto out = port.tick(here, T);
+    CHECK(out.what == ph::event::rejected_target);
+    CHECK(out.force == before);
+  };
+  CHECK_FALSE(port.source().update(16, {0.0, 0.0, 0.0}, floor_));  // the 17th
+  refused();
+  CHECK_FALSE(port.source().update(-1, {0.0, 0.0, 0.0}, floor_));
+  refused();
+  CHECK_FALSE(port.source().update(0, {nan, 0.0, 0.0}, floor_));
+  refused();
+  CHECK_FALSE(port.source().update(0, plane{vector(0, 0, 0), vector(0, 0, 0), 1000.0}));
+  refused();
+  CHECK(port.source().update(0, floor_));  // the same point
+  CHECK(port.tick(here, T).force == before);
+
+  const auto bad = port.tick({{0, 0, -1e-3}, {1.01, 0.0, 0.0, 0.0}}, T);  // no rotation
+  CHECK(bad.what == ph::event::rejected_sample);
+  CHECK(bad.force == body::zero());
+  (void)port.tick(here, T);
+  const auto rounded = port.tick({{0, 0, -1e-3}, {1.0005, 0.0, 0.0, 0.0}}, T);
+  CHECK(rounded.what == ph::event::nominal);
+  CHECK_THAT(rounded.force(2), WithinRel(before(2), 1e-9));
+}
+
+TEST_CASE("a point moved along the tool keeps the force it has", "[rigid_tool]") {
+  auto port = open_port<double, 1>();
+  REQUIRE(port.source().update(0, {0.0, 0.0, 0.0}, floor_));
+  (void)port.tick({{0, 0, 1e-3}, {}}, T);
+  const pose here{{0, 0, -1e-3}, {}};
+  for (int i = 0; i < 5; ++i) (void)port.tick(here, T);
+  REQUIRE(port.source().update(0, {0.0, 0.0, -1e-3}, floor_));  // a millimetre deeper
+  double last = 1.0;
+  for (int i = 0; i < 100; ++i) {
+    const double f = port.tick(here, T).force(2);
+    CHECK(std::abs(f - last) <= 1000.0 * 0.05 * T + 1e-9);
+    last = f;
+  }
+  CHECK_THAT(last, WithinRel(2.0, 1e-9));
+}
+
+TEST_CASE("every rough point of a tool pushes inside its cone, with the torque that goes with it",
+          "[rigid_tool]") {
+  auto port = open_port<double, 1>(ph::stick_slip{});
+  const vector arm(0.02, 0.01, -0.03);
+  REQUIRE(port.source().update(0, arm, floor_));
+  ph::laws::samples random(2);
+  pose x{{0, 0, 0.0305}, {}};
+  double closest = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    vector place = vector(x.position) + random.vector<d3>() * 2e-4;
+    place.z() = std::clamp(place.z(), 0.028, 0.031);
+    x.position = place;
+    x = body::moved(x, body::join(vector::Zero(), random.vector<d3>() * 1e-3));
+    const auto out = port.tick(x, T);
+    const vector f = body::linear(out.force), at = ph::rotation::rotate<double>(x.orientation, arm);
+    CHECK((body::angular(out.force) - d3::cross(at, f)).norm() <= 1e-12);
+    const double normal = port.source().slot(0).pressed();
+    CHECK(f.head<2>().norm() <= 0.6 * normal * (1.0 + 1e-12));
+    if (normal > 0.0) closest = std::max(closest, f.head<2>().norm() / normal);
+  }
+  CHECK(closest > 0.59);
+}
+
+TEST_CASE("a tool_spring out of range is refused by name", "[rigid_tool]") {
+  const auto named = [](const ph::tool_spring& s) { return std::string(s.check().parameter); };
+  CHECK_FALSE(light.check());
+  CHECK(named({.least_inertia = 1e-4}) == "mass");
+  CHECK(named({.mass = 0.1}) == "least_inertia");
+  CHECK(named({.mass = 0.1, .least_inertia = 1e-4, .lever = 0.0}) == "lever");
+  CHECK(named({.mass = 0.1, .least_inertia = 1e-4, .stiffness_fraction = 2.0}) ==
+        "stiffness_fraction");
+  CHECK(named({.mass = 0.1, .least_inertia = 1e-4, .softness = 1.0}) == "softness");
+}
