@@ -35,7 +35,8 @@ touch_row judge(touch_row row) {
   }
   static_cast<void>(port.tick(vector(0.0, 0.0, 1.0), T));  // they are all met from outside
   const ph::proxy_spring::at<double> rule({.mass = mass});
-  row.damper = rule.sampled(row.stiffness, T).damping * row.speed;
+  const auto spring = rule.sampled(row.stiffness, T);
+  row.damper = spring.settling * spring.stiffness * row.speed;
   for (const vector& from : {vector(0.0, 0.0, 1.0), vector(0.36, -0.48, 0.8)}) {
     vector last = vector::Zero();
     for (int nm = -2000; nm < 20000; ++nm) {

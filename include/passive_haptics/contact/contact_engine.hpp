@@ -131,10 +131,11 @@ class contact_engine {
     const auto coupling = frame::coupling(spring_, all.stiffest, longest_tick_);
     coupling.bring(all.rows);
     solve(
-        all.rows, row(Port::zero()),
-        [&coupling](const row& a, const row& b) { return coupling.inner(a, b); }, sweeps_);
+        all.rows, [&coupling](const row& a, const row& b) { return coupling.inner(a, b); },
+        sweeps_);
 
     row pressed = Port::zero(), rubbed = Port::zero();
+    rests_ = true;
     std::size_t r = 0;
     slots_.for_each([&](auto& slot, std::size_t i) {
       const bool felt = r < all.rows.count && all.slot[r] == i;
@@ -145,16 +146,17 @@ class contact_engine {
           const auto here = now.at(slot.point);
           const auto& of = slot.spring();
           const scalar k = of.stiffness * share / coupling.most_yield(slot.point);
-          rubbed = rubbed + now.row_of(here, bristles_[i].rub(
-                                                 friction_, lambda, all.normal[r],
-                                                 now.travel(slot.point, here), now.velocity(here),
-                                                 k, k * of.damping / of.stiffness, port.dt));
+          rubbed = rubbed + now.row_of(here, bristles_[i].rub(friction_, lambda, all.normal[r],
+                                                              now.travel(slot.point, here),
+                                                              now.velocity(here), k,
+                                                              k * of.settling, port.dt));
         } else {
           bristles_[i].let_go();
         }
       }
       if (felt) {
         pressed = pressed + all.rows.row[r] * lambda;
+        rests_ = rests_ && !(lambda > scalar(0));
         ++r;
       }
     });
@@ -165,7 +167,6 @@ class contact_engine {
       what = unusable(what);
       return let_go();
     }
-    rests_ = wanted == row(Port::zero());
     return {wanted, rests_, all.deepest};
   }
   /// The own surfaces follow the world's, not the force: there is nothing to put back.
@@ -227,17 +228,23 @@ class contact_engine {
       };
       felt_surface<space_type> own;
       if (!slot.follow(here.position, along, dt, rests, unfelt, pace_, own)) return;
-      if (!kernels::is_finite(own.depth) || !space_type::is_finite(own.push)) [[unlikely]] {
+      if (!own.is_finite()) [[unlikely]] {
         what = unusable(what);
         return;
       }
-      const auto spring = spring_.at_depth(slot.spring(), own.depth);
-      all.stiffest = kernels::larger(all.stiffest, spring.stiffness);
+      const auto press = [&](const auto& spring) {
+        all.stiffest = kernels::larger(all.stiffest, spring.stiffness);
+        all.rows.add(now.row_of(here, own.push), damped_depth(spring, own.depth, along(own.push)),
+                     spring.compliance, slot.pressed());
+      };
       all.deepest = kernels::larger(all.deepest, own.depth);
       all.slot[all.rows.count] = i;
       if constexpr (rubs) all.normal[all.rows.count] = own.normal;
-      all.rows.add(now.row_of(here, own.push), damped_depth(spring, own.depth, along(own.push)),
-                   spring.stiffness, slot.pressed());
+      if (spring_.saturates(slot.spring(), own.depth)) [[unlikely]] {
+        press(spring_.saturated(slot.spring(), own.depth));
+      } else {
+        press(slot.spring());
+      }
     });
   }
   /// No force, and nothing that was felt is remembered.

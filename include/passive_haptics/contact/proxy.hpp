@@ -51,11 +51,15 @@ struct proxy_spring {
   class at;
 };
 
-/// What a sampled mass can take of a contact.
+/// What a sampled mass can take of a contact, each number at hand without a division.
 template <class Scalar>
 struct sampled_spring {
-  Scalar stiffness{};  ///< K [N/m]
-  Scalar damping{};    ///< B [N·s/m]
+  Scalar stiffness{};   ///< K [N/m]
+  Scalar compliance{};  ///< 1/K [m/N]
+  Scalar settling{};    ///< B/K [s]
+  [[nodiscard]] static constexpr sampled_spring of(Scalar K, Scalar B) noexcept {
+    return {K, Scalar(1) / K, B / K};
+  }
 };
 
 template <class Scalar>
@@ -81,16 +85,19 @@ class proxy_spring::at {
   [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K, Scalar T) const noexcept {
     const Scalar k =
         kernels::sampled_stiffness(K, stiffness_fraction_ * (Scalar(1) - softness_), mass_, T);
-    return {k, kernels::sampled_damping(k, damping_ratio_, damping_fraction_, mass_, T)};
+    return sampled_spring<Scalar>::of(
+        k, kernels::sampled_damping(k, damping_ratio_, damping_fraction_, mass_, T));
   }
   /// The same where the motors cannot give K d: the secant F/d, so that a heavy device is stopped all
   /// the way out.
-  [[nodiscard]] constexpr sampled_spring<Scalar> at_depth(const sampled_spring<Scalar>& s,
-                                                          Scalar d) const noexcept {
-    if (!(s.stiffness * d > force_limit_)) return s;
+  [[nodiscard]] constexpr bool saturates(const sampled_spring<Scalar>& s, Scalar d) const noexcept {
+    return s.stiffness * d > force_limit_;
+  }
+  [[nodiscard]] constexpr sampled_spring<Scalar> saturated(const sampled_spring<Scalar>& s,
+                                                           Scalar d) const noexcept {
     const Scalar secant = force_limit_ / d;
     const Scalar damping = Scalar(2) * damping_ratio_ * kernels::square_root(secant * mass_);
-    return {secant, kernels::smaller(s.damping, damping)};
+    return sampled_spring<Scalar>::of(secant, kernels::smaller(s.settling * s.stiffness, damping));
   }
   [[nodiscard]] constexpr Scalar softness() const noexcept { return softness_; }  ///< ε
 
@@ -107,7 +114,7 @@ template <class Scalar>
 [[nodiscard]] constexpr Scalar damped_depth(const sampled_spring<Scalar>& s, Scalar d,
                                             Scalar v) noexcept {
   if (!(d > Scalar(0))) return d;
-  return kernels::smaller(d - s.damping / s.stiffness * v, Scalar(inward_limit) * d);
+  return kernels::smaller(d - s.settling * v, Scalar(inward_limit) * d);
 }
 
 /// (S1) times the largest stiffness K. A row is what a contact does to the device: n_i, or a wrench.
@@ -121,19 +128,19 @@ struct proxy_problem {
   std::array<Scalar, capacity> pressed;  ///< λ_i [N]; where iteration begins
   std::size_t count = 0;
 
-  /// A contact more, by its depth d' [m] and its stiffness [N/m].
-  constexpr void add(const Row& n, Scalar depth, Scalar stiffness, Scalar lambda) noexcept {
+  /// A contact more, by its depth d' [m] and its compliance [m/N].
+  constexpr void add(const Row& n, Scalar depth, Scalar compliance, Scalar lambda) noexcept {
     row[count] = n;
     wish[count] = depth;
-    own[count] = stiffness;
+    own[count] = compliance;
     pressed[count] = lambda;
     ++count;
   }
-  /// When all are there: from depths and stiffnesses to `wish` and `own`, K [N/m] the scale.
+  /// When all are there: from depths and compliances to `wish` and `own`, K [N/m] the scale.
   constexpr void couple(Scalar K) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
       wish[i] *= K;
-      own[i] = K / own[i];
+      own[i] *= K;
     }
   }
 };
@@ -148,6 +155,10 @@ constexpr void solve_exactly(proxy_problem<Row, Scalar, Capacity>& p, auto dot) 
   const std::size_t n = p.count;
   const auto& b = p.wish;
   const auto& own = p.own;
+  if constexpr (Capacity == 1) {
+    if (n == 1) p.pressed[0] = b[0] > none ? Scalar(b[0] / own[0]) : none;
+    return;
+  }
   std::array<Scalar, 3> opposite{};  // A_jk at the index of the third
   const auto between = [&opposite](std::size_t i, std::size_t j) { return opposite[3 - i - j]; };
   bool any = false;
@@ -172,13 +183,13 @@ constexpr void solve_exactly(proxy_problem<Row, Scalar, Capacity>& p, auto dot) 
     for (std::size_t j = i + 1; j < n; ++j) {
       const std::size_t k = 3 - i - j;
       const Scalar a = between(i, j);
-      const Scalar det = own[i] * own[j] - a * a;
-      const Scalar one = (b[i] * own[j] - a * b[j]) / det;
-      const Scalar other = (b[j] * own[i] - a * b[i]) / det;
+      const Scalar one = b[i] * own[j] - a * b[j];
+      const Scalar other = b[j] * own[i] - a * b[i];
       if (!(one >= none && other >= none)) continue;
-      if (n < 3 || b[k] <= between(i, k) * one + between(j, k) * other) {
-        p.pressed[i] = one;
-        p.pressed[j] = other;
+      const Scalar det = own[i] * own[j] - a * a;
+      if (n < 3 || b[k] * det <= between(i, k) * one + between(j, k) * other) {
+        p.pressed[i] = one / det;
+        p.pressed[j] = other / det;
         return;
       }
     }
@@ -191,31 +202,44 @@ constexpr void solve_exactly(proxy_problem<Row, Scalar, Capacity>& p, auto dot) 
   const Scalar c01 = a12 * a02 - a01 * own[2];
   const Scalar c02 = a01 * a12 - a02 * own[1];
   const Scalar c12 = a01 * a02 - a12 * own[0];
-  const Scalar det = own[0] * c00 + a01 * c01 + a02 * c02;
-  p.pressed[0] = kernels::larger((c00 * b[0] + c01 * b[1] + c02 * b[2]) / det, none);
-  p.pressed[1] = kernels::larger((c01 * b[0] + c11 * b[1] + c12 * b[2]) / det, none);
-  p.pressed[2] = kernels::larger((c02 * b[0] + c12 * b[1] + c22 * b[2]) / det, none);
+  const Scalar scale = Scalar(1) / (own[0] * c00 + a01 * c01 + a02 * c02);
+  p.pressed[0] = kernels::larger((c00 * b[0] + c01 * b[1] + c02 * b[2]) * scale, none);
+  p.pressed[1] = kernels::larger((c01 * b[0] + c11 * b[1] + c12 * b[2]) * scale, none);
+  p.pressed[2] = kernels::larger((c02 * b[0] + c12 * b[1] + c22 * b[2]) * scale, none);
 }
 
 /// (S1) by at most `sweeps` of projected Gauss-Seidel from the λ that are there. Any λ ≥ 0 is safe, because
-/// the bound meets any force: what has not converged is felt, never paid for.
+/// the bound meets any force: what has not converged is felt, never paid for. What is missing,
+/// d' − Aλ, is kept up to date row by row, so a contact that does not press costs a comparison.
 template <class Row, class Scalar, int Capacity>
-constexpr void solve_by_sweeps(proxy_problem<Row, Scalar, Capacity>& p, Row force, auto dot,
+constexpr void solve_by_sweeps(proxy_problem<Row, Scalar, Capacity>& p, auto dot,
                                int sweeps) noexcept {
-  std::array<Scalar, proxy_problem<Row, Scalar, Capacity>::capacity> yield{};  // of the wall alone
-  for (std::size_t i = 0; i < p.count; ++i) {
-    yield[i] = p.own[i] - dot(p.row[i], p.row[i]);
-    force = Row(force + p.row[i] * p.pressed[i]);
+  constexpr auto capacity = proxy_problem<Row, Scalar, Capacity>::capacity;
+  const std::size_t n = p.count;
+  std::array<std::array<Scalar, capacity>, capacity> shared{};  // A, row by row
+  std::array<Scalar, capacity> missing{}, inverse{};
+  for (std::size_t i = 0; i < n; ++i) {
+    shared[i][i] = p.own[i];
+    inverse[i] = Scalar(1) / p.own[i];
+    missing[i] = p.wish[i];
+    for (std::size_t j = 0; j < i; ++j) shared[i][j] = shared[j][i] = dot(p.row[i], p.row[j]);
+  }
+  const auto press = [&](std::size_t i, Scalar change) {
+    for (std::size_t k = 0; k < capacity; ++k) missing[k] -= shared[i][k] * change;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (p.pressed[i] > Scalar(0)) press(i, p.pressed[i]);
   }
   bool settled = false;
   for (int s = 0; s < sweeps && !settled; ++s) {
     settled = true;
-    for (std::size_t i = 0; i < p.count; ++i) {
-      const Scalar miss = p.wish[i] - dot(p.row[i], force) - yield[i] * p.pressed[i];
-      const Scalar now = kernels::larger(p.pressed[i] + miss / p.own[i], Scalar(0));
-      const Scalar change = now - p.pressed[i];
+    for (std::size_t i = 0; i < n; ++i) {
+      const Scalar was = p.pressed[i];
+      const Scalar now = kernels::larger(was + missing[i] * inverse[i], Scalar(0));
+      const Scalar change = now - was;
+      if (change == Scalar(0)) continue;
       settled = settled && kernels::magnitude(change) <= kernels::rounding<Scalar>() * now;
-      force = Row(force + p.row[i] * change);
+      press(i, change);
       p.pressed[i] = now;
     }
   }
@@ -223,13 +247,12 @@ constexpr void solve_by_sweeps(proxy_problem<Row, Scalar, Capacity>& p, Row forc
 
 }  // namespace detail
 
-/// λ of (S1) into `pressed`; `zero` is the row of no force.
+/// λ of (S1) into `pressed`.
 template <class Row, class Scalar, int Capacity>
-constexpr void solve(proxy_problem<Row, Scalar, Capacity>& p, const Row& zero, auto dot,
-                     int sweeps) noexcept {
+constexpr void solve(proxy_problem<Row, Scalar, Capacity>& p, auto dot, int sweeps) noexcept {
   if constexpr (Capacity > 3) {
     if (p.count > 3) {
-      detail::solve_by_sweeps(p, zero, dot, sweeps);
+      detail::solve_by_sweeps(p, dot, sweeps);
       return;
     }
   }

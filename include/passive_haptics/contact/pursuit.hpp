@@ -85,6 +85,11 @@ struct felt_surface {
   typename Space::vector
       push;  ///< direction of the force for a depth of 1; the normal, for a distance
   typename Space::scalar depth;  ///< of its own, ≤ 0 outside [m]
+
+  /// Numbers, all of them, and no push beyond what a square can say.
+  [[nodiscard]] constexpr bool is_finite() const noexcept {
+    return kernels::is_finite(depth + Space::dot(push, push));
+  }
 };
 
 /// A slot. λ is told to it after each tick.
@@ -109,7 +114,7 @@ class pursued {
       const auto shown = next.at(here);
       const vector normal = shown.outward();
       const scalar own = target_.at(was).depth - lag_;
-      const scalar lag = shown.depth - own * (spring_.stiffness / spring.stiffness);
+      const scalar lag = shown.depth - own * (spring_.stiffness * spring.compliance);
       if (!kernels::is_finite(lag) || !Space::is_finite(normal)) return false;
       lag_ = lag;
       speed_ = pace.speed_for(lag);
@@ -161,7 +166,7 @@ class pursued {
     if constexpr (requires { shown.push(); }) own.push = shown.push();
     own.depth = shown.depth;
     const bool ends = state_ == state::leaving || state_ == state::stale || !shown.covered();
-    if (!kernels::is_finite(own.depth) || !Space::is_finite(own.push)) [[unlikely]] {
+    if (!own.is_finite()) [[unlikely]] {
       return true;  // the caller sees what has come of it
     }
     if (!(pressed_ > scalar(0))) {
@@ -182,11 +187,13 @@ class pursued {
       normal = carry<Space>(before, then, goal);
       shown_ = goal;
     }
-    own.normal = pace.turned(normal, goal, dt);
-    if (!(own.normal == goal)) own.push = carry<Space>(own.push, goal, own.normal);
+    if (!(normal == goal)) {
+      own.normal = pace.turned(normal, goal, dt);
+      if (!(own.normal == goal)) own.push = carry<Space>(own.push, goal, own.normal);
+    }
+    if (!(before == own.normal)) normal_ = own.normal;
     own.depth -= lag;
     lag_ = lag;
-    normal_ = own.normal;
     return true;
   }
 

@@ -66,15 +66,19 @@ class tool_spring::at {
   /// K = min(K, (1 − ε) κ m/T²) and B = K τ of a point at the handle.
   [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K, Scalar T) const noexcept {
     const Scalar k = kernels::sampled_stiffness(K, fraction_ * (Scalar(1) - softness_), mass_, T);
-    return {k, k * settling_time(k, k * lever_ * lever_, T)};
+    return sampled_spring<Scalar>::of(k, k * settling_time(k, k * lever_ * lever_, T));
   }
   /// k_ω [N·m/rad] beside k_v = K [N/m].
   [[nodiscard]] constexpr Scalar turning(Scalar K, Scalar T) const noexcept {
     return kernels::smaller(K * lever_ * lever_, fraction_ * inertia_ / (T * T));
   }
   /// The same at any depth: what the motors cannot give is cut by the bound.
-  [[nodiscard]] static constexpr sampled_spring<Scalar> at_depth(const sampled_spring<Scalar>& s,
-                                                                 Scalar /*d*/) noexcept {
+  [[nodiscard]] static constexpr bool saturates(const sampled_spring<Scalar>& /*s*/,
+                                                Scalar /*d*/) noexcept {
+    return false;
+  }
+  [[nodiscard]] static constexpr sampled_spring<Scalar> saturated(const sampled_spring<Scalar>& s,
+                                                                  Scalar /*d*/) noexcept {
     return s;
   }
   [[nodiscard]] constexpr Scalar softness() const noexcept { return softness_; }  ///< ε

@@ -105,23 +105,26 @@ class stick_slip::bristle {
     normal_ = n;
 
     vector bend = bend_;
-    const scalar length = Space::norm(bend);
-    scalar reach = coefficient_ * f_n / stiffness;
-    if (length > reach) {
-      const scalar slip = length - reach;
-      coefficient_ = rule.least + (coefficient_ - rule.least) / (scalar(1) + slip / rule.weakening);
-      reach = coefficient_ * f_n / stiffness;
-      bend = bend * (reach / length);
+    scalar most = coefficient_ * f_n;
+    const scalar bent = Space::dot(bend, bend) * stiffness * stiffness;
+    if (bent > most * most) {
+      const scalar pulled = kernels::square_root(bent);  // k_t |z|
+      const scalar above = coefficient_ - rule.least;
+      coefficient_ = rule.least + above * rule.weakening * stiffness /
+                                      (rule.weakening * stiffness + (pulled - most));
+      most = coefficient_ * f_n;
+      bend = bend * (most / pulled);
       bend_ = bend;
-    } else {
+    } else if (coefficient_ < rule.most) {
       coefficient_ += (rule.most - coefficient_) * dt / (dt + rule.healing);
+      most = coefficient_ * f_n;
     }
 
     const vector across = velocity - n * Space::dot(velocity, n);
     const vector force = bend * -stiffness - across * damping;
-    const scalar most = coefficient_ * f_n;
-    const scalar asked = Space::norm(force);
-    return asked > most ? vector(force * (most / asked)) : force;
+    const scalar asked = Space::dot(force, force);
+    if (asked <= most * most) return force;
+    return force * (most / kernels::square_root(asked));
   }
   [[nodiscard]] constexpr scalar coefficient() const noexcept { return coefficient_; }  ///< μ
 
