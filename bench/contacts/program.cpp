@@ -4,11 +4,9 @@
 namespace contacts {
 
 const std::vector<section>& sections() {
-  static const std::vector<section> all{{"settling", run_settling},
-                                        {"touch", run_touch},
-                                        {"news", run_news},
-                                        {"friction", run_friction},
-                                        {"passive", run_passive}};
+  static const std::vector<section> all{{"settling", run_settling}, {"touch", run_touch},
+                                        {"news", run_news},         {"friction", run_friction},
+                                        {"static", run_static},     {"passive", run_passive}};
   return all;
 }
 

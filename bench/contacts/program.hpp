@@ -35,6 +35,7 @@ struct section {
 [[nodiscard]] std::vector<std::string> run_touch(const session& s);
 [[nodiscard]] std::vector<std::string> run_news(const session& s);
 [[nodiscard]] std::vector<std::string> run_friction(const session& s);
+[[nodiscard]] std::vector<std::string> run_static(const session& s);
 [[nodiscard]] std::vector<std::string> run_passive(const session& s);
 
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.

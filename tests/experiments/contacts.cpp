@@ -24,7 +24,7 @@ TEST_CASE("contacts keep every promise in a first look, and what stands beside t
   CHECK(found.code == 0);  // the controls among them: one that loses nothing is a failure
   const std::string json = content(out / "contacts.json");
   for (const char* key : {"settling", "touch", "news", "heart", "drift", "stick_slip", "stopping",
-                          "cone", "passive", "failures"}) {
+                          "cone", "static", "passive", "failures"}) {
     CAPTURE(key);
     CHECK(json.find('"' + std::string(key) + '"') != std::string::npos);
   }
