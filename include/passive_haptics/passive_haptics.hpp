@@ -16,10 +16,17 @@
 //   laws.hpp                what a part of your own must obey; not in here
 
 #include <passive_haptics/compositions.hpp>
+#include <passive_haptics/constraint_geometry/distance_brick.hpp>
+#include <passive_haptics/constraint_geometry/distance_field.hpp>
 #include <passive_haptics/constraint_geometry/fixed.hpp>
 #include <passive_haptics/constraint_geometry/followed.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/constraint_geometry/patch.hpp>
+#include <passive_haptics/constraint_geometry/quadric.hpp>
 #include <passive_haptics/constraint_geometry/segment.hpp>
+#include <passive_haptics/constraint_geometry/shell.hpp>
+#include <passive_haptics/constraint_geometry/sphere.hpp>
+#include <passive_haptics/constraint_geometry/surface_probe.hpp>
 #include <passive_haptics/constraint_geometry/triangle.hpp>
 #include <passive_haptics/contact/capped.hpp>
 #include <passive_haptics/contact/contact_set.hpp>

@@ -6,6 +6,14 @@
 //   half_space   a plane and what lies behind it         any Dof; walls, tangent planes of meshes
 //   segment      two nodes                               Dof 2
 //   triangle     three nodes, with edge tests            Dof 3; the local model of the thesis
+//   sphere       a centre and a radius, solid or hollow  any Dof
+//   quadric      a point, a normal, two curvatures       Dof 3; what a smooth mesh publishes
+//   shell        all within r of a point, a segment, a box, a triangle: balls, capsules, round edges
+//   patch        up to M triangles, the closest feature  Dof 3; dents and ridges of a mesh
+//   distance_brick, distance_field     a signed distance, sampled (Dof 3) or a function (any Dof)
+//
+// The first three are pieces of planes, which the local model of the thesis can follow. Formulas,
+// proofs and figures of the others are in docs/design/curved.md.
 //
 // Each one carries its stiffness, because the environment knows it. Who owns a constraint and who
 // moves it is said by a supply: fixed.hpp, followed.hpp.

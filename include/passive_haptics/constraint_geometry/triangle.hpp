@@ -6,6 +6,7 @@
 
 #include <passive_haptics/constraint_geometry/follow_node.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/constraint_geometry/triangle_point.hpp>
 #include <passive_haptics/port/eigen_space.hpp>
 
 namespace passive_haptics {
@@ -27,15 +28,10 @@ requires(Space::dof == 3) struct triangle {
 
   /// False for stiffness ≤ 0, anything not finite, and a triangle whose height is lost in rounding.
   [[nodiscard]] constexpr bool prepare() noexcept {
-    const vector A = a, B = b, C = c;
-    const vector n = Space::cross(vector(B - A), vector(C - A));
-    const scalar twice_area = Space::norm(n);
-    const scalar longest =
-        kernels::larger(kernels::larger(square(B - A), square(C - A)), square(C - B));
-    const scalar smallest = scalar(16) * std::numeric_limits<scalar>::epsilon() * longest;
-    if (!(twice_area > smallest) || !kernels::is_finite(twice_area)) return false;  // A17
-    normal = vector(n / twice_area);
-    return Space::is_finite(normal) && thickness > scalar(0) && detail::usable_stiffness(stiffness);
+    const detail::facing<Space> outside = detail::facing_of<Space>(a, b, c);
+    if (!outside.usable) return false;
+    normal = outside.normal;
+    return thickness > scalar(0) && detail::usable_stiffness(stiffness);
   }
 
   /// The triangle as seen from x; it refers to both.
@@ -78,9 +74,6 @@ requires(Space::dof == 3) struct triangle {
   [[nodiscard, gnu::always_inline]] constexpr bool within_edges(const vector& x,
                                                                 scalar depth) const noexcept {
     return depth <= thickness && inside(a, b, x) && inside(b, c, x) && inside(c, a, x);
-  }
-  [[nodiscard]] static constexpr scalar square(const vector& v) noexcept {
-    return Space::dot(v, v);
   }
   /// ((to − from) × (x − from))·n ≥ 0; the height of x above the plane drops out (A15).
   [[nodiscard, gnu::always_inline]] constexpr bool inside(const typename Space::coordinates& from,

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A piece of a sampled distance field (the menu is in half_space.hpp).
+//
+//   distance_brick   4³ nodes of a signed distance          Dof 3; voxels, scans, implicit surfaces
+
+#include <passive_haptics/constraint_geometry/distance_field.hpp>
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/constraint_geometry/surface_probe.hpp>
+#include <passive_haptics/port/eigen_space.hpp>
+
+#include <array>
+#include <cstddef>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// φ(x) = Σ cᵢⱼₖ B(ξ − i) B(η − j) B(ζ − k), ξ, η, ζ the coordinates of x − origin in spacings, B the
+/// quadratic B-spline: the gradient is continuous, and that of the value. d = −φ, push() = ∇φ; the
+/// force K d push() is conservative, whatever the nodes are. It has an answer from half a spacing to two
+/// and a half along each axis, a cube of two spacings.
+template <class Space>
+requires(Space::dof == 3) struct distance_brick {
+  using space_type = Space;
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  static constexpr surface_kind kind = surface_kind::smooth;
+  static constexpr std::size_t side = 4;
+
+  std::array<scalar, side * side * side> coefficients{};  ///< c [m]; the last axis runs fastest
+  typename Space::coordinates origin{};  ///< of the first node [m]; the axes are those of the space
+  scalar spacing{};                      ///< from node to node [m], > 0
+  scalar stiffness{};                    ///< K [N/m], > 0
+  scalar thickness = kernels::largest<scalar>();  ///< deepest contact [m], > 0
+
+  /// The brick of a distance phi(x) [m] that can be asked everywhere near the grid. A coefficient that
+  /// is the sample itself would smooth: a ball of 50 mm on 5 mm grows by h²/(4r) = 0.125 mm. So
+  ///     c = φ − (h²/8) ∇²φ      by second differences
+  /// which returns every quadratic φ as it is (quasi-interpolation: de Boor and Fix, "Spline
+  /// approximation by quasiinterpolants", J. Approx. Theory 8, 1973).
+  template <class Distance>
+  [[nodiscard]] static constexpr distance_brick sampled(const Distance& phi, const vector& origin,
+                                                        scalar spacing, scalar stiffness) {
+    distance_brick brick;
+    brick.origin = origin;
+    brick.spacing = spacing;
+    brick.stiffness = stiffness;
+    for (std::size_t node = 0; node < brick.coefficients.size(); ++node) {
+      vector x = origin;
+      x(0) += spacing * scalar(static_cast<int>(node / (side * side)));
+      x(1) += spacing * scalar(static_cast<int>(node / side % side));
+      x(2) += spacing * scalar(static_cast<int>(node % side));
+      const scalar here = phi(x);
+      scalar bend(0);
+      for (int axis = 0; axis < 3; ++axis) {
+        vector next = x, last = x;
+        next(axis) += spacing;
+        last(axis) -= spacing;
+        bend += (scalar(phi(next)) - here) + (scalar(phi(last)) - here);
+      }
+      brick.coefficients[node] = here - bend / scalar(8);
+    }
+    return brick;
+  }
+
+  /// False for coefficients or an origin that are not finite, a spacing, a stiffness or a thickness ≤ 0.
+  [[nodiscard]] constexpr bool prepare() noexcept {
+    for (const scalar& c : coefficients) {
+      if (!kernels::is_finite(c)) return false;
+    }
+    return Space::is_finite(origin) && detail::usable_length(spacing) &&
+           detail::usable_length(thickness) && detail::usable_stiffness(stiffness);
+  }
+
+  using probe = gradient_probe<Space>;
+  [[nodiscard]] constexpr probe at(const vector& x) const noexcept {
+    const vector r = Space::difference(x, origin);
+    const basis first(r(0) / spacing), second(r(1) / spacing), third(r(2) / spacing);
+    scalar value(0), by_first(0), by_second(0), by_third(0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      scalar plane(0), plane_second(0), plane_third(0);
+      for (std::size_t j = 0; j < 3; ++j) {
+        const scalar* row =
+            &coefficients[((first.node + i) * side + second.node + j) * side + third.node];
+        const scalar line = third.blend(row), slope = third.blend_slopes(row);
+        plane += second.weight[j] * line;
+        plane_second += second.slope[j] * line;
+        plane_third += second.weight[j] * slope;
+      }
+      value += first.weight[i] * plane;
+      by_first += first.slope[i] * plane;
+      by_second += first.weight[i] * plane_second;
+      by_third += first.weight[i] * plane_third;
+    }
+    return {-value, vector(by_first / spacing, by_second / spacing, by_third / spacing),
+            first.within && second.within && third.within && -value <= thickness};
+  }
+
+  /// The ball around its cube.
+  [[nodiscard]] constexpr neighbourhood<Space> around() const noexcept {
+    const scalar middle = spacing * scalar(1.5);
+    return {vector(vector(origin) + vector(middle, middle, middle)), scalar(1.8) * spacing};
+  }
+
+ private:
+  /// The three B-splines along one axis that are not zero, and their slopes.
+  struct basis {
+    std::array<scalar, 3> weight;
+    std::array<scalar, 3> slope;  ///< per spacing
+    std::size_t node;             ///< the first of the three
+    bool within;
+
+    /// Outside of the grid the last piece goes on. `at` counts spacings from the first node.
+    constexpr explicit basis(scalar at) noexcept
+        : node(at < scalar(1.5) ? 0 : 1), within(at >= scalar(0.5) && at <= scalar(2.5)) {
+      const scalar t = at - scalar(static_cast<int>(node + 1));  // from the middle one of the three
+      const scalar before = scalar(0.5) - t, after = scalar(0.5) + t;
+      weight = {before * before / scalar(2), scalar(0.75) - t * t, after * after / scalar(2)};
+      slope = {-before, scalar(-2) * t, after};
+    }
+    [[nodiscard]] constexpr scalar blend(const scalar* row) const noexcept {
+      return weight[0] * row[0] + weight[1] * row[1] + weight[2] * row[2];
+    }
+    [[nodiscard]] constexpr scalar blend_slopes(const scalar* row) const noexcept {
+      return slope[0] * row[0] + slope[1] * row[1] + slope[2] * row[2];
+    }
+  };
+};
+
+static_assert(surface_for<distance_brick<space<float, 3>>, space<float, 3>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A surface given by its signed distance (the menu is in half_space.hpp).
+//
+//   distance_field   a function of yours                   any Dof
+
+#include <passive_haptics/constraint_geometry/half_space.hpp>
+#include <passive_haptics/constraint_geometry/surface_probe.hpp>
+
+#include <concepts>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A signed distance, positive outside, and its gradient there.
+template <class Space>
+struct distance_and_gradient {
+  typename Space::scalar distance;  ///< φ [m]
+  typename Space::vector gradient;  ///< ∇φ; of length one where φ is a true distance
+};
+
+/// The answer of a surface that knows the gradient of its depth and no distance.
+template <class Space>
+struct gradient_probe {
+  typename Space::scalar depth;    ///< d [m], > 0 inside
+  typename Space::vector pushing;  ///< −∇d
+  bool within;                     ///< the surface has an answer here
+  [[nodiscard]] constexpr const typename Space::vector& push() const noexcept { return pushing; }
+  /// push() by its direction; the last axis where it has none.
+  [[nodiscard]] constexpr typename Space::vector outward() const noexcept {
+    return detail::polar_form<Space>(pushing, detail::some_direction<Space>()).direction;
+  }
+  [[nodiscard]] constexpr bool covered() const noexcept { return within; }
+};
+
+/// d = −φ, push() = ∇φ of a function of yours: field(x) returns a distance_and_gradient, does not throw,
+/// and is a plain value. The gradient must be that of the distance (laws.hpp tries it); where it is, a
+/// force K d push() is conservative, φ a true distance or not. Where φ has prepare(), it is asked, too.
+///     struct wave {
+///       ph::distance_and_gradient<scene> operator()(const scene::vector& x) const noexcept;
+///     };
+///     ph::distance_field<scene, wave>{.field = {}, .stiffness = 500}
+template <class Space, class Field>
+struct distance_field {
+  using space_type = Space;
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  static constexpr surface_kind kind = surface_kind::smooth;
+
+  Field field{};
+  scalar stiffness{};                             ///< K [N/m], > 0
+  typename Space::coordinates centre{};           ///< of the ball where the field is good [m]
+  scalar radius = kernels::largest<scalar>();     ///< of that ball [m], > 0
+  scalar thickness = kernels::largest<scalar>();  ///< deepest contact [m], > 0
+
+  /// False for a field whose own prepare() is, for a distance at the centre or a centre that is not
+  /// finite, and for a stiffness, a radius or a thickness ≤ 0.
+  [[nodiscard]] constexpr bool prepare() noexcept {
+    if constexpr (requires {
+                    { field.prepare() } -> std::same_as<bool>;
+                  }) {
+      if (!field.prepare()) return false;
+    }
+    return Space::is_finite(centre) && detail::usable_length(radius) &&
+           detail::usable_length(thickness) && detail::usable_stiffness(stiffness) &&
+           kernels::is_finite(scalar(field(vector(centre)).distance));
+  }
+
+  using probe = gradient_probe<Space>;
+  [[nodiscard]] constexpr probe at(const vector& x) const noexcept(noexcept(field(x))) {
+    const distance_and_gradient<Space> found = field(x);
+    const scalar away = Space::norm(Space::difference(x, centre));
+    return {-found.distance, found.gradient, -found.distance <= thickness && away <= radius};
+  }
+
+  /// The ball where the field is good; one metre about its centre where that is unlimited.
+  [[nodiscard]] constexpr neighbourhood<Space> around() const noexcept {
+    return {centre, kernels::smaller(radius, scalar(1))};
+  }
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

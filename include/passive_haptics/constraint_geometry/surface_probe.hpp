@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What curved surfaces have in common: how they answer, where they are, and where a force on them
+// comes from (the menu is in half_space.hpp, the proofs are in docs/design/curved.md).
+
+#include <passive_haptics/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A ball around the part of the world that a surface is meant for. laws.hpp looks for faults there.
+template <class Space>
+struct neighbourhood {
+  typename Space::coordinates centre{};  ///< [m]
+  typename Space::scalar radius{};       ///< [m]
+};
+
+/// The answer of a surface whose depth is the distance to it: the gradient of depth is −outward().
+template <class Space>
+struct distance_probe {
+  typename Space::scalar depth;   ///< [m], > 0 inside
+  typename Space::vector normal;  ///< unit
+  bool within;                    ///< the surface has an answer here
+  [[nodiscard]] constexpr const typename Space::vector& outward() const noexcept { return normal; }
+  [[nodiscard]] constexpr bool covered() const noexcept { return within; }
+};
+
+namespace detail {
+
+/// −∇depth, as the surface says: along it a spring must push.
+template <class Space>
+[[nodiscard]] constexpr typename Space::vector steepest_push(const auto& probe) noexcept {
+  if constexpr (requires { probe.push(); }) {
+    return probe.push();
+  } else {
+    return probe.outward();
+  }
+}
+
+/// A direction for want of a better one: the last axis.
+template <class Space>
+[[nodiscard]] constexpr typename Space::vector some_direction() noexcept {
+  using scalar = typename Space::scalar;
+  typename Space::vector up = Space::zero();
+  Space::component(up, Space::dof - 1) = scalar(1);
+  return up;
+}
+
+/// A vector by its length and its direction.
+template <class Space>
+struct polar {
+  typename Space::scalar length;
+  typename Space::vector direction;  ///< unit
+};
+
+/// v taken apart. One that is too short for its square to be a normal number, or is NaN, has the
+/// direction `otherwise`.
+template <class Space>
+[[nodiscard, gnu::always_inline]] constexpr polar<Space> polar_form(
+    const typename Space::vector& v, const typename Space::vector& otherwise) noexcept {
+  using scalar = typename Space::scalar;
+  const scalar squared = Space::dot(v, v);
+  const scalar length = kernels::square_root(squared);
+  if (!(squared * std::numeric_limits<scalar>::epsilon() > kernels::smallest<scalar>())) {
+    return {length, otherwise};
+  }
+  return {length, typename Space::vector(v / length)};
+}
+
+/// Gives `v` the length one; false if it has no direction or is not finite.
+template <class Space>
+[[nodiscard]] constexpr bool make_unit(typename Space::coordinates& v) noexcept {
+  using scalar = typename Space::scalar;
+  const typename Space::vector given = v;
+  scalar largest(0);
+  for (int i = 0; i < Space::dof; ++i) {
+    largest = kernels::larger(largest, kernels::magnitude(scalar(Space::component(given, i))));
+  }
+  if (!Space::is_finite(given) || !(largest > scalar(0))) return false;
+  const typename Space::vector scaled = given / largest;  // so that no square is lost
+  v = typename Space::vector(scaled / Space::norm(scaled));
+  return Space::is_finite(v);
+}
+
+[[nodiscard]] constexpr bool usable_length(real auto length) noexcept {
+  return length > decltype(length)(0) && kernels::is_finite(length);
+}
+
+}  // namespace detail
+
+}  // namespace v0
+}  // namespace passive_haptics
