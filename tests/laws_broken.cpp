@@ -217,6 +217,56 @@ static_assert(std::string_view(broken_by<role::contact_law, d1>(sticky{})) == "p
 static_assert(std::string_view(broken_by<role::constraint, d1>(tilted{{0.5, -3.0, 100.0}})) ==
               "measures_depth");
 
+/// Surfaces that are a quadric but for one line.
+using quadric = ph::quadric<d3>;
+/// Answers with a probe in which `change` has changed something.
+template <class Change>
+struct altered : quadric {
+  [[nodiscard]] probe at(const vector& x) const noexcept {
+    probe seen = quadric::at(x);
+    Change{}(seen, x);
+    return seen;
+  }
+};
+struct honestly {
+  void operator()(quadric::probe& /*seen*/, const d3::vector& /*x*/) const noexcept {}
+};
+struct longer_normal {
+  void operator()(quadric::probe& seen, const d3::vector& /*x*/) const noexcept {
+    seen.normal *= 1.0 + 1e-12;
+  }
+};
+struct along_the_normal {
+  void operator()(quadric::probe& seen, const d3::vector& /*x*/) const noexcept {
+    seen.pushing = seen.normal;
+  }
+};
+struct stepped {  // every 5 mm it is 5 mm deeper
+  void operator()(quadric::probe& seen, const d3::vector& x) const noexcept {
+    seen.depth += 5e-3 * std::floor(x.x() / 5e-3);
+  }
+};
+struct covers_nothing {
+  void operator()(quadric::probe& seen, const d3::vector& /*x*/) const noexcept {
+    seen.within = false;
+  }
+};
+struct takes_any_stiffness : quadric {
+  bool prepare() noexcept {
+    stiffness = 1.0;
+    return quadric::prepare();
+  }
+};
+template <class Surface>
+std::string law_of_surface() {
+  Surface bulge{};
+  bulge.normal = {0, 0, 1};
+  bulge.curvature = bulge.cross_curvature = 20;
+  bulge.stiffness = 500;
+  bulge.thickness = 0.01;
+  return broken_by<role::surface, d3>(bulge);
+}
+
 /// Supplies that are `followed` but for one function.
 using followed = ph::followed<ph::half_space<d1>>;
 struct takes_anything : followed {
@@ -273,6 +323,15 @@ TEST_CASE("laws::all names the law that a contact's part breaks", "[law]") {
         "measures_depth");
   CHECK_FALSE(laws::keeps_the_newest<d1>(never_lets_go{}, wall<d1>(100)));
   CHECK(laws::keeps_the_newest<d1>(followed{}, wall<d1>(100)));  // the control
+}
+
+TEST_CASE("laws::all names the law that a surface breaks", "[law]") {
+  CHECK(law_of_surface<altered<honestly>>() == "none");  // the control
+  CHECK(law_of_surface<takes_any_stiffness>() == "refuses_no_stiffness");
+  CHECK(law_of_surface<altered<longer_normal>>() == "has_a_unit_normal");
+  CHECK(law_of_surface<altered<along_the_normal>>() == "pushes_along_its_gradient");
+  CHECK(law_of_surface<altered<covers_nothing>>() == "pushes_along_its_gradient");
+  CHECK(law_of_surface<altered<stepped>>() == "changes_depth_steadily");
 }
 
 TEST_CASE("the law of rotation rejects one too fast and one that never arrives", "[law]") {

@@ -4,7 +4,8 @@
 // a policy of YOURS, fed with repeatable random samples; constexpr, so in one dimension
 //     static_assert(ph::laws::all<my_bound, scene>());
 // and in any dimension CHECK(...) it at run time. all<Policy, Port>() tries every law of the roles that
-// the policy models and names the first it breaks; the laws themselves:
+// the policy models and names the first it breaks. A surface is tried in its around(), a neighbourhood,
+// else within a metre of the origin. The laws themselves:
 //
 //   any          models_a_role             it has the shape of one of the roles below
 //   damping      covers_the_worst_motion   worst_outflow() is never below f·Δx − dissipated
@@ -23,6 +24,10 @@
 //                turns_at_most             no faster than the rate, and it arrives
 //   contact law  presses_outwards          f* ≥ 0, zero outside, monotone in depth, depth() inverts it
 //   constraint   measures_depth            unit normal, depth along it; toward() puts x at the depth
+//   surface      refuses_no_stiffness      prepare() refuses a stiffness that is none
+//                has_a_unit_normal         everywhere
+//                pushes_along_its_gradient push(), or outward(), is −∇depth
+//                changes_depth_steadily    depth does not jump
 //   supply       keeps_the_newest          updates, refusals, the end of a contact
 
 #include <passive_haptics/laws/contact_laws.hpp>
@@ -41,7 +46,7 @@ template <class Policy, class Port>
   constexpr bool of_a_contact = [] {
     if constexpr (requires { typename Port::geometry; }) {
       return normal_interpolation_for<Policy, Port> || contact_law_for<Policy, Port> ||
-             constraint_for<Policy, Port>;
+             surface_for<Policy, Port>;
     }
     return false;
   }();
@@ -81,6 +86,12 @@ template <class Policy, class Port>
     }
     if constexpr (constraint_for<Policy, Port>) {
       if (!measures_depth<Port>(policy)) return {"measures_depth"};
+    }
+    if constexpr (surface_for<Policy, Port>) {
+      if (!refuses_no_stiffness<Port>(policy)) return {"refuses_no_stiffness"};
+      if (!has_a_unit_normal<Port>(policy)) return {"has_a_unit_normal"};
+      if (!pushes_along_its_gradient<Port>(policy)) return {"pushes_along_its_gradient"};
+      if (!changes_depth_steadily<Port>(policy)) return {"changes_depth_steadily"};
     }
   }
   return {};

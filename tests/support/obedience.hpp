@@ -10,7 +10,7 @@
 namespace laws = ph::laws;
 
 /// Which role is a policy tried in? One that models none breaks no law.
-enum class role { damping, inertia, observer, bound, normals, contact_law, constraint };
+enum class role { damping, inertia, observer, bound, normals, contact_law, constraint, surface };
 
 template <role Role, class Policy, class Port>
 constexpr bool models() {
@@ -22,6 +22,7 @@ constexpr bool models() {
   if constexpr (Role == normals) return ph::normal_interpolation_for<Policy, Port>;
   if constexpr (Role == contact_law) return ph::contact_law_for<Policy, Port>;
   if constexpr (Role == constraint) return ph::constraint_for<Policy, Port>;
+  if constexpr (Role == surface) return ph::surface_for<Policy, Port>;
 }
 
 /// The law that a policy breaks, "none" if it obeys them all.

@@ -3,11 +3,30 @@
 // The laws of what belongs to a contact (the menu is in laws.hpp).
 
 #include <passive_haptics/concepts.hpp>
+#include <passive_haptics/constraint_geometry/surface_probe.hpp>
 #include <passive_haptics/laws/samples.hpp>
 #include <passive_haptics/port/composing.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
+namespace detail {
+
+/// A power of two whose third power is an epsilon: the step at which a central difference is best.
+template <class Scalar>
+[[nodiscard]] constexpr Scalar difference_step() noexcept {
+  Scalar step(1);
+  while (step * step * step > std::numeric_limits<Scalar>::epsilon()) step = step / Scalar(2);
+  return step;
+}
+
+/// How many roundings of the coordinates there are in a length of the neighbourhood's own.
+template <class Space>
+[[nodiscard]] constexpr typename Space::scalar off_centre(const neighbourhood<Space>& of) noexcept {
+  return typename Space::scalar(1) + Space::norm(of.centre) / of.radius;
+}
+
+}  // namespace detail
+
 namespace laws {
 
 /// From any unit normal to any other: unit length, at most `rate`·dt a step, there in the end.
@@ -110,6 +129,121 @@ template <class Space, class Constraint>
     const scalar miss = there.depth - d;
     const vector turned = there.outward() - m;
     if (!(miss * miss + Space::dot(turned, turned) <= slack * slack)) return false;
+  }
+  return true;
+}
+
+/// Where the laws look for faults of a surface: where it says, else about the origin.
+template <class Space, class Surface>
+[[nodiscard]] constexpr neighbourhood<Space> where_to_look(const Surface& surface) noexcept {
+  if constexpr (requires { surface.around(); }) {
+    return surface.around();
+  } else {
+    return {Space::zero(), typename Space::scalar(1)};
+  }
+}
+
+/// prepare() takes the surface, and refuses a stiffness that is zero, negative or no finite number.
+template <class Space, class Surface>
+[[nodiscard]] constexpr bool refuses_no_stiffness(Surface surface) noexcept {
+  using scalar = typename Space::scalar;
+  using limits = std::numeric_limits<scalar>;
+  auto good = surface;
+  if (!good.prepare()) return false;
+  for (const scalar bad :
+       {scalar(0), scalar(-1), scalar(limits::quiet_NaN()), scalar(limits::infinity())}) {
+    surface.stiffness = bad;
+    if (surface.prepare()) return false;
+  }
+  return true;
+}
+
+/// After prepare() a unit normal everywhere, covered or not.
+template <class Space, class Surface>
+[[nodiscard]] constexpr bool has_a_unit_normal(Surface surface, int points = 200) noexcept {
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  if (!surface.prepare()) return false;
+  const neighbourhood<Space> place = where_to_look<Space>(surface);
+  samples random(8);
+  const scalar slack = scalar(64) * std::numeric_limits<scalar>::epsilon();
+  for (int i = 0; i < enough(points); ++i) {
+    const vector x = vector(place.centre) + random.vector<Space>() * place.radius;
+    const vector n = surface.at(x).outward();
+    if (!(kernels::magnitude(scalar(Space::dot(n, n) - scalar(1))) <= slack)) return false;
+  }
+  return true;
+}
+
+/// After prepare() the surface pushes along −∇depth, by central differences: along push() where it has
+/// one, else along outward(). Where it turns too fast for a difference, as at an edge, nothing can be
+/// said; that may be so at a quarter of the covered points, and some point must be covered.
+template <class Space, class Surface>
+[[nodiscard]] constexpr bool pushes_along_its_gradient(Surface surface, int points = 400) noexcept {
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  if (!surface.prepare()) return false;
+  const neighbourhood<Space> place = where_to_look<Space>(surface);
+  samples random(9);
+  const scalar step = detail::difference_step<scalar>();
+  const scalar slack = scalar(512) * step * step * detail::off_centre(place);
+  int tried = 0, told = 0;
+  for (int i = 0; i < enough(points); ++i) {
+    const vector x = vector(place.centre) + random.vector<Space>() * place.radius;
+    const auto here = surface.at(x);
+    if (!here.covered()) continue;
+    const vector push = detail::steepest_push<Space>(here);
+    bool smooth = true, right = true;
+    for (int axis = 0; axis < Space::dof; ++axis) {
+      vector up = x, down = x;
+      Space::component(up, axis) += step * place.radius;
+      Space::component(down, axis) -= step * place.radius;
+      const auto above = surface.at(up), below = surface.at(down);
+      const vector turn = detail::steepest_push<Space>(above) - detail::steepest_push<Space>(below);
+      smooth =
+          smooth && above.covered() && below.covered() && Space::norm(turn) <= scalar(32) * step;
+      const scalar way = Space::component(up, axis) - Space::component(down, axis);
+      const scalar miss = (above.depth - below.depth) / way + Space::component(push, axis);
+      right = right && kernels::magnitude(miss) <= slack;
+    }
+    ++tried;
+    told += smooth ? 1 : 0;
+    if (smooth && !right) return false;
+  }
+  return tried > 0 && 4 * told >= 3 * tried;
+}
+
+/// After prepare() depth does not jump: between covered points not far apart it changes by no more than
+/// their distance times the largest push on the way, which is one where depth is the distance. Ways are up
+/// to a tenth of the neighbourhood: a jump that is small beside them is not found.
+template <class Space, class Surface>
+[[nodiscard]] constexpr bool changes_depth_steadily(Surface surface, int pairs = 400) noexcept {
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  if (!surface.prepare()) return false;
+  const neighbourhood<Space> place = where_to_look<Space>(surface);
+  samples random(10);
+  constexpr int pieces = 8;
+  const scalar rounding = scalar(256) * std::numeric_limits<scalar>::epsilon() * place.radius *
+                          detail::off_centre(place);
+  for (int i = 0; i < enough(pairs); ++i) {
+    const vector x = vector(place.centre) + random.vector<Space>() * place.radius;
+    const vector way = random.vector<Space>() * (place.radius / scalar(16));
+    const vector y = x + way;  // named, since a probe may refer to its point
+    const auto here = surface.at(x), there = surface.at(y);
+    scalar steepest(1);
+    bool covered = here.covered() && there.covered();
+    for (int piece = 0; covered && piece <= pieces; ++piece) {
+      const vector z = x + way * (scalar(piece) / scalar(pieces));
+      const auto between = surface.at(z);
+      covered = between.covered();
+      if constexpr (requires { between.push(); }) {
+        steepest = kernels::larger(steepest, Space::norm(vector(between.push())));
+      }
+    }
+    if (!covered) continue;
+    const scalar change = kernels::magnitude(scalar(there.depth - here.depth));
+    if (!(change <= steepest * Space::norm(way) + rounding)) return false;
   }
   return true;
 }
