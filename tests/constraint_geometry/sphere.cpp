@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/catch.hpp"
+#include "support/obedience.hpp"
+
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+template <class S>
+ph::sphere<S> ball(typename S::coordinates centre, ph::felt_from side = ph::felt_from::outside) {
+  return {centre, typename S::scalar(0.05), typename S::scalar(500), side};
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("a sphere is an interval, a circle, a ball, solid and hollow", "[geometry]", d1,
+                   f1, d2, f2, d3, f3) {
+  using S = TestType;
+  typename S::coordinates centre{};
+  S::component(centre, 0) = typename S::scalar(0.02);
+  obey<role::constraint, S>(ball<S>(centre), ball<S>(centre, ph::felt_from::inside));
+}
+
+TEST_CASE("a solid ball is felt from outside, a cavity from inside", "[geometry]") {
+  const d3::vector in(0, 0.03, 0), out(0, 0.06, 0);
+  const auto solid = ball<d3>({0, 0, 0});
+  CHECK_THAT(solid.at(in).depth, WithinAbs(0.02, 1e-15));
+  CHECK_THAT(solid.at(out).depth, WithinAbs(-0.01, 1e-15));
+  CHECK(solid.at(in).outward() == d3::vector(0, 1, 0));
+  const auto cavity = ball<d3>({0, 0, 0}, ph::felt_from::inside);
+  CHECK_THAT(cavity.at(in).depth, WithinAbs(-0.02, 1e-15));
+  CHECK_THAT(cavity.at(out).depth, WithinAbs(0.01, 1e-15));
+  CHECK(cavity.at(out).outward() == d3::vector(0, -1, 0));
+}
+
+TEMPLATE_TEST_CASE("a sphere has a unit normal at its centre and next to it", "[geometry]", d3,
+                   f3) {
+  using S = TestType;
+  using scalar = typename S::scalar;
+  const auto solid = ball<S>({0, 0, 0});
+  for (const scalar away : {scalar(0), std::numeric_limits<scalar>::denorm_min(),
+                            std::sqrt(ph::kernels::smallest<scalar>()), scalar(1e-12)}) {
+    const auto seen = solid.at({away, away, scalar(0)});
+    CHECK_THAT(S::norm(seen.outward()), WithinAbs(1.0, 1e-6));
+    CHECK_THAT(seen.depth, WithinAbs(solid.radius, 1e-8));
+  }
+}
+
+TEMPLATE_TEST_CASE("a sphere that cannot be used is refused", "[geometry]", d3, f3) {
+  using S = TestType;
+  using scalar = typename S::scalar;
+  const auto usable = [](ph::sphere<S> s) { return s.prepare(); };
+  const auto good = ball<S>({0, 0, 0});
+  CHECK(usable(good));
+  for (const scalar bad : {std::numeric_limits<scalar>::quiet_NaN(),
+                           std::numeric_limits<scalar>::infinity(), scalar(0), scalar(-1)}) {
+    auto s = good;
+    s.radius = bad;
+    CHECK_FALSE(usable(s));
+    s = good;
+    s.stiffness = bad;
+    CHECK_FALSE(usable(s));
+    s = good;
+    s.centre = {scalar(0), bad, scalar(0)};
+    CHECK(usable(s) == std::isfinite(bad));
+    s = good;
+    s.felt = static_cast<ph::felt_from>(7);
+    CHECK_FALSE(usable(s));
+  }
+}
