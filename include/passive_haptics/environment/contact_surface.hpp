@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What a mesh publishes of itself at a contact, beside its tangent plane and its triangle.
+//
+//   quadric_at   the smooth surface through its nodes, with its curvatures    for bodies that bulge
+//   patch_at     its triangles around the contact, as they are                for dents and edges
+//
+// Both are plain values for a supply's update(), which prepares them and refuses what cannot be used:
+//     touch.update(env::quadric_at(body, {.thickness = 0.005}))
+
+#include <passive_haptics/constraint_geometry/patch.hpp>
+#include <passive_haptics/constraint_geometry/quadric.hpp>
+#include <passive_haptics/environment/curvature.hpp>
+#include <passive_haptics/environment/deformable_body.hpp>
+#include <passive_haptics/environment/surface.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
+
+struct quadric_options {
+  double thickness = 0.005;  ///< deepest contact [m]
+  double reach = 0.02;       ///< how far along the surface it counts [m]; about an edge of the mesh
+};
+
+/// The quadric at a point of the surface, of this stiffness [N/m]. Curvatures are kept within
+/// ±1/(2 thickness), so that it does not fold: a sharper edge or dent is felt as one of that radius.
+[[nodiscard]] inline quadric<space<double, 3>> quadric_at(surface_view surface, nodes_view nodes,
+                                                          const surface_point& on, double stiffness,
+                                                          const quadric_options& options = {}) {
+  const surface_shape shape = shape_at(surface, nodes, on.triangle, on.weights);
+  const double sharpest = 0.5 / options.thickness;
+  const auto kept = [&](double c) { return (std::max)(-sharpest, (std::min)(c, sharpest)); };
+  return {.point = shape.point,
+          .normal = shape.normal,
+          .tangent = shape.tangent,
+          .curvature = kept(shape.curvature),
+          .cross_curvature = kept(shape.cross_curvature),
+          .stiffness = stiffness,
+          .thickness = options.thickness,
+          .reach = options.reach};
+}
+
+/// The M triangles around a point of the surface that are the closest to it and hang together by whole
+/// edges. One that would be the third at an edge is left out.
+template <std::size_t M = 16>
+[[nodiscard]] patch<space<double, 3>, M> patch_at(
+    surface_view surface, nodes_view nodes, const surface_point& on, double stiffness,
+    double thickness = (std::numeric_limits<double>::max)()) {
+  using result_type = patch<space<double, 3>, M>;
+  result_type result;
+  result.stiffness = stiffness;
+  result.thickness = thickness;
+  std::array<int, M> taken{};                          // numbers of triangles
+  std::array<int, result_type::node_capacity> used{};  // and of nodes
+  const auto has_edge = [&](int from, int to) {
+    for (std::size_t i = 0; i < result.triangle_count; ++i) {
+      const auto& t = surface[static_cast<std::size_t>(taken[i])].nodes;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (t[k] == from && t[(k + 1) % 3] == to) return true;
+      }
+    }
+    return false;
+  };
+  const auto local_number = [&](int node) {
+    const auto end = used.begin() + result.node_count;
+    const auto at = std::find(used.begin(), end, node);
+    if (at == end) {
+      *at = node;
+      result.nodes[result.node_count++] = nodes[static_cast<std::size_t>(node)];
+    }
+    return static_cast<std::uint8_t>(at - used.begin());
+  };
+  /// Does it lie at an edge of the patch, and at none that has two triangles already?
+  const auto fits = [&](const surface_triangle& t) {
+    bool touches_patch = result.triangle_count == 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int from = t.nodes[k], to = t.nodes[(k + 1) % 3];
+      if (has_edge(from, to)) return false;
+      touches_patch = touches_patch || has_edge(to, from);
+    }
+    return touches_patch;
+  };
+  int next = on.triangle;
+  while (next >= 0) {
+    const surface_triangle& t = surface[static_cast<std::size_t>(next)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      result.triangles[result.triangle_count][k] = local_number(t.nodes[k]);
+    }
+    taken[result.triangle_count++] = next;
+    if (result.triangle_count == M) break;
+    next = -1;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < static_cast<int>(surface.size()); ++i) {
+      if (!fits(surface[static_cast<std::size_t>(i)])) continue;
+      const auto candidate = point_on(surface, nodes, i, on.point);
+      if (!candidate || !(candidate->distance < shortest)) continue;
+      shortest = candidate->distance;
+      next = i;
+    }
+  }
+  return result;
+}
+
+/// The point of the surface that a body's last contact was at.
+[[nodiscard]] inline surface_point point_of(const surface_contact& contact) {
+  return {.triangle = contact.triangle,
+          .point = contact.point,
+          .weights = contact.weights,
+          .normal = contact.normal,
+          .distance = 0.0,
+          .depth = contact.depth};
+}
+
+/// The quadric at the last contact of a body, of the stiffness that it has there; before the first
+/// contact one that every supply refuses.
+[[nodiscard]] inline quadric<space<double, 3>> quadric_at(const deformable_body& body,
+                                                          const quadric_options& options = {}) {
+  if (body.contact().triangle < 0) return {};
+  return quadric_at(body.surface(), body.nodes(), point_of(body.contact()),
+                    body.contact().stiffness, options);
+}
+
+/// The patch at the last contact of a body; before the first one that every supply refuses.
+template <std::size_t M = 16>
+[[nodiscard]] patch<space<double, 3>, M> patch_at(
+    const deformable_body& body, double thickness = (std::numeric_limits<double>::max)()) {
+  if (body.contact().triangle < 0) return {};
+  return patch_at<M>(body.surface(), body.nodes(), point_of(body.contact()),
+                     body.contact().stiffness, thickness);
+}
+
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// How a mesh bends: the smooth surface that its nodes are taken from, estimated next to a contact.
+//
+//   node_normal          of a node                 N. Max, "Weights for computing vertex normals from
+//                                                  facet normals", J. Graphics Tools 4(2), 1999
+//   triangle_curvature   from the normals of its   S. Rusinkiewicz, "Estimating curvatures and their
+//   node_curvature       nodes; mean of those      derivatives on triangle meshes", 3DPVT 2004
+//   shape_at             point, normal, principal curvatures of the smooth surface
+//
+// A curvature is a symmetric tensor C [1/m] with C n = 0: the normal turns by C δ along δ; positive
+// where the body bulges, 1/r on a ball. Only triangles around the contact count, but they are found by
+// looking at all of them, as elsewhere in this room: nothing is kept, so the body may deform. Nothing
+// here allocates.
+
+#include <passive_haptics/environment/surface.hpp>
+#include <passive_haptics/environment/triangle.hpp>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
+
+/// Calls visit(triangle, k) for every usable triangle whose corner k is the node.
+template <class Visit>
+void for_triangles_at(surface_view surface, nodes_view nodes, int node, const Visit& visit) {
+  for (const surface_triangle& t : surface) {
+    const auto at = std::find(t.nodes.begin(), t.nodes.end(), node);
+    if (at == t.nodes.end() || is_degenerate(corners(t, nodes))) continue;
+    visit(t, static_cast<std::size_t>(at - t.nodes.begin()));
+  }
+}
+
+/// The unit normal of a node: Σ (a × b)/(|a|²|b|²), a and b the edges of each triangle there. Exact where
+/// the node and its neighbours are on one sphere. Zero for a node of no usable triangle.
+[[nodiscard]] inline Eigen::Vector3d node_normal(surface_view surface, nodes_view nodes, int node) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for_triangles_at(surface, nodes, node, [&](const surface_triangle& t, std::size_t k) {
+    const triangle shape = corners(t, nodes);
+    const Eigen::Vector3d a = shape[(k + 1) % 3] - shape[k];
+    const Eigen::Vector3d b = shape[(k + 2) % 3] - shape[k];
+    sum += a.cross(b) / (a.squaredNorm() * b.squaredNorm());
+  });
+  return sum.normalized();
+}
+
+/// The tensor, in the plane of the triangle, that turns the normals of its nodes into one another along
+/// its edges best: C eₖ ≈ Δnₖ by least squares.
+[[nodiscard]] inline Eigen::Matrix3d triangle_curvature(
+    const triangle& shape, const std::array<Eigen::Vector3d, 3>& normals) {
+  const Eigen::Vector3d n = unit_normal(shape);
+  const Eigen::Vector3d u = (shape[1] - shape[0]).normalized(), v = n.cross(u);
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();  // of the unknowns C_uu, C_uv, C_vv
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d edge = shape[(k + 1) % 3] - shape[k];
+    const Eigen::Vector3d turn = normals[(k + 1) % 3] - normals[k];
+    Eigen::Matrix<double, 2, 3> rows;
+    rows << edge.dot(u), edge.dot(v), 0.0, 0.0, edge.dot(u), edge.dot(v);
+    squares += rows.transpose() * rows;
+    right += rows.transpose() * Eigen::Vector2d(turn.dot(u), turn.dot(v));
+  }
+  const Eigen::Vector3d found = squares.ldlt().solve(right);
+  return found(0) * u * u.transpose() + found(1) * (u * v.transpose() + v * u.transpose()) +
+         found(2) * v * v.transpose();
+}
+
+/// C turned with the plane that it is in, by the shortest way from one normal to another.
+[[nodiscard]] inline Eigen::Matrix3d turned(const Eigen::Matrix3d& curvature,
+                                            const Eigen::Vector3d& from,
+                                            const Eigen::Vector3d& to) {
+  const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+  return turn * curvature * turn.transpose();
+}
+
+/// The curvature at a node: the mean over its triangles, by their areas.
+[[nodiscard]] inline Eigen::Matrix3d node_curvature(surface_view surface, nodes_view nodes,
+                                                    int node, const Eigen::Vector3d& normal) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  double area = 0.0;
+  for_triangles_at(surface, nodes, node, [&](const surface_triangle& t, std::size_t /*k*/) {
+    const triangle shape = corners(t, nodes);
+    const Eigen::Matrix3d one = triangle_curvature(
+        shape, {node_normal(surface, nodes, t.nodes[0]), node_normal(surface, nodes, t.nodes[1]),
+                node_normal(surface, nodes, t.nodes[2])});
+    const double share = area_vector(shape).norm();
+    sum += share * turned(one, unit_normal(shape), normal);
+    area += share;
+  });
+  if (!(area > 0.0)) return Eigen::Matrix3d::Zero();
+  return sum / area;
+}
+
+/// The smooth surface next to a point of the mesh.
+struct surface_shape {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();     ///< on the smooth surface [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< unit, outward
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  ///< unit, of the first curvature
+  double curvature = 0.0;                              ///< along the tangent [1/m]
+  double cross_curvature = 0.0;                        ///< along n × t, ≤ the first [1/m]
+  double rise = 0.0;  ///< of the point above the facet, along the normal [m]
+};
+
+/// The shape at the point of a triangle with these barycentric weights. Normal and curvature are blended
+/// from those of the three nodes; the point stands above the facet by what the curvature gives between
+/// the nodes, Σ wₖ ½ δₖᵀC δₖ with δₖ from the point to node k, so that the surface goes through the nodes.
+[[nodiscard]] inline surface_shape shape_at(surface_view surface, nodes_view nodes, int number,
+                                            const Eigen::Vector3d& weights) {
+  const surface_triangle& t = surface[static_cast<std::size_t>(number)];
+  const triangle shape = corners(t, nodes);
+  std::array<Eigen::Vector3d, 3> normals;
+  surface_shape result;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    normals[k] = node_normal(surface, nodes, t.nodes[k]);
+    normal += weights[static_cast<Eigen::Index>(k)] * normals[k];
+  }
+  result.normal = normal.normalized();
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double weight = weights[static_cast<Eigen::Index>(k)];
+    if (weight == 0.0) continue;
+    curvature += weight * turned(node_curvature(surface, nodes, t.nodes[k], normals[k]), normals[k],
+                                 result.normal);
+  }
+  const Eigen::Vector3d on_facet = point_at(shape, weights);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d way = shape[k] - on_facet;
+    result.rise += weights[static_cast<Eigen::Index>(k)] * 0.5 * way.dot(curvature * way);
+  }
+  result.point = on_facet + result.rise * result.normal;
+
+  // The two principal axes, in any frame of the tangent plane.
+  const Eigen::Vector3d a = result.normal.unitOrthogonal(), b = result.normal.cross(a);
+  const double aa = a.dot(curvature * a), ab = a.dot(curvature * b), bb = b.dot(curvature * b);
+  const double angle = 0.5 * std::atan2(2.0 * ab, aa - bb);
+  result.tangent = std::cos(angle) * a + std::sin(angle) * b;
+  const double spread = std::hypot(0.5 * (aa - bb), ab);
+  result.curvature = 0.5 * (aa + bb) + spread;
+  result.cross_curvature = 0.5 * (aa + bb) - spread;
+  return result;
+}
+
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics
