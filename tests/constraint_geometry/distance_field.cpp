@@ -125,7 +125,7 @@ TEMPLATE_TEST_CASE("a brick covers its middle cube, and answers with numbers out
   CHECK_FALSE(at(0.0051, 0, 0).covered());
   CHECK_FALSE(at(0, -0.0051, 0).covered());
   CHECK_FALSE(at(0, 0, 0.0051).covered());
-  CHECK_THAT(S::norm(at(0.3, 0.2, -5).outward()), WithinAbs(1.0, 1e-6));
+  CHECK_THAT(static_cast<double>(S::norm(at(0.3, 0.2, -5).outward())), WithinAbs(1.0, 1e-6));
   CHECK_FALSE(at(std::nan(""), 0, 0).covered());
   brick.thickness = scalar(0.002);
   CHECK(at(0, 0, -0.0019).covered());

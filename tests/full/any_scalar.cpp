@@ -2,6 +2,7 @@
 // Any scalar that models `real` composes: here one that is no literal and copies by a function of
 // its own, as a multiprecision number does. It holds a double, so its bits must be a double's.
 #include "support/catch.hpp"
+#include "support/curved.hpp"
 #include <passive_haptics/passive_haptics.hpp>
 
 #include <Eigen/Core>
@@ -40,6 +41,7 @@ class boxed {
     return a.value_ <=> b.value_;
   }
   friend boxed sqrt(const boxed& a) { return std::sqrt(a.value_); }
+  friend boxed atan2(const boxed& y, const boxed& x) { return std::atan2(y.value_, x.value_); }
   friend boxed abs(const boxed& a) { return std::fabs(a.value_); }
 
  private:
@@ -175,7 +177,36 @@ std::vector<double> guarded() {
   return seen;
 }
 
+/// Every kind of surface, probed around its middle.
+template <class S>
+std::vector<double> probed() {
+  std::vector<double> seen;
+  curved::every_surface<room<S>>([&](auto surface) {
+    CHECK(surface.prepare());
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> in(-0.05, 0.05);
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector3d x(in(random), in(random), in(random));
+      const typename room<S>::vector at = curved::of<room<S>>(x);
+      const auto probe = surface.at(at);
+      const typename room<S>::vector push = ph::detail::steepest_push<room<S>>(probe);
+      seen.push_back(static_cast<double>(probe.depth));
+      for (int k = 0; k < 3; ++k) seen.push_back(static_cast<double>(push(k)));
+      seen.push_back(probe.covered() ? 1.0 : 0.0);
+    }
+  });
+  return seen;
+}
+
 }  // namespace
+
+TEST_CASE("surfaces of any scalar that models real compute what those of a double do",
+          "[scalar][curved]") {
+  const auto plain = probed<double>();
+  CHECK(plain.size() == 12 * 200 * 5);
+  CHECK(probed<boxed>() == plain);
+  CHECK(probed<float>() != plain);  // the control
+}
 
 TEMPLATE_TEST_CASE("any scalar that models real composes, and computes what a double does",
                    "[scalar]", wall, plane, triangle) {
