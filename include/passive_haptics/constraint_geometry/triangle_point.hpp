@@ -45,8 +45,8 @@ struct triangle_point {
 };
 
 /// The point of the triangle a, b, c closest to x: the foot of x on its plane if that lies within the
-/// edges, else the closest point of the closest edge. Rounding may take the one for the other only where
-/// they meet. The triangle must have an area.
+/// edges, else the closest point of those edges that x is beyond. Rounding may take one for another only
+/// where they meet. The triangle must have an area.
 template <class Space>
 [[nodiscard]] constexpr triangle_point<Space> closest_on_triangle(
     const typename Space::vector& a, const typename Space::vector& b,
@@ -59,14 +59,16 @@ template <class Space>
   const scalar of_b = Space::dot(Space::cross(r, ac), n) / area;
   const scalar of_c = Space::dot(Space::cross(ab, r), n) / area;
   const scalar of_a = scalar(1) - of_b - of_c;
+  const std::array<scalar, 3> share{of_a, of_b, of_c};
   if (of_a > scalar(0) && of_b > scalar(0) && of_c > scalar(0)) {
-    return {vector(a + ab * of_b + ac * of_c), {of_a, of_b, of_c}};
+    return {vector(a + ab * of_b + ac * of_c), share};
   }
   const std::array<const vector*, 3> corner{&a, &b, &c};
   triangle_point<Space> best{a, {scalar(1), scalar(0), scalar(0)}};
   scalar shortest = kernels::largest<scalar>();
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
+    if (share[(i + 2) % 3] > scalar(0)) continue;  // x is on the inner side of this edge
     const vector edge = *corner[j] - *corner[i];
     const vector way = x - *corner[i];
     const scalar s = kernels::smaller(
