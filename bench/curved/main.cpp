@@ -98,9 +98,10 @@ void table() {
 int main(int count, char** arguments) {
   if (count > 1) {
     const bool asked = std::string_view(arguments[1]) == "--help";
-    std::fprintf(asked ? stdout : stderr,
-                 "usage: curved\n\nPrints the bytes of every surface, and the nanoseconds that a "
-                 "probe and prepare() take here.\nThe probe holds depth, push and covered.\n");
+    std::fprintf(
+        asked ? stdout : stderr,
+        "usage: curved [--help]\n\nPrints the bytes of every surface, and the nanoseconds that a "
+        "probe and prepare() take here.\nThe probe holds depth, push and covered.\n");
     return asked ? 0 : 2;
   }
   table<d3>();

@@ -92,6 +92,29 @@ TEST_CASE("the push of a quadric is not longer than 1 + |curvature| thickness/2"
   CHECK(longest > 1.05);  // so that the bound is tried
 }
 
+TEST_CASE("the force on a quadric is not steeper than K (1 + 3 kd + 1.25 (kd)^2)",
+          "[geometry][curved]") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> in(-1, 1);
+  double steepest = 0.0, closest = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto q = prepared(bulge(90 * in(random), 90 * in(random)));
+    const Vector3d x(0.02 * in(random), 0.02 * in(random), -0.005 + 0.005 * in(random));
+    const Vector3d step = 1e-7 * Vector3d(in(random), in(random), in(random)).normalized();
+    const auto here = q.at(x);
+    if (!q.at(x - step).covered() || !q.at(x + step).covered() || here.depth < 1e-6) continue;
+    const double slope =
+        (curved::force<d3>(q, x + step) - curved::force<d3>(q, x - step)).norm() / 2e-7;
+    const double kd = std::max(std::abs(q.curvature), std::abs(q.cross_curvature)) * here.depth;
+    const double most = q.stiffness * (1 + 3 * kd + 1.25 * kd * kd);
+    if (!(slope <= most * 1.00001)) FAIL("case " << i << ": " << slope << " of " << most);
+    steepest = std::max(steepest, slope / q.stiffness);
+    closest = std::max(closest, slope / most);
+  }
+  CHECK(steepest > 1.3);  // so that a bound of K would not do
+  CHECK(closest > 0.9);
+}
+
 TEMPLATE_TEST_CASE("a quadric that cannot be used, or folds, is refused", "[geometry][curved]", d3,
                    f3) {
   using S = TestType;

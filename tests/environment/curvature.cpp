@@ -140,9 +140,9 @@ TEST_CASE("a cylinder is curved one way only", "[environment][curvature]") {
   };
   const mesh m = cylinder_of(24);
   const auto found = against(m, truth, off, middle(m));
-  CHECK(found.normal < 0.02);
-  CHECK(found.curvature < 0.5);
-  CHECK(found.place < 2e-5);
+  CHECK(found.normal < 1e-12);
+  CHECK(found.curvature < 0.03);
+  CHECK(found.place < 3e-6);
   const auto shape = env::shape_at(m.surface, m.nodes, 24 * 2 * 2, Vector3d::Constant(1.0 / 3));
   CHECK(std::abs(shape.tangent.z()) < 0.02);  // around, not along
 }
