@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Hands on a rigid_device: a force and a torque within their limits, chosen anew in each tick.
+//
+//   random    any direction, kept for up to 40 ticks
+//   tapping   with the motors' wrench or against it, in turns of up to 6 ticks
+//   swinging  two ticks one way, two ticks back, across the contact
+//   greedy    with the motors while they move it, else against them
+//
+// Each lets go of what it does to bring a handle back that is too far away or spins too fast.
+
+#include <passive_haptics/laws/samples.hpp>
+#include <passive_haptics/simulation/rigid_device.hpp>
+
+#include <cstdint>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace simulation {
+
+enum class rigid_habit : std::uint8_t { random, tapping, swinging, greedy };
+
+struct rigid_hand_parameters {
+  rigid_habit habit = rigid_habit::random;
+  double force = 5.0;     ///< most [N]
+  double torque = 0.2;    ///< most [N·m]
+  double room = 0.05;     ///< how far from the origin it lets the handle go [m]
+  double fastest = 60.0;  ///< how fast it lets it spin [rad/s]
+};
+
+class rigid_hand {
+ public:
+  using body = rigid_body<double>;
+  using vector = body::triple;
+
+  rigid_hand(const rigid_hand_parameters& parameters, std::uint64_t seed) noexcept
+      : p_(parameters), random_(seed) {}
+
+  /// The wrench of the hand in the coming tick; `across` is a direction of the contact.
+  [[nodiscard]] body::effort push(const rigid_device& device, const body::effort& motors,
+                                  const vector& across) noexcept {
+    choose(device, motors, across);
+    vector force = force_, torque = torque_;
+    const vector p = device.at().position, rate = device.rate();
+    if (p.norm() > p_.room) force = p * (-p_.force / p.norm());
+    if (rate.norm() > p_.fastest) torque = rate * (-p_.torque / rate.norm());
+    return body::join(force, torque);
+  }
+
+ private:
+  using d3 = space<double, 3>;
+
+  [[nodiscard]] double number() noexcept { return random_.number<double>(); }
+  [[nodiscard]] vector any() noexcept { return random_.direction<d3>(); }
+  /// A length of one along v; along any direction where v is none.
+  [[nodiscard]] vector along(const vector& v) noexcept {
+    const double length = v.norm();
+    return length > 1e-9 ? vector(v / length) : any();
+  }
+  [[nodiscard]] int ticks(int most) noexcept {
+    return 1 + static_cast<int>(random_.bits() % static_cast<std::uint64_t>(most));
+  }
+  void push_along(const vector& force, const vector& torque, double share) noexcept {
+    force_ = force * (share * p_.force);
+    torque_ = torque * (share * p_.torque);
+  }
+  void choose(const rigid_device& device, const body::effort& motors,
+              const vector& across) noexcept {
+    const vector f = body::linear(motors), torque = body::angular(motors);
+    ++tick_;
+    switch (p_.habit) {
+      case rigid_habit::random:
+        if (--left_ > 0) return;
+        left_ = ticks(40);
+        push_along(any(), any(), number() < 0 ? 1.0 : number());
+        return;
+      case rigid_habit::tapping:
+        if (--left_ > 0) return;
+        left_ = ticks(6);
+        push_along(along(f), along(torque), number() < 0 ? 1.0 : -1.0);
+        return;
+      case rigid_habit::swinging:
+        push_along(across, along(detail::vectors<double, 3>::cross(across, any())),
+                   tick_ % 4 < 2 ? -1.0 : 1.0);
+        return;
+      case rigid_habit::greedy: {
+        const bool out = f.dot(device.velocity()) + torque.dot(device.rate()) > 0;
+        push_along(along(f), along(torque), out || number() > 0.6 ? 1.0 : -1.0);
+        return;
+      }
+    }
+  }
+
+  rigid_hand_parameters p_;
+  laws::samples random_;
+  vector force_ = vector(0, 0, 0), torque_ = vector(0, 0, 0);
+  int left_ = 0, tick_ = 0;
+};
+
+}  // namespace simulation
+}  // namespace v0
+}  // namespace passive_haptics
