@@ -82,6 +82,24 @@ template <class P>
   if constexpr (requires { P::reports_work; }) return P::reports_work;
   return false;
 }
+/// What was held over a tick: the effort, and at a port that reports it, the work.
+template <class P>
+struct reported_effort {
+  typename P::stored_effort force{};
+  typename P::scalar work{};  ///< [J]
+};
+template <class P>
+using held_at =
+    std::conditional_t<reports_work<P>(), reported_effort<P>, typename P::stored_effort>;
+template <class P>
+[[nodiscard, gnu::always_inline]] constexpr const typename P::stored_effort& force_of(
+    const held_at<P>& held) noexcept {
+  if constexpr (reports_work<P>()) {
+    return held.force;
+  } else {
+    return held;
+  }
+}
 /// A damping that says how much less than its ends show a turn may have brought.
 template <class D, class P>
 concept knows_turns = requires(const D d, const typename P::motion m, const typename P::effort f,
@@ -118,8 +136,8 @@ concept inertia_for = requires(const part_at<M, P> m, const typename P::effort f
 /// nothing is booked, when the energy would be no finite number. forfeit() writes off a tick whose
 /// motion is unknown and never raises the ledger. value() is E1 [J]. `counts` is false for the one
 /// that counts nothing; `exact` is false for one that takes positions as known to a step only. One that
-/// also books the work that a device reports takes it as a fourth argument [J]; one that books what is
-/// unsure of a turn says `turns`.
+/// also books the work that a device reports takes it with the effort; one that books what is unsure of a
+/// turn says `turns`.
 template <class O, class P>
 concept energy_observer_for = plain_value<part_at<O, P>, P> &&
     requires(part_at<O, P> o, const part_at<O, P> c, const typename P::motion m,

@@ -54,20 +54,6 @@ template <class Port>
   return kernels::sure_gain(dissipated, work.joules, work.passed);
 }
 
-/// The same of a damper, and where it knows that a motion may have brought less than its ends show, at
-/// least (rigid_damping, lemma C).
-template <class Port, class Damping>
-[[nodiscard, gnu::always_inline]] constexpr typename Port::scalar sure_gain(
-    const Damping& damping, const typename Port::motion& motion, const typename Port::effort& held,
-    typename Port::scalar dt) noexcept {
-  const auto gain = sure_gain<Port>(damping.dissipated(motion, dt), held, motion);
-  if constexpr (requires { damping.unsure(motion, held, dt); }) {
-    return gain - damping.unsure(motion, held, dt);
-  } else {
-    return gain;
-  }
-}
-
 /// E += gain, rounded down.
 template <class Ledger, class Scalar>
 [[gnu::always_inline]] constexpr void book(Ledger& energy, Scalar gain) noexcept {

@@ -163,7 +163,7 @@ class passive_port {
       }
     }
     if constexpr (detail::reports_work<P>()) {
-      return advance(sample.position, sample.dt, sample.held, sample.work);
+      return advance(sample.position, sample.dt, {sample.held, sample.work});
     } else {
       return advance(sample.position, sample.dt, sample.held);
     }
@@ -197,6 +197,7 @@ class passive_port {
  private:
   using limits_type = part_at<Limits, P>;
   using guard_type = typename Limits::template guard_type<P>;
+  using held_type = detail::held_at<P>;
 
   /// A guard that trusts the loop leaves out what is asked of a sample, and what a bad one costs.
   static constexpr bool trusting = guard_type::trusting;
@@ -208,8 +209,8 @@ class passive_port {
       source_type::asks_for_numbers && detail::reduces<Bound, P, state_type>();
 
   [[nodiscard, gnu::always_inline, gnu::flatten]] constexpr result_type advance(
-      const pose position, scalar dt, const typename P::stored_effort& held,
-      std::same_as<scalar> auto... work) noexcept {
+      const pose position, scalar dt, const held_type& held) noexcept {
+    const typename P::stored_effort& force = detail::force_of<P>(held);
     if (!sound_) [[unlikely]] {
       return refuse(event::rejected_parameters, dt);
     }
@@ -221,8 +222,8 @@ class passive_port {
     }
     const bool known = guard_.knows_motion();
     if (!known) [[unlikely]] {
-      travel = resume(held, dt);
-    } else if (!book(travel, held, dt, work...)) [[unlikely]] {
+      travel = resume(force, dt);
+    } else if (!book(travel, held, dt)) [[unlikely]] {
       return refuse(event::rejected_sample, dt);
     }
     guard_.move_to(position);
@@ -233,12 +234,12 @@ class passive_port {
                            .energy = observer_.value(),
                            .dt = dt,
                            .longest_tick = limits_.longest_tick,
-                           .held = held,
+                           .held = force,
                            .travel = travel,
                            .travel_error = travel_error(),
                            .motion_known = known};
     const auto request = source_.template ask<zero_stays_zero>(
-        motion_.estimate(position, travel, held, dt, known), state, what);
+        motion_.estimate(position, travel, force, dt, known), state, what);
     if constexpr (zero_stays_zero) {
       if (request.nothing) {
         guard_.command(P::zero());
@@ -280,23 +281,21 @@ class passive_port {
   }
 
   /// One tick into the ledger; false if its energy is no number.
-  [[nodiscard, gnu::always_inline]] constexpr bool book(
-      const motion& travel, const typename P::stored_effort& held, scalar dt,
-      std::same_as<scalar> auto... work) noexcept {
+  [[nodiscard, gnu::always_inline]] constexpr bool book(const motion& travel, const held_type& held,
+                                                        scalar dt) noexcept {
     if constexpr (!trusting) {
-      if (dt > limits_.watchdog) return book_cut_short(travel, held, dt, work...);
+      if (dt > limits_.watchdog) return book_cut_short(travel, held, dt);
     }
-    return observer_.update(travel, held, dt, work...);
+    return observer_.update(travel, held, dt);
   }
   /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of
   /// the two, and what only one of them covers, a ledger that is more than a number forgets. Vectors by
   /// value and at rest, so that the ordinary tick keeps its own in registers.
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_cut_short(
-      typename P::stored_effort travel, typename P::stored_effort held, scalar dt,
-      std::same_as<scalar> auto... work) noexcept {
+      typename P::stored_effort travel, held_type held, scalar dt) noexcept {
     observer_type dropped = observer_;
-    dropped.forfeit(held, limits_.watchdog);
-    if (!observer_.update(travel, held, dt, work...)) return false;
+    dropped.forfeit(detail::force_of<P>(held), limits_.watchdog);
+    if (!observer_.update(travel, held, dt)) return false;
     if constexpr (!Observer::exact) observer_.forfeit(P::zero(), limits_.watchdog);
     if (dropped.value() < observer_.value()) observer_ = dropped;
     return true;

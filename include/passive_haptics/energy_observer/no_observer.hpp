@@ -36,8 +36,11 @@ struct no_observer {
     };
 
     constexpr explicit on(const no_observer& /*p*/) noexcept {}
-    constexpr bool update(const motion& /*dx*/, const effort& /*held*/, scalar /*dt*/,
-                          std::same_as<scalar> auto... /*work*/) noexcept {
+    constexpr bool update(const motion& /*dx*/, const effort& /*held*/, scalar /*dt*/) noexcept {
+      return true;
+    }
+    constexpr bool update(const motion& /*dx*/, const detail::reported_effort<P>& /*held*/,
+                          scalar /*dt*/) noexcept {
       return true;
     }
     constexpr void forfeit(const effort& /*held*/, scalar /*T*/) noexcept {}

@@ -73,13 +73,23 @@ class basic_reduced_energy<Damping, Sum>::on {
 
   [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held,
                                                scalar dt) noexcept {
-    return take(detail::sure_gain<P>(damping_, dx, held, dt));
+    scalar gain = detail::sure_gain<P>(damping_.dissipated(dx, dt), held, dx);
+    if constexpr (detail::turns<P>()) gain -= damping_.unsure(dx, held, dt);
+    if (!kernels::is_finite(value() + gain)) [[unlikely]] {
+      return false;
+    }
+    detail::book(energy_, gain);
+    return true;
   }
-  /// The same where the device reports what its motors did [J]: E1 += Δxᵀ(b/dt)Δx − work (lemma J).
-  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& /*held*/, scalar dt,
-                                               scalar work) noexcept {
-    const scalar dissipated = damping_.dissipated(dx, dt);
-    return take(kernels::sure_gain(dissipated, work, kernels::magnitude(work)));
+  /// The same where the device reports what its motors did: E1 += Δxᵀ(b/dt)Δx − work (lemma J).
+  [[gnu::always_inline]] constexpr bool update(const motion& dx,
+                                               const detail::reported_effort<P>& held,
+                                               scalar dt) noexcept {
+    const scalar spent = kernels::sure_gain(scalar(0), held.work, kernels::magnitude(held.work));
+    if (!kernels::is_finite(value() + damping_.dissipated(dx, dt) + spent)) return false;
+    static_cast<void>(update(dx, P::zero(), dt));
+    detail::book(energy_, spent);
+    return true;
   }
 
   /// A tick passed and nobody saw the motion: write off the worst that `held` can have done, down
@@ -100,14 +110,6 @@ class basic_reduced_energy<Damping, Sum>::on {
   }
 
  private:
-  [[gnu::always_inline]] constexpr bool take(scalar gain) noexcept {
-    if (!kernels::is_finite(value() + gain)) [[unlikely]] {
-      return false;
-    }
-    detail::book(energy_, gain);
-    return true;
-  }
-
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS damping_type damping_;
   scalar loan_;
   detail::ledger_number<scalar, Sum> energy_;  ///< E1 [J]
@@ -166,13 +168,18 @@ class basic_capped_energy<Damping, Sum>::on
             .reset_after = static_cast<double>(reset_after_)};
   }
 
-  /// `work` [J] where the device reports it.
-  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held, scalar dt,
-                                               std::same_as<scalar> auto... work) noexcept {
-    if (!ledger::update(dx, held, dt, work...)) return false;
+  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held,
+                                               scalar dt) noexcept {
+    if (!ledger::update(dx, held, dt)) return false;
     idle_ = held == P::zero() ? idle_ + dt : scalar(0);
     this->keep_at_most(idle_ >= reset_after_ ? scalar(0) : cap_);
     return true;
+  }
+  /// With the work that the device reports; what is forgotten, as after a tick without motion.
+  [[gnu::always_inline]] constexpr bool update(const motion& dx,
+                                               const detail::reported_effort<P>& held,
+                                               scalar dt) noexcept {
+    return ledger::update(dx, held, dt) && update(P::zero(), held.force, dt);
   }
   constexpr void reset() noexcept {
     ledger::reset();

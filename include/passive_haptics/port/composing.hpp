@@ -27,10 +27,10 @@ template <class Observer>
 }
 /// Does it book the work that a device reports?
 template <class Observer, class P>
-concept books_work = requires(Observer o, const typename P::motion m, const typename P::effort f,
+concept books_work = requires(Observer o, const typename P::motion m, const reported_effort<P> f,
                               typename P::scalar s) {
-  { o.update(m, f, s, s) } -> std::same_as<bool>;
-  requires noexcept(o.update(m, f, s, s));
+  { o.update(m, f, s) } -> std::same_as<bool>;
+  requires noexcept(o.update(m, f, s));
 };
 
 /// Is none of them a shaper?

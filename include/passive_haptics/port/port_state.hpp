@@ -75,7 +75,11 @@ struct port_state {
   }
   /// What the last tick brought, Δxᵀ(b/dt)Δx − f_held·Δx [J], rounded down, at least.
   [[nodiscard]] constexpr scalar gain() const noexcept {
-    return detail::sure_gain<Port>(damping, travel, effort(held), dt);
+    scalar brought = detail::sure_gain<Port>(damping.dissipated(travel, dt), held, travel);
+    if constexpr (requires { damping.unsure(travel, held, dt); }) {
+      brought -= damping.unsure(travel, held, dt);
+    }
+    return brought;
   }
 };
 
