@@ -14,6 +14,7 @@
 //   shaper/                 what looks at the contact before the bound does
 //   exchange.hpp            news from another thread
 //   laws.hpp                what a part of your own must obey; not in here
+//   six_dof.hpp             devices that turn, or sense that they do; not in here
 
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/constraint_geometry/distance_brick.hpp>

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Devices that turn, or sense that they do: everything of passive_haptics.hpp, and
+//
+//   port/rigid_body.hpp                      pose (p, q), motion (Δp, θ), wrench (f, τ)
+//   port/stylus.hpp                          six are sensed, three are pushed
+//   port/reported_work.hpp                   the driver says what its motors did: motors in joints
+//   port/rigid_damping.hpp                   b, b_ω, and what a turn may hide from its ends
+//   port/rigid_inertia.hpp                   mass, moments, where the centre of mass is
+//   force_bound/rigid_reachable_bound.hpp    in joules, on time or a tick late; rigid_actuator_limit
+//
+//     using device = ph::rigid_body<double>;
+//     ph::passive_port port{device{}, ph::given_force{},
+//                           ph::basic_reduced_energy<ph::rigid_damping>{
+//                               .damping = {.linear = 0.03, .angular = 1e-4}},
+//                           ph::strict_bound{}, ph::loop_limits{.longest_tick = 0.0011}};
+//     motors.command(port.tick({p, {w, x, y, z}}, dt, device::join(f, tau)).force);
+//
+// What is promised, and why: docs/design/six_dof.md.
+
+#include <passive_haptics/force_bound/rigid_reachable_bound.hpp>
+#include <passive_haptics/passive_haptics.hpp>
+#include <passive_haptics/port/reported_work.hpp>
+#include <passive_haptics/port/rigid_body.hpp>
+#include <passive_haptics/port/rigid_damping.hpp>
+#include <passive_haptics/port/rigid_inertia.hpp>
+#include <passive_haptics/port/stylus.hpp>
