@@ -17,7 +17,8 @@ namespace {
   body::effort motors = body::zero();
   for (int n = 0; n < 1000; ++n) {
     if (n % 10 == 0) {
-      motors = body::join(random.vector<d3>() * 5.0, random.vector<d3>() * 0.1);
+      const vec3 force = random.vector<d3>() * 5.0, torque = random.vector<d3>() * 0.1;
+      motors = body::join(force, torque);
     }
     device.push(hand.push(device, motors, vec3(0, 0, 1)));
     static_cast<void>(device.exchange(motors));

@@ -187,10 +187,10 @@ struct rigid_actuator_limit {
                                                 const auto& /*state*/) const noexcept {
       using lengths = part_at<rigid_inertia, P>;
       const scalar f = lengths::template length<0>(desired);
-      const scalar torque = lengths::template length<3>(desired);
+      const scalar t = lengths::template length<3>(desired);
       scalar least(1);
       if (f > force_) least = force_ / f;
-      if (torque * least > torque_) least = torque_ / torque;
+      if (t * least > torque_) least = torque_ / t;
       return {least};
     }
 

@@ -193,11 +193,12 @@ template <class Port>
         const vector base = kind < 0.3   ? length_one(gone)
                             : kind < 0.6 ? length_one(changed)
                                          : planned;
-        return length_one(base * (share() < 0.5 ? -1.0 : 1.0) + unit() * (2 * blend));
+        const double sign = share() < 0.5 ? -1.0 : 1.0;
+        return length_one(base * sign + unit() * (2 * blend));
       };
       const double size = share() < 0.5 ? 1.0 : std::pow(10.0, -2 * share());
-      const vector f =
-          choose(v, change, plan_f) * (size * most_force * (share() < 0.3 ? 0.0 : 1.0));
+      const double force = share() < 0.3 ? 0.0 : size * most_force;
+      const vector f = choose(v, change, plan_f) * force;
       const vector torque = choose(turning, turning_change, plan_t) * (size * most_torque);
       const body::effort wanted = body::join(f, torque);
       auto its_port = port;
@@ -316,6 +317,10 @@ template <class Port>
   laws::samples random(seed + 3000);
   const auto unit = [&random] { return vector(random.direction<space<double, 3>>()); };
   const auto share = [&random] { return (random.number<double>() + 1) / 2; };
+  const auto at_most = [&](double size) {  // in any direction, as long as that
+    const vector direction = unit();
+    return vector(direction * (size * share()));
+  };
   path_source source(attack.linear, attack.angular, attack.loan);
   rigid_outcome out;
   body::effort held = body::zero();
@@ -329,22 +334,22 @@ template <class Port>
     const bool saving = (n / 500) % 2 != 0;  // the other half presses with arcs
     const vector f = body::linear(held), torque = body::angular(held);
     vector travel = f * (T / (2 * attack.linear)) * (share() < 0.3 ? 1.0 : 1.3 * share());
-    if (share() < 0.5) travel += unit() * (1e-3 * share());
+    if (share() < 0.5) travel += at_most(1e-3);
     coning_path path;
     const double kind = share();
     if (kind < 0.25 || !(torque.norm() > 0)) {
-      path.start = unit() * (0.2 * share() / T);
+      path.start = at_most(0.2) / T;
     } else if (kind < (saving ? 0.9 : 0.4)) {
       vector turn = torque * (T / (2 * attack.angular));
       if (turn.norm() > 1) turn = turn / turn.norm();
       path.start = turn * ((share() < 0.7 ? 1.0 : share()) / T);
     } else {
-      path = extremal(torque, attack.angular, T, 0.0, share(), unit(),
-                      share() < 0.5 ? 1.0 : 2 * share());
+      const double across = share(), turning = share() < 0.5 ? 1.0 : 2 * share();
+      path = extremal(torque, attack.angular, T, 0.0, across, unit(), turning);
     }
     source.move(held, travel, path, T);
-    const body::effort wanted =
-        body::join(unit() * ((saving ? 20.0 : 0.4) * share()), unit() * share());
+    const vector wanted_force = at_most(saving ? 20.0 : 0.4), wanted_torque = at_most(1.0);
+    const body::effort wanted = body::join(wanted_force, wanted_torque);
     const auto result =
         port.tick({.position = source.at(), .held = held, .dt = T, .valid = true}, wanted);
     next = result.force;

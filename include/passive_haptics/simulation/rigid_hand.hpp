@@ -60,6 +60,7 @@ class rigid_hand {
   [[nodiscard]] int ticks(int most) noexcept {
     return 1 + static_cast<int>(random_.bits() % static_cast<std::uint64_t>(most));
   }
+  /// Along `force` and `torque`, of length one. Drawn before it is called: the order of arguments is no order.
   void push_along(const vector& force, const vector& torque, double share) noexcept {
     force_ = force * (share * p_.force);
     torque_ = torque * (share * p_.torque);
@@ -68,25 +69,23 @@ class rigid_hand {
               const vector& across) noexcept {
     const vector f = body::linear(motors), torque = body::angular(motors);
     ++tick_;
+    const bool holds = p_.habit == rigid_habit::random || p_.habit == rigid_habit::tapping;
+    if (holds && --left_ > 0) return;
+    const vector force_way = along(f), torque_way = along(torque), other = any(), another = any();
+    const double one = number(), two = number();
     switch (p_.habit) {
       case rigid_habit::random:
-        if (--left_ > 0) return;
         left_ = ticks(40);
-        push_along(any(), any(), number() < 0 ? 1.0 : number());
-        return;
+        return push_along(other, another, one < 0 ? 1.0 : two);
       case rigid_habit::tapping:
-        if (--left_ > 0) return;
         left_ = ticks(6);
-        push_along(along(f), along(torque), number() < 0 ? 1.0 : -1.0);
-        return;
+        return push_along(force_way, torque_way, one < 0 ? 1.0 : -1.0);
       case rigid_habit::swinging:
-        push_along(across, along(detail::vectors<double, 3>::cross(across, any())),
-                   tick_ % 4 < 2 ? -1.0 : 1.0);
-        return;
+        return push_along(across, along(detail::vectors<double, 3>::cross(across, other)),
+                          tick_ % 4 < 2 ? -1.0 : 1.0);
       case rigid_habit::greedy: {
         const bool out = f.dot(device.velocity()) + torque.dot(device.rate()) > 0;
-        push_along(along(f), along(torque), out || number() > 0.6 ? 1.0 : -1.0);
-        return;
+        return push_along(force_way, torque_way, out || one > 0.6 ? 1.0 : -1.0);
       }
     }
   }
