@@ -61,8 +61,7 @@ class jumping_contact {
     if (!(depth > 0)) return body::zero();
     const double push = kernels::smaller(stiffness_ * depth, 50.0);
     const vector f = normal_ * push;
-    return body::join(f,
-                      vector(detail::vectors<double, 3>::cross(arm, f) + arm * (moment_ * push)));
+    return body::join(f, vector(space<double, 3>::cross(arm, f) + arm * (moment_ * push)));
   }
   [[nodiscard]] const vector& normal() const noexcept { return normal_; }
 
@@ -250,7 +249,7 @@ struct coning_path {
     const vector along = axis * axis.dot(start);
     const vector across = start - along;
     return along * T + across * (std::sin(angle) / spin) +
-           detail::vectors<double, 3>::cross(axis, across) * ((1 - std::cos(angle)) / spin);
+           space<double, 3>::cross(axis, across) * ((1 - std::cos(angle)) / spin);
   }
   /// Where it ends.
   [[nodiscard]] quaternion<double> end(const quaternion<double>& q, double T) const noexcept {

@@ -105,7 +105,7 @@ class rigid_device {
     return {a[0], a[1], a[2]};
   }
   [[nodiscard]] static vector cross(const vector& a, const vector& b) noexcept {
-    return detail::vectors<double, 3>::cross(a, b);
+    return space<double, 3>::cross(a, b);
   }
   [[nodiscard]] static vector each(const std::array<double, 3>& by, const vector& v) noexcept {
     return {by[0] * v(0), by[1] * v(1), by[2] * v(2)};

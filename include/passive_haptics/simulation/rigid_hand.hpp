@@ -81,7 +81,7 @@ class rigid_hand {
         left_ = ticks(6);
         return push_along(force_way, torque_way, one < 0 ? 1.0 : -1.0);
       case rigid_habit::swinging:
-        return push_along(across, along(detail::vectors<double, 3>::cross(across, other)),
+        return push_along(across, along(space<double, 3>::cross(across, other)),
                           tick_ % 4 < 2 ? -1.0 : 1.0);
       case rigid_habit::greedy: {
         const bool out = f.dot(device.velocity()) + torque.dot(device.rate()) > 0;
