@@ -4,9 +4,10 @@
 namespace contacts {
 
 const std::vector<section>& sections() {
-  static const std::vector<section> all{{"settling", run_settling}, {"touch", run_touch},
-                                        {"news", run_news},         {"friction", run_friction},
-                                        {"static", run_static},     {"passive", run_passive}};
+  static const std::vector<section> all{
+      {"settling", run_settling}, {"touch", run_touch},       {"news", run_news},
+      {"curved", run_curved},     {"friction", run_friction}, {"static", run_static},
+      {"passive", run_passive},   {"rigid", run_rigid},       {"tool", run_tool}};
   return all;
 }
 

@@ -34,9 +34,12 @@ struct section {
 [[nodiscard]] std::vector<std::string> run_settling(const session& s);
 [[nodiscard]] std::vector<std::string> run_touch(const session& s);
 [[nodiscard]] std::vector<std::string> run_news(const session& s);
+[[nodiscard]] std::vector<std::string> run_curved(const session& s);
 [[nodiscard]] std::vector<std::string> run_friction(const session& s);
 [[nodiscard]] std::vector<std::string> run_static(const session& s);
 [[nodiscard]] std::vector<std::string> run_passive(const session& s);
+[[nodiscard]] std::vector<std::string> run_rigid(const session& s);
+[[nodiscard]] std::vector<std::string> run_tool(const session& s);
 
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);

@@ -23,8 +23,9 @@ TEST_CASE("contacts keep every promise in a first look, and what stands beside t
   INFO(found.complaint);
   CHECK(found.code == 0);  // the controls among them: one that loses nothing is a failure
   const std::string json = content(out / "contacts.json");
-  for (const char* key : {"settling", "touch", "news", "heart", "drift", "stick_slip", "stopping",
-                          "cone", "static", "passive", "failures"}) {
+  for (const char* key :
+       {"settling", "touch", "news", "heart", "stroke", "loops", "drift", "stick_slip", "stopping",
+        "cone", "static", "passive", "rigid", "tool", "failures"}) {
     CAPTURE(key);
     CHECK(json.find('"' + std::string(key) + '"') != std::string::npos);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/rigid_ports.hpp"
+#include "../bench/contacts/rigid_ports.hpp"
 #include "support/catch.hpp"
 #include <passive_haptics/force_bound/bound_chain.hpp>
 #include <passive_haptics/force_bound/reachable_bound.hpp>

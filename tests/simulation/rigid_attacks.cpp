@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Six degrees of freedom under attack: what is promised holds, and every term of it is missed where it is left
 // out (docs/design/six_dof.md). A sample of seconds; the runners take any number of runs.
-#include "rigid_ports.hpp"
+#include "../bench/contacts/rigid_ports.hpp"
 #include "support/catch.hpp"
 
 using namespace rigid;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The simulated handle: what its integration is worth, before anything is judged by it.
-#include "rigid_ports.hpp"
+#include "../bench/contacts/rigid_ports.hpp"
 #include "support/catch.hpp"
 
 using Catch::Matchers::WithinAbs;

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A finger that strokes a ball of 50 mm at 45 mm/s, 1 to 3 mm deep, while what it touches is published 30
+// times a second; and the work that closed loops draw out of a surface.
+#include "ball.hpp"
+#include "program.hpp"
+#include <passive_haptics/energy_observer/no_observer.hpp>
+#include <passive_haptics/force_bound/actuator_limit.hpp>
+
+namespace contacts {
+
+namespace {
+
+struct stroke_row {
+  std::string surface;
+  curved::feel feel{};
+};
+ex::record record_of(const stroke_row& r) {
+  return {{"surface", r.surface},
+          {"largest_step_N", r.feel.largest_step, "%.5f"},
+          {"mean_error_N", r.feel.mean_error, "%.5f"}};
+}
+struct loop_row {
+  std::string surface;
+  double work = 0.0;  ///< the largest [J]
+};
+ex::record record_of(const loop_row& r) {
+  return {{"surface", r.surface}, {"work_uJ", r.work * 1e6, "%.5f"}};
+}
+
+/// Stroked through a set of contacts that gives what it asks for, without damping.
+template <class Surface>
+stroke_row stroke_of(const std::string& name, const auto& published, int every, int ticks) {
+  ph::passive_port port{d3{},
+                        ph::contact_set{ph::proxy_spring{.mass = 0.1, .damping_ratio = 0.0},
+                                        ph::pursuit{}, ph::slots<Surface, 1>{}},
+                        ph::no_observer{}, ph::no_bound{},
+                        ph::loop_limits{.longest_tick = T, .top_speed = 1e4}};
+  const vector start = curved::stroke(0);
+  port.source().update(0, published(start));
+  for (int i = 100; i > 0; --i) static_cast<void>(port.tick(start * (1.0 + 0.001 * i), T));
+  return {name, curved::stroked(
+                    [&](int i, const vector& x) -> vector {
+                      if (i % every == 0) port.source().update(0, published(x));
+                      return port.tick(x, T).force;
+                    },
+                    ticks)};
+}
+
+/// The plane through the nearest point of a ball cut into triangles.
+plane facet(const curved::triangulated& ball, const vector& x) {
+  double best = 1e9;
+  plane found;
+  for (const auto& t : ball.triangles) {
+    const auto node = [&](std::size_t k) { return ball.nodes[static_cast<std::size_t>(t[k])]; };
+    const vector middle = (node(0) + node(1) + node(2)) / 3.0;
+    const double away = (middle - x).squaredNorm();
+    if (away >= best) continue;
+    best = away;
+    found = {middle, d3::cross(node(1) - node(0), node(2) - node(0)), curved::stiffness};
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> run_curved(const session& s) {
+  s.out.section(
+      "Curved surfaces: stroked",
+      "A finger strokes a ball of 50 mm and 500 N/m at 45 mm/s, 1 to 3 mm deep; what it "
+      "touches is published every 33 ms. The largest step of the force in a tick, and the "
+      "mean error against the ball. Snapped: the nearest of 320 triangles in every tick.");
+  const int ticks = s.chosen.quick ? 3000 : 20000;
+  const auto tangent = [](const vector& x) {
+    return plane{vector(x.normalized() * curved::radius), x, curved::stiffness};
+  };
+  const auto ball = [](const vector&) {
+    return ph::sphere<d3>{
+        .centre = {0.0, 0.0, 0.0}, .radius = curved::radius, .stiffness = curved::stiffness};
+  };
+  const auto mesh = curved::icosphere(2);
+  std::vector<stroke_row> strokes{
+      stroke_of<ph::sphere<d3>>("sphere", ball, 33, ticks),
+      stroke_of<ph::quadric<d3>>("quadric of the sphere", curved::osculating<d3>, 33, ticks),
+      stroke_of<plane>("tangent plane", tangent, 33, ticks)};
+  strokes.push_back({"nearest triangle, snapped",
+                     curved::stroked(
+                         [&](int, const vector& x) {
+                           auto flat = facet(mesh, x);
+                           static_cast<void>(flat.prepare());
+                           const vector n = flat.normal;
+                           return vector(n * (curved::stiffness * std::max(0.0, flat.at(x).depth)));
+                         },
+                         ticks)});
+  s.out.show(ex::table_of(strokes));
+  s.out.member("stroke", ex::json_of(strokes));
+
+  s.out.section(
+      "Curved surfaces: loops",
+      "The largest work that a closed loop of 10 by 2 mm, 1 to 3 mm under the surface, draws "
+      "out of K d push(), the gradient of the depth; and out of K d along the normal.");
+  const auto quadric = [] {
+    auto q = curved::osculating<d3>(vector(0.0, 0.0, 1.0));
+    static_cast<void>(q.prepare());
+    return q;
+  }();
+  const auto brick = curved::brick<d3>({0.0, 0.0, curved::radius}, 0.012);
+  const auto loop_of = [](const auto& surface, bool along_normal) {
+    return curved::largest_loop(
+        [&](const vector& x) -> vector { return curved::force<d3>(surface, x, along_normal); });
+  };
+  const std::vector<loop_row> loops{{"quadric, 20/m", loop_of(quadric, false)},
+                                    {"quadric, along its normal", loop_of(quadric, true)},
+                                    {"brick of 12 mm", loop_of(brick, false)}};
+  s.out.show(ex::table_of(loops));
+  s.out.member("loops", ex::json_of(loops));
+
+  std::vector<std::string> found;
+  expect(found, strokes[1].feel.largest_step <= 0.0035, "the quadric steps");
+  expect(found, strokes[1].feel.mean_error <= 0.0005, "the quadric is not the ball");
+  expect(found, strokes[3].feel.largest_step > 0.1,
+         "the control, snapped triangles, does not step");
+  expect(found, loops[0].work <= 1e-8, "a loop draws work out of the quadric");
+  expect(found, loops[1].work > 5e-5, "the control, along the normal, gives nothing out");
+  return found;
+}
+
+}  // namespace contacts
