@@ -55,6 +55,7 @@ TEST_CASE(
     keeps(sim::run_all_paths(bounded_by(ph::strict_bound{}, loan), attack, 12));
     attack.latency = 1;
     keeps(sim::run_all_paths(bounded_by<body, 1>(ph::strict_bound{}, loan), attack, 12));
+    keeps(sim::run_all_paths(bounded_by<body, 1>(ph::memoryless_bound{}, loan), attack, 12));
   }
 }
 
