@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Is what dual_ledger keeps of friction as much as the best of all choices u(1), u(2), … would have kept?
+// On a line all of them can be tried; no ledger may claim more, and the three it keeps should lose little.
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/laws.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+constexpr double c = 0.2;             ///< [N]
+constexpr double q = 50e-6;           ///< [m]
+constexpr double b = 1e-12;           ///< [N·s/m], so that the damper's credit is none
+constexpr double rounded = 1e-9 * q;  ///< at most [J], in all
+
+/// The largest value of all sequences of u between −c and c in twentieths of the way from one to the other.
+class every_choice {
+ public:
+  explicit every_choice(double presliding) : p_(presliding) {
+    A_.fill(-1.0);  // J: out of reach
+    A_[none] = 0.0;
+  }
+  void update(double shown, double held) {
+    const auto before = A_;
+    for (std::size_t to = 0; to < A_.size(); ++to) {
+      double best = -1.0;
+      for (std::size_t from = 0; from < A_.size(); ++from) {
+        const double doubt = q / 2 * std::abs(u(from) - last_ + held - u(to));
+        best = std::max(best, before[from] - doubt - p_ * std::abs(u(to) - u(from)));
+      }
+      A_[to] = best + (u(to) - held) * shown;
+    }
+    last_ = held;
+  }
+  /// A tick nobody saw: u is the friction against `held`, and then none.
+  void forfeit(double held) {
+    double best = -1.0;
+    for (std::size_t from = 0; from < A_.size(); ++from) {
+      const double doubt = q / 2 * std::abs(u(from) - last_);
+      best = std::max(best, A_[from] - doubt - p_ * std::abs(held - u(from)));
+    }
+    *this = every_choice(p_);
+    A_[none] = best - p_ * std::abs(held);
+  }
+  [[nodiscard]] double value() const {
+    double best = -1.0;
+    for (std::size_t i = 0; i < A_.size(); ++i) {
+      const double stored = u(i) * u(i) * p_ / (2 * c);
+      best = std::max(best, A_[i] - q / 2 * std::abs(u(i) - last_) - stored);
+    }
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t none = 10;
+  static double u(std::size_t i) { return c * (static_cast<double>(i) / none - 1.0); }
+  std::array<double, 2 * none + 1> A_{};
+  double p_, last_ = 0.0;
+};
+
+/// A ledger and the best of all choices, along the diagonal of a space, where all its axes step at once.
+template <class Space>
+class on_a_line {
+ public:
+  explicit on_a_line(double presliding) : on_a_line(presliding, presliding, q) {}
+  /// Whose ledger is told other numbers than are true.
+  on_a_line(double presliding, double stated_presliding, double stated_step)
+      : best_(presliding),
+        ledger_(ph::dual_ledger{.damping = {b, c, stated_presliding},
+                                .quantum = stated_step / std::sqrt(Space::dof),
+                                .loan = 0.01}) {}
+  /// So many steps against so many tenths of c.
+  void update(int steps, int tenths) {
+    const double shown = steps * q, held = tenths * c / 10;
+    best_.update(shown, held);
+    REQUIRE(ledger_.update(vector(shown), vector(held), 1.0));
+    compare();
+  }
+  void forfeit(int tenths) {
+    const double held = tenths * c / 10;
+    best_.forfeit(held);
+    ledger_.forfeit(vector(held), 1.0);
+    compare();
+  }
+  [[nodiscard]] double best() const { return best_.value(); }                ///< [J]
+  [[nodiscard]] double most_lost() const { return most_lost_; }              ///< [J]
+  [[nodiscard]] double most_overstated() const { return most_overstated_; }  ///< [J]
+  [[nodiscard]] bool keeps_the_best() const {
+    return most_lost_ <= rounded && most_overstated_ <= rounded;
+  }
+
+ private:
+  static typename Space::vector vector(double length) {
+    typename Space::vector all = Space::zero();
+    for (int i = 0; i < Space::dof; ++i) Space::component(all, i) = length / std::sqrt(Space::dof);
+    return all;
+  }
+  void compare() {
+    const double ahead = ledger_.value() - given_ - best_.value();
+    most_lost_ = std::max(most_lost_, -ahead);
+    most_overstated_ = std::max(most_overstated_, ahead);
+  }
+
+  every_choice best_;
+  ph::part_at<ph::dual_ledger, Space> ledger_;
+  double given_ = ledger_.value(), most_lost_ = 0.0, most_overstated_ = 0.0;
+};
+
+/// A whole number, each as likely, up to `most` in size.
+int any(ph::laws::samples& random, int most) {
+  return static_cast<int>(std::lround(random.number<double>() * (most + 0.49)));
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("three choices of the friction keep what all do while no force changes",
+                   "[dual]", d1, d2, d3) {
+  for (const double p : {0.0, 0.1 * q, 0.3 * q, 0.5 * q, q}) {
+    for (const int length : {1, 2, 3, 5, 20}) {  // of a swing
+      on_a_line<TestType> device(p);
+      for (int n = 0; n < 100; ++n) device.update(n % (2 * length) < length ? 1 : -1, 0);
+      CAPTURE(p, length);
+      CHECK(device.keeps_the_best());
+    }
+    ph::laws::samples random(1);
+    on_a_line<TestType> device(p);
+    for (int n = 0; n < 300; ++n) device.update(any(random, 2), 0);
+    CAPTURE(p);
+    CHECK(device.keeps_the_best());
+    CHECK(device.best() > 20 * c * q);  // the control: there was something to keep
+  }
+  ph::laws::samples random(1);
+  on_a_line<TestType> soft(2 * q);  // of friction that is softer than a step they lose a little
+  for (int n = 0; n < 300; ++n) soft.update(any(random, 2), 0);
+  CHECK(soft.most_overstated() <= rounded);
+  CHECK(soft.most_lost() <= 0.25 * c * q + rounded);
+}
+
+TEST_CASE("three choices of the friction keep what all do while a device rests", "[dual]") {
+  ph::laws::samples random(1);
+  for (const double p : {0.0, 0.1 * q, 0.5 * q, q, 2 * q}) {
+    CAPTURE(p);
+    on_a_line<d2> within(p), beyond(p);  // reach of the friction, in which the force hunts
+    for (int n = 0; n < 300; ++n) {
+      within.update(0, any(random, 10));
+      beyond.update(0, any(random, 20));
+    }
+    CHECK(within.keeps_the_best());
+    CHECK(beyond.most_overstated() <= rounded);
+    if (!(p > 0.0) || p >= q) CHECK(beyond.most_lost() <= rounded);
+  }
+}
+
+TEST_CASE("three choices of the friction keep what all do on a swing into a wall", "[dual]") {
+  for (const double p : {0.0, 0.1 * q, 0.3 * q, 0.5 * q}) {
+    on_a_line<d2> device(p);
+    for (int n = 0, depth = 0; n < 300; ++n) {
+      const int way = n % 20 < 10 ? 1 : -1;
+      device.update(way, depth);  // the force that it has met
+      depth += way;
+    }
+    CAPTURE(p);
+    CHECK(device.keeps_the_best());
+    CHECK(device.best() > 200 * c * q);
+  }
+}
+
+TEST_CASE("three choices of the friction keep what all do over ticks that are lost", "[dual]") {
+  ph::laws::samples random(1);
+  for (const double p : {0.0, 0.1 * q, 0.3 * q, 0.5 * q}) {
+    CAPTURE(p);
+    on_a_line<d2> moves(p), rests(p);
+    for (int n = 1; n <= 400; ++n) {
+      if (n % 20 == 0) {
+        const int held = any(random, 10);
+        moves.forfeit(held);
+        rests.forfeit(held);
+      }
+      moves.update(any(random, 2), 0);
+      rests.update(0, any(random, 10));
+    }
+    CHECK(moves.keeps_the_best());
+    CHECK(rests.keeps_the_best());
+  }
+}
+
+TEST_CASE("three choices of the friction never keep more than all do, whatever happens", "[dual]") {
+  const auto overstated = [](on_a_line<d1> device, std::uint64_t seed) {
+    ph::laws::samples random(seed);
+    for (int n = 0, held = 0; n < 400; ++n) {
+      if (any(random, 4) == 0) held = any(random, 25);
+      if (any(random, 20) == 0) device.forfeit(any(random, 10));
+      device.update(any(random, 2), held);
+    }
+    return device.most_overstated();
+  };
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    for (const double p : {0.0, 0.1 * q, 0.5 * q, q, 2 * q}) {
+      CAPTURE(seed, p);
+      CHECK(overstated(on_a_line<d1>(p), seed) <= rounded);
+    }
+    // the control: told half of what is true
+    CHECK(overstated(on_a_line<d1>(q, q / 2, q), seed) > c * q);
+    CHECK(overstated(on_a_line<d1>(q, q, q / 2), seed) > c * q);
+  }
+}
