@@ -58,36 +58,14 @@ TEST_CASE("diagonal_damping is isotropic where all axes are alike, and its own o
   CHECK(turning.worst_outflow(f, T) == own.worst_outflow(f, T));
 }
 
-TEST_CASE("damping_and_friction credits f_c|Δx| and gives f_c for nothing, but not in debt",
-          "[damping]") {
-  const auto both =
-      at<d2>(ph::damping_and_friction{.coefficient = 0.03, .coulomb = 0.5, .presliding = 1e-5});
-  const auto bare = at<d2>(ph::isotropic_damping{0.03});
-  const d2::vector dx(3e-3, 4e-3), f(0.6, 0.8);
-  CHECK_THAT(both.dissipated(dx, T) - bare.dissipated(dx, T), WithinRel(0.5 * 5e-3, 1e-12));
-  CHECK_THAT(both.worst_outflow(f, T), WithinRel(0.25 / 120, 1e-12));
-  CHECK(both.worst_outflow(d2::vector(0.3, 0.4), T) == 0.0);
-  CHECK_THAT(both.affordable(f, 0.0, T), WithinRel(0.5, 1e-9));
-  CHECK(both.affordable(d2::vector(0.3, 0.3), 0.0, T) == 1.0);
-  CHECK(both.affordable(f, -1e-9, T) == 0.0);
-  CHECK_THAT(both.affordable(10 * f, 0.01, T), WithinRel((0.5 + std::sqrt(1.2)) / 10, 1e-9));
-  CHECK(both.friction(f) == 0.5);
-  static_assert(decltype(both)::rubs);
-}
-
 TEST_CASE("a damping is refused with its name", "[damping]") {
   const double nan = std::nan("");
   CHECK(refused(ph::isotropic_damping{0.03}).empty());
   CHECK(refused(ph::diagonal_damping<2>{{0.01, 0.02}}).empty());
-  CHECK(refused(ph::damping_and_friction{0.03, 0.0, 0.0}).empty());
-  CHECK(refused(ph::damping_and_friction{0.03, 0.1}) == "presliding");  // it has no default
   for (const double bad : {0.0, -1.0, nan, HUGE_VAL}) {
     CHECK(refused(ph::isotropic_damping{bad}) == "damping");
     CHECK(refused(ph::diagonal_damping<2>{{0.01, bad}}) == "damping");
     CHECK(refused(ph::diagonal_damping<2>{{bad, 0.01}}) == "damping");
-    CHECK(refused(ph::damping_and_friction{bad, 0.1, 0.0}) == "damping");
-    if (bad != 0.0) CHECK(refused(ph::damping_and_friction{0.03, bad, 0.0}) == "friction");
-    if (bad != 0.0) CHECK(refused(ph::damping_and_friction{0.03, 0.1, bad}) == "presliding");
   }
   CHECK(refused(ph::isotropic_damping{}) == "damping");  // nothing is assumed
 }
@@ -95,8 +73,4 @@ TEST_CASE("a damping is refused with its name", "[damping]") {
 TEST_CASE("a damping gives its parameters back", "[damping]") {
   CHECK(at<d2>(ph::isotropic_damping{0.25}).parameters().coefficient == 0.25);
   CHECK(at<f2>(ph::diagonal_damping<2>{{0.25, 0.5}}).parameters().coefficients[1] == 0.5);
-  const auto both = at<f1>(ph::damping_and_friction{0.25, 0.5, 0.125}).parameters();
-  CHECK(both.coefficient == 0.25);
-  CHECK(both.coulomb == 0.5);
-  CHECK(both.presliding == 0.125);
 }
