@@ -69,13 +69,38 @@ TEST_CASE("a winding is never warmer than it may be, whatever is asked and howev
 }
 
 TEST_CASE("a motor that holds its peak for ever is an actuator_limit", "[bound]") {
-  auto limit =
-      at<d3>(ph::thermal_limit{.peak = 5.0, .continuous = std::numeric_limits<double>::infinity()});
-  const situation<d3> now;
-  for (int n = 0; n < 1000; ++n) {
-    REQUIRE((allowed(limit, d3::vector(6, 0, 8), now) - d3::vector(3, 0, 4)).norm() < 1e-15);
+  for (const double continuous : {5.0, std::numeric_limits<double>::infinity()}) {
+    auto limit = at<d3>(ph::thermal_limit{.peak = 5.0, .continuous = continuous});
+    const situation<d3> now;
+    for (int n = 0; n < 1000; ++n) {
+      REQUIRE((allowed(limit, d3::vector(6, 0, 8), now) - d3::vector(3, 0, 4)).norm() < 1e-15);
+    }
+    CHECK(limit.warmth() == 0.0);
   }
+}
+
+TEST_CASE("a motor that may hold nothing leaves a force of zero as it is", "[bound]") {
+  const situation<d1> now;
+  for (const ph::thermal_limit& p :
+       {ph::thermal_limit{.peak = 0.0, .continuous = 1.0}, ph::thermal_limit{.peak = 0.0},
+        ph::thermal_limit{.peak = 1.0, .time_constant = 1.0}}) {
+    REQUIRE(refused(p).empty());
+    auto none = at<d1>(p);
+    CHECK(none.limit(0.0, now.port()).factor == 1.0);
+    CHECK(none.limit(1.0, now.port()).factor == 0.0);
+    CHECK(none.warmth() == 0.0);
+  }
+}
+
+TEST_CASE("a reset makes a winding cold", "[bound]") {
+  auto limit = at<d1>(touch);
+  const situation<d1> now;
+  for (int n = 0; n < 1000; ++n) (void)allowed(limit, 5.0, now);
+  CHECK(limit.warmth() > 0.9);
+  CHECK(allowed(limit, 5.0, now) < 1.0);
+  limit.reset();
   CHECK(limit.warmth() == 0.0);
+  CHECK(allowed(limit, 5.0, now) == 3.3);
 }
 
 TEST_CASE("thermal_limit takes new parameters and refuses bad ones by name", "[bound]") {

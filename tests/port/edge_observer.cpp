@@ -116,6 +116,72 @@ TEST_CASE("edge_observer follows an even motion better than its steps do", "[mot
   }
 }
 
+TEST_CASE("an edge brings the speed nearer to what the way says, a quarter for each tick or step",
+          "[motion]") {
+  // In steps and ticks: so many of the one every so many of the other, and then one edge more.
+  const auto speed = [](int ticks, int steps, int then_ticks, int then_steps) {
+    const double width = 0x1p-14, dt = 0x1p-10;  // so that ways and times are exact
+    auto eyes = at<d1>(ph::edge_observer{width});
+    double x = 0.0, seen = eyes.estimate(x, 0.0, 0.0, dt, false).velocity;
+    const auto go = [&](int wait, int by) {
+      for (int n = 1; n < wait; ++n) (void)eyes.estimate(x, 0.0, 0.0, dt, true);
+      x += by * width;
+      seen = eyes.estimate(x, by * width, 0.0, dt, true).velocity / (width / dt);
+    };
+    for (int n = 0; n < 20; ++n) go(ticks, steps);
+    CHECK_THAT(seen, WithinRel(1.0 * steps / ticks, 1e-9));
+    go(then_ticks, then_steps);
+    return seen;
+  };
+  for (const int d : {1, -1}) {
+    CAPTURE(d);
+    CHECK_THAT(d * speed(3, d, 2, d), WithinRel(1.0 / 3 + 2.0 / 4 * (1.0 / 2 - 1.0 / 3), 1e-9));
+    CHECK_THAT(d * speed(1, d, 1, 2 * d), WithinRel(1 + 1.0 / 4 * (2 - 1), 1e-9));
+    CHECK_THAT(d * speed(1, 2 * d, 1, 3 * d), WithinRel(2 + 2.0 / 4 * (3 - 2), 1e-9));
+    // and never past it: four ticks, or steps, say it alone
+    CHECK_THAT(d * speed(2, d, 4, d), WithinRel(1.0 / 4, 1e-9));
+    CHECK_THAT(d * speed(1, d, 1, 4 * d), WithinRel(4.0, 1e-9));
+    CHECK_THAT(d * speed(1, 7 * d, 1, d), WithinRel(1.0, 1e-9));
+    // an edge back: 4/5 of the speed at the last, or of four steps in the time since
+    CHECK_THAT(d * speed(3, d, 1, -d), WithinRel(-0.8 / 3, 1e-9));
+    CHECK_THAT(d * speed(1, 3 * d, 2, -d), WithinRel(-0.8 * 2, 1e-9));
+    CHECK_THAT(d * speed(1, 3 * d, 1, -2 * d), WithinRel(-2.0, 1e-9));  // no mere turn
+  }
+}
+
+TEST_CASE("between edges it is no faster than a step in the time since the last", "[motion]") {
+  for (const int d : {1, -1}) {
+    seeing eyes(ph::edge_observer{q});
+    double x = q / 2;
+    (void)eyes.at(x);
+    for (int n = 0; n < 10; ++n) (void)eyes.at(x += d * q);
+    for (int n = 1; n < 20; ++n) CHECK_THAT(d * eyes.at(x).velocity, WithinRel(q / (n * T), 1e-9));
+  }
+}
+
+TEST_CASE("edge_observer stays within the step shown where positions come in smaller ones",
+          "[motion]") {
+  auto eyes = at<d1>(ph::edge_observer{q});
+  ph::laws::samples random(1);
+  double x = 0.0;
+  (void)eyes.estimate(x, 0.0, 0.0, T, false);
+  for (int n = 0; n < 1000; ++n) {
+    const double way = 0.4 * q * random.number<double>();
+    const double seen = eyes.estimate(x += way, way, 0.0, T, true).position;
+    REQUIRE(seen >= x);
+    REQUIRE(seen <= x + q);
+  }
+}
+
+TEST_CASE("edge_observer begins anew where a speed is no number", "[motion]") {
+  auto eyes = at<d2>(ph::edge_observer{q});
+  (void)eyes.estimate(d2::vector(0, 3), d2::zero(), d2::zero(), T, false);
+  const d2::vector far(0, 1e300);
+  const auto now = eyes.estimate(far, far, d2::zero(), 1e-9, true);
+  CHECK(now.velocity == d2::zero());
+  CHECK(now.position == d2::vector(q / 2, 1e300));
+}
+
 TEST_CASE("edge_observer damps no motion that is slower than an eighth of a step a tick",
           "[motion]") {
   for (const double v : {0.005, 0.1}) {
