@@ -68,13 +68,14 @@ class every_choice {
 template <class Space>
 class on_a_line {
  public:
-  explicit on_a_line(double presliding) : on_a_line(presliding, presliding, q) {}
+  explicit on_a_line(double presliding, double loan = 0x1p-6)
+      : on_a_line(presliding, presliding, q, loan) {}
   /// Whose ledger is told other numbers than are true.
-  on_a_line(double presliding, double stated_presliding, double stated_step)
+  on_a_line(double presliding, double stated_presliding, double stated_step, double loan = 0x1p-6)
       : best_(presliding),
         ledger_(ph::dual_ledger{.damping = {b, c, stated_presliding},
                                 .quantum = stated_step / std::sqrt(Space::dof),
-                                .loan = 0x1p-6}) {}
+                                .loan = loan}) {}
   /// So many steps against so many eighths of c.
   void update(int steps, int eighths) {
     const double shown = steps * q, held = eighths * c / 8;
@@ -268,4 +269,105 @@ TEMPLATE_TEST_CASE("to count on friction never keeps less than to count on none"
     }
   }
   CHECK(more > 1000);
+}
+
+TEST_CASE("in floats, too, three choices of the friction never keep more than all do", "[dual]") {
+  ph::laws::samples random(1);
+  for (const double p : {0.0, q / 8, q / 2, q, 2 * q}) {
+    CAPTURE(p);
+    for (const int length : {1, 2, 3, 5}) {
+      on_a_line<f1> swings(p, 0.0);  // about zero, where a float sees the least
+      for (int n = 0; n < 400; ++n) swings.update(n % (2 * length) < length ? 1 : -1, 0);
+      CHECK(swings.most_overstated() <= 0.0);
+    }
+    on_a_line<f1> hunts(p, 0.0);
+    for (int n = 0; n < 400; ++n) hunts.update(0, any(random, 8));
+    CHECK(hunts.most_overstated() <= 0.0);
+  }
+}
+
+TEST_CASE("on a line, whatever came before, a slip earns c a metre but for the cost of one turn",
+          "[dual]") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const double p : {0.0, q / 2, 2 * q}) {
+      ph::laws::samples random(seed);
+      auto ledger = at<d1>(ph::dual_ledger{.damping = {b, c, p}, .quantum = q, .loan = 0x1p-6});
+      for (int leg = 0; leg < 10; ++leg) {
+        for (int n = 0; n < 20; ++n) {  // the force hunts, and the device is pushed about
+          const double dx = random.number<double>() * (n < 10 ? q : 0.0);
+          REQUIRE(ledger.update(dx, random.number<double>() * (3 * c), 1.0));
+        }
+        REQUIRE(ledger.update(0.0, 0.0, 1.0));
+        const double before = ledger.value();
+        const double dx = leg % 2 == 0 ? q : -q;
+        for (int n = 0; n < 20; ++n) REQUIRE(ledger.update(dx, 0.0, 1.0));
+        CAPTURE(seed, p, leg);
+        CHECK(ledger.value() >= before + 20 * c * q - (c * q + 2 * c * p) - rounded);
+      }
+    }
+  }
+}
+
+TEST_CASE("a direction that is worth much is not given up for a new one", "[dual]") {
+  const double p = 2 * q;
+  const d2::vector along(q, 0), across(0, q);
+  for (const bool first : {true, false}) {
+    auto ledger = at<d2>(ph::dual_ledger{.damping = {b, c, p}, .quantum = q, .loan = 0x1p-6});
+    const double given = ledger.value();
+    const auto slip = [&](int steps, const d2::vector& dx) {
+      for (int n = 0; n < steps; ++n) (void)ledger.update(dx, d2::zero(), 1.0);
+    };
+    slip(first ? 0 : 1, across);
+    slip(10, along);
+    slip(first ? 1 : 0, across);
+    for (int n = 0; n < 10; ++n) {  // which brings down the one that follows the force
+      (void)ledger.update(d2::zero(), d2::vector(n % 2 == 0 ? -2 * c : 0, 0), 1.0);
+    }
+    const double hunted = 10 * q * c;  // ½ q for each newton of a change, whatever is counted on
+    const double kept = 10 * c * q - c * q - 1.5 * c * p - hunted;
+    CHECK_THAT(ledger.value() - given, WithinAbs(kept, rounded));
+    (void)ledger.update(-2 * across, d2::zero(), 1.0);
+    CHECK_THAT(ledger.value() - given, WithinAbs(kept, rounded));
+  }
+}
+
+TEST_CASE("a tick nobody saw costs the way of the friction to the force, and to none", "[dual]") {
+  const double p = q;
+  const auto lost = [&](int along, int across, const d2::vector& held) {
+    auto ledger = at<d2>(ph::dual_ledger{.damping = {b, c, p}, .quantum = q, .loan = 0x1p-6});
+    for (int n = 0; n < along; ++n) (void)ledger.update(d2::vector(q, 0), d2::zero(), 1.0);
+    for (int n = 0; n < across; ++n) (void)ledger.update(d2::vector(0, q), d2::zero(), 1.0);
+    const double before = ledger.value();
+    ledger.forfeit(held, 1.0);
+    return (before - ledger.value()) / (c * p);
+  };
+  const d2::vector x(c * (1 - 1e-12), 0), y(0, c * (1 - 1e-12));
+  // What the springs held, ½ c p, comes back; what they are bent to costs p a newton.
+  CHECK_THAT(lost(10, 0, d2::zero()), WithinAbs(1.0 - 0.5, 1e-6));
+  CHECK_THAT(lost(10, 0, x), WithinAbs(0.0 + 1.0 - 0.5, 1e-6));
+  CHECK_THAT(lost(10, 0, -x), WithinAbs(2.0 + 1.0 - 0.5, 1e-6));
+  CHECK_THAT(lost(10, 0, y), WithinAbs(std::sqrt(2.0) + 1.0 - 0.5, 1e-6));
+  CHECK_THAT(lost(10, 2, y), WithinAbs(std::sqrt(2.0) + 1.0 - 0.5, 1e-6));  // x is worth more still
+  CHECK_THAT(lost(0, 0, y), WithinAbs(1.0 + 1.0, 1e-6));
+}
+
+TEST_CASE("after new parameters no choice counts on more friction than there is", "[dual]") {
+  const auto stated = [](double friction) {
+    return ph::dual_ledger{.damping = {b, friction, q / 4}, .quantum = q, .loan = 0x1p-6};
+  };
+  for (const double first : {q, -q}) {
+    auto ledger = at<d1>(stated(c));
+    const auto slip = [&](double dx) {
+      const double before = ledger.value();
+      for (int n = 0; n < 10; ++n) (void)ledger.update(dx, 0.0, 1.0);
+      return ledger.value() - before;
+    };
+    (void)slip(first);
+    (void)slip(-first);
+    CHECK(slip(-first) > 9.9 * c * q);  // the control
+    ledger.set(stated(c / 2));
+    CHECK_THAT(slip(-first), WithinAbs(10 * c / 2 * q, rounded));
+    (void)slip(first);
+    CHECK_THAT(slip(first), WithinAbs(10 * c / 2 * q, rounded));
+  }
 }
