@@ -257,6 +257,16 @@ TEST_CASE("dual_ledger keeps the laws of an observer, and its parameters", "[dua
                ph::dual_ledger{.damping = {0.02, 0.1}, .quantum = 1e-5});
 }
 
+TEST_CASE("a ledger that is full goes on booking", "[dual]") {
+  auto ledger = at<f1>(ph::dual_ledger{.damping = {1e-3, 0.2, 0.0}, .quantum = 1e-5});
+  for (int n = 0; n < 20; ++n) {
+    REQUIRE(ledger.update(1e19F, -1e19F, 1.0F));  // 1e38 J, a third of the largest number
+    REQUIRE(ledger.value() > 4e37F);
+  }
+  for (int n = 0; n < 20; ++n) REQUIRE(ledger.update(-1e18F, -1e19F, 1.0F));
+  CHECK(ledger.value() < -1e38F);
+}
+
 TEMPLATE_TEST_CASE("numbers at the ends of their range leave dual_ledger a number", "[dual]", d1,
                    f1, f3) {
   using scalar = typename TestType::scalar;

@@ -52,6 +52,32 @@ TEST_CASE("the window sees slow motions that no single tick can show (L1)", "[qu
   CHECK(credit(0.128) < exact);
 }
 
+TEST_CASE("a way back takes no credit away that the way out has earned", "[quantised]") {
+  auto observer = at<d1>(sure());
+  double last = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    const double way = n % 20 < 10 ? step : -step;
+    REQUIRE(observer.update(n % 2 == 0 ? way : 0.0, 0.0, 1e-3));
+    CHECK(observer.value() >= last);
+    last = observer.value();
+  }
+  CHECK(last > 0.0);
+}
+
+TEST_CASE("rounding only takes from what the damper has taken", "[quantised]") {
+  const auto wide = [](float x) { return static_cast<double>(x); };
+  ph::laws::samples random(1);
+  for (int n = 0; n < 1000; ++n) {
+    auto observer = at<f1>(sure(0.0));
+    const float dx = random.number<float>(), dt = 1e-3F * (1.5F + random.number<float>() / 2.0F);
+    REQUIRE(observer.update(dx, 0.0F, dt));
+    const double exactly = wide(0.03F) * wide(dx) * wide(dx) / wide(dt);
+    REQUIRE(wide(observer.value()) <= exactly);
+    REQUIRE(wide(observer.value()) >=
+            exactly * (1 - 256 * wide(std::numeric_limits<float>::epsilon())));
+  }
+}
+
 TEST_CASE("a cap of zero keeps no credit on steps either, and a debt stays", "[quantised]") {
   auto parameters = sure(1e-7);
   parameters.cap = 0.0;

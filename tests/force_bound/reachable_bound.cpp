@@ -143,6 +143,22 @@ TEST_CASE("reachable_bound takes what friction holds off what is in flight, and 
   CHECK(allowed(bound, -f, now) == 0.0);
 }
 
+TEST_CASE(
+    "reachable_bound keeps 2 c p for each tick in flight, which elastic friction may hold back",
+    "[bound][friction]") {
+  const double fc = 0.5, p = 20e-6, f = 10.0, T = 1e-3;
+  situation<d1, ph::damping_and_friction, 2> now{
+      .damping = at<d1>(ph::damping_and_friction{0.03, fc, p}), .energy = 1e-3};
+  double reach = 0.0;  // from rest, nothing being on its way for two ticks
+  for (const double next : {0.0, 0.0, f}) {
+    reach += k::outward_reach(0.0, 0.0, next, 5.0, 0.1, T, T);
+  }
+  const auto bound = at<d1>(told);
+  const double most = fc + k::reachable_force_bound(1e-3 - 2 * (2 * fc * p), 30.0, reach);
+  REQUIRE(most < f);
+  CHECK_THAT(allowed(bound, -f, now), WithinRel(-most, 1e-9));
+}
+
 TEST_CASE("reachable_outflow is the most that a force can hand over within its reach",
           "[kernels]") {
   for (const double B : {3.0, 30.0, 300.0}) {
