@@ -104,20 +104,22 @@ TEST_CASE("reachable_bound on an encoder reckons with the doubt: as travel, and 
   const double error = 6e-5, travel = 1e-4, f = 4.0;
   situation<d1, ph::isotropic_damping, 0, false> now{
       .damping = at<d1>(ph::isotropic_damping{1.0}),  // B = 1 kN/m: the damper counts
-      .energy = 1e-6,
+      .energy = 1e-4,
       .travel = -travel,  // outwards
       .travel_error = error};
   const double other = 5.0 + 2 * 1000 * (travel + error);
   const double reach = k::outward_reach(travel + error, 0.0, f, other, 0.1, 1e-3, 1e-3);
   const auto bound = at<d1>(told);
-  const double most = k::reachable_force_bound(1e-6, 1000.0, reach);
+  const double most = k::reachable_force_bound(1e-4, 1000.0, reach);
+  REQUIRE(most > 1.01 * k::strict_force_bound(1e-4, 1000.0));  // it is the reach that bounds
   REQUIRE(most < f);
   CHECK_THAT(allowed(bound, -f, now), WithinRel(-most, 1e-9));
   // pressing in, it is the damper alone that may turn the device round
   now.travel = travel;
-  now.energy = 1e-9;
+  now.energy = 1e-5;
   const double back = k::outward_reach(error - travel, 0.0, f, other, 0.1, 1e-3, 1e-3);
-  const double little = k::reachable_force_bound(1e-9, 1000.0, back);
+  const double little = k::reachable_force_bound(1e-5, 1000.0, back);
+  REQUIRE(little > 1.01 * k::strict_force_bound(1e-5, 1000.0));
   REQUIRE(little < f);
   CHECK_THAT(allowed(bound, -f, now), WithinRel(-little, 1e-9));
 }
