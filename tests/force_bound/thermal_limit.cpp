@@ -103,6 +103,25 @@ TEST_CASE("a reset makes a winding cold", "[bound]") {
   CHECK(allowed(limit, 5.0, now) == 3.3);
 }
 
+TEST_CASE("a winding that is warmer than a new limit allows cools down to it", "[bound]") {
+  ph::thermal_limit motors{.peak = 9.0, .continuous = 2.0, .time_constant = 0.1};
+  auto limit = at<d1>(motors);
+  const situation<d1> now;
+  for (int n = 0; n < 2000; ++n) (void)allowed(limit, 9.0, now);
+  CHECK_THAT(limit.warmth(), WithinAbs(1.0, 1e-3));
+  motors.continuous = 1.0;
+  limit.set(motors);
+  CHECK_THAT(limit.warmth(), WithinAbs(4.0, 1e-2));
+  double before = limit.warmth();
+  for (int n = 0; n < 2000; ++n) {
+    (void)allowed(limit, 9.0, now);
+    CHECK(limit.warmth() <= before);
+    before = limit.warmth();
+  }
+  CHECK_THAT(limit.warmth(), WithinAbs(1.0, 1e-3));
+  CHECK_THAT(allowed(limit, 9.0, now), WithinRel(1.0, 1e-3));
+}
+
 TEST_CASE("thermal_limit takes new parameters and refuses bad ones by name", "[bound]") {
   const ph::thermal_limit first{.peak = 0.5, .continuous = 0.2, .time_constant = 0.05};
   const ph::thermal_limit weaker{.peak = 0.1, .continuous = 0.05, .time_constant = 0.05};

@@ -15,9 +15,10 @@ inline namespace v0 {
 /// constant τ, never exceeds `continuous`² (a winding warms with the square of its current, I²t):
 ///     m ← m + (f² − m) dt/(τ + dt),      f² ≤ m + (c² − m)/ε,     ε = 1/32, or T/(τ + T) where that is more
 /// for every f of a tick of dt ≤ T: as a tick takes at most the share ε of the way from m to f², m stays
-/// ≤ c². The force does not drop all at once but is eased down to c as the winding nears its limit. What
-/// is counted is what this bound lets through, so stand it last in a chain; a tick that is refused counts
-/// as held. A winding is cold at the start: wait, or reset with care.
+/// ≤ c². The force does not drop all at once but is eased down to c as the winding nears its limit. Where a
+/// new c² is less than m already, f is at most c until m has fallen to it. What is counted is what this bound
+/// lets through, so stand it last in a chain; a tick that is refused counts as held. A winding is cold at the
+/// start: wait, or reset with care.
 ///
 /// A limit that only reduces takes nothing from any promise before it (bound_chain.hpp). Where the motors
 /// really saturate, or cool, is theirs: without a device that reports what it held, `peak` must be right.
@@ -71,8 +72,9 @@ class thermal_limit::on {
       const scalar T = state.longest_tick;
       mean_square_ += (held_square_ - mean_square_) * (state.dt / (time_constant_ + state.dt));
       const scalar largest = kernels::larger(scalar(1) / scalar(32), T / (time_constant_ + T));
-      const scalar room = kernels::larger(c2 - mean_square_, scalar(0));
-      most = kernels::smaller(most, kernels::square_root(mean_square_ + room / largest));
+      const scalar room = c2 - mean_square_;  // below 0 where a new limit is lower than before
+      const scalar square = room > scalar(0) ? mean_square_ + room / largest : c2;
+      most = kernels::smaller(most, kernels::square_root(square));
       const scalar held = kernels::smaller(force, most);
       held_square_ = held * held;
     }
