@@ -92,10 +92,13 @@ class rigid_reachable_bound::on {
   [[nodiscard]] constexpr share<scalar> limit(const effort& desired,
                                               const State& state) const noexcept {
     const scalar T = state.longest_tick;
-    const scalar torque = inertia_.template length<3>(desired);
-    const scalar known =
-        kernels::coning_share(scalar(1), scalar(torque * torque), state.damping.along_axis(3), T);
+    const scalar known = kernels::coning_share(scalar(1), inertia_.template squared<3>(desired),
+                                               state.damping.along_axis(3), T);
     const effort wrench = desired * known;
+    const scalar W = state.damping.worst_outflow(wrench, T);
+    if constexpr (State::latency == 0) {
+      if (W <= kernels::spendable(state.energy)) return share{known};  // by the worst motion of all
+    }
     const surroundings all = around(state);
     const scalar norm = inertia_.norm(wrench);
     scalar credit = state.energy;
@@ -106,12 +109,11 @@ class rigid_reachable_bound::on {
       before = inertia_.norm(coming);
       later = kernels::later_reach(norm, before, norm, all.pushed, T);
       if (before > scalar(0)) {
-        const scalar W = state.damping.worst_outflow(coming, T);
-        credit -= kernels::reachable_work(W, reach(coming, before, before, all, state)) *
+        const scalar worst = state.damping.worst_outflow(coming, T);
+        credit -= kernels::reachable_work(worst, reach(coming, before, before, all, state)) *
                   (scalar(1) + kernels::rounding<scalar>());
       }
     }
-    const scalar W = state.damping.worst_outflow(wrench, T);
     if (W <= kernels::spendable(credit) || !(norm > scalar(0))) return share{known};
     const scalar most = reach(wrench, norm, before, all, state) + later;
     return share{known * kernels::reachable_share(credit, W, most)};

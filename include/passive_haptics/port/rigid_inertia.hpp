@@ -42,7 +42,12 @@ class rigid_inertia::on {
       : mass_(detail::number<scalar>(p.mass)),
         least_(detail::number<scalar>(p.least)),
         spread_(detail::number<scalar>(p.spread)),
-        offset_(detail::number<scalar>(p.offset)) {}
+        offset_(detail::number<scalar>(p.offset)),
+        per_mass_(scalar(1) / mass_),
+        per_least_(scalar(1) / least_),
+        rate_(kernels::square_root(per_least_)),
+        turning_(kernels::square_root(
+            scalar(mass_ * offset_ * offset_ + spread_ * spread_ / (scalar(4) * least_)))) {}
   [[nodiscard]] constexpr rigid_inertia parameters() const noexcept {
     return {.mass = static_cast<double>(mass_),
             .least = static_cast<double>(least_),
@@ -54,33 +59,41 @@ class rigid_inertia::on {
   [[nodiscard]] constexpr scalar norm(scalar force, scalar torque) const noexcept {
     const scalar about_centre = torque + offset_ * force;
     return kernels::square_root(
-        scalar(force * force / mass_ + about_centre * about_centre / least_));
+        scalar(force * force * per_mass_ + about_centre * about_centre * per_least_));
   }
   /// ‖w‖ [√J/s].
   [[nodiscard]] constexpr scalar norm(const typename Port::effort& w) const noexcept {
-    return norm(length<0>(w), length<3>(w));
+    const scalar force = squared<0>(w), torque = squared<3>(w);
+    if (!(offset_ > scalar(0))) {
+      return kernels::square_root(scalar(force * per_mass_ + torque * per_least_));
+    }
+    return norm(kernels::square_root(force), kernels::square_root(torque));
   }
   /// Of what the body does to itself while it turns by at most `rate` [rad/s]: [√J/s].
   [[nodiscard]] constexpr scalar of_turning(scalar rate) const noexcept {
-    const scalar off = mass_ * offset_ * offset_;
-    return rate * rate *
-           kernels::square_root(scalar(off + spread_ * spread_ / (scalar(4) * least_)));
+    return rate * rate * turning_;
   }
   /// The most that anything of this norm can do to the rate of turn [rad/s²].
-  [[nodiscard]] constexpr scalar turning_by(scalar norm) const noexcept {
-    return norm / kernels::square_root(least_);
-  }
+  [[nodiscard]] constexpr scalar turning_by(scalar norm) const noexcept { return norm * rate_; }
   /// |f| or |τ|, |Δp| or |θ|: the length of three components from `First` on.
   template <int First>
   [[nodiscard]] static constexpr scalar length(const typename Port::effort& w) noexcept {
+    return kernels::square_root(squared<First>(w));
+  }
+  /// Their square.
+  template <int First>
+  [[nodiscard]] static constexpr scalar squared(const typename Port::effort& w) noexcept {
     const scalar x = Port::component(w, First);
     const scalar y = Port::component(w, First + 1);
     const scalar z = Port::component(w, First + 2);
-    return kernels::square_root(scalar(x * x + y * y + z * z));
+    return x * x + y * y + z * z;
   }
 
  private:
   scalar mass_, least_, spread_, offset_;
+  scalar per_mass_, per_least_;
+  scalar rate_;     ///< 1/√I
+  scalar turning_;  ///< √(m|c|² + spread²/(4I))
 };
 
 }  // namespace v0

@@ -21,6 +21,12 @@ struct quaternion {
   Scalar w{1}, x{}, y{}, z{};
 };
 
+namespace detail {
+/// Do four terms of a series say all that a number of this kind can, for arguments below 1e-4?
+template <class S>
+inline constexpr bool four_terms = std::floating_point<S>&& std::numeric_limits<S>::digits <= 53;
+}  // namespace detail
+
 namespace rotation {
 
 template <real S>
@@ -35,11 +41,18 @@ template <real S>
 [[nodiscard]] constexpr bool is_unit(const quaternion<S>& q) noexcept {
   return kernels::magnitude(S(squared_norm(q) - S(1))) <= S(2e-3);
 }
-/// Of norm one, for a q of any norm but zero.
+/// Of norm one, for a q of any norm but zero. Next to one, (1 + e)^(−1/2) by its series: no root, no division.
 template <real S>
 [[nodiscard]] constexpr quaternion<S> normalised(const quaternion<S>& q) noexcept {
-  const S norm = kernels::square_root(squared_norm(q));
-  return {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
+  const S square = squared_norm(q);
+  S factor{};
+  const S e = square - S(1);
+  if (passive_haptics::detail::four_terms<S> && kernels::magnitude(e) < S(1e-4)) {
+    factor = S(1) - e * (S(0.5) - e * (S(0.375) - e * S(0.3125)));
+  } else {
+    factor = S(1) / kernels::square_root(square);
+  }
+  return {q.w * factor, q.x * factor, q.y * factor, q.z * factor};
 }
 template <real S>
 [[nodiscard]] constexpr quaternion<S> conjugate(const quaternion<S>& q) noexcept {
@@ -64,9 +77,12 @@ template <real S>
 
 namespace detail {
 
-/// asin(s)/s from its series, for s² < 1e-4: four terms in double.
+/// asin(s)/s from its series, for s² < 1e-4.
 template <real S>
 [[nodiscard]] constexpr S arc_over_sine(S squared) noexcept {
+  if constexpr (passive_haptics::detail::four_terms<S>) {
+    return S(1) + squared * (S(1.0 / 6.0) + squared * (S(0.075) + squared * S(5.0 / 112.0)));
+  }
   S sum(1), term(1), odd(1);
   for (int k = 0; k < 64; ++k) {
     term = term * squared * odd * odd / ((odd + S(1)) * (odd + S(2)));
