@@ -99,4 +99,10 @@ int main() {
   cost::run_part<cost::part_following>();
   cost::run_part<cost::part_stepped>();
   cost::run_part<cost::part_rubbing>();
+  cost::run_part<cost::part_reachable>();
+  cost::run_part<cost::part_rough>();
+  cost::run_part<cost::part_corner>();
+  cost::run_part<cost::part_sixteen>();
+  cost::run_part<cost::part_tool>();
+  cost::run_part<cost::part_tool_sixteen>();
 }

@@ -119,6 +119,12 @@ std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::cou
   add_part<cost::part_following>(rows, all, "part_following");
   add_part<cost::part_stepped>(rows, all, "part_stepped");
   add_part<cost::part_rubbing>(rows, all, "part_rubbing");
+  add_part<cost::part_reachable>(rows, all, "part_reachable");
+  add_part<cost::part_rough>(rows, all, "part_rough");
+  add_part<cost::part_corner>(rows, all, "part_corner");
+  add_part<cost::part_sixteen>(rows, all, "part_sixteen");
+  add_part<cost::part_tool>(rows, all, "part_tool");
+  add_part<cost::part_tool_sixteen>(rows, all, "part_tool_sixteen");
   out.section("What each part costs",
               "Instructions per tick, composed, of the same fixed wall with one part more each "
               "time. A part that a scene has no use for must cost none.");
@@ -175,6 +181,31 @@ void add_times(std::vector<ex::record>& pairs, std::vector<ex::record>& paths, c
   paths.push_back(row);
 }
 
+/// Several contacts, rough ones and tools, each as a multiple of one plane under the same bound.
+template <template <class, int> class Part>
+void add_contact(std::vector<ex::record>& rows) {
+  using part = Part<double, 3>;
+  const cost::timing t = cost::time_part<part, cost::part_reachable<double, 3>>(100);
+  rows.push_back({{"scene", std::string(part::name)},
+                  {"p50 ns", t.p50, "%.1f"},
+                  {"p99.9", t.p999, "%.1f"},
+                  {"of one plane", t.ratio, "%.2f"},
+                  {"state bytes", sizeof(part::composed({}))}});
+}
+void show_contacts(ex::report& out) {
+  std::vector<ex::record> rows;
+  add_contact<cost::part_reachable>(rows);
+  add_contact<cost::part_rough>(rows);
+  add_contact<cost::part_corner>(rows);
+  add_contact<cost::part_sixteen>(rows);
+  add_contact<cost::part_tool>(rows);
+  add_contact<cost::part_tool_sixteen>(rows);
+  out.section("Nanoseconds per tick, several contacts",
+              "3-DOF and 6-DOF, double, blocks of 100 ticks in turns with one plane under "
+              "reachable_bound; the ratio is the median of the pairs.");
+  show(out, "contacts", rows);
+}
+
 void show_times(ex::report& out) {
   std::vector<ex::record> pairs, paths;
   add_times<cost::wall<float>>(pairs, paths, "wall", "float");
@@ -220,7 +251,10 @@ int run(const settings& chosen) {
       for (auto& grown : judge(cost::read_baseline(file), all)) found.push_back(std::move(grown));
     }
   }
-  if (!chosen.quick) show_times(out);
+  if (!chosen.quick) {
+    show_times(out);
+    show_contacts(out);
+  }
   out.finish("passive_haptics: what a tick costs");
   std::cout << "results: " << out.path("cost.md").string() << '\n';
   for (const auto& sentence : found) std::cerr << "cost: " << sentence << '\n';

@@ -92,26 +92,24 @@ class stopwatch {
   result last_{};
 };
 
-/// Both sides of a scene, `rounds` times through the workload.
-template <class Scene>
-[[nodiscard]] timing time_pairs(int rounds) {
-  const auto steps = workload<Scene>();
-  auto composed = Scene::composed(ordinary);
-  auto by_hand = Scene::by_hand(ordinary);
-  stopwatch<Scene, decltype(composed)> first(steps);
-  stopwatch<Scene, decltype(by_hand)> second(steps);
+/// Two states of two scenes in turns, `rounds` times through the workload; the second is the yardstick.
+template <class Scene, class Other, class One, class Two>
+[[nodiscard]] timing time_in_turns(const One& one, const Two& two, const std::vector<step>& steps,
+                                   int rounds) {
+  stopwatch<Scene, One> first(steps);
+  stopwatch<Other, Two> second(steps);
   std::vector<double> ours, theirs, ratios;
   constexpr std::size_t block = 100;
   for (int round = -1; round < rounds; ++round) {
-    composed = Scene::composed(ordinary);
-    by_hand = Scene::by_hand(ordinary);
+    One composed = one;
+    Two yardstick = two;
     for (std::size_t begin = 0; begin + block <= steps.size(); begin += block) {
       double a = 0, b = 0;
       if ((static_cast<std::size_t>(round + 1) + begin / block) % 2 == 0) {
         a = first.run(composed, begin, block);
-        b = second.run(by_hand, begin, block);
+        b = second.run(yardstick, begin, block);
       } else {
-        b = second.run(by_hand, begin, block);
+        b = second.run(yardstick, begin, block);
         a = first.run(composed, begin, block);
       }
       if (round < 0) continue;  // caches and branch predictors learn
@@ -122,6 +120,20 @@ template <class Scene>
   }
   return {quantile(ours, 0.5), quantile(ours, 0.999), quantile(ours, 1), quantile(theirs, 0.5),
           quantile(ratios, 0.5)};
+}
+
+/// Both sides of a scene.
+template <class Scene>
+[[nodiscard]] timing time_pairs(int rounds) {
+  return time_in_turns<Scene, Scene>(Scene::composed(ordinary), Scene::by_hand(ordinary),
+                                     workload<Scene>(), rounds);
+}
+
+/// A part of three dimensions in double, and the yardstick of parts.
+template <class Part, class Yardstick>
+[[nodiscard]] timing time_part(int rounds) {
+  return time_in_turns<Part, Yardstick>(Part::composed(ordinary), Yardstick::composed(ordinary),
+                                        workload<half_space<double>>(), rounds);
 }
 
 /// [ns per tick] of each path of the composed scene, NaN where there is none; p50.

@@ -5,6 +5,10 @@
 // workload. Everything else about these scenes is as in scenes.hpp.
 
 #include "scenes.hpp"
+#include <passive_haptics/contact/rigid_tool.hpp>
+#include <passive_haptics/force_bound/rigid_reachable_bound.hpp>
+#include <passive_haptics/laws/samples.hpp>
+#include <passive_haptics/port/rigid_damping.hpp>
 
 namespace cost {
 
@@ -120,6 +124,97 @@ struct part_stepped : part_encoder<Scalar, Dof, false> {
 template <class Scalar, int Dof>
 struct part_rubbing : part_encoder<Scalar, Dof, true> {
   static constexpr const char* name = "... dual_ledger for quantised_energy: friction is credited";
+};
+
+/// The reference of the four below: one contact of a settling wall.
+template <class Scalar, int Dof>
+struct part_reachable : part_base<Scalar, Dof> {
+  static constexpr const char* name = "fixed, damped_spring, reduced_energy, reachable_bound";
+  [[nodiscard]] static auto composed(const settings& s) {
+    return ph::local_model{typename part_reachable::space{},
+                           part_reachable::supply(s),
+                           ph::turn_at_once{},
+                           ph::damped_spring{.mass = s.mass},
+                           observer(s),
+                           ph::reachable_bound{.mass = s.mass, .hand_force = s.hand_force},
+                           limits(s)};
+  }
+};
+
+/// The first of them along the normal of the wall, so that the workload takes the same paths.
+template <class Space>
+[[nodiscard]] typename Space::vector normal_of(int i) {
+  if constexpr (Space::dof == 1) {
+    return i % 2 == 0 ? typename Space::scalar(1) : typename Space::scalar(-1);
+  } else {
+    ph::laws::samples random(static_cast<std::uint64_t>(i));
+    if (i < 3) return Space::vector::Unit((i + 2) % 3);
+    return random.template direction<Space>();
+  }
+}
+
+template <class Scalar, int Dof, int Planes, class Friction = ph::frictionless>
+struct part_set : part_base<Scalar, Dof> {
+  [[nodiscard]] static auto composed(const settings& s) {
+    using space = typename part_set::space;
+    using plane = ph::half_space<space>;
+    ph::passive_port port{
+        space{},
+        ph::contact_set{ph::proxy_spring{.mass = s.mass}, ph::pursuit{}, Friction{},
+                        ph::slots<plane, Planes>{}},
+        observer(s), ph::reachable_bound{.mass = s.mass, .hand_force = s.hand_force}, limits(s)};
+    for (int i = 0; i < Planes; ++i) {
+      port.source().update(i, plane{space::zero(), normal_of<space>(i), in<Scalar>(s.stiffness)});
+    }
+    return port;
+  }
+};
+template <class Scalar, int Dof>
+struct part_rough : part_set<Scalar, Dof, 1, ph::stick_slip> {
+  static constexpr const char* name = "contact_set of a plane with stick_slip";
+};
+template <class Scalar, int Dof>
+struct part_corner : part_set<Scalar, Dof, 3> {
+  static constexpr const char* name = "contact_set of three planes";
+};
+template <class Scalar, int Dof>
+struct part_sixteen : part_set<Scalar, Dof, 16> {
+  static constexpr const char* name = "contact_set of sixteen planes";
+};
+
+/// A tool of six degrees of freedom, whatever Dof says.
+template <class Scalar, int Points>
+struct part_tool_of {
+  using scalar = Scalar;
+  using space = ph::space<Scalar, 3>;
+  [[nodiscard]] static auto composed(const settings& s) {
+    using plane = ph::half_space<space>;
+    ph::passive_port port{
+        ph::rigid_body<Scalar>{},
+        ph::rigid_tool{ph::tool_spring{.mass = s.mass, .least_inertia = 1e-4}, ph::pursuit{},
+                       ph::slots<plane, Points>{}},
+        ph::basic_reduced_energy<ph::rigid_damping>{.damping = {s.damping, 1e-3}},
+        ph::rigid_reachable_bound{.inertia = {.mass = s.mass, .least = 1e-4, .spread = 1e-4},
+                                  .hand_force = s.hand_force,
+                                  .hand_torque = 0.2,
+                                  .linear_damping_most = 2.0 * s.damping,
+                                  .angular_damping_most = 2e-3},
+        limits(s)};
+    for (int i = 0; i < Points; ++i) {
+      ph::laws::samples random(static_cast<std::uint64_t>(i));
+      const typename space::vector point = random.template vector<space>() * Scalar(0.02);
+      port.source().update(i, point, plane{point, normal_of<space>(i), in<Scalar>(s.stiffness)});
+    }
+    return port;
+  }
+};
+template <class Scalar, int Dof>
+struct part_tool : part_tool_of<Scalar, 1> {
+  static constexpr const char* name = "rigid_tool with a contact, rigid_reachable_bound";
+};
+template <class Scalar, int Dof>
+struct part_tool_sixteen : part_tool_of<Scalar, 16> {
+  static constexpr const char* name = "rigid_tool with sixteen contacts";
 };
 
 }  // namespace cost

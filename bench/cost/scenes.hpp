@@ -183,7 +183,11 @@ struct triangle {
 template <class Scene, class State>
 [[nodiscard]] auto position_for(const std::array<double, 3>& x) {
   using S = typename Scene::scalar;
-  if constexpr (Scene::space::dof == 1) {
+  if constexpr (requires { std::declval<typename State::pose>().orientation; }) {  // it turns, too
+    using body = typename State::port_type;
+    const auto way = vector<S>(x);
+    return body::moved({}, body::join(way, way * S(3)));
+  } else if constexpr (Scene::space::dof == 1) {
     return in<S>(x[0]);
   } else if constexpr (requires { typename State::port_type; }) {
     return vector<S>(x);
