@@ -97,7 +97,8 @@ void table() {
 
 int main(int count, char** arguments) {
   if (count > 1) {
-    const bool asked = std::string_view(arguments[1]) == "--help";
+    const std::string_view option = arguments[1];
+    const bool asked = option == "--help" || option == "-h";
     std::fprintf(
         asked ? stdout : stderr,
         "usage: curved [--help]\n\nPrints the bytes of every surface, and the nanoseconds that a "
