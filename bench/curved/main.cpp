@@ -3,9 +3,13 @@
 #include "support/curved.hpp"
 #include <passive_haptics/laws.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <random>
 #include <string_view>
+#include <vector>
 
 namespace {
 

@@ -4,6 +4,8 @@
 #include "support/curved.hpp"
 #include "support/obedience.hpp"
 
+#include <random>
+
 using Catch::Matchers::WithinAbs;
 using Eigen::Vector3d;
 

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include <random>
+
 using Catch::Matchers::WithinAbs;
 using Eigen::Vector3d;
 

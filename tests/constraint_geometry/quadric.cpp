@@ -2,6 +2,8 @@
 #include "support/catch.hpp"
 #include "support/curved.hpp"
 
+#include <random>
+
 using Catch::Matchers::WithinAbs;
 using Eigen::Vector3d;
 
