@@ -31,7 +31,8 @@ std::vector<controller> bounding_controllers() {
       over_ledger<3, 2>("strict FBA, 2 ticks late", "strict_bound, late_loop_limits<2>", strict),
       entry<3>({"strict FBA + friction", "spring, dual_ledger, strict_bound"},
                [](const premises& p) {
-                 const ph::dual_ledger rich{.damping = {p.damping, p.friction, 0.0}};
+                 const ph::dual_ledger rich{.damping = {p.damping, p.friction, 0.0},
+                                            .quantum = p.quantum};
                  return parts{wall(p), rich, ph::strict_bound{}};
                }),
       over_ledger(

@@ -40,6 +40,15 @@ TEST_CASE("a liar that is tagged strict is found, by name, and fails the run", "
   CHECK(honest.complaint.empty());
 }
 
+TEST_CASE("no controller of the catalogue loses what it promises in a first look",
+          "[controllers]") {
+  const folder out("catalogue");
+  const auto all =
+      run_quietly({"--only", "adversaries", "--quick", "--out", out / "r"}, catalogue());
+  INFO(all.complaint);
+  CHECK(all.code == 0);
+}
+
 TEST_CASE("parts of a Z-width sweep join to the run that was not split", "[controllers]") {
   const folder out("merge");
   const std::vector<controller> judged{named("none"), named("EBA")};
