@@ -7,7 +7,7 @@ const std::vector<controller>& catalogue() {
   static const std::vector<controller> all = [] {
     std::vector<controller> list;
     for (auto* room : {bounding_controllers, time_domain_controllers, coupling_controllers,
-                       encoder_controllers}) {
+                       encoder_controllers, contact_controllers}) {
       for (auto& c : room()) list.push_back(std::move(c));
     }
     return list;

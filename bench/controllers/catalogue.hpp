@@ -2,7 +2,7 @@
 #pragma once
 // The list of all controllers that the bench judges. To add one, add one entry(...) to the room it
 // belongs to: catalogue_bounding.cpp, catalogue_time_domain.cpp, catalogue_couplings.cpp,
-// catalogue_encoders.cpp.
+// catalogue_encoders.cpp, catalogue_contacts.cpp.
 
 #include "model.hpp"
 
@@ -85,5 +85,6 @@ struct controller : facts {
 [[nodiscard]] std::vector<controller> time_domain_controllers();
 [[nodiscard]] std::vector<controller> coupling_controllers();
 [[nodiscard]] std::vector<controller> encoder_controllers();
+[[nodiscard]] std::vector<controller> contact_controllers();
 
 }  // namespace controllers
