@@ -165,7 +165,8 @@ std::vector<rigid_row> all_cells(int runs) {
                bounded_by<body, 1>(rigid::without_last_bracket{told(late)}), late);
   all.schemers("plain bound in a loop a tick late", true, bounded_by(told(strong)),
                hand_of(false, 0.0, 1));
-  all.schemers("hand ten times as strong as told", true, bounded_by(told(hand_of(true))), strong);
+  all.schemers("hand of 25 times the force, 40 the torque told", true,
+               bounded_by(told(hand_of(true))), strong);
   all.hands("no bound", true, bounded_by(ph::no_bound{}), moved);
   return all.rows;
 }

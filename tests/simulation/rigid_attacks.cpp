@@ -114,7 +114,7 @@ TEST_CASE("a world that schemes draws joules where a term of rigid_reachable_bou
     bound.inertia.offset = 0.0;
     loses(schemed(bounded_by(bound), weak, 4), 1e-4);
   }
-  SECTION("the hand's strength: it is ten times as strong") {
+  SECTION("the hand's strength: it has 25 times the force and 40 times the torque") {
     loses(schemed(bounded_by(told(weak)), strong, 4), 1e-5);
   }
   SECTION("the right pairing") {
