@@ -8,6 +8,8 @@
 //   port/rigid_damping.hpp                   b, b_ω, and what a turn may hide from its ends
 //   port/rigid_inertia.hpp                   mass, moments, where the centre of mass is
 //   force_bound/rigid_reachable_bound.hpp    in joules, on time or a tick late; rigid_actuator_limit
+//   contact/rigid_tool.hpp                   a tool that touches at several points
+//   contact/at_tip.hpp                       what a stylus touches with its tip
 //
 //     using device = ph::rigid_body<double>;
 //     ph::passive_port port{device{}, ph::given_force{},
@@ -18,6 +20,8 @@
 //
 // What is promised, and why: docs/design/six_dof.md.
 
+#include <passive_haptics/contact/at_tip.hpp>
+#include <passive_haptics/contact/rigid_tool.hpp>
 #include <passive_haptics/force_bound/rigid_reachable_bound.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 #include <passive_haptics/port/reported_work.hpp>

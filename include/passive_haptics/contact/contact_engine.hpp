@@ -85,9 +85,9 @@ class contact_engine {
     return p;
   }
   template <class Parameters>
-  static constexpr int takers = std::same_as<Parameters, Spring> +
-                                std::same_as<Parameters, pursuit> +
-                                (rubs && std::same_as<Parameters, Friction>);
+  static constexpr int takers = int(std::same_as<Parameters, Spring>) +
+                                int(std::same_as<Parameters, pursuit>) +
+                                int(rubs&& std::same_as<Parameters, Friction>);
   template <class Parameters>
   constexpr void take(const Parameters& p) noexcept {
     if constexpr (std::same_as<Parameters, Spring>) spring_ = decltype(spring_)(p);
@@ -208,7 +208,7 @@ class contact_engine {
   /// What all slots have to say in a tick.
   struct gathered {
     proxy_problem<row, scalar, all_slots::capacity> rows;
-    std::array<std::size_t, cells> slot;  ///< of each row
+    std::array<std::size_t, cells> slot{};  ///< of each row
     PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS if_it_rubs<vector> normal;
     scalar stiffest{}, deepest{};
     bool empty = true;

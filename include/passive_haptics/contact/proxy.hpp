@@ -122,10 +122,10 @@ template <class Row, class Scalar, int Capacity>
 struct proxy_problem {
   static constexpr auto capacity = static_cast<std::size_t>(Capacity);
 
-  std::array<Row, capacity> row;         ///< n_i
-  std::array<Scalar, capacity> wish;     ///< K d'_i [N]
-  std::array<Scalar, capacity> own;      ///< K A_ii, K/K_i for a point
-  std::array<Scalar, capacity> pressed;  ///< λ_i [N]; where iteration begins
+  std::array<Row, capacity> row;           ///< n_i
+  std::array<Scalar, capacity> wish{};     ///< K d'_i [N]
+  std::array<Scalar, capacity> own{};      ///< K A_ii, K/K_i for a point
+  std::array<Scalar, capacity> pressed{};  ///< λ_i [N]; where iteration begins
   std::size_t count = 0;
 
   /// A contact more, by its depth d' [m] and its compliance [m/N].

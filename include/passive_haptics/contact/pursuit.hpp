@@ -19,6 +19,7 @@
 #include <passive_haptics/normal_interpolation/turn_limited.hpp>
 
 #include <cstdint>
+#include <utility>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -84,7 +85,7 @@ struct felt_surface {
   typename Space::vector normal;  ///< of its own, unit, outward
   typename Space::vector
       push;  ///< direction of the force for a depth of 1; the normal, for a distance
-  typename Space::scalar depth;  ///< of its own, ≤ 0 outside [m]
+  typename Space::scalar depth{};  ///< of its own, ≤ 0 outside [m]
 
   /// Numbers, all of them, and no push beyond what a square can say.
   [[nodiscard]] constexpr bool is_finite() const noexcept {
@@ -181,12 +182,7 @@ class pursued {
         ends ? lag_ + pace.receding(along(own.normal), dt) : shortened(lag_, speed_ * dt);
     const vector goal = own.normal;
     const vector before = normal_;
-    vector normal = before;
-    if constexpr (smooth) {
-      const vector then = shown_;
-      normal = carry<Space>(before, then, goal);
-      shown_ = goal;
-    }
+    const vector normal = along_the_target(before, goal);
     if (!(normal == goal)) {
       own.normal = pace.turned(normal, goal, dt);
       if (!(own.normal == goal)) own.push = carry<Space>(own.push, goal, own.normal);
@@ -200,6 +196,16 @@ class pursued {
  private:
   enum class state : std::uint8_t { empty, expected, there, leaving, stale };
 
+  /// The own normal, carried along the curvature from where the device was to where it is.
+  [[nodiscard]] constexpr vector along_the_target(const vector& before,
+                                                  [[maybe_unused]] const vector& goal) noexcept {
+    if constexpr (smooth) {
+      const vector then = std::exchange(shown_, goal);
+      return carry<Space>(before, then, goal);
+    } else {
+      return before;
+    }
+  }
   /// What ends and is not pressed: gone, or met anew where it is covered again.
   constexpr bool leave() noexcept {
     if (state_ == state::leaving || state_ == state::stale) state_ = state::empty;

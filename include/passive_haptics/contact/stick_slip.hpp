@@ -121,7 +121,7 @@ class stick_slip::bristle {
     }
 
     const vector across = velocity - n * Space::dot(velocity, n);
-    const vector force = bend * -stiffness - across * damping;
+    vector force = bend * -stiffness - across * damping;
     const scalar asked = Space::dot(force, force);
     if (asked <= most * most) return force;
     return force * (most / kernels::square_root(asked));
