@@ -58,7 +58,30 @@ plane facet(const curved::triangulated& ball, const vector& x) {
     best = away;
     found = {middle, d3::cross(node(1) - node(0), node(2) - node(0)), curved::stiffness};
   }
+  static_cast<void>(found.prepare());
   return found;
+}
+
+/// A second of the stroke, of the quadric and of snapped triangles, as a file and a plot.
+void plot_stroke(const session& s, const curved::triangulated& mesh) {
+  ph::passive_port port{d3{},
+                        ph::contact_set{ph::proxy_spring{.mass = 0.1, .damping_ratio = 0.0},
+                                        ph::pursuit{}, ph::slots<ph::quadric<d3>, 1>{}},
+                        ph::no_observer{}, ph::no_bound{},
+                        ph::loop_limits{.longest_tick = T, .top_speed = 1e4}};
+  port.source().update(0, curved::osculating<d3>(curved::stroke(0)));
+  static_cast<void>(port.tick(curved::stroke(0) * 1.1, T));  // it is met from outside
+  ex::csv_file csv(s.out.path("stroke_force.csv"), "s,quadric at 30 Hz,nearest triangle");
+  for (int i = 0; i < 1000; ++i) {
+    const vector x = curved::stroke(i);
+    if (i % 33 == 0) port.source().update(0, curved::osculating<d3>(x));
+    const auto flat = facet(mesh, x);
+    csv.row(i * T, port.tick(x, T).force.norm(),
+            curved::stiffness * std::max(0.0, flat.at(x).depth));
+  }
+  csv.close();
+  s.out.plot("stroke_force", "The force on a finger that strokes a ball, N over s",
+             "plot 'stroke_force.csv' using 1:3 with lines, '' using 1:2 with lines lw 2");
 }
 
 }  // namespace
@@ -85,8 +108,7 @@ std::vector<std::string> run_curved(const session& s) {
   strokes.push_back({"nearest triangle, snapped",
                      curved::stroked(
                          [&](int, const vector& x) {
-                           auto flat = facet(mesh, x);
-                           static_cast<void>(flat.prepare());
+                           const auto flat = facet(mesh, x);
                            const vector n = flat.normal;
                            return vector(n * (curved::stiffness * std::max(0.0, flat.at(x).depth)));
                          },
@@ -94,6 +116,7 @@ std::vector<std::string> run_curved(const session& s) {
   s.out.show(ex::table_of(strokes));
   s.out.member("stroke", ex::json_of(strokes));
 
+  plot_stroke(s, mesh);
   s.out.section(
       "Curved surfaces: loops",
       "The largest work that a closed loop of 10 by 2 mm, 1 to 3 mm under the surface, draws "

@@ -37,7 +37,6 @@ struct drift_row {
   std::string scene;
   double seconds = 60.0;
   double drift = 0.0;         ///< of the mean along the surface, from the second second on [m]
-  double largest_ratio = 0;   ///< of friction to normal force, over the static coefficient
   double least_energy = 0.0;  ///< [J]
 };
 ex::record record_of(const drift_row& r) {

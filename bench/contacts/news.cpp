@@ -48,8 +48,9 @@ plane some_plane(samples& random, int i, double deep, double K) {
   return {vector(n * deep), n, K};
 }
 
-template <int Count>
-news_row judge(news_row row) {
+/// Calls watch(tick, force) in every tick.
+template <int Count, class Watch>
+news_row judge(news_row row, const Watch& watch) {
   const ph::pursuit pace =
       row.snapped ? ph::pursuit{.speed = 1e6, .turn_rate = 1e6} : ph::pursuit{};
   auto port = bare_port<Count>(pace);
@@ -89,6 +90,7 @@ news_row judge(news_row row) {
       sum += slot.pressed();
     }
     const vector force = port.tick(vector::Zero(), T).force;
+    watch(tick, force);
     for (int i = 0; i < Count; ++i) {  // a surface that has been met in it as well
       speed = std::max(speed, port.source().slot(i).speed());
     }
@@ -100,6 +102,29 @@ news_row judge(news_row row) {
     last = force;
   }
   return row;
+}
+
+template <int Count>
+news_row judge(const news_row& row) {
+  return judge<Count>(row, [](int, const vector&) {});
+}
+
+/// A second of it, followed and snapped, as a file and a plot.
+void plot_news(const session& s) {
+  std::array<std::vector<double>, 2> felt;
+  for (const bool snapped : {false, true}) {
+    const news_row row{.planes = 3, .events = order::any, .snapped = snapped, .seconds = 1};
+    static_cast<void>(judge<3>(
+        row, [&](int, const vector& force) { felt[snapped ? 1 : 0].push_back(force.norm()); }));
+  }
+  ex::csv_file csv(s.out.path("news_force.csv"), "s,followed,snapped");
+  for (std::size_t i = 0; i < felt[0].size(); ++i) {
+    csv.row(static_cast<double>(i) * T, felt[0][i], felt[1][i]);
+  }
+  csv.close();
+  s.out.plot("news_force",
+             "The force on a device that holds still while three planes change, N over s",
+             "plot 'news_force.csv' using 1:3 with lines, '' using 1:2 with lines lw 2");
 }
 
 /// A surface of 10 mm at 1.2 Hz under a finger, told 30 times a second.
@@ -164,6 +189,7 @@ std::vector<std::string> run_news(const session& s) {
   s.out.show(ex::table_of(rows));
   s.out.member("news", ex::json_of(rows));
 
+  plot_news(s);
   s.out.section("A beating surface",
                 "10 mm at 1.2 Hz under a finger that holds still, told 30 times a second.");
   const std::vector<heart_row> hearts{beat({500.0}), beat({2000.0})};
