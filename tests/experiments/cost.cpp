@@ -259,8 +259,8 @@ TEST_CASE("the committed baseline is readable and has all scenes of both compile
   CHECK(committed.size() >= 2);
   for (const auto& [compiler, rows] : committed) {
     INFO(compiler);
-    CHECK(rows.size() ==
-          144);  // 64 of the scenes, two sides of 2 x 5 + 6 paths, and 80 of the parts
+    // 64 of the scenes, two sides of 2 x 5 + 6 paths, and 14 parts in two ports of 5 paths
+    CHECK(rows.size() == 204);
   }
   std::istringstream broken("heading\ng++,wall,float,composed,air,many\n");
   CHECK_THROWS_AS(cost::read_baseline(broken), std::runtime_error);
