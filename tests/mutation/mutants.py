@@ -50,8 +50,7 @@ class Header:
 
     def __init__(self, name, text):
         self.name, self.text = name, text
-        self.tokens = [Token(match.group(), match.start(), match.end())
-                       for match in TOKEN.finditer(text) if match.lastgroup]
+        self.tokens = list(self._read())
         self.partner, self.opening = {}, {}  # from an opening bracket to its closing one, and back
         self._pair()
         self.bodies = list(self._find_bodies())  # (first, last) tokens, the braces
@@ -104,6 +103,17 @@ class Header:
             else:
                 yield i
                 i += 1
+
+    def _read(self):
+        attribute = False
+        for match in TOKEN.finditer(self.text):
+            text, start = match.group(), match.start()
+            if match.lastgroup and text == "]]" and not attribute:  # of an index in an index
+                yield Token("]", start, start + 1)
+                yield Token("]", start + 1, match.end())
+            elif match.lastgroup:
+                attribute = text == "[[" or attribute and text != "]]"
+                yield Token(text, start, match.end())
 
     def _pair(self):
         stack = []

@@ -75,14 +75,15 @@ def key(mutant):
     return mutant.file, mutant.before, mutant.after
 
 
-def blamed(said):
+def blamed(said, folder=FOLDER):
     """The numbers of the mutants in which a compiler found fault: of each error the innermost, in the
-    line itself or in the first that it was `required from`."""
+    line itself or in the first that it was `required from`. Its paths begin in `folder`: ccache may
+    have made them relative."""
     numbers, chain = set(), []
     for line in said.splitlines():
         place = re.match(r"(?:In file included from )?(\S+?):(\d+)[:,]", line)
-        if place and pathlib.Path(place[1]).is_file():
-            text = pathlib.Path(place[1]).read_text(encoding="utf-8").split("\n")[int(place[2]) - 1]
+        if place and (folder / place[1]).is_file():
+            text = (folder / place[1]).read_text(encoding="utf-8").split("\n")[int(place[2]) - 1]
             mark = re.search(r"/\*mutant (\d+)\*/", text)
             here = [int(mark[1])] if mark else []
             if " error: " in line:
@@ -126,7 +127,7 @@ class Program:
                                    "--parallel", str(self.jobs), "--", "-k", "0")
             if good:
                 return valid
-            wrong = blamed(said) & set(valid)
+            wrong = blamed(said, self.objects) & set(valid)
             if not wrong:
                 raise Broken(f"the core tests do not build:\n{said}")
             print(f"{len(wrong)} of them do not compile", flush=True)

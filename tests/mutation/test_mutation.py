@@ -41,6 +41,10 @@ class Mistakes(unittest.TestCase):
                 ("arguments", "x = g(x, y);", "x = g(y, x);")):
             self.assertIn((kind, mistaken), changes(line))
 
+    def test_an_index_in_an_index_is_no_attribute(self):
+        self.assertIn(("arithmetic", "x = a[b[0]] - y;"), changes("x = a[b[0]] + y;"))
+        self.assertIn(("arithmetic", "[[likely]] x = y - x;"), changes("[[likely]] x = y + x;"))
+
     def test_none_where_the_compiler_decides(self):
         for line in ("static_assert(1 < 2);", "if constexpr (N > 0) return;", "using a = b<1 + 2>;",
                      "static constexpr int a = 1 + 2;", "// x < y", "const char* s = \"x < y\";"):
@@ -88,6 +92,8 @@ class Together(unittest.TestCase):
             self.assertEqual(mutate.blamed(
                 f"{other}   required from here\n{one}   required from here\n{none} error: no\n"), {4})
             self.assertEqual(mutate.blamed(f"{none} error: no\n"), set())
+            path = pathlib.Path(file.name)
+            self.assertEqual(mutate.blamed(f"{path.name}:1:1: error: no\n", path.parent), {3})
 
 
 class Equivalent(unittest.TestCase):
