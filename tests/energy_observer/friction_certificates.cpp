@@ -331,6 +331,24 @@ TEST_CASE("a direction that is worth much is not given up for a new one", "[dual
   }
 }
 
+TEST_CASE("a new direction is not missed for long, whatever the others are worth", "[dual]") {
+  for (const double p : {0.0, q / 4, q, 2 * q}) {
+    for (int steps = 0; steps <= 8; ++steps) {
+      auto ledger = at<d3>(ph::dual_ledger{.damping = {b, c, p}, .quantum = q, .loan = 0x1p-6});
+      const auto slip = [&](int many, const d3::vector& dx) {
+        const double before = ledger.value();
+        for (int n = 0; n < many; ++n) (void)ledger.update(dx, d3::zero(), 1.0);
+        return ledger.value() - before;
+      };
+      (void)slip(10, d3::vector(q, 0, 0));
+      (void)slip(steps, d3::vector(0, q, 0));
+      CAPTURE(p, steps);
+      const double turn = c * q + 2 * c * p;  // and as much till it would have paid
+      CHECK(slip(100, d3::vector(0, 0, q)) >= 100 * c * q - 2 * turn - c * q);
+    }
+  }
+}
+
 TEST_CASE("a tick nobody saw costs the way of the friction to the force, and to none", "[dual]") {
   const double p = q;
   const auto lost = [&](int along, int across, const d2::vector& held) {

@@ -44,6 +44,7 @@ class friction_certificates {
   constexpr void reset() noexcept {
     following_ = slipped_[0] = slipped_[1] = {P::zero(), scalar(0), scalar(0)};
     directions_ = 0;
+    missed_ = scalar(0);
   }
 
   /// After new parameters: no certificate counts on more friction than there is.
@@ -82,6 +83,7 @@ class friction_certificates {
 
     const std::size_t i = gain[1] > gain[0] ? 1 : 0;
     if (gain[i] > most * scalar(0.99)) {  // one of them points that way
+      missed_ = scalar(0);
       if (following_.lead > slipped_[i].lead) {
         const certificate there = moved(following_, effort(slipped_[i].friction), damping, steps);
         if (there.lead > slipped_[i].lead) slipped_[i] = there;
@@ -93,7 +95,9 @@ class friction_certificates {
       const std::size_t j = room                                                      ? directions_
                             : slipped_[1].lead + gain[1] < slipped_[0].lead + gain[0] ? 1
                                                                                       : 0;
-      if (room || fresh.lead + most > slipped_[j].lead + gain[j]) {
+      missed_ += most - gain[j];
+      if (room || fresh.lead + missed_ > slipped_[j].lead) {
+        missed_ = scalar(0);
         slipped_[j] = fresh;
         gain[j] = most;
         if (room) ++directions_;
@@ -174,6 +178,7 @@ class friction_certificates {
   certificate following_{P::zero(), scalar(0), scalar(0)};
   std::array<certificate, 2> slipped_{following_, following_};
   std::size_t directions_ = 0;  ///< how many of them count on any friction
+  scalar missed_{};             ///< what a direction that none has would have earned by now [J]
   scalar leaving_{};            ///< no change from some friction to none costs a lead more [J]
   scalar dearest_{};            ///< nor one from none to some [J]
 };
