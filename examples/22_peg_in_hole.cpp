@@ -5,7 +5,6 @@
 // each and the floor for the lower ones. Its lever is a length of the tool, not less: told 20 mm, this peg
 // of 40 mm swings on by 15 µm where it is tilted.
 
-#include <passive_haptics/contact/rigid_tool.hpp>
 #include <passive_haptics/simulation/rigid_device.hpp>
 #include <passive_haptics/six_dof.hpp>
 
