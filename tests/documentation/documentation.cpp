@@ -3,6 +3,7 @@
 // are printed by the programs, every test that is named exists, and so does every file that is linked.
 // The quick start is tried by quick_start.cmake.
 #include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
 #include <passive_haptics/version.hpp>
 
 #include <algorithm>
@@ -92,11 +93,10 @@ TEST_CASE("README's code stands in the examples", "[documentation]") {
 }
 
 TEST_CASE("README's figures are what the programs print", "[documentation]") {
-  const auto folder = std::filesystem::temp_directory_path() / "passive_haptics_documentation";
-  std::filesystem::create_directories(folder);
+  const scratch_folder folder;
   const std::string command = std::string("\"") + PASSIVE_HAPTICS_EXPERIMENTS + "\" --out \"" +
-                              (folder / "out").string() + "\" > \"" +
-                              (folder / "printed.txt").string() + "\" 2> /dev/null";
+                              (folder / "out") + "\" > \"" + (folder / "printed.txt") +
+                              "\" 2> /dev/null";
   REQUIRE(std::system(command.c_str()) == 0);
   std::vector<std::string> printed;
   std::istringstream output(text_of(folder / "printed.txt"));
@@ -122,9 +122,8 @@ TEST_CASE("README's figures are what the programs print", "[documentation]") {
     INFO(line);
     CHECK(characters(line) <= 100);
   }
-  CHECK(std::filesystem::exists(folder / "out" / "results.json"));
-  CHECK(std::filesystem::exists(folder / "out" / "index.html"));
-  std::filesystem::remove_all(folder);
+  CHECK(std::filesystem::exists(folder / "out/results.json"));
+  CHECK(std::filesystem::exists(folder / "out/index.html"));
   CHECK_FALSE(agree("S0 none 64.979", "S0 none 60.0"));  // the controls
   CHECK_FALSE(agree("S0 none", "S0 thesis"));
   CHECK(agree("S0 none 64.979", "S0 none 65.0"));
@@ -132,20 +131,18 @@ TEST_CASE("README's figures are what the programs print", "[documentation]") {
 
 TEST_CASE("thesis_experiments refuses a broken mesh with file, line and remedy, and writes nothing",
           "[documentation]") {
-  const auto folder = std::filesystem::temp_directory_path() / "passive_haptics_broken_mesh";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const scratch_folder folder;
   const auto complaint = [&folder](const std::string& arguments) {
     const std::string command = std::string("\"") + PASSIVE_HAPTICS_EXPERIMENTS + "\" --out \"" +
-                                (folder / "out").string() + "\" " + arguments +
-                                " > /dev/null 2> \"" + (folder / "said.txt").string() + "\"";
+                                (folder / "out") + "\" " + arguments + " > /dev/null 2> \"" +
+                                (folder / "said.txt") + "\"";
     CHECK(std::system(command.c_str()) != 0);
     CHECK_FALSE(std::filesystem::exists(folder / "out"));
     return text_of(folder / "said.txt");
   };
   const auto mesh = [&folder](const std::string& content) {
     std::ofstream(folder / "mesh.msh") << content;
-    return "--mesh \"" + (folder / "mesh.msh").string() + "\"";
+    return "--mesh \"" + (folder / "mesh.msh") + "\"";
   };
   const std::string nodes = "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$ENDNOD\n";
   CHECK(complaint(mesh(nodes + "$ELM\n1\n1 4 1 1 4 1 2 3 9\n$ENDELM\n")).find("mesh.msh:10") !=
@@ -153,28 +150,23 @@ TEST_CASE("thesis_experiments refuses a broken mesh with file, line and remedy, 
   CHECK(complaint(mesh(nodes + "$ELM\n2\n1 4 1 1 4 1 2 3 4\n")).find("mesh.msh:") !=
         std::string::npos);  // cut off
   CHECK(complaint(mesh("solid ascii\n")).find("mesh.msh:1") != std::string::npos);
-  CHECK(complaint("--mesh \"" + (folder / "nowhere.msh").string() + "\"").find("nowhere.msh") !=
+  CHECK(complaint("--mesh \"" + (folder / "nowhere.msh") + "\"").find("nowhere.msh") !=
         std::string::npos);
   CHECK(complaint("--seeds 0").find("--seeds 0") != std::string::npos);
   CHECK(complaint("--sedes 5").find("--sedes") != std::string::npos);
   CHECK(complaint("--seeds").find("usage") != std::string::npos);
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("thesis_experiments explains itself when asked, and runs nothing", "[documentation]") {
-  const auto folder = std::filesystem::temp_directory_path() / "passive_haptics_help";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const scratch_folder folder;
   const std::string command = std::string("\"") + PASSIVE_HAPTICS_EXPERIMENTS + "\" --out \"" +
-                              (folder / "out").string() + "\" --help > \"" +
-                              (folder / "said.txt").string() + "\"";
+                              (folder / "out") + "\" --help > \"" + (folder / "said.txt") + "\"";
   CHECK(std::system(command.c_str()) == 0);
   const std::string said = text_of(folder / "said.txt");
   for (const char* option : {"--out", "--seeds", "--mesh", "--unit"}) {
     CHECK(said.find(option) != std::string::npos);
   }
   CHECK_FALSE(std::filesystem::exists(folder / "out"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("every test that the documents name exists", "[documentation]") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The reader of meshes: three versions of one mesh, as text and in binary, every way to damage it.
 #include "environment/shapes.hpp"
+#include "support/scratch_folder.hpp"
 #include <passive_haptics/environment/msh_reader.hpp>
 
 #include <bit>
@@ -382,7 +383,7 @@ TEST_CASE("read_msh names the byte at which a binary file goes wrong", "[environ
 }
 
 TEST_CASE("read_msh opens files and says why it cannot", "[environment][reader]") {
-  const auto folder = std::filesystem::temp_directory_path();
+  const scratch_folder folder;
   const auto open = [](const std::filesystem::path& path) -> std::string {
     try {
       static_cast<void>(env::read_msh(path));
@@ -391,13 +392,12 @@ TEST_CASE("read_msh opens files and says why it cannot", "[environment][reader]"
       return e.what();
     }
   };
-  CHECK(contains(open(folder), "is a directory; "));
-  CHECK(contains(open(folder / "no such folder" / "mesh.msh"), "cannot be opened; "));
+  CHECK(contains(open(folder.path()), "is a directory; "));
+  CHECK(contains(open(folder / "no such folder/mesh.msh"), "cannot be opened; "));
 
-  const auto path = folder / sentence("passive_haptics_", std::random_device{}(), ".msh");
+  const auto path = folder / "mesh.msh";
   std::ofstream(path, std::ios::binary) << version_2;
   CHECK(env::read_msh(path).nodes == read(version_2).nodes);
-  std::filesystem::remove(path);
 }
 
 TEST_CASE("read_msh refuses a file cut off at any byte", "[environment][reader]") {

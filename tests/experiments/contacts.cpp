@@ -18,7 +18,7 @@ outcome run_quietly(const std::vector<std::string>& arguments) {
 
 TEST_CASE("contacts keep every promise in a first look, and what stands beside them does not",
           "[contacts]") {
-  const folder out("contacts");
+  const scratch_folder out;
   const outcome found = run_quietly({"--quick", "--out", out / ""});
   INFO(found.complaint);
   CHECK(found.code == 0);  // the controls among them: one that loses nothing is a failure

@@ -24,7 +24,7 @@ outcome run_quietly(const std::vector<std::string>& arguments,
 }  // namespace
 
 TEST_CASE("a liar that is tagged strict is found, by name, and fails the run", "[controllers]") {
-  const folder out("liar");
+  const scratch_folder out;
   const std::vector<std::string> arguments{"--only", "adversaries", "--runs",
                                            "2",      "--out",       out / "r"};
   const auto lied =
@@ -42,7 +42,7 @@ TEST_CASE("a liar that is tagged strict is found, by name, and fails the run", "
 
 TEST_CASE("no controller of the catalogue loses what it promises in a first look",
           "[controllers]") {
-  const folder out("catalogue");
+  const scratch_folder out;
   const auto all =
       run_quietly({"--only", "adversaries", "--quick", "--out", out / "r"}, catalogue());
   INFO(all.complaint);
@@ -50,7 +50,7 @@ TEST_CASE("no controller of the catalogue loses what it promises in a first look
 }
 
 TEST_CASE("parts of a Z-width sweep join to the run that was not split", "[controllers]") {
-  const folder out("merge");
+  const scratch_folder out;
   const std::vector<controller> judged{named("none"), named("EBA")};
   const auto sweep = [&](std::vector<std::string> more) {
     more.insert(more.end(), {"--quick", "--only", "z_width"});
@@ -107,7 +107,7 @@ TEST_CASE("parts of a Z-width sweep join to the run that was not split", "[contr
 }
 
 TEST_CASE("a run that is stopped leaves whole rows, says so, and exits with 130", "[controllers]") {
-  const folder out("stopped");
+  const scratch_folder out;
   std::atomic<bool> stop = false;
   std::atomic<int> made = 0;
   controller c = named("EBA");

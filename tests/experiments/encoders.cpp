@@ -35,7 +35,7 @@ struct pusher {
 
 TEST_CASE("gentle touches tell a wall that stays from one that the hand sinks through",
           "[encoders]") {
-  const folder out("encoders");
+  const scratch_folder out;
   const outcome found = run_quietly({"--quick", "--only", "gentle_touch", "--out", out / ""},
                                     encoders::compositions());
   CHECK(found.code == 0);
@@ -66,7 +66,7 @@ TEST_CASE("gentle touches tell a wall that stays from one that the hand sinks th
 
 TEST_CASE("a composition that promises what it does not keep on encoders fails the run",
           "[encoders]") {
-  const folder out("encoders_liar");
+  const scratch_folder out;
   const encoders::composition liar{
       .name = "liar",
       .make = [](const design::stated_device&, double) { return encoders::wall(pusher{}); }};

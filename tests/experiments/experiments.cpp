@@ -4,6 +4,7 @@
 #include "../../bench/thesis_experiments/strokes.hpp"
 #include "../../bench/thesis_experiments/wall.hpp"
 #include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace experiments;
 using Catch::Matchers::WithinRel;
@@ -21,10 +22,6 @@ wall_result run(const std::string& controller, const wall_scene& scene, std::uin
 const wall_scene s0{.name = "S0"};
 const wall_scene s1{.name = "S1", .yields = true};
 const wall_scene s2{.name = "S2", .force_limit = 9.0, .friction = 0.2};
-
-std::filesystem::path scratch() {
-  return std::filesystem::temp_directory_path() / "passive_haptics_experiments";
-}
 
 }  // namespace
 
@@ -93,8 +90,8 @@ TEST_CASE("a stiffness fraction of 0.3 is passive but does not settle the sweep"
 }
 
 TEST_CASE("turn-limited normals keep their rate and end the jumps of the ball", "[experiments]") {
-  std::filesystem::create_directories(scratch());
-  csv_file csv(scratch() / "ball.csv", "discarded");
+  const scratch_folder folder;
+  csv_file csv(folder / "ball.csv", "discarded");
   const ball_result at_once = press(false, 0.5, csv);
   const ball_result limited = press(true, 0.5, csv);
   CHECK(at_once.normal_step >
@@ -102,7 +99,6 @@ TEST_CASE("turn-limited normals keep their rate and end the jumps of the ball", 
   CHECK(limited.normal_step <= turning_rate * 1e-3 * (1 + 1e-9));
   CHECK(limited.position_jump <= at_once.position_jump / 10.0);
   csv.close();
-  std::filesystem::remove_all(scratch());
 }
 
 TEST_CASE("a stroke over an organ keeps contact, with steps a tenth of the bare model's",

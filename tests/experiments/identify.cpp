@@ -60,7 +60,7 @@ TEST_CASE("the study's judge knows a bound that does not hold", "[identify]") {
 TEST_CASE(
     "the identify program writes what it found, reads it back, and leaves nothing half written",
     "[identify]") {
-  const folder out("identify");
+  const scratch_folder out;
   const std::string file = out / "touch.txt";
   CHECK(run_quietly({"--device", "Touch", "--write", file}, true).code == 130);
   CHECK_FALSE(std::filesystem::exists(file));

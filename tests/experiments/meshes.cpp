@@ -4,6 +4,7 @@
 #include "../../bench/thesis_experiments/program.hpp"
 #include "../../bench/thesis_experiments/strokes.hpp"
 #include "environment/shapes.hpp"
+#include "support/scratch_folder.hpp"
 #include <passive_haptics/environment/msh_reader.hpp>
 
 #include <filesystem>
@@ -52,12 +53,9 @@ struct outcome {
 
 /// The program on a mesh, in a folder that is gone afterwards.
 outcome run_on(const std::string& content, const std::vector<std::string>& more = {}) {
-  const fs::path folder = fs::temp_directory_path() / "passive_haptics_meshes";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  const scratch_folder folder;
   std::ofstream(folder / "mine.msh") << content;
-  std::vector<std::string> arguments{"--mesh", (folder / "mine.msh").string(), "--out",
-                                     (folder / "out").string()};
+  std::vector<std::string> arguments{"--mesh", folder / "mine.msh", "--out", folder / "out"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   std::ostringstream out, err;
   auto* const cout_buffer = std::cout.rdbuf(out.rdbuf());
@@ -69,12 +67,11 @@ outcome run_on(const std::string& content, const std::vector<std::string>& more 
   result.printed = out.str();
   result.complaint = err.str();
   result.wrote = fs::exists(folder / "out");
-  if (std::ifstream json(folder / "out" / "results.json"); json) {
+  if (std::ifstream json(folder / "out/results.json"); json) {
     std::ostringstream text;
     text << json.rdbuf();
     result.json = text.str();
   }
-  fs::remove_all(folder);
   return result;
 }
 

@@ -2,8 +2,9 @@
 #pragma once
 // Runs the programs of the benches as their users do: with arguments, into a folder.
 
+#include "support/scratch_folder.hpp"
+
 #include <atomic>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -11,27 +12,6 @@
 #include <vector>
 
 namespace programs {
-
-namespace fs = std::filesystem;
-
-/// A folder of its own for each run, gone afterwards.
-class folder {
- public:
-  explicit folder(const std::string& name)
-      : path_(fs::temp_directory_path() / ("passive_haptics_bench_" + name)) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  folder(const folder&) = delete;
-  folder& operator=(const folder&) = delete;
-  ~folder() { fs::remove_all(path_); }
-  [[nodiscard]] std::string operator/(const std::string& file) const {
-    return (path_ / file).string();
-  }
-
- private:
-  fs::path path_;
-};
 
 inline std::string content(const std::string& path) {
   std::ifstream in(path);

@@ -4,6 +4,7 @@
 
 #include "../bench/common/options.hpp"
 #include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
 
 #include <cstdlib>
 
@@ -100,11 +101,10 @@ TEST_CASE("--help and -h say what a program can be told, within a terminal", "[r
 }
 
 TEST_CASE("without gnuplot a report has everything but the plots, and says so", "[report]") {
-  const auto folder = std::filesystem::temp_directory_path() / "passive_haptics_no_gnuplot";
-  std::filesystem::remove_all(folder);
+  const scratch_folder folder;
   const std::string path = std::getenv("PATH");
   for (const bool there : {false, true}) {
-    ex::report out(folder);
+    ex::report out(folder.path());
     out.plot("line", "A line", "plot x");
     out.member("answer", "42");
     if (!there) setenv("PATH", "/nowhere", 1);
@@ -118,5 +118,4 @@ TEST_CASE("without gnuplot a report has everything but the plots, and says so", 
     CHECK(std::filesystem::exists(folder / "results.json"));
     if (!there) CHECK_FALSE(drawn);
   }
-  std::filesystem::remove_all(folder);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
 #include "support/scripted_falcon.hpp"
 
 #include <cstdio>
-#include <filesystem>
 #include <string>
 
 TEST_CASE("an image is checked to its last byte before it is sent", "[falcon][boot]") {
@@ -31,8 +31,8 @@ TEST_CASE("an image is checked to its last byte before it is sent", "[falcon][bo
 }
 
 TEST_CASE("a firmware file is read whole or refused", "[falcon][boot]") {
-  const std::string path =
-      (std::filesystem::temp_directory_path() / "passive_haptics_firmware.bin").string();
+  const scratch_folder folder;
+  const std::string path = folder / "firmware.bin";
   const auto write = [&path](const std::vector<falcon::byte>& bytes) {
     std::FILE* file = std::fopen(path.c_str(), "wb");
     REQUIRE(file != nullptr);
@@ -51,5 +51,4 @@ TEST_CASE("a firmware file is read whole or refused", "[falcon][boot]") {
   CHECK(image.bytes().empty());
   write(std::vector<falcon::byte>(falcon::firmware::capacity + 1, 0xAA));
   CHECK(image.load(path.c_str()).what == falcon::code::image_too_long);
-  std::remove(path.c_str());
 }

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "falcon/session.hpp"
+#include "support/scratch_folder.hpp"
 #include <passive_haptics/falcon/recording_file.hpp>
 
-#include <filesystem>
 #include <fstream>
 #include <string>
 
-namespace {
-
-std::string temporary(const char* name) {
-  return (std::filesystem::temp_directory_path() / name).string();
-}
-
-}  // namespace
-
 TEST_CASE("a log goes through a file unchanged", "[falcon][recording]") {
   const taken original = record();
-  const std::string path = temporary("passive_haptics_log.csv");
+  const scratch_folder folder;
+  const std::string path = folder / "log.csv";
   REQUIRE(falcon::save(path.c_str(), original.rows));
   const auto log = falcon::load(path.c_str());
   REQUIRE(log.how);
@@ -37,11 +30,11 @@ TEST_CASE("a log goes through a file unchanged", "[falcon][recording]") {
   CHECK(line == "1000000,read,1,0,1,96,,,,,");
   std::getline(file, line);
   CHECK(line == "1000000,write,0,0,1,96,3C4141414141414141414141414A413E,0,0,0,9");
-  std::filesystem::remove(path);
 }
 
 TEST_CASE("a log that is no log is refused, with its line", "[falcon][recording]") {
-  const std::string path = temporary("passive_haptics_bad.csv");
+  const scratch_folder folder;
+  const std::string path = folder / "bad.csv";
   const std::string heading = "stamp_ns,call,code,value,modem,line,bytes,leg0,leg1,leg2,flags\n";
   const auto loaded = [&path](const std::string& text) {
     std::ofstream(path) << text;
@@ -62,5 +55,4 @@ TEST_CASE("a log that is no log is refused, with its line", "[falcon][recording]
   }
   CHECK(falcon::load("no/such/file").how.what == code::log_unreadable);
   CHECK(falcon::save("no/such/file", {}).what == code::log_unwritable);
-  std::filesystem::remove(path);
 }

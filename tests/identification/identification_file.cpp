@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The file: what is written is read back to the bit, and what is wrong is refused with its line.
 #include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
 #include <passive_haptics/identification/identification_file.hpp>
 
 #include <filesystem>
@@ -111,20 +112,17 @@ TEST_CASE("a file that is cut off anywhere is refused", "[identification]") {
 }
 
 TEST_CASE("a file is written whole or not at all", "[identification]") {
-  const auto folder = std::filesystem::temp_directory_path() / "passive_haptics_identification";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  const std::string path = (folder / "grip.txt").string();
+  const scratch_folder folder;
+  const std::string path = folder / "grip.txt";
   CHECK(save(path, two_axes(), "grip 7").empty());
   CHECK(load<2>(path).fault.empty());
   auto failed = two_axes();
   failed.axes[1].problem = "a hand holds it";
   CHECK(save(path, failed, "grip 7").find("a hand holds it") != std::string::npos);
   CHECK(load<2>(path).fault.empty());  // the old one stays
-  CHECK(save((folder / "nowhere" / "x.txt").string(), two_axes(), "grip").find("x.txt") !=
-        std::string::npos);
+  CHECK(save(folder / "nowhere/x.txt", two_axes(), "grip").find("x.txt") != std::string::npos);
   CHECK(save(path, two_axes(), "two\nlines").find("line break") != std::string::npos);
-  CHECK(load<2>((folder / "missing.txt").string()).fault.find("missing.txt") != std::string::npos);
-  CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);  // nothing beside it
-  std::filesystem::remove_all(folder);
+  CHECK(load<2>(folder / "missing.txt").fault.find("missing.txt") != std::string::npos);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) ==
+        1);  // nothing beside it
 }
