@@ -26,6 +26,8 @@ case ${1:-} in
 esac
 chosen=("$@")
 eigen=${EIGEN:-/usr/include/eigen3}
+stand_ins=()  # for the SDKs that the adapters include
+for sdk in tests/adapters/stand_in/*/; do stand_ins+=("-I$sdk"); done
 out=$(mktemp -d)
 export WINEPREFIX=$out/wine WINEDEBUG=-all
 finish() {
@@ -121,7 +123,7 @@ row() {
 
 # Leaves its result in the row's folder.
 try() {
-  local compile=("${compiler[@]}" -std=c++20 -Iinclude -Itests -isystem "$eigen")
+  local compile=("${compiler[@]}" -std=c++20 -Iinclude -Itests "${stand_ins[@]}" -isystem "$eigen")
   local step steps=(headers bits examples numbers tests)
   local runs=yes passed='' built='' failed='' start=$SECONDS without=''
   case $mode in

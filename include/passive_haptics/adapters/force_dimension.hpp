@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Force Dimension's DHD: a haptic device that says what it held and how heavy it is. Needs dhdc.h in the
+// include path.
+//
+//     ph::adapters::force_dimension<scene> omega;
+//     if (const auto fault = omega.open()) return complain(fault);
+//     auto touch = ph::make_touch<scene>({omega.least_mass(), 0.05, 5.0, 12.0}, 0.0005);
+//     for (auto sample = omega.exchange(scene::zero()); …;) {
+//       sample = omega.exchange(touch.tick(sample).force);                 // the call paces the loop
+//     }
+//
+// `held` in a sample is what the motors really did: where the SDK says that they saturated, it is asked for
+// the force it applied. A sample that its time guard repeated is asked for again: a position that is old
+// looks like a device that stands still. Forces that DRD's regulation adds are behind the port, and no ledger
+// sees them.
+
+#include <passive_haptics/adapters/poses.hpp>
+#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/design/device_facts.hpp>
+#include <passive_haptics/port/rigid_body.hpp>
+
+#include <Eigen/Eigenvalues>
+
+#include <cstddef>
+#include <dhdc.h>
+#include <utility>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace adapters {
+
+/// The least apparent mass [kg] of a handle with this inertia [kg, kg·m, kg·m²], (velocity, turning rate) in
+/// that order, over all directions of its travel. A wrist that is free to turn makes it lighter: M_tt − M_tr
+/// M_rr⁻¹ M_rt. Zero if it is none.
+[[nodiscard]] inline double least_apparent_mass(const Eigen::Matrix<double, 6, 6>& inertia) {
+  Eigen::Matrix3d moving = inertia.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d turning = inertia.bottomRightCorner<3, 3>();
+  if (const Eigen::LLT<Eigen::Matrix3d> solver(turning); solver.info() == Eigen::Success) {
+    const Eigen::Matrix3d coupling = inertia.bottomLeftCorner<3, 3>();
+    moving -= coupling.transpose() * solver.solve(coupling);
+  }
+  if (!moving.allFinite()) return 0.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(moving, Eigen::EigenvaluesOnly);
+  const double least = modes.eigenvalues()(0);
+  return least > 0.0 ? least : 0.0;
+}
+
+namespace dhd {
+/// The largest force that the SDK lets its motors hold [N]; older ones do not say, and this is 0.
+template <class Id>
+[[nodiscard]] double most_force(Id id) {
+  if constexpr (requires { dhdGetMaxForce(id); }) {
+    return dhdGetMaxForce(id);
+  } else {
+    return 0.0;
+  }
+}
+}  // namespace dhd
+
+/// `Port` is space<S, 3>, stylus, or rigid_body for a device whose wrist has motors. Models
+/// haptic_device_for<Port>. One thread owns it.
+template <hand_port Port>
+class force_dimension {
+ public:
+  using port_type = Port;
+  using scalar = typename Port::scalar;
+  using effort = typename Port::effort;
+  using sample_type = device_sample<Port>;
+
+  force_dimension() = default;
+  force_dimension(const force_dimension&) = delete;
+  force_dimension& operator=(const force_dimension&) = delete;
+  ~force_dimension() { close(); }
+
+  /// The device of that number, −1 for the first free one. The SDK lets nobody else open it then, so no two
+  /// ports of this kind share a device.
+  [[nodiscard]] parameter_fault open(char id = -1) {
+    close();
+    const int opened = id < 0 ? dhdOpen() : dhdOpenID(id);
+    if (opened < 0) {
+      return {"device", static_cast<double>(dhdErrorGetLast()),
+              "one that is connected, powered and not open elsewhere: dhdErrorGetLastStr() says "
+              "which it is"};
+    }
+    id_ = static_cast<char>(opened);
+    if (turns && !dhdHasActiveWrist(id_)) {
+      close();
+      return {"wrist", 0.0, "one with motors: use stylus, or space, for a device without"};
+    }
+    (void)dhdEnableForce(DHD_ON, id_);
+    stamp_ = dhdGetTime();
+    saturated_ = failed_ = 0;
+    return {};
+  }
+  void close() noexcept {
+    if (id_ < 0) return;
+    (void)dhdSetForceAndTorqueAndGripperForce(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, id_);
+    (void)dhdClose(id_);
+    id_ = closed;
+  }
+  [[nodiscard]] bool is_open() const noexcept { return id_ >= 0; }
+
+  /// Sends a force [N], and a torque [N·m], and says where the handle is then. The force of a gripper is
+  /// zero: no port counts it. A number that is none is sent as zero.
+  [[nodiscard]] sample_type exchange(const effort& wanted) noexcept {
+    const effort sent = Port::is_finite(wanted) ? wanted : effort(Port::zero());
+    const int said = send(sent);
+    sample_type sample{.held = said == DHD_MOTOR_SATURATED ? applied(sent) : sent};
+    sample.valid = read(sample.position) && said >= 0;
+    const double now = dhdGetTime();
+    sample.dt = static_cast<scalar>(now - std::exchange(stamp_, now));
+    saturated_ += said == DHD_MOTOR_SATURATED ? 1U : 0U;
+    failed_ += said < 0 ? 1U : 0U;
+    return sample;
+  }
+
+  /// Exchanges since open() in which the motors could not do what they were told, and those that the SDK refused.
+  [[nodiscard]] unsigned long saturated() const noexcept { return saturated_; }
+  [[nodiscard]] unsigned long failed() const noexcept { return failed_; }
+
+  /// The least apparent mass where the handle is now [kg], 0 if the SDK does not say: ask at the corners of
+  /// the workspace too, and take the smallest.
+  [[nodiscard]] double least_mass() const {
+    double joints[DHD_MAX_DOF] = {}, inertia[6][6] = {};
+    if (!is_open() || dhdEnableExpertMode() < 0) return 0.0;
+    const bool known = dhdGetJointAngles(joints, id_) >= 0 &&
+                       dhdJointAnglesToInertiaMatrix(joints, inertia, id_) >= 0;
+    (void)dhdDisableExpertMode();
+    if (!known) return 0.0;
+    Eigen::Matrix<double, 6, 6> all;
+    for (int row = 0; row < 6; ++row) {
+      for (int column = 0; column < 6; ++column) all(row, column) = inertia[row][column];
+    }
+    return least_apparent_mass(all);
+  }
+
+  /// What the SDK says of an open device. It knows of no damping and no friction.
+  [[nodiscard]] design::device_facts facts() const {
+    const auto known = [](double value) {
+      return value > 0.0 ? design::fact{value, design::evidence::software, "DHD"} : design::fact{};
+    };
+    if (!is_open()) return {};
+    return {.name = dhdGetSystemName(id_),
+            .mass = known(least_mass()),
+            .peak_force = known(dhd::most_force(id_)),
+            .rate = known(dhdGetComFreq(id_) * 1e3)};  // the SDK says it in kHz
+  }
+
+ private:
+  static constexpr char closed = -1;
+  static constexpr bool turns = Port::dof == 6;
+
+  int send(const effort& w) const noexcept {
+    if (!is_open()) return -1;
+    const auto n = [&w](int i) { return static_cast<double>(w(i)); };
+    if constexpr (turns) {
+      return dhdSetForceAndTorqueAndGripperForce(n(0), n(1), n(2), n(3), n(4), n(5), 0.0, id_);
+    } else {
+      return dhdSetForceAndTorqueAndGripperForce(n(0), n(1), n(2), 0.0, 0.0, 0.0, 0.0, id_);
+    }
+  }
+  /// What saturated motors hold, or what they were told if the SDK does not say.
+  [[nodiscard]] effort applied(const effort& told) const noexcept {
+    double f[3] = {}, t[3] = {}, g = 0.0;
+    if (dhdGetForceAndTorqueAndGripperForce(&f[0], &f[1], &f[2], &t[0], &t[1], &t[2], &g, id_) <
+        0) {
+      return told;
+    }
+    effort held = Port::zero();
+    for (int i = 0; i < 3; ++i) {
+      held(i) = static_cast<scalar>(f[i]);
+      if constexpr (turns) held(i + 3) = static_cast<scalar>(t[i]);
+    }
+    return held;
+  }
+  /// False: nothing new was to be had.
+  bool read(typename Port::stored_pose& into) const noexcept {
+    if (!is_open()) return false;
+    Eigen::Vector3d x;
+    double rows[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    int said = DHD_TIMEGUARD;
+    for (int i = 0; i < most_repeats && said == DHD_TIMEGUARD; ++i) {
+      if constexpr (turning_port<Port>) {
+        said = dhdGetPositionAndOrientationFrame(&x(0), &x(1), &x(2), rows, id_);
+      } else {
+        said = dhdGetPosition(&x(0), &x(1), &x(2), id_);
+      }
+    }
+    if (said < 0 || said == DHD_TIMEGUARD) return false;
+    Eigen::Matrix3d columns;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) columns(row, column) = rows[row][column];
+    }
+    const auto pose = pose_of<Port>(x, columns);
+    if (pose) into = *pose;
+    return pose.has_value();
+  }
+
+  static constexpr int most_repeats = 10000;  ///< of a sample that the time guard repeats
+
+  char id_ = closed;
+  double stamp_ = 0.0;  ///< of the last sample, on the SDK's clock [s]
+  unsigned long saturated_ = 0, failed_ = 0;
+};
+
+}  // namespace adapters
+}  // namespace v0
+}  // namespace passive_haptics

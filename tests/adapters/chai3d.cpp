@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: BSD-3-Clause CHAI3D's adapter, in front of a simulated device, with an interface
+// of our own in CHAI3D's place: a proxy on a sphere that is stiffer than the device's damping pays for, that
+// deforms, in a workspace that is scaled.
+#include "support/catch.hpp"
+#include <passive_haptics/adapters/chai3d.hpp>
+#include <passive_haptics/compositions.hpp>
+#include <passive_haptics/contact/shaped.hpp>
+#include <passive_haptics/shaper/force_rate_limit.hpp>
+#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/six_dof.hpp>
+
+#include <limits>
+#include <numbers>
+
+namespace ph = passive_haptics;
+namespace sim = ph::simulation;
+namespace ad = ph::adapters;
+namespace c3d = chai3d;
+
+namespace {
+
+using scene = ph::space<double, 3>;
+using vec = Eigen::Vector3d;
+constexpr double T = 1e-3, mass = 0.1, damping = 0.1;
+
+/// Time that the tests make.
+struct made_clock {
+  using duration = std::chrono::duration<double>;
+  using rep = duration::rep;
+  using period = duration::period;
+  using time_point = std::chrono::time_point<made_clock>;
+  static constexpr bool is_steady = true;
+  static inline double seconds = 0.0;
+  static time_point now() noexcept { return time_point(duration(seconds)); }
+};
+
+/// What CHAI3D would call a driver: each force is held for a millisecond. The hand presses with a newton.
+class simulated : public c3d::cGenericHapticDevice {
+ public:
+  using hand_type = sim::impedance_hand<scene>;
+
+  simulated()
+      : device_({.mass = mass, .damping = damping, .start = vec(0.0, 0.0, 0.055)},
+                hand_type{.stiffness = 300.0, .damping = 0.5, .target = vec(0.0, 0.0, 0.047)}) {}
+  bool open() override {
+    m_specifications.m_maxLinearForce = 8.0;
+    m_specifications.m_maxLinearStiffness = 3000.0;
+    m_specifications.m_workspaceRadius = 0.1;
+    m_deviceAvailable = true;
+    return m_deviceReady = opens;
+  }
+  bool close() override {
+    m_deviceReady = false;
+    return true;
+  }
+  bool getPosition(c3d::cVector3d& x) override {
+    x = ad::chai3d_types::vector(vec(unit * device_.position()));
+    return reads;
+  }
+  bool getRotation(c3d::cMatrix3d& r) override {
+    r.identity();
+    if (mirrored) r(2, 2) = -1.0;
+    return true;
+  }
+  bool getUserSwitches(unsigned int& all) override {
+    all = 5;
+    return true;
+  }
+  bool setForceAndTorqueAndGripperForce(const c3d::cVector3d& f, const c3d::cVector3d& t,
+                                        double g) override {
+    force = ad::chai3d_types::vector(f);
+    torque = ad::chai3d_types::vector(t);
+    gripper = g;
+    ++forces;
+    static_cast<void>(device_.exchange(force));
+    made_clock::seconds += T;
+    return true;
+  }
+
+  [[nodiscard]] double least_energy() const { return device_.meter().minimum(); }
+  [[nodiscard]] vec place() const { return device_.position(); }
+  [[nodiscard]] double speed() const { return device_.velocity().norm(); }
+  hand_type& hand() { return device_.hand(); }
+
+  bool opens = true, reads = true, mirrored = false;
+  double unit = 1.0;  ///< positions per metre
+  vec force = vec::Zero(), torque = vec::Zero();
+  double gripper = 0.0;
+  int forces = 0;
+
+ private:
+  sim::device<scene, hand_type> device_;
+};
+
+auto strict_port() {
+  return ph::make_force_guard<scene>({damping}, 1.01 * T);
+}
+auto reachable_port() {
+  return ph::passive_port{scene{}, ph::given_force{}, ph::reduced_energy{.damping = damping},
+                          ph::bound_chain{ph::reachable_bound{.mass = mass, .hand_force = 5.0},
+                                          ph::actuator_limit{.most = 8.0}},
+                          ph::loop_limits{.longest_tick = 1.01 * T}};
+}
+template <class Port>
+auto decorate(std::shared_ptr<simulated> device, const Port& port) {
+  return std::make_shared<ad::passive_device<Port, made_clock>>(std::move(device), port);
+}
+
+/// As a tool with a scaled workspace: position, proxy, force.
+void touch(c3d::cGenericHapticDevice& device, c3d::cAlgorithmFingerProxy& proxy, double scale) {
+  c3d::cVector3d x;
+  device.getPosition(x);
+  const auto global = ad::chai3d_types::vector(vec(scale * ad::chai3d_types::vector(x)));
+  device.setForceAndTorqueAndGripperForce(proxy.computeForces(global, {}), {}, 0.0);
+}
+
+struct outcome {
+  double least_energy, rms_speed, depth;  ///< [J], [m/s] of the last second, [m]
+};
+/// Six seconds on a sphere of that stiffness [N/m of the scene].
+outcome press(bool guarded, double stiffness, double scale = 1.0) {
+  auto real = std::make_shared<simulated>();
+  c3d::cGenericHapticDevicePtr device = real;
+  if (guarded) device = decorate(real, reachable_port());
+  REQUIRE(device->open());
+  c3d::cWorld world{.radius = 0.05 * scale, .stiffness = stiffness};
+  c3d::cAlgorithmFingerProxy proxy;
+  proxy.initialize(&world, ad::chai3d_types::vector(vec(scale * real->place())));
+  double squares = 0.0;
+  for (int k = 0; k < 6000; ++k) {
+    touch(*device, proxy, scale);
+    if (k >= 5000) squares += real->speed() * real->speed();
+  }
+  return {real->least_energy(), std::sqrt(squares / 1000.0), 0.05 - real->place().norm()};
+}
+
+}  // namespace
+
+TEST_CASE("a proxy on a stiff sphere feeds the hand, and through passive_device it does not",
+          "[adapters][chai3d]") {
+  CHECK(press(false, 2000.0).least_energy < -0.01);
+  CHECK(press(false, 8000.0).least_energy < -0.05);
+  for (const double K : {500.0, 2000.0, 8000.0}) {
+    const outcome calm = press(true, K);
+    INFO(K);
+    CHECK(calm.least_energy >= -1e-12);
+    if (K > 1000.0) CHECK(calm.rms_speed < 0.05 * press(false, K).rms_speed);
+    CHECK(calm.depth < 0.003);  // there is a sphere: the hand alone would be 3 mm deep
+  }
+}
+
+TEST_CASE("passive_device counts the device's own metres, whatever the workspace's scale",
+          "[adapters][chai3d]") {
+  CHECK(press(false, 800.0, 5.0).least_energy < -0.01);
+  CHECK(press(true, 800.0, 5.0).least_energy >= -1e-12);
+
+  // The control: a port that is told the scene's positions believes in five times the damping's work.
+  auto real = std::make_shared<simulated>();
+  c3d::cWorld world{.radius = 0.25, .stiffness = 800.0};
+  c3d::cAlgorithmFingerProxy proxy;
+  auto port = reachable_port();
+  vec x = 5.0 * real->place();
+  proxy.initialize(&world, ad::chai3d_types::vector(x));
+  for (int k = 0; k < 6000; ++k) {
+    x = 5.0 * real->place();
+    const auto wanted = proxy.computeForces(ad::chai3d_types::vector(x), {});
+    const auto out = port.tick(x, T, ad::chai3d_types::vector(wanted));
+    real->setForce(ad::chai3d_types::vector(vec(out.force)));
+  }
+  CHECK(real->least_energy() < -1e-3);
+}
+
+namespace {
+
+struct felt {
+  double lost = 0.0;          ///< share of the ticks without a force
+  double largest_step = 0.0;  ///< of the force [N]
+  double least_energy = 0.0;  ///< [J]
+};
+/// A sphere that breathes by `amplitude` [m] twice a second and is published 30 times a second.
+felt breathe(double amplitude, auto&& force_at) {
+  auto real = std::make_shared<simulated>();
+  REQUIRE(real->open());
+  c3d::cWorld world{.radius = 0.05, .stiffness = 1000.0};
+  felt f;
+  vec last = vec::Zero();
+  for (int k = 0; k < 6000; ++k) {
+    const bool updated = k % 33 == 0;
+    if (updated) {
+      world.radius = 0.05 + amplitude * std::sin(4.0 * std::numbers::pi * k * T);
+    }
+    const vec force = force_at(world, real->place(), updated);
+    real->setForce(ad::chai3d_types::vector(force));
+    if (k > 500) {
+      f.lost += force.norm() < 0.05 ? 1.0 / 5499.0 : 0.0;
+      f.largest_step = std::max(f.largest_step, (force - last).norm());
+    }
+    last = force;
+  }
+  f.least_energy = real->least_energy();
+  return f;
+}
+
+}  // namespace
+
+TEST_CASE("a sphere that deforms is lost by an old proxy, and kept by a probe with each update",
+          "[adapters][chai3d]") {
+  c3d::cAlgorithmFingerProxy old;
+  bool began = false;
+  const felt lost = breathe(1e-3, [&](c3d::cWorld& world, const vec& x, bool) -> vec {
+    if (!std::exchange(began, true)) old.initialize(&world, ad::chai3d_types::vector(x));
+    return ad::chai3d_types::vector(old.computeForces(ad::chai3d_types::vector(x), {}));
+  });
+  CHECK(lost.lost > 0.5);
+
+  ph::local_model wall{
+      scene{},
+      ph::followed<ph::half_space<scene>>{},
+      ph::turn_limited{.rate = 4.0},
+      ph::shaped{ph::damped_spring{.mass = mass}, ph::force_rate_limit{.rate = 50.0}},
+      ph::reduced_energy{.damping = damping},
+      ph::bound_chain{ph::reachable_bound{.mass = mass, .hand_force = 5.0},
+                      ph::actuator_limit{.most = 8.0}},
+      ph::loop_limits{.longest_tick = T}};
+  std::optional<ad::proxy_probe<>> probe;
+  const felt kept = breathe(1e-3, [&](c3d::cWorld& world, const vec& x, bool updated) -> vec {
+    if (!probe) probe.emplace(&world, 0.0, 0.02);
+    if (updated) {
+      const auto plane = probe->at(x, 1000.0);
+      if (plane) {
+        wall.update(*plane);
+      } else {
+        wall.release();
+      }
+    }
+    return wall.tick(x, T).force;
+  });
+  CHECK(kept.lost == 0.0);
+  CHECK(kept.largest_step <= 0.1);
+  CHECK(kept.least_energy >= -1e-12);
+}
+
+TEST_CASE("a probe answers in the device's frame and metres", "[adapters][chai3d]") {
+  c3d::cWorld world{.radius = 0.05, .stiffness = 800.0};
+  ad::workspace_map map{.scale = 5.0, .origin = vec(0.0, 0.0, 0.02)};
+  map.rotation = Eigen::AngleAxisd(0.3, vec::UnitX()).toRotationMatrix();
+  REQUIRE_FALSE(map.check());
+  const vec device(0.0, 0.001, 0.005), there = map.to_scene(device);
+  ad::proxy_probe<> probe(&world, 0.0, 0.05, map, there);
+  const auto plane = probe.at(device, 800.0);
+  REQUIRE(plane);
+  const vec surface = map.to_scene(vec(plane->point));
+  CHECK(std::abs(surface.norm() - 0.05) < 1e-9);
+  CHECK((map.rotation * vec(plane->normal) - there.normalized()).norm() < 1e-9);
+  CHECK(plane->stiffness == 4000.0);  // newtons a metre of the device
+  // The force is that of the scene: 800 N/m times the depth there.
+  const double depth = (vec(plane->point) - device).dot(vec(plane->normal));
+  CHECK(std::abs(plane->stiffness * depth - 800.0 * (0.05 - there.norm())) < 1e-9);
+
+  CHECK_FALSE(probe.at(vec(0.0, 0.0, 0.02), 800.0));  // 120 mm up, free
+  CHECK_FALSE(probe.at(vec::Constant(std::numeric_limits<double>::quiet_NaN()), 800.0));
+  CHECK_FALSE(probe.at(device, std::numeric_limits<double>::quiet_NaN()));
+  map.rotation.col(0) *= -1.0;
+  CHECK(std::string(map.check().parameter) == "rotation");
+  CHECK_FALSE(ad::proxy_probe<>(&world, 0.0, 0.05, map).at(device, 800.0));
+  CHECK(std::string(ad::workspace_map{.scale = 0.0}.check().parameter) == "scale");
+  CHECK(std::string(ad::proxy_probe<>(nullptr, 0.0, 0.05).check().parameter) == "world");
+  CHECK(std::string(ad::proxy_probe<>(&world, 0.0, 0.0).check().parameter) == "reach");
+  CHECK(std::string(ad::proxy_probe<>(&world, -1.0, 0.1).check().parameter) == "radius");
+}
+
+TEST_CASE("passive_device is the device that it decorates in all but the force",
+          "[adapters][chai3d]") {
+  auto real = std::make_shared<simulated>();
+  auto device = decorate(real, strict_port());
+  REQUIRE_FALSE(device->check());
+  REQUIRE(device->open());
+  CHECK(device->isDeviceReady());
+  CHECK(device->getSpecifications().m_workspaceRadius == 0.1);
+  const auto facts = ad::facts_of(device->getSpecifications());
+  CHECK(facts.peak_force.value == 8.0);
+  CHECK(facts.stiffness.value == 3000.0);
+  CHECK_FALSE(facts.damping);
+  unsigned int all = 0;
+  CHECK(device->getUserSwitches(all));
+  CHECK(all == 5);
+  CHECK(device->close());
+  CHECK_FALSE(device->isDeviceReady());
+  real->opens = false;
+  CHECK_FALSE(device->open());
+}
+
+TEST_CASE("a second port on a device is refused, and so are no device and no metres",
+          "[adapters][chai3d]") {
+  auto real = std::make_shared<simulated>();
+  auto once = decorate(real, strict_port());
+  ad::passive_device<decltype(strict_port()), made_clock> twice(once, strict_port());
+  CHECK(std::string(twice.check().parameter) == "device");
+  CHECK_FALSE(twice.open());
+  CHECK_FALSE(twice.setForce({0.0, 0.0, 1.0}));
+  CHECK(real->forces == 0);
+  CHECK(once->open());  // the control
+
+  ad::passive_device<decltype(strict_port()), made_clock> none(nullptr, strict_port());
+  CHECK(std::string(none.check().remedy).find("cHapticDeviceHandler") != std::string::npos);
+  CHECK_FALSE(none.open());
+  CHECK_FALSE(none.close());
+  CHECK_FALSE(none.setForce({0.0, 0.0, 1.0}));
+  c3d::cVector3d x;
+  CHECK_FALSE(none.getPosition(x));
+
+  auto bad = decorate(real, ph::make_force_guard<scene>({-1.0}, T));
+  CHECK(std::string(bad->check().parameter) == "damping");
+  CHECK_FALSE(bad->open());
+
+  real->unit = 1e3;  // millimetres
+  CHECK_FALSE(once->open());
+  CHECK(std::string(once->check().remedy).find("millimetres") != std::string::npos);
+  CHECK_FALSE(once->setForce({0.0, 0.0, 1.0}));
+  real->unit = 1.0;
+  CHECK(once->open());
+}
+
+TEST_CASE("what no ledger counts is refused: a torque where nothing turns, a gripper's force",
+          "[adapters][chai3d]") {
+  auto real = std::make_shared<simulated>();
+  auto device = decorate(real, strict_port());
+  REQUIRE(device->open());
+  CHECK(device->setForceAndTorqueAndGripperForce({}, {}, 0.0));
+  CHECK_FALSE(device->has_refused());
+  CHECK(device->setForceAndTorqueAndGripperForce({}, {0.0, 0.1, 0.0}, 0.0));
+  CHECK(device->has_refused());
+  CHECK(real->torque.isZero());
+  CHECK(device->setForceAndTorqueAndGripperForce({}, {}, 1.0));
+  CHECK(device->has_refused());
+  CHECK(real->gripper == 0.0);
+}
+
+TEST_CASE("bad samples, mirrored frames and numbers that are none push nothing",
+          "[adapters][chai3d]") {
+  auto real = std::make_shared<simulated>();
+  auto device = decorate(real, reachable_port());
+  REQUIRE(device->open());
+  const auto moves = [&] {
+    real->hand().target = vec(0.0, 0.0, real->place().z() + 0.01);
+    for (int k = 0; k < 200; ++k) device->setForce({});
+  };
+  moves();
+  CHECK(device->setForce({0.0, 0.0, 0.5}));
+  CHECK(real->force.z() > 0.0);  // the control: the ledger has something
+  real->reads = false;
+  device->setForce({0.0, 0.0, 0.5});
+  CHECK(real->force.isZero());
+  CHECK(device->last().what == ph::event::rejected_sample);
+  real->reads = true;
+  moves();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  device->setForce({nan, 0.0, 0.0});
+  CHECK(device->last().what == ph::event::rejected_target);
+  CHECK(real->force.allFinite());
+
+  using wrench = ph::passive_port<ph::rigid_body<double>, ph::given_force,
+                                  ph::basic_reduced_energy<ph::rigid_damping>, ph::strict_bound>;
+  const wrench port{
+      ph::rigid_body<double>{}, ph::given_force{},
+      ph::basic_reduced_energy<ph::rigid_damping>{.damping = {.linear = 0.1, .angular = 1e-4}},
+      ph::strict_bound{}, ph::loop_limits{.longest_tick = 1.01 * T}};
+  REQUIRE_FALSE(port.check());
+  auto turning = decorate(real, port);
+  REQUIRE(turning->open());
+  for (int k = 0; k < 300; ++k) turning->setForceAndTorqueAndGripperForce({0.0, 0.0, 0.2}, {}, 0.0);
+  CHECK(turning->last().what == ph::event::nominal);
+  CHECK(turning->setForceAndTorqueAndGripperForce({}, {0.0, 0.0, 1e-6}, 0.0));
+  CHECK_FALSE(turning->has_refused());
+  real->mirrored = true;
+  turning->setForceAndTorqueAndGripperForce({0.0, 0.0, 0.2}, {}, 0.0);
+  CHECK(turning->last().what == ph::event::rejected_sample);
+  CHECK(real->force.isZero());
+}
