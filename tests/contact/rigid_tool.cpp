@@ -56,7 +56,7 @@ TEST_CASE("a tool is no stiffer with sixteen contacts than its coupling", "[rigi
   ph::laws::samples random(1);
   const double k = 1000.0 / 0.9, turns = 0.9 / 0.9;  // C⁻¹/(1 − ε)
   double steepest = 0.0;
-  for (int n = 0; n < 200; ++n) {
+  for (int n = 0; n < 50; ++n) {
     auto port = open_port<double, 16>();
     for (int i = 0; i < 16; ++i) {
       const vector at = random.vector<d3>() * 0.03, normal = random.direction<d3>();

@@ -64,7 +64,7 @@ TEST_CASE("closest_point tells inside from outside at faces, edges and nodes",
     REQUIRE_NOTHROW(env::check(mesh));
     const auto surface = env::boundary(mesh);
     int inside = 0;
-    for (int run = 0; run < 3000; ++run) {
+    for (int run = 0; run < 1500; ++run) {
       Vector3d x = anywhere(random, 4.0);
       if (run % 2 == 0) {  // near a node or an edge
         const auto t = env::corners(surface[random() % surface.size()], mesh.nodes);
