@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause CHAI3D's adapter, in front of a simulated device, with an interface
-// of our own in CHAI3D's place: a proxy on a sphere that is stiffer than the device's damping pays for, that
-// deforms, in a workspace that is scaled.
+// SPDX-License-Identifier: BSD-3-Clause
+// CHAI3D's adapter, in front of a simulated device, with an interface of our own in CHAI3D's
+// place: a proxy on a sphere that is stiffer than the device's damping pays for, that deforms, in
+// a workspace that is scaled.
 #include "support/catch.hpp"
 #include <passive_haptics/adapters/chai3d.hpp>
 #include <passive_haptics/compositions.hpp>

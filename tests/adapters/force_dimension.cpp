@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause DHD's adapter, with an SDK of our own behind an interface of our own:
-// a simulated omega that saturates, repeats samples when it is asked too often, and knows its inertia.
+// SPDX-License-Identifier: BSD-3-Clause
+// DHD's adapter, with an SDK of our own behind an interface of our own: a simulated omega that
+// saturates, repeats samples when it is asked too often, and knows its inertia.
 #include "support/catch.hpp"
 #include <passive_haptics/adapters/force_dimension.hpp>
 #include <passive_haptics/compositions.hpp>

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause What the adapter takes for granted of CHAI3D. Compiled against our
-// own declarations always, and against CHAI3D's where -DPASSIVE_HAPTICS_CHAI3D=<its src folder> says where
-// they are.
+// SPDX-License-Identifier: BSD-3-Clause
+// What the adapter takes for granted of CHAI3D. Compiled against our own declarations always, and
+// against CHAI3D's where -DPASSIVE_HAPTICS_CHAI3D=<its src folder> says where they are.
 #include <devices/CGenericHapticDevice.h>
 #include <forces/CAlgorithmFingerProxy.h>
 #include <type_traits>

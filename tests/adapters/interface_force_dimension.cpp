@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause What the adapter takes for granted of DHD. Compiled against our own
-// declarations always, and against the vendor's where -DPASSIVE_HAPTICS_FORCE_DIMENSION=<its include folder>
-// says where they are. dhdGetMaxForce is asked only where it is declared.
+// SPDX-License-Identifier: BSD-3-Clause
+// What the adapter takes for granted of DHD. Compiled against our own declarations always, and
+// against the vendor's where -DPASSIVE_HAPTICS_FORCE_DIMENSION=<its include folder> says where
+// they are. dhdGetMaxForce is asked only where it is declared.
 #include <cstddef>
 #include <dhdc.h>
 #include <type_traits>

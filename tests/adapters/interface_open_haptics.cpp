@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause What the adapter takes for granted of HDAPI. Compiled against our own
-// declarations always, and against the vendor's where -DPASSIVE_HAPTICS_OPEN_HAPTICS=<its include folder>
-// says where they are.
+// SPDX-License-Identifier: BSD-3-Clause
+// What the adapter takes for granted of HDAPI. Compiled against our own declarations always, and
+// against the vendor's where -DPASSIVE_HAPTICS_OPEN_HAPTICS=<its include folder> says where they
+// are.
 #include <HD/hd.h>
 #include <cstddef>
 #include <type_traits>

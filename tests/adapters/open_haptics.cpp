@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause OpenHaptics' adapter, with a driver of our own behind an interface of
-// our own: two simulated devices, a scheduler that the tests run, and a frame without which nothing is read
-// or sent.
+// SPDX-License-Identifier: BSD-3-Clause
+// OpenHaptics' adapter, with a driver of our own behind an interface of our own: two simulated
+// devices, a scheduler that the tests run, and a frame without which nothing is read or sent.
 #include "support/catch.hpp"
 #include <passive_haptics/adapters/open_haptics.hpp>
 #include <passive_haptics/compositions.hpp>
