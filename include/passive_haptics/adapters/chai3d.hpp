@@ -270,7 +270,8 @@ template <real S = double>
 }
 
 /// Asks a world where the surface under the device is, with a new proxy that comes from outside along the
-/// last normal. Call it once for each update of the mesh, in the thread that deforms it, and publish what it
+/// last normal. A device just above the surface is told of it, too, or it would be let in until the next
+/// update. Call it once for each update of the mesh, in the thread that deforms it, and publish what it
 /// says:
 ///     inbox.publish(probe.at(x, 800.0));                              // exchange<std::optional<plane>>
 ///     if (const auto* news = inbox.take()) { if (*news) touch.update(**news); else touch.release(); }
@@ -279,7 +280,8 @@ class proxy_probe {
  public:
   using plane = half_space<space<S, 3>>;
 
-  /// The finger's radius and how far outside it begins [m of the scene], and which way out is at first.
+  /// The finger's radius, how far outside it begins and how far below it looks [m of the scene], and which
+  /// way out is at first.
   proxy_probe(::chai3d::cWorld* world, double radius, double reach, const workspace_map& map = {},
               const Eigen::Vector3d& outward = Eigen::Vector3d::UnitZ())
       : world_(world), radius_(radius), reach_(reach), map_(map), normal_(outward.normalized()) {}
@@ -295,25 +297,36 @@ class proxy_probe {
   }
 
   /// `device` [m], its own; `stiffness` of the mesh [N/m of the scene]. The plane is the device's: in its
-  /// frame and metres, with scale times the stiffness. None in free space, where a number is none, and after
-  /// a fault.
+  /// frame and metres, with scale times the stiffness. None where nothing is within reach, where a number is
+  /// none, and after a fault.
   [[nodiscard]] std::optional<plane> at(const Eigen::Vector3d& device, double stiffness) {
     if (check() || !device.allFinite() || !(stiffness >= 0.0)) return {};
-    const Eigen::Vector3d here = map_.to_scene(device);
-    ::chai3d::cAlgorithmFingerProxy proxy;
-    proxy.initialize(world_, chai3d_types::vector(Eigen::Vector3d(here + reach_ * normal_)));
-    proxy.setProxyRadius(radius_);
-    (void)proxy.computeForces(chai3d_types::vector(here), ::chai3d::cVector3d(0.0, 0.0, 0.0));
-    const Eigen::Vector3d there = chai3d_types::vector(proxy.getProxyGlobalPosition());
-    const Eigen::Vector3d out = there - here;
+    const Eigen::Vector3d here = map_.to_scene(device), start = here + reach_ * normal_;
+    Eigen::Vector3d goal = here, there = stop(start, goal);
+    if (!((there - goal).norm() > 1e-9)) {  // nothing is in the way, so look where it may go next
+      goal = here - reach_ * normal_;
+      there = stop(start, goal);
+    }
+    const Eigen::Vector3d out = there - goal;
     if (!(out.norm() > 1e-9)) return {};
     normal_ = out.normalized();
     const Eigen::Matrix3d back = map_.rotation.transpose();
-    return tangent_plane<S>(back * (there - map_.origin) / map_.scale, device,
-                            stiffness * map_.scale);
+    const auto to_device = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+      return back * (p - map_.origin) / map_.scale;
+    };
+    return tangent_plane<S>(to_device(there), to_device(goal), stiffness * map_.scale);
   }
 
  private:
+  /// Where a proxy that comes from `start` stops on its way to `goal`.
+  [[nodiscard]] Eigen::Vector3d stop(const Eigen::Vector3d& start, const Eigen::Vector3d& goal) {
+    ::chai3d::cAlgorithmFingerProxy proxy;
+    proxy.initialize(world_, chai3d_types::vector(start));
+    proxy.setProxyRadius(radius_);
+    (void)proxy.computeForces(chai3d_types::vector(goal), ::chai3d::cVector3d(0.0, 0.0, 0.0));
+    return chai3d_types::vector(proxy.getProxyGlobalPosition());
+  }
+
   ::chai3d::cWorld* world_;
   double radius_, reach_;
   workspace_map map_;
