@@ -52,7 +52,7 @@ include(${CURRENT_PORT_DIR}/portfile.cmake)
 
 # What vcpkg asks of a package after it has been built.
 file(GLOB_RECURSE files RELATIVE ${CURRENT_PACKAGES_DIR} ${CURRENT_PACKAGES_DIR}/*)
-list(FILTER files EXCLUDE REGEX "^include/passive_haptics/.*[.]hpp$")
+list(FILTER files EXCLUDE REGEX "^include/passive_haptics/.*[.]h(pp)?$")
 list(SORT files)
 set(expected share/passive-haptics/copyright share/passive-haptics/usage
   share/passive_haptics/passive_hapticsConfig.cmake

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef PASSIVE_HAPTICS_ADAPTERS_C_PASSIVE_HAPTICS_H
+#define PASSIVE_HAPTICS_ADAPTERS_C_PASSIVE_HAPTICS_H
+// The C interface: for C99, C#, Unity, Unreal and whatever else calls a shared library. A port with three
+// degrees of freedom, in double, composed by name. Link passive_haptics_c, or load it.
+//
+//     ph_parameters device = {.size = sizeof device, .mass = 0.1, .damping = 0.03, .hand_force = 5,
+//                             .force_limit = 9, .longest_tick = 1e-3};
+//     char why[PH_TEXT_ROOM];
+//     ph_port* port = NULL;
+//     if (ph_create("touch", &device, &port, why, sizeof why) != PH_OK) return complain(why);
+//     ph_publish_plane(port, point, normal, 1e4);             // slow thread, 20-100 Hz
+//     ph_result out = {.size = sizeof out};
+//     ph_tick(port, position, dt, &out);                      // haptic thread, 1 kHz
+//     command(out.force);
+//
+// ONE PORT PER DEVICE. Two ports on one device are two ledgers that spend the same damping, and the hand
+// would be fed.
+//
+// SI units. The force acts on the device; a normal points out of the object; energy is positive from the
+// hand into the device. Vectors are three doubles: x, y, z.
+//
+// No function throws, and none but ph_create and ph_destroy allocates. Wherever a result is written, the
+// port has ticked, and the force in it is what must be commanded: zero, with an event, if anything was
+// wrong. Where no result can be written (NULL, a wrong size) the port has not ticked.
+//
+// Before 1.0 a minor version may change this interface, as it may the library's.
+
+#include <stddef.h>
+#include <stdint.h>
+
+// Define PASSIVE_HAPTICS_C_STATIC where you link the static library.
+#if defined(_WIN32) && defined(PASSIVE_HAPTICS_C_BUILD)
+#define PH_API __declspec(dllexport)
+#elif defined(_WIN32) && !defined(PASSIVE_HAPTICS_C_STATIC)
+#define PH_API __declspec(dllimport)
+#elif defined(__GNUC__)
+#define PH_API __attribute__((visibility("default")))
+#else
+#define PH_API
+#endif
+
+#ifdef __cplusplus
+#define PH_NOTHROW noexcept
+extern "C" {
+#else
+#define PH_NOTHROW
+#endif
+
+/// Room for every text that ph_create writes [bytes].
+#define PH_TEXT_ROOM 512
+/// The most ticks that ph_parameters::latency may say.
+#define PH_MOST_LATENCY 2
+
+/// One passive port with its ledger, and an inbox for what is published.
+typedef struct ph_port ph_port;
+
+/// What a function answers.
+enum ph_status {
+  PH_OK = 0,
+  PH_NULL_ARGUMENT = 1,            ///< a pointer that must not be NULL is
+  PH_WRONG_SIZE = 2,               ///< `size` is no size of this struct that the library knows
+  PH_UNKNOWN_COMPOSITION = 3,      ///< the name is none of those of ph_create
+  PH_REFUSED_PARAMETER = 4,        ///< the text names it, its value and the remedy
+  PH_OUT_OF_MEMORY = 5,            ///< for the port
+  PH_NOT_OF_THIS_COMPOSITION = 6,  ///< a plane for a guard, a wanted force for a touch
+  PH_REFUSED_PLANE = 7  ///< a number that is none, a normal of length 0, a stiffness ≤ 0
+};
+
+/// What happened in a tick, in order of rising severity; a tick reports the worst.
+enum ph_event {
+  PH_NOMINAL = 0,            ///< all is well
+  PH_DEBT = 1,               ///< the ledger is negative: the hand has been fed more than it paid
+  PH_LATE_TICK = 2,          ///< dt is longer than longest_tick: the bound assumed less
+  PH_REPEATED_SAMPLE = 3,    ///< the sensor is slower than the loop (not watched for here)
+  PH_NO_TARGET = 4,          ///< nothing was published, or wanted, yet: force zero
+  PH_REJECTED_TARGET = 5,    ///< the wanted force is unusable: the last good one stays
+  PH_STALE_TARGET = 6,       ///< nothing good was published for too long: the force fades
+  PH_OUTSIDE_WORKSPACE = 7,  ///< millimetres for metres? Force zero
+  PH_REJECTED_SAMPLE = 8,  ///< lost, NaN, dt ≤ 0, an impossible jump: force zero, credit forfeited
+  PH_REJECTED_PARAMETERS = 9  ///< there is no port: force zero
+};
+
+/// How far a composition is passive, as in the library.
+enum ph_guarantee {
+  PH_NONE = 0,
+  PH_CONDITIONAL = 1,  ///< for the device and the hand as stated
+  PH_STRICT = 2        ///< for every motion, every environment, every schedule of updates
+};
+
+/// The device and the hand on it, as a promise may state them: mass, damping and friction from below, the
+/// rest from above. Zero says "not stated": it takes the default where there is one, and is refused where
+/// the composition cannot do without.
+typedef struct ph_parameters {
+  uint32_t size;        ///< sizeof(ph_parameters); a struct that ends behind longest_tick will do
+  uint32_t latency;     ///< whole ticks from a command to the first instant it is held, 0 to 2
+  double mass;          ///< smallest apparent mass, over all directions and poses [kg]
+  double damping;       ///< b: half of what you identified [N·s/m]
+  double hand_force;    ///< the most that hand, load and dry friction push with [N]
+  double force_limit;   ///< what the motors hold [N]
+  double longest_tick;  ///< the worst tick of YOUR loop [s]
+
+  double friction;    ///< dry, the least level where it varies [N]
+  double presliding;  ///< over which that friction is elastic, > 0 where there is friction [m]
+  double quantum;     ///< step of the positions, noise included [m]
+  double continuous_force;  ///< what the motors hold for ever [N]; 0: force_limit
+  double winding_time;      ///< time constant with which they warm, if that is less [s]
+  double turn_rate;         ///< how fast the contact normal turns at most [rad/s]; 0: 2
+  double stale_after;  ///< age up to which news counts in full [s]; 0: planes for ever, forces 0.1
+  double top_speed;    ///< faster than this is a sensor fault [m/s]; 0: 5
+  double workspace;    ///< farther from the origin is no position of the device [m]; 0: 2
+  double watchdog;     ///< the driver drops a force so long after its command [s]; 0: never
+} ph_parameters;
+
+/// What a tick answers.
+typedef struct ph_result {
+  uint32_t size;    ///< sizeof(ph_result), set by the caller; one that ends behind energy will do
+  int32_t event;    ///< a ph_event
+  double force[3];  ///< for the device [N]
+  double depth;     ///< penetration in the local model, 0 outside and in a guard [m]
+  double energy;    ///< E1, the ledger [J]
+  int32_t limited;  ///< not 0: the bound has changed the force that contact, or caller, asked for
+  int32_t capped;   ///< not 0: the plane is stiffer than the device can pay for, and is felt softer
+} ph_result;
+
+/// The version of the library that is loaded: 10000 major + 100 minor + patch.
+PH_API uint32_t ph_version(void) PH_NOTHROW;
+
+/// Composes a port by name. `*port` is NULL unless the answer is PH_OK. The reason, with the parameter,
+/// its value and the remedy, goes to `why` as UTF-8 text of at most `room` bytes, its zero included; it is
+/// empty if all is well, and NULL asks for none.
+///
+///   name             takes, beside damping, force_limit, longest_tick   guarantee
+///   "touch"            mass, hand_force                                 conditional
+///   "quantised_touch"  mass, hand_force, quantum                        conditional
+///   "encoder_touch"    mass, hand_force, quantum, friction, presliding  conditional
+///   "strict_touch"                                                      strict
+///   "force_guard"                                                       strict
+///   "encoder_guard"    quantum, friction, presliding                    strict
+///
+/// A touch presses back from the plane that is published. A guard bounds a force that the caller has.
+/// "touch" is the library's make_touch, "encoder_touch" its make_encoder_touch, which alone takes
+/// continuous_force and winding_time; "force_guard" is make_force_guard behind whose bound the motors'
+/// limit stands. Those that do not take `quantum` take positions as exact, and refuse one that is stated.
+/// What a composition does not take it does not look at.
+PH_API int32_t ph_create(const char* composition, const ph_parameters* parameters, ph_port** port,
+                         char* why, size_t room) PH_NOTHROW;
+/// Ends a port; nobody may be in another function with it. NULL is no port, and nothing happens.
+PH_API void ph_destroy(ph_port* port) PH_NOTHROW;
+/// A ph_guarantee; PH_NONE for NULL.
+PH_API int32_t ph_guarantee_of(const ph_port* port) PH_NOTHROW;
+
+/// The newest surface, for a touch: all x with (point − x)·normal ≥ 0 are inside. `normal` has any length
+/// but zero; `stiffness` in N/m. Wait-free, from ONE thread that may be another than that of the ticks. A
+/// plane that is refused is not sent, and the last good one stays.
+PH_API int32_t ph_publish_plane(ph_port* port, const double point[3], const double normal[3],
+                                double stiffness) PH_NOTHROW;
+/// Nothing is there any more: the contact fades within 50 ms. From the thread of ph_publish_plane.
+PH_API int32_t ph_publish_nothing(ph_port* port) PH_NOTHROW;
+
+/// One tick: the device is at `position` [m], `dt` [s] after the last tick, measured. From ONE thread. A
+/// position that is NULL or no number is a sample that was lost. A guard's last wanted force grows older.
+PH_API int32_t ph_tick(ph_port* port, const double position[3], double dt,
+                       ph_result* result) PH_NOTHROW;
+/// The same for a guard, with the force that is wanted in this tick [N]. One that is no number is refused,
+/// and the last good one stays; for a touch, or NULL, the sample is lost.
+PH_API int32_t ph_tick_wanted(ph_port* port, const double position[3], double dt,
+                              const double wanted[3], ph_result* result) PH_NOTHROW;
+/// Says before a tick what the device really held over the time that the tick ends [N], where that is not
+/// the force commanded `latency` ticks ago: motors that saturate, gravity compensation. For that tick only,
+/// from its thread. A force that is no number loses the sample.
+PH_API int32_t ph_held(ph_port* port, const double force[3]) PH_NOTHROW;
+
+/// How stiff a plane may be on this device before its ledger runs dry in ordinary use [N/m], what binds it,
+/// and what would raise it: the cap of "encoder_touch". `because` may be NULL; its text is for ever.
+PH_API int32_t ph_stiffness_budget(const ph_parameters* parameters, double* stiffness,
+                                   const char** because) PH_NOTHROW;
+
+/// The text of an event and of a status, in English, for ever; a sentence of its own for a number that is
+/// none of them.
+PH_API const char* ph_event_text(int32_t event) PH_NOTHROW;
+PH_API const char* ph_status_text(int32_t status) PH_NOTHROW;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
