@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef PASSIVE_HAPTICS_TESTS_C_INTERFACE_BY_C_H
+#define PASSIVE_HAPTICS_TESTS_C_INTERFACE_BY_C_H
+// A client in plain C that loads the library, and the motion it runs.
+
+#include <passive_haptics/adapters/c/passive_haptics.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The functions of the interface, found by name in a library that was loaded.
+struct c_interface {
+  void* library;
+  uint32_t (*version)(void);
+  int32_t (*create)(const char*, const ph_parameters*, ph_port**, char*, size_t);
+  void (*destroy)(ph_port*);
+  int32_t (*guarantee_of)(const ph_port*);
+  int32_t (*publish_plane)(ph_port*, const double*, const double*, double);
+  int32_t (*publish_nothing)(ph_port*);
+  int32_t (*tick)(ph_port*, const double*, double, ph_result*);
+  int32_t (*tick_wanted)(ph_port*, const double*, double, const double*, ph_result*);
+  int32_t (*held)(ph_port*, const double*);
+  int32_t (*stiffness_budget)(const ph_parameters*, double*, const char**);
+  const char* (*event_text)(int32_t);
+  const char* (*status_text)(int32_t);
+};
+/// NULL, or what could not be loaded.
+const char* load(struct c_interface* found, const char* file);
+void unload(struct c_interface* found);
+
+enum news { no_news, a_plane, nothing_here };
+
+/// One tick of the motion: presses into a surface that heaves, tilts and goes, on steps of 20 µm, in ticks
+/// of 0.9 to 1.1 ms; loses a sample now and then. In whole numbers, so that everybody computes the same.
+struct moment {
+  double position[3], dt;
+  double wanted[3];
+  double held[3];
+  int reports_held;  // now and then the device says what it held
+  enum news news;
+  double point[3], normal[3], stiffness;
+};
+struct moment moment_at(int n);
+
+/// Runs `ticks` of the motion and keeps every result: PH_OK, or what ph_create answered.
+int32_t run_by_c(const struct c_interface* with, const char* composition,
+                 const ph_parameters* parameters, int guard, int ticks, ph_result* results);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# `library` shows the functions of `header` and nothing else: nm, library, header
+execute_process(COMMAND ${nm} -D --defined-only ${library} OUTPUT_VARIABLE table RESULT_VARIABLE code)
+if(NOT code STREQUAL "0")
+  message(FATAL_ERROR "${nm} ended with ${code}")
+endif()
+string(REGEX MATCHALL " [A-Za-z] [^\n]+" shown "${table}")
+list(TRANSFORM shown REPLACE "^ [A-Za-z] ([^@]+).*$" "\\1")
+list(SORT shown)
+file(READ ${header} text)
+string(REGEX MATCHALL "PH_API [^(\n]*[ *]ph_[a-z_]+\\(" stated "${text}")
+list(TRANSFORM stated REPLACE ".*[ *](ph_[a-z_]+)\\($" "\\1")
+list(SORT stated)
+if(NOT shown STREQUAL stated OR NOT stated MATCHES "(^|;)ph_tick(;|$)")
+  message(FATAL_ERROR "the header states\n${stated}\nand the library shows\n${shown}")
+endif()
