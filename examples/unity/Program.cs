@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// examples/c_interface/wall.c in C#, without Unity: the same device, the same wall, the same figures; and
+// a guard for a force that you have already.
+//
+//     mcs -out:wall.exe PassiveHaptics.cs Program.cs
+//     LD_LIBRARY_PATH=<where libpassive_haptics_c.so is> mono wall.exe
+
+using System;
+using System.Globalization;
+using PassiveHaptics;
+
+internal static class Program
+{
+    private const double mass = 0.1, damping = 0.03, load = -1.0; // kg, N·s/m, N: the device falls along −z
+
+    private struct Device
+    {
+        public double Z, V;   // m, m/s
+        public double Energy; // that has flowed in at its port, J
+
+        // One millisecond under the force of the motors, in a hundred small steps.
+        public void Hold(double force)
+        {
+            for (int i = 0; i < 100; ++i)
+            {
+                double before = V;
+                V += 1e-5 * (force + load - damping * before) / mass;
+                double middle = (before + V) / 2;
+                Z += 1e-5 * middle;
+                Energy += 1e-5 * middle * (damping * middle - force);
+            }
+        }
+    }
+
+    private static void Drop(string wall, Port port)
+    {
+        Device now = new Device { Z = 0.02 };
+        double least = 0;
+        for (int ms = 1; ms < 5000; ++ms)
+        {
+            double force = now.Z < 0 ? -1e4 * now.Z : 0;
+            if (port != null) force = port.Tick(new Vector(0, 0, now.Z), 1e-3).Force.Z;
+            now.Hold(force);
+            least = Math.Min(least, now.Energy);
+        }
+        Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
+            "{0,-8} after 5 s at {1,6:0.00} mm, {2,5:0.00} m/s; the wall has created {3,4:0.00} J",
+            wall, 1e3 * now.Z, now.V, 0 - least));
+    }
+
+    private static string Newtons(Result tick)
+    {
+        return string.Format(CultureInfo.InvariantCulture, "{0:0.00} N", tick.Force.Z);
+    }
+
+    private static void Main()
+    {
+        Parameters device = new Parameters { Damping = damping, ForceLimit = 9, LongestTick = 1e-3 };
+        try
+        {
+            new Port("touch", device);
+        }
+        catch (ArgumentException refused)
+        {
+            Console.WriteLine(refused.Message);
+        }
+        device.Mass = mass;
+        device.HandForce = 5;
+        using (Port port = new Port("touch", device))
+        {
+            port.Publish(new Vector(0, 0, 0), new Vector(0, 0, 1), 1e4);
+            Drop("spring:", null);
+            Drop("touch:", port);
+            Result lost = port.Tick(new Vector(0, 0, double.NaN), 1e-3);
+            Console.WriteLine("NaN:     " + Port.TextOf(lost.Event) + ", " + lost.Force.Z + " N");
+        }
+        using (Port guard = new Port("force_guard", device))
+        {
+            Result first = guard.Tick(new Vector(0, 0, 0.01), 1e-3, new Vector(0, 0, 5));
+            for (int n = 1; n < 10; ++n)
+            {
+                Result now = guard.Tick(new Vector(0, 0, 0.01 - 1e-4 * n), 1e-3, new Vector(0, 0, 5));
+                if (n < 9) continue;
+                Console.WriteLine("guard:   wants 5 N, has " + Newtons(first) + ", then " + Newtons(now));
+            }
+        }
+    }
+}
