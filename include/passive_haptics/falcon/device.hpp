@@ -150,6 +150,8 @@ requires(Space::dof == 3) class device {
   void light(std::optional<lamps> own) noexcept { light_ = own; }
 
   [[nodiscard]] state where() const noexcept { return now_.where; }
+  /// Until it is open again.
+  [[nodiscard]] bool unplugged() const noexcept { return now_.what == code::unplugged; }
   [[nodiscard]] const reading_type& latest() const noexcept { return now_; }
   [[nodiscard]] scalar gain() const noexcept { return gain_; }
   [[nodiscard]] const settings_type& setup() const noexcept { return setup_; }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Any haptic device: a force in, a sample out. The port that it belongs to is read off its exchange().
+//
+//     struct my_device {
+//       ph::device_sample<scene> exchange(const scene::vector& force) noexcept {
+//         sdk_set_force(force(0), force(1), force(2));
+//         return {.position = sdk_position(), .held = force, .dt = watch_.lap(), .valid = sdk_ok()};
+//       }
+//       bool unplugged() const noexcept { return sdk_gone(); }   // if it can tell
+//       ph::stopwatch watch_;
+//     };
+
+#include <passive_haptics/concepts.hpp>
+
+#include <concepts>
+#include <type_traits>
+#include <utility>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+namespace detail {
+
+template <class Member>
+struct exchanged {};
+template <class D, class P, class Effort>
+struct exchanged<device_sample<P> (D::*)(Effort) noexcept> {
+  using port = P;
+};
+
+struct no_reading {};
+
+/// What a device says of itself beside its samples, if it says anything.
+template <class D>
+[[nodiscard]] constexpr auto reading_of(const D& device) noexcept {
+  if constexpr (requires { device.latest(); }) {
+    return device.latest();
+  } else {
+    return no_reading{};
+  }
+}
+
+template <class D>
+[[nodiscard]] constexpr bool is_unplugged(const D& device) noexcept {
+  if constexpr (requires { device.unplugged(); }) {
+    return device.unplugged();
+  } else {
+    return false;
+  }
+}
+
+}  // namespace detail
+
+/// The port of a device whose exchange() is one function, not overloaded, and noexcept.
+template <class D>
+using port_of_device = typename detail::exchanged<decltype(&D::exchange)>::port;
+
+/// haptic_device_for the port that its exchange() names. unplugged(), which says that it is gone for good,
+/// and latest(), which says more than a sample, are optional.
+template <class D>
+concept haptic_device = requires {
+  typename port_of_device<D>;
+  requires haptic_device_for<D, port_of_device<D>>;
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// How late is this loop, which longest_tick is to be stated for it, and what does that cost?
+//
+//     const auto offer = ph::offer_longest_tick(touch.timing().lengths, 1e-4, device);
+//     std::puts(ph::describe(offer, text));   // longest_tick 1.114 ms: 6 of 60000 ticks were longer; …
+//     ph::loop_limits{.longest_tick = offer.longest_tick}
+//
+// A longest_tick that every tick keeps is honest and may be soft: stiffness falls with T, as 2 b/T or
+// faster. One that some ticks exceed is stiffer, and those are an event::late_tick, which books what the
+// force did in them: a debt at worst. Which share of the ticks that may be is yours to choose.
+//
+// The histogram counts in buckets of 1/64 of the length, and answers with the upper end of a bucket: it
+// never says less than what was measured, nor more than 1.6 % above. It is 16 kB, without heap.
+
+#include <passive_haptics/design/stiffness_budget.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// How often a length of time came, from 1 ns to 68 s; a longer one counts as longer than that.
+class duration_histogram {
+ public:
+  using nanoseconds = std::chrono::nanoseconds;
+
+  /// One below zero counts as zero.
+  constexpr void book(nanoseconds length) noexcept {
+    const auto n = static_cast<std::uint64_t>((std::max)(length, nanoseconds(0)).count());
+    ++buckets_[bucket_of(n)];
+    ++count_;
+    longest_ = (std::max)(longest_, nanoseconds(static_cast<std::int64_t>(n)));
+  }
+
+  [[nodiscard]] constexpr std::uint64_t count() const noexcept { return count_; }
+  [[nodiscard]] constexpr nanoseconds longest() const noexcept { return longest_; }  ///< exact
+
+  /// The least bound found that at least so many percent of the lengths keep; 0 before any.
+  [[nodiscard]] nanoseconds percentile(double percent) const noexcept {
+    const double rank = std::ceil(percent / 100.0 * static_cast<double>(count_));
+    if (!(rank > 1.0)) return of_rank(1).length;
+    return of_rank(static_cast<std::uint64_t>((std::min)(rank, static_cast<double>(count_))))
+        .length;
+  }
+
+  struct bound {
+    nanoseconds length{};      ///< that
+    std::uint64_t longer = 0;  ///< so many exceeded
+  };
+  /// The least bound found that no more than this share of the lengths, in [0, 1], exceed.
+  [[nodiscard]] constexpr bound all_but(double share) const noexcept {
+    const double spared = kernels::smaller(kernels::larger(share, 0.0), 1.0);
+    const auto longer = static_cast<std::uint64_t>(spared * static_cast<double>(count_));
+    return of_rank((std::max)(count_ - (std::min)(longer, count_), std::uint64_t(1)));
+  }
+
+ private:
+  static constexpr unsigned fine = 6;   ///< bits of a length that are kept
+  static constexpr unsigned wide = 36;  ///< bits of the longest one
+  static constexpr std::size_t per_octave = std::size_t(1) << fine;
+  static constexpr std::size_t size = (wide - fine + 1) * per_octave;
+
+  /// Below 2·64 ns a bucket is a nanosecond, above it is what 7 leading bits have in common.
+  [[nodiscard]] static constexpr std::size_t bucket_of(std::uint64_t n) noexcept {
+    const auto bits = static_cast<unsigned>(std::bit_width(n));
+    if (bits > wide) return size - 1;
+    const unsigned dropped = bits > fine + 1 ? bits - fine - 1 : 0;
+    return dropped * per_octave + static_cast<std::size_t>(n >> dropped);
+  }
+  [[nodiscard]] static constexpr nanoseconds upper_end(std::size_t bucket) noexcept {
+    const std::size_t dropped = bucket < 2 * per_octave ? 0 : bucket / per_octave - 1;
+    const std::uint64_t lead = bucket - dropped * per_octave;
+    return nanoseconds(static_cast<std::int64_t>(((lead + 1) << dropped) - 1));
+  }
+
+  /// A bound for the k-th shortest, from 1.
+  [[nodiscard]] constexpr bound of_rank(std::uint64_t k) const noexcept {
+    std::uint64_t kept = 0;
+    for (std::size_t i = 0; i + 1 < size; ++i) {
+      kept += buckets_[i];
+      if (kept >= k) return {(std::min)(upper_end(i), longest_), count_ - kept};
+    }
+    return {longest_, 0};
+  }
+
+  std::array<std::uint64_t, size> buckets_{};
+  std::uint64_t count_ = 0;
+  nanoseconds longest_{};
+};
+
+/// A longest_tick for a loop that was measured, and the stiffest wall that it leaves a device.
+struct tick_offer {
+  double share = 0.0;          ///< of the ticks, that were allowed to be longer
+  double longest_tick = 0.0;   ///< [s]; 0 if nothing was measured
+  std::uint64_t longer = 0;    ///< that were
+  std::uint64_t measured = 0;  ///< ticks in all
+  design::budget wall{};       ///< with this longest_tick [N/m]
+
+  /// Of n ticks that keep a bound, one says with 95 % confidence that a share of 3/n exceeds it at most,
+  /// if ticks are late independently of each other. So a smaller share than that is not known yet.
+  [[nodiscard]] constexpr std::uint64_t needed() const noexcept {
+    return share > 3e-18 ? static_cast<std::uint64_t>(3.0 / share) : ~std::uint64_t(0);
+  }
+  [[nodiscard]] constexpr bool enough() const noexcept { return measured >= needed(); }
+};
+
+/// `share` of the ticks may be longer, 0 to 1; `device` is told the longest tick by this. A wall on which
+/// nothing but viscous damping is known may be asked with friction and quantum 0: it is 2 b/T then.
+[[nodiscard]] constexpr tick_offer offer_longest_tick(
+    const duration_histogram& lengths, double share, design::stated_device device,
+    const design::intended_use& use = {}) noexcept {
+  const auto bound = lengths.all_but(share);
+  device.longest_tick = std::chrono::duration<double>(bound.length).count();
+  return {.share = share,
+          .longest_tick = device.longest_tick,
+          .longer = bound.longer,
+          .measured = lengths.count(),
+          .wall = design::stiffness_budget(device, use)};
+}
+
+/// The whole sentence, into `text`; cut off where it is too long.
+inline const char* describe(const tick_offer& offer, std::span<char> text) noexcept {
+  if (text.empty()) return "";
+  if (offer.measured == 0) {
+    std::snprintf(text.data(), text.size(), "no tick was measured: run the loop first");
+    return text.data();
+  }
+  const auto whole = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+  const int written = std::snprintf(
+      text.data(), text.size(),
+      "longest_tick %.3f ms: %llu of %llu ticks were longer; a wall of %.0f N/m remains (%s)",
+      1e3 * offer.longest_tick, whole(offer.longer), whole(offer.measured), offer.wall.stiffness,
+      design::to_string(offer.wall.binding));
+  if (!offer.enough() && written > 0 && static_cast<std::size_t>(written) < text.size()) {
+    const auto rest = text.subspan(static_cast<std::size_t>(written));
+    if (offer.share > 0.0) {
+      std::snprintf(rest.data(), rest.size(), "; a share of %g needs %llu ticks", offer.share,
+                    whole(offer.needed()));
+    } else {
+      std::snprintf(rest.data(), rest.size(), "; a longer one may still come");
+    }
+  }
+  return text.data();
+}
+
+/// The ticks of a loop.
+struct loop_counts {
+  std::uint64_t ticks = 0;
+  std::uint64_t late = 0;              ///< began more than half a period late: dt > 1.5 periods
+  std::uint64_t lost = 0;              ///< periods in which there was no tick
+  std::uint64_t refused = 0;           ///< forces that were no number, and zero was commanded
+  std::chrono::nanoseconds longest{};  ///< from one to the next
+};
+
+/// How its ticks were spread over time.
+struct loop_timing {
+  duration_histogram lengths;   ///< dt, from wake to wake
+  duration_histogram lateness;  ///< from due to wake
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

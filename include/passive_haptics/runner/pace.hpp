@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// When the next tick is due.
+//
+//   due      0        T        2T        3T                    wakes are measured, never assumed
+//   wake     │        │·       │··       │        ········│        │
+//   dt               T+late …  from wake to wake           lost    T after the late wake
+//
+// The sleep is absolute, so what a tick takes, and a wake that is a little late, do not add up to a drift.
+// A wake that is a whole period late or more begins the grid anew: the periods that are lost are given up,
+// since a force for an instant that has passed is of no use to anybody. Linux sleeps with clock_nanosleep;
+// elsewhere std::this_thread::sleep_until does.
+
+#include <passive_haptics/language.hpp>
+
+#include <chrono>
+#include <concepts>
+#include <cstdint>
+#include <utility>
+
+#if defined(__linux__)
+#include <cerrno>
+#include <time.h>
+#else
+#include <thread>
+#endif
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A clock that is never set, and a sleep until one of its instants.
+template <class C>
+concept pacing_clock = requires(C c, std::chrono::nanoseconds t) {
+  { c.now() } -> std::same_as<std::chrono::nanoseconds>;
+  c.sleep_until(t);
+  requires noexcept(c.now())&& noexcept(c.sleep_until(t));
+};
+
+/// That of the computer.
+struct monotonic_clock {
+#if defined(__linux__)
+  [[nodiscard]] static std::chrono::nanoseconds now() noexcept {
+    timespec t{};
+    ::clock_gettime(CLOCK_MONOTONIC, &t);
+    return std::chrono::seconds(t.tv_sec) + std::chrono::nanoseconds(t.tv_nsec);
+  }
+  static void sleep_until(std::chrono::nanoseconds due) noexcept {
+    const auto whole = std::chrono::duration_cast<std::chrono::seconds>(due);
+    timespec t{};
+    t.tv_sec = static_cast<decltype(t.tv_sec)>(whole.count());
+    t.tv_nsec = static_cast<decltype(t.tv_nsec)>((due - whole).count());
+    while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
+    }
+  }
+#else
+  using clock = std::chrono::steady_clock;
+  [[nodiscard]] static std::chrono::nanoseconds now() noexcept {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(clock::now().time_since_epoch());
+  }
+  static void sleep_until(std::chrono::nanoseconds due) noexcept {
+    std::this_thread::sleep_until(
+        clock::time_point(std::chrono::duration_cast<clock::duration>(due)));
+  }
+#endif
+};
+
+/// How a tick began.
+struct wake {
+  std::chrono::nanoseconds dt{};    ///< since the one before; 0 for the first
+  std::chrono::nanoseconds late{};  ///< after it was due
+  std::uint64_t lost = 0;           ///< whole periods that were given up
+
+  [[nodiscard]] constexpr double seconds() const noexcept {  ///< dt [s]
+    return std::chrono::duration<double>(dt).count();
+  }
+};
+
+/// begin() is now; next() waits until the next tick is due. Both are called in the loop's thread.
+template <class P>
+concept pace = requires(P p) {
+  p.begin();
+  { p.next() } -> std::same_as<wake>;
+  { std::as_const(p).period() } -> std::same_as<std::chrono::nanoseconds>;
+  requires noexcept(p.begin())&& noexcept(p.next())&& noexcept(std::as_const(p).period());
+};
+
+template <pacing_clock Clock>
+class basic_pace {
+ public:
+  constexpr explicit basic_pace(std::chrono::nanoseconds period, Clock clock = {}) noexcept
+      : clock_(clock), period_(period) {}
+
+  [[nodiscard]] constexpr std::chrono::nanoseconds period() const noexcept { return period_; }
+
+  constexpr void begin() noexcept { last_ = due_ = clock_.now(); }
+
+  [[nodiscard]] constexpr wake next() noexcept {
+    due_ += period_;
+    if (clock_.now() < due_) clock_.sleep_until(due_);
+    const std::chrono::nanoseconds now = clock_.now();
+    const wake w{.dt = now - last_,
+                 .late = now - due_,
+                 .lost = static_cast<std::uint64_t>((now - due_) / period_)};
+    last_ = now;
+    if (w.lost > 0) due_ = now;
+    return w;
+  }
+
+ private:
+  Clock clock_;
+  std::chrono::nanoseconds period_, due_{}, last_{};
+};
+
+using steady_pace = basic_pace<monotonic_clock>;
+
+/// For a device of your own, whose samples have to say how long their tick was.
+///     ph::stopwatch watch;  …  return {.position = read(), .held = f, .dt = watch.lap(), .valid = true};
+template <pacing_clock Clock>
+class basic_stopwatch {
+ public:
+  constexpr explicit basic_stopwatch(Clock clock = {}) noexcept
+      : clock_(clock), last_(clock_.now()) {}
+
+  /// Since the last lap, or since the beginning [s].
+  [[nodiscard]] constexpr double lap() noexcept {
+    const std::chrono::nanoseconds now = clock_.now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  Clock clock_;
+  std::chrono::nanoseconds last_;
+};
+
+using stopwatch = basic_stopwatch<monotonic_clock>;
+
+}  // namespace v0
+}  // namespace passive_haptics

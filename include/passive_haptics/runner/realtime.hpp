@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What a haptic thread asks of the computer, so that nothing else takes its turn:
+//
+//   priority       SCHED_FIFO: before everything that has none
+//   memory         mlockall, and the stack touched: no page has to be fetched in a tick
+//   core           one of its own; boot with isolcpus=N to have it alone
+//
+// Each may be refused, and the loop then runs all the same, only later: the report says what was refused,
+// why, and what to do. Linux only; elsewhere the report says that nobody was asked. A kernel that is not
+// built for it (PREEMPT_RT) is late by milliseconds now and then, whatever the priority.
+
+#include <passive_haptics/language.hpp>
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+
+#if defined(__linux__)
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#endif
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// What is asked for; nothing, by default.
+struct realtime_request {
+  int priority = 0;          ///< of SCHED_FIFO, 1 to 99; 0 asks for none
+  bool lock_memory = false;  ///< of the whole process, for as long as it lives
+  int core = -1;             ///< to run on, from 0; −1 asks for none
+};
+
+enum class grant : std::uint8_t { not_asked, granted, refused, unsupported };
+
+/// What became of it.
+struct realtime_report {
+  struct answer {
+    grant what = grant::not_asked;
+    int error = 0;  ///< the system's number for why it was refused
+  };
+  answer scheduler{}, memory{}, core{};
+
+  /// Everything that was asked for.
+  [[nodiscard]] constexpr bool complete() const noexcept {
+    const auto well = [](const answer& a) {
+      return a.what == grant::not_asked || a.what == grant::granted;
+    };
+    return well(scheduler) && well(memory) && well(core);
+  }
+};
+
+/// The calls of the system for the thread that makes them: 0, or the number of an error.
+struct realtime_system {
+#if defined(__linux__)
+  static constexpr bool supported = true;
+  [[nodiscard]] static int schedule(int priority) noexcept {
+    sched_param wanted{};
+    wanted.sched_priority = priority;
+    return ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &wanted);
+  }
+  [[nodiscard]] static int lock_memory() noexcept {
+    return ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? 0 : errno;
+  }
+  [[nodiscard]] static int pin(int core) noexcept {
+    if (core < 0 || core >= CPU_SETSIZE) return EINVAL;
+    cpu_set_t only;
+    CPU_ZERO(&only);
+    CPU_SET(static_cast<std::size_t>(core), &only);
+    return ::pthread_setaffinity_np(::pthread_self(), sizeof only, &only);
+  }
+#else
+  static constexpr bool supported = false;
+  [[nodiscard]] static int schedule(int /*priority*/) noexcept {
+    return 0;
+  }
+  [[nodiscard]] static int lock_memory() noexcept {
+    return 0;
+  }
+  [[nodiscard]] static int pin(int /*core*/) noexcept {
+    return 0;
+  }
+#endif
+};
+
+namespace detail {
+
+/// So deep a loop may call; each page of it is written once.
+#if defined(__GNUC__)
+[[gnu::noinline]]
+#endif
+inline void
+touch_stack() noexcept {
+  constexpr std::size_t depth = 64 * 1024, page = 4096;
+  volatile char stack[depth];
+  for (std::size_t i = 0; i < depth; i += page) stack[i] = 0;
+  static_cast<void>(stack[depth - page]);
+}
+
+}  // namespace detail
+
+/// For the thread that calls it, before its loop.
+template <class System = realtime_system>
+realtime_report become_realtime(const realtime_request& request, System&& system = {}) noexcept {
+  realtime_report report;
+  const auto ask = [](bool wanted, auto call) noexcept -> realtime_report::answer {
+    if (!wanted) return {};
+    if (!std::remove_cvref_t<System>::supported) return {grant::unsupported, 0};
+    const int error = call();
+    return {error == 0 ? grant::granted : grant::refused, error};
+  };
+  report.core = ask(request.core >= 0, [&] { return system.pin(request.core); });
+  report.memory = ask(request.lock_memory, [&] { return system.lock_memory(); });
+  if (request.lock_memory) detail::touch_stack();
+  report.scheduler = ask(request.priority != 0, [&] { return system.schedule(request.priority); });
+  return report;
+}
+
+/// What was refused, why, and the remedy, a line each, into `text`; cut off where it is too long. Empty
+/// if nothing was.
+inline const char* describe(const realtime_report& report, std::span<char> text) noexcept {
+  if (text.empty()) return "";
+  text[0] = '\0';
+  std::size_t length = 0;
+  const auto why = [](int error) {
+    switch (error) {
+      case EPERM:
+        return "not permitted";
+      case ENOMEM:
+        return "over the limit of this user";
+      case EINVAL:
+        return "out of range";
+      default:
+        return "error";
+    }
+  };
+  const auto line = [&](const char* name, const realtime_report::answer& a, const char* remedy) {
+    if (a.what != grant::refused && a.what != grant::unsupported) return;
+    const auto rest = text.subspan(length);
+    const char* start = length > 0 ? "\n" : "";
+    const int written =
+        a.what == grant::unsupported
+            ? std::snprintf(rest.data(), rest.size(),
+                            "%s%s: not asked: only Linux is asked here; use the system's own calls "
+                            "in the controller's first call",
+                            start, name)
+            : std::snprintf(rest.data(), rest.size(), "%s%s: refused, %s (%d): %s", start, name,
+                            why(a.error), a.error, remedy);
+    if (written > 0) {
+      length += static_cast<std::size_t>(written);
+      if (length >= text.size()) length = text.size() - 1;
+    }
+  };
+  line("priority", report.scheduler,
+       report.scheduler.error == EINVAL
+           ? "1 to 99 are priorities of SCHED_FIFO"
+           : "give the user rtprio: a line '@realtime - rtprio 90' in /etc/security/limits.d, and "
+             "log in again");
+  line("memory", report.memory,
+       "give the user memlock: a line '@realtime - memlock unlimited' in /etc/security/limits.d, "
+       "and log in again");
+  line("core", report.core,
+       "name one that is there and that this process may use: taskset -cp $$ lists them");
+  return text.data();
+}
+
+}  // namespace v0
+}  // namespace passive_haptics
