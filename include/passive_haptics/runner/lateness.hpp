@@ -14,6 +14,7 @@
 // never says less than what was measured, nor more than 1.6 % above. It is 16 kB, without heap.
 
 #include <passive_haptics/design/stiffness_budget.hpp>
+#include <passive_haptics/runner/text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <span>
 
 namespace passive_haptics {
@@ -129,27 +129,16 @@ struct tick_offer {
 
 /// The whole sentence, into `text`; cut off where it is too long.
 inline const char* describe(const tick_offer& offer, std::span<char> text) noexcept {
-  if (text.empty()) return "";
-  if (offer.measured == 0) {
-    std::snprintf(text.data(), text.size(), "no tick was measured: run the loop first");
-    return text.data();
-  }
   const auto whole = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
-  const int written = std::snprintf(
-      text.data(), text.size(),
-      "longest_tick %.3f ms: %llu of %llu ticks were longer; a wall of %.0f N/m remains (%s)",
-      1e3 * offer.longest_tick, whole(offer.longer), whole(offer.measured), offer.wall.stiffness,
-      design::to_string(offer.wall.binding));
-  if (!offer.enough() && written > 0 && static_cast<std::size_t>(written) < text.size()) {
-    const auto rest = text.subspan(static_cast<std::size_t>(written));
-    if (offer.share > 0.0) {
-      std::snprintf(rest.data(), rest.size(), "; a share of %g needs %llu ticks", offer.share,
-                    whole(offer.needed()));
-    } else {
-      std::snprintf(rest.data(), rest.size(), "; a longer one may still come");
-    }
-  }
-  return text.data();
+  detail::cut_text said(text);
+  if (offer.measured == 0) return said.add("no tick was measured: run the loop first").c_str();
+  said.print("longest_tick %.3f ms: %llu of %llu ticks were longer", 1e3 * offer.longest_tick,
+             whole(offer.longer), whole(offer.measured));
+  said.print("; a wall of %.0f N/m remains (%s)", offer.wall.stiffness,
+             design::to_string(offer.wall.binding));
+  if (offer.enough()) return said.c_str();
+  if (!(offer.share > 0.0)) return said.add("; a longer one may still come").c_str();
+  return said.print("; a share of %g needs %llu ticks", offer.share, whole(offer.needed())).c_str();
 }
 
 /// The ticks of a loop.

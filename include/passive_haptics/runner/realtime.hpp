@@ -10,13 +10,13 @@
 // why, and what to do. Linux only; elsewhere the report says that nobody was asked. A kernel that is not
 // built for it (PREEMPT_RT) is late by milliseconds now and then, whatever the priority.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/runner/text.hpp>
 
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <span>
+#include <type_traits>
 
 #if defined(__linux__)
 #include <pthread.h>
@@ -122,9 +122,7 @@ realtime_report become_realtime(const realtime_request& request, System&& system
 /// What was refused, why, and the remedy, a line each, into `text`; cut off where it is too long. Empty
 /// if nothing was.
 inline const char* describe(const realtime_report& report, std::span<char> text) noexcept {
-  if (text.empty()) return "";
-  text[0] = '\0';
-  std::size_t length = 0;
+  detail::cut_text said(text);
   const auto why = [](int error) {
     switch (error) {
       case EPERM:
@@ -139,19 +137,13 @@ inline const char* describe(const realtime_report& report, std::span<char> text)
   };
   const auto line = [&](const char* name, const realtime_report::answer& a, const char* remedy) {
     if (a.what != grant::refused && a.what != grant::unsupported) return;
-    const auto rest = text.subspan(length);
-    const char* start = length > 0 ? "\n" : "";
-    const int written =
-        a.what == grant::unsupported
-            ? std::snprintf(rest.data(), rest.size(),
-                            "%s%s: not asked: only Linux is asked here; use the system's own calls "
-                            "in the controller's first call",
-                            start, name)
-            : std::snprintf(rest.data(), rest.size(), "%s%s: refused, %s (%d): %s", start, name,
-                            why(a.error), a.error, remedy);
-    if (written > 0) {
-      length += static_cast<std::size_t>(written);
-      if (length >= text.size()) length = text.size() - 1;
+    said.add(said.empty() ? "" : "\n").add(name);
+    if (a.what == grant::refused) {
+      said.print(": refused, %s (%d): ", why(a.error), a.error).add(remedy);
+    } else {
+      said.add(
+          ": not asked, since this is not Linux: use the system's own calls in the first call "
+          "of the controller");
     }
   };
   line("priority", report.scheduler,
@@ -164,7 +156,7 @@ inline const char* describe(const realtime_report& report, std::span<char> text)
        "and log in again");
   line("core", report.core,
        "name one that is there and that this process may use: taskset -cp $$ lists them");
-  return text.data();
+  return said.c_str();
 }
 
 }  // namespace v0
