@@ -202,9 +202,8 @@ class runner {
   }
 
   loop_end turn(std::uint64_t most) {
-    sample_type sample = device_.exchange(port_type::zero());
-    pace_.begin();
     wake now{};
+    sample_type sample = first(now);
     while (counts_.ticks < most && !stop_) {
       const effort force = finite(ask(sample, now));
       sample = device_.exchange(force);
@@ -215,6 +214,16 @@ class runner {
       book(now);
     }
     return loop_end::stopped;
+  }
+  /// What the first exchange tells is as old as the last run, or as the device. So the first sample to be
+  /// looked at is that of the second, which is a tick long.
+  [[nodiscard]] sample_type first(wake& now) noexcept {
+    (void)device_.exchange(port_type::zero());
+    pace_.begin();
+    (void)pace_.next();
+    const sample_type sample = device_.exchange(port_type::zero());
+    now = pace_.next();
+    return sample;
   }
 
   [[nodiscard]] effort ask(const sample_type& sample, const wake& now) {

@@ -174,3 +174,16 @@ TEST_CASE("an offer says in a sentence what it is", "[runner]") {
         "longest_tic");
   CHECK(std::string(ph::describe(nothing, std::span<char>())).empty());
 }
+
+TEST_CASE("a loop's timing is a table of percentiles", "[runner]") {
+  ph::loop_timing timing;
+  for (const nanoseconds length : usual_loop()) {
+    timing.lengths.book(length);
+    timing.lateness.book(length - microseconds(1000));
+  }
+  std::array<char, 400> text{};
+  CHECK(std::string(ph::describe(timing, text)) ==
+        "60000 ticks   50 %     99 %     99.9 %   worst\n"
+        "late [ms]    0.000    0.000    0.000    8.000\n"
+        "long [ms]    1.008    1.008    1.008    9.000");
+}

@@ -156,5 +156,20 @@ struct loop_timing {
   duration_histogram lateness;  ///< from due to wake
 };
 
+/// Both as a table of percentiles, in milliseconds, into `text`; cut off where it is too long.
+inline const char* describe(const loop_timing& timing, std::span<char> text) noexcept {
+  detail::cut_text said(text);
+  const auto ms = [](std::chrono::nanoseconds t) { return 1e-6 * static_cast<double>(t.count()); };
+  said.print("%llu ticks   50 %%     99 %%     99.9 %%   worst",
+             static_cast<unsigned long long>(timing.lengths.count()));
+  const auto row = [&](const char* name, const duration_histogram& h) {
+    said.print("\n%s [ms] %8.3f %8.3f %8.3f %8.3f", name, ms(h.percentile(50.0)),
+               ms(h.percentile(99.0)), ms(h.percentile(99.9)), ms(h.longest()));
+  };
+  row("late", timing.lateness);
+  row("long", timing.lengths);
+  return said.c_str();
+}
+
 }  // namespace v0
 }  // namespace passive_haptics

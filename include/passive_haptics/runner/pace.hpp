@@ -66,7 +66,7 @@ struct monotonic_clock {
 
 /// How a tick began.
 struct wake {
-  std::chrono::nanoseconds dt{};    ///< since the one before; 0 for the first
+  std::chrono::nanoseconds dt{};    ///< since the one before
   std::chrono::nanoseconds late{};  ///< after it was due
   std::uint64_t lost = 0;           ///< whole periods that were given up
 
