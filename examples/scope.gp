@@ -28,7 +28,7 @@ set rmargin 24
 set key outside right top noenhanced
 set grid
 
-set yrange [*<0:*>0]
+set yrange [*<0:0<*]
 set ylabel "position, depth"
 plot for [c in places] file using (column("time_s")):(column(c)) with lines title c
 set ylabel "force"
