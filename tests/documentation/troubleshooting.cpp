@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -102,6 +103,21 @@ auto pressed() {
       {.stiffness = 300, .damping = 5, .limit = 3.0, .target = 0.002, .target_velocity = -0.02}};
 }
 
+/// Presses, and eases and presses again once a second: 1 N and 3 N on a spring of 300 N/m.
+struct kneading_hand {
+  [[nodiscard]] double force(double t, const double& x, const double& v) const noexcept {
+    const double target = t < 1.0 ? 0.002 - 0.01 * t : -0.008 + 0.003 * std::sin(6.28 * (t - 1.0));
+    return std::clamp(300.0 * (target - x) - 5.0 * v, -5.0, 5.0);
+  }
+  [[nodiscard]] double mass() const noexcept { return 0.0; }
+  [[nodiscard]] ph::parameter_fault check() const noexcept { return {}; }
+};
+/// On encoders of 0.1 mm, with the dry friction that most devices have.
+auto kneaded() {
+  return sim::device<d1, kneading_hand>{
+      {.damping = 0.3, .friction = 0.3, .quantum = 1e-4, .start = 0.002}, {}};
+}
+
 constexpr ph::late_loop_limits<1> told{.longest_tick = 1e-3};
 
 }  // namespace
@@ -129,6 +145,25 @@ TEST_CASE("it buzzes: a wall that bounces, and what stops it", "[troubleshooting
     CHECK(after.swing < 1e-7);
     CHECK(after.place == Approx(-5e-4));  // 2 kN/m are left
   }
+}
+
+TEST_CASE("it buzzes: encoders whose steps are felt, and what hides them", "[troubleshooting]") {
+  auto plain = wall_of(2e3, settling, reachable);
+  auto aware = ph::make_encoder_touch<d1>({.mass = 0.1,
+                                           .damping = 0.2,
+                                           .friction = 0.15,
+                                           .presliding = 1e-5,
+                                           .quantum = 1e-4,
+                                           .force_limit = 9.0,
+                                           .longest_tick = 1e-3},
+                                          5.0);
+  REQUIRE(aware.update({0.0, 1.0, 2e3}));
+  auto first = kneaded(), second = kneaded();
+  const seen before = looked_at(plain, first), after = looked_at(aware, second);
+  CHECK(before.largest_step > 2.5);  // 28 N·s/m times a step in a tick, 0.1 m/s
+  CHECK(before.of(event::nominal) == before.ticks);
+  CHECK(after.largest_step < 0.15);
+  CHECK(after.force == Approx(before.force).epsilon(0.01));  // and it holds as much
 }
 
 TEST_CASE("it kicks: a device that is thrown, and what stops it", "[troubleshooting]") {
@@ -247,7 +282,7 @@ TEST_CASE("it drags: a force where there is nothing, and what ends it", "[troubl
     const seen before = looked_at(tank, first, {}, 300);
     const seen after = looked_at(plain, second, {}, 300);
     CHECK(before.largest_step > 1.0);
-    CHECK(before.place < 0.51);  // stopped within a centimetre, in free space
+    CHECK(before.place < 0.506);  // stopped within 6 mm, in free space
     CHECK(before.limited > 290);
     CHECK(after.largest_step == 0.0);  // no force at all
     CHECK(after.place > 0.59);
