@@ -89,11 +89,14 @@ class composed final : public ph_port {
     } else if (wanted != nullptr) {
       port_.source().update(read(wanted));
     }
-    ph::device_sample<scene> sample{.held = held.value_or(commanded_.back()), .dt = dt};
-    held.reset();
-    if (position != nullptr) {
-      sample.position = read(position);
-      sample.valid = true;
+    const bool was_read = position != nullptr;
+    const auto at = [&](int i) { return was_read ? position[i] : 0.0; };
+    const ph::device_sample<scene> sample{.position = {at(0), at(1), at(2)},
+                                          .held = held ? *held : commanded_.back(),
+                                          .dt = dt,
+                                          .valid = was_read};
+    if (held) [[unlikely]] {
+      held.reset();
     }
     const auto out = port_.tick(sample);
     std::copy_backward(commanded_.begin(), commanded_.end() - 1, commanded_.end());
