@@ -60,6 +60,7 @@ void use(const Value& value) {
 
 struct cost {
   double direct, through_c, more;  ///< medians of the rounds [ns per tick]
+  double ratio;                    ///< and of through C to direct
 };
 
 /// In turns, one after the other and the other way round.
@@ -69,6 +70,7 @@ cost compare(int rounds, Direct direct, ThroughC through_c) {
   std::vector<double> ours;
   std::vector<double> theirs;
   std::vector<double> more;
+  std::vector<double> ratios;
   for (int round = -10; round < rounds; ++round) {
     const bool first = round % 2 == 0;
     const double before = first ? time_of(along, direct) : 0.0;
@@ -78,8 +80,10 @@ cost compare(int rounds, Direct direct, ThroughC through_c) {
     ours.push_back(d);
     theirs.push_back(c);
     more.push_back(c - d);
+    ratios.push_back(c / d);
   }
-  return {experiments::median(ours), experiments::median(theirs), experiments::median(more)};
+  return {experiments::median(ours), experiments::median(theirs), experiments::median(more),
+          experiments::median(ratios)};
 }
 
 ph_port* open(const char* composition, double friction) {
@@ -152,11 +156,11 @@ int run(const std::vector<std::string>& arguments) {
       {experiments::a_number(
           "--rounds", "of 1000 ticks each way (default: " + std::to_string(rounds) + ")", rounds)},
       arguments);
-  experiments::table table({"composition", "direct / ns", "through C / ns", "more / ns"});
+  experiments::table table({"composition", "direct / ns", "through C / ns", "more / ns", "ratio"});
   bool good = true;
   const auto row = [&](const char* name, const cost& c) {
-    table.add(
-        {name, format("%.1f", c.direct), format("%.1f", c.through_c), format("%.1f", c.more)});
+    table.add({name, format("%.1f", c.direct), format("%.1f", c.through_c), format("%.1f", c.more),
+               format("%.2f", c.ratio)});
     good = good && c.more <= allowed;
   };
   row("touch", of_touch(rounds, ph::make_touch<scene>(device, T), "touch", 0.0));
