@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The haptic loop itself, for whoever has none: a thread, its pace, and its newest state for everybody else.
+// The haptic loop itself, for whoever has none: a thread, its pace, its newest state for everybody else.
 //
 //   haptic thread, 1 kHz    wait ─▶ controller ─▶ force ─▶ device.exchange ─▶ sample ─┐
 //                             ▲        what is due       zero if it is no number       ├─▶ news, wait-free
@@ -73,9 +73,9 @@ struct [[nodiscard]] loop_start {
   return "unknown code";
 }
 
-/// While it runs, the device belongs to its thread: touch it again after stop(). Whatever ends the loop, stop(),
-/// an unplug or an exception of the controller, the last thing that the device is sent is zero force; if no
-/// valid sample answers, three times.
+/// While it runs, the device belongs to its thread: touch it again after stop(). Whatever ends the loop,
+/// stop(), an unplug or an exception of the controller, the last thing that the device is sent is zero force;
+/// if no valid sample answers, three times.
 template <haptic_device Device, class Controller, pace Pace = steady_pace>
 requires controller_for<Controller, port_of_device<Device>>
 class runner {

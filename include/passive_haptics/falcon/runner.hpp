@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A thread of its own for the Falcon: the runner of any device (runner.hpp), which answers as the Falcon does.
+// A thread of its own for the Falcon: the runner of any device (runner.hpp), answering as the Falcon does.
 
 #include <passive_haptics/falcon/settings.hpp>
 #include <passive_haptics/runner.hpp>
