@@ -7,11 +7,16 @@
 
 namespace chai3d {
 
+class cGenericObject;
+
 /// A world that is one sphere about the origin.
 class cWorld {
  public:
   double radius = 0.05;    ///< [m]
   double stiffness = 1e3;  ///< of its surface [N/m]
+
+  bool addChild(cGenericObject* object);
+  void computeGlobalPositions(bool frame_only = true);
 };
 
 class cAlgorithmFingerProxy {

@@ -65,4 +65,6 @@ void HDAPIENTRY hdSetDoublev(HDenum what, const HDdouble* values);
 HDSchedulerHandle HDAPIENTRY hdScheduleAsynchronous(HDSchedulerCallback call, void* user,
                                                     HDushort priority);
 void HDAPIENTRY hdUnschedule(HDSchedulerHandle callback);
+void HDAPIENTRY hdStartScheduler();
+void HDAPIENTRY hdStopScheduler();
 }
