@@ -2,8 +2,8 @@
 // libnifalcon: a wall for the Falcon, felt for a minute. The library has a driver of its own
 // (docs/falcon.md), so this is for programs that are built on libnifalcon.
 //
-// Tried: compiled against libnifalcon's headers (master of 2019), and its core run with a simulated firmware in place
-// of the USB cable. No Falcon was there.
+// Tried: compiled against libnifalcon's headers (master of 2019), and run on its core, with a simulated
+// Falcon in the place of its firmware and kinematics. No Falcon was there.
 
 #include <passive_haptics/adapters/poses.hpp>
 #include <passive_haptics/passive_haptics.hpp>
