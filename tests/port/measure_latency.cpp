@@ -51,6 +51,14 @@ struct losing : wrapped {
     return sample;
   }
 };
+/// Something pulls at it, always.
+struct loaded : wrapped {
+  double load = 0.0;
+  ph::device_sample<d1> exchange(double f) noexcept {
+    commanded = f;
+    return device.exchange(f + load);
+  }
+};
 /// In an iron fist.
 struct held_fast : wrapped {
   ph::device_sample<d1> exchange(double f) noexcept {
@@ -88,6 +96,21 @@ TEST_CASE("measure_latency tells how late a loop is, whatever the device is like
             CHECK(found.sensor_ticks == 1);
           }
         }
+      }
+    }
+  }
+}
+
+TEST_CASE("measure_latency is not misled by a constant load", "[latency]") {
+  for (int latency = 0; latency <= 3; ++latency) {
+    for (const double load : {-0.4, 0.1, 0.4, 2.0}) {
+      for (const double friction : {0.0, 0.05, 0.2}) {
+        CAPTURE(latency, load, friction);
+        loaded device{{.device = device_of(latency, 0.0, 0.1, 0.03, friction)}, load};
+        const auto found = ph::measure_latency<d1>(device);
+        CHECK(found.problem == nullptr);
+        CHECK(found.ticks == latency);
+        CHECK_THAT(found.exactly, WithinAbs(latency, 0.02));
       }
     }
   }

@@ -38,7 +38,7 @@ struct latency_parameters {
 struct latency_found {
   int ticks = 0;           ///< from a command to its holding, to the nearest tick
   double exactly = 0.0;    ///< the same with its fraction: 0.5 is a force that changes in mid-tick
-  double explained = 0.0;  ///< share of the motion that the force explains, in [0, 1]
+  double explained = 0.0;  ///< share of the motion that the force explains, a load aside, in [0, 1]
   int sensor_ticks = 1;    ///< ticks for which the sensor shows the same place
   const char* problem = nullptr;
 };
@@ -47,9 +47,9 @@ namespace detail {
 
 /// The answer y(n) = x(n) − 2x(n−W) + x(n−2W) of a mass m to commands c(n) that are held d ticks late is
 ///     y(n) = T²/m Σ w(j) c(n−1−j−d),     w the triangle of base 2W with the corners cut
-/// whatever its velocity was; damper and dry friction answer alike to the velocity and to its sign. The
-/// pair of d and d + 1 that explains y best, by least squares, is the latency, and how much each of the
-/// two takes its fraction.
+/// whatever its velocity was; damper and dry friction answer alike to the velocity and to its sign, and a
+/// load that is always there adds a constant. The pair of d and d + 1 that explains y best, by least squares,
+/// is the latency, and how much each of the two takes its fraction.
 class latency_fit {
  public:
   /// A command, and where the device was at the end of the tick that began with it.
@@ -65,12 +65,13 @@ class latency_fit {
     for (std::size_t d = 0; d < u.size(); ++d) u[d] = triangle(commands_, d);
     const double damped = triangle(moved_, 0);
     const double rubbed = triangle(turned_, 0);
+    const double load = window * window;  // as that of 1 N
     yy_ += y * y;
     for (std::size_t d = 0; d + 1 < longest; ++d) {
-      const std::array<double, 4> of{u[d], u[d + 1], damped, rubbed};
-      for (std::size_t i = 0; i < 4; ++i) {
-        sums_[d][i][4] += of[i] * y;
-        for (std::size_t j = 0; j < 4; ++j) sums_[d][i][j] += of[i] * of[j];
+      const std::array<double, causes> of{u[d], u[d + 1], damped, rubbed, load};
+      for (std::size_t i = 0; i < causes; ++i) {
+        sums_[d][i][causes] += of[i] * y;
+        for (std::size_t j = 0; j < causes; ++j) sums_[d][i][j] += of[i] * of[j];
       }
     }
   }
@@ -79,10 +80,13 @@ class latency_fit {
 
   void conclude(latency_found& found) const noexcept {
     for (std::size_t d = 0; d + 1 < longest; ++d) {
-      std::array<double, 4> share{};
-      if (!(yy_ > 0.0) || !solve(sums_[d], share)) continue;
-      double explained = 0.0;
-      for (std::size_t i = 0; i < 4; ++i) explained += share[i] * sums_[d][i][4] / yy_;
+      shares share{};
+      const auto& of_load = sums_[d][causes - 1];
+      const double by_load = of_load[causes] * of_load[causes] / of_load[causes - 1];
+      if (!(yy_ > by_load) || !solve(sums_[d], share)) continue;
+      double explained = -by_load;
+      for (std::size_t i = 0; i < causes; ++i) explained += share[i] * sums_[d][i][causes];
+      explained /= yy_ - by_load;
       if (!(explained > found.explained) || !(share[0] + share[1] > 0.0)) continue;
       found.explained = explained;
       const double fraction = share[1] / (share[0] + share[1]);
@@ -96,8 +100,10 @@ class latency_fit {
   static constexpr std::size_t longest = 9;  // lags tried: 0 to 8
   static constexpr int span = 2 * window + longest;
   using line = std::array<double, span>;
+  static constexpr std::size_t causes = 5;  // two lags, damper, dry friction, load
+  using shares = std::array<double, causes>;
   using normal_equations =
-      std::array<std::array<double, 5>, 4>;  // of four shares, and the right side
+      std::array<std::array<double, causes + 1>, causes>;  // and the right side
 
   static void shift(line& of, double newest) noexcept {
     for (std::size_t j = of.size() - 1; j > 0; --j) of[j] = of[j - 1];
@@ -113,19 +119,19 @@ class latency_fit {
     return sum;
   }
   /// Gauss's elimination; what is next to nothing beside the others is left out.
-  [[nodiscard]] static bool solve(normal_equations a, std::array<double, 4>& share) noexcept {
-    for (std::size_t i = 0; i < 4; ++i) {
+  [[nodiscard]] static bool solve(normal_equations a, shares& share) noexcept {
+    for (std::size_t i = 0; i < causes; ++i) {
       if (!(a[i][i] > 0.0)) continue;
-      for (std::size_t k = i + 1; k < 4; ++k) {
+      for (std::size_t k = i + 1; k < causes; ++k) {
         const double by = a[k][i] / a[i][i];
         const double before = a[k][k];
-        for (std::size_t j = i; j < 5; ++j) a[k][j] -= by * a[i][j];
+        for (std::size_t j = i; j < causes + 1; ++j) a[k][j] -= by * a[i][j];
         if (!(a[k][k] > 1e-9 * before)) a[k] = {};
       }
     }
-    for (std::size_t i = 4; i-- > 0;) {
-      double left = a[i][4];
-      for (std::size_t j = i + 1; j < 4; ++j) left -= a[i][j] * share[j];
+    for (std::size_t i = causes; i-- > 0;) {
+      double left = a[i][causes];
+      for (std::size_t j = i + 1; j < causes; ++j) left -= a[i][j] * share[j];
       share[i] = a[i][i] > 0.0 ? left / a[i][i] : 0.0;
     }
     return a[0][0] > 0.0 && a[1][1] > 0.0;
