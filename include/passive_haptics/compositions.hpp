@@ -75,11 +75,12 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
 [[nodiscard]] constexpr encoder_touch<Space, Constraint, Limits> make_encoder_touch(
     const design::stated_device& device, double hand_force, const design::intended_use& use = {},
     double turn_rate = 2.0) noexcept {
+  const double stiffness = design::stiffness_budget(device, use).stiffness;
+  const bool friction_is_stiffer = device.friction > stiffness * device.presliding;
   return {Space{},
           followed<Constraint>{},
           turn_limited{.rate = turn_rate},
-          capped{damped_spring{.mass = device.mass, .force_limit = device.force_limit},
-                 design::stiffness_budget(device, use).stiffness},
+          capped{damped_spring{.mass = device.mass, .force_limit = device.force_limit}, stiffness},
           dual_ledger{.damping = {.coefficient = device.damping,
                                   .coulomb = device.friction,
                                   .presliding = device.presliding},
@@ -89,7 +90,8 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
                                     .continuous = device.continuous_force,
                                     .time_constant = device.winding_time}},
           Limits{.longest_tick = device.longest_tick},
-          edge_observer{.quantum = device.quantum}};
+          edge_observer{.quantum = device.quantum,
+                        .presliding = friction_is_stiffer ? device.presliding : 0.0}};
 }
 
 /// For a force that you have already: strict, so soft where the ledger is empty.

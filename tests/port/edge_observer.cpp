@@ -204,6 +204,74 @@ TEST_CASE("a swing seen by edge_observer costs a sure ledger 5/6 of what it does
   }
 }
 
+TEST_CASE("edge_observer rests in the middle of a step that nothing moves in", "[motion]") {
+  seeing eyes(ph::edge_observer{q});
+  double x = 0.0;
+  for (int n = 0; n < 100; ++n) (void)eyes.at(x += 0.7 * q / 10);  // seven steps
+  for (int n = 0; n < 90; ++n) (void)eyes.at(x);
+  CHECK_THAT(eyes.at(x).position, WithinAbs(shown(x) + q * 2 / 3, 0.01 * q));
+  for (int n = 0; n < 209; ++n) (void)eyes.at(x);  // so far it waited for 100 ms, then 200 ms
+  CHECK_THAT(eyes.at(x).position, WithinAbs(shown(x) + q / 2 + q / 6 * std::exp(-1.0), 0.02 * q));
+  for (int n = 0; n < 1500; ++n) (void)eyes.at(x);
+  CHECK_THAT(eyes.at(x).position, WithinAbs(shown(x) + q / 2, 1e-3 * q));
+  x += q;
+  CHECK_THAT(eyes.at(x).position, WithinAbs(shown(x), 0.1 * q));  // and is at the next edge
+}
+
+namespace {
+
+/// How far x goes in the last second of a swing of that amplitude at 8.7 Hz about 20.3 steps.
+template <class Motion>
+double seen_swing(const Motion& parameters, double amplitude, double* mean = nullptr) {
+  seeing<Motion> eyes(parameters);
+  double least = 1.0, most = 0.0, sum = 0.0;
+  for (int n = -1000; n < 3000; ++n) {
+    const double in = n < 0 ? 1.0 + n * 1e-3 : 1.0;
+    const double x =
+        in * 20.3 * q + (n < 0 ? 0.0 : amplitude * std::sin(2 * std::numbers::pi * 8.7 * n * T));
+    const double now = eyes.at(x).position;
+    if (n < 2000) continue;
+    least = std::min(least, now);
+    most = std::max(most, now);
+    sum += now / 1000;
+  }
+  if (mean != nullptr) *mean = sum;
+  return most - least;
+}
+
+}  // namespace
+
+TEST_CASE("edge_observer rests within what elastic friction holds, and nowhere else", "[motion]") {
+  const double p = 1.5 * q;  // a swing of four steps
+  const ph::edge_observer held{.quantum = q, .presliding = p};
+  double mean = 0.0;
+  CHECK(seen_swing(held, 1.9 * q, &mean) < 1e-3 * q);
+  CHECK_THAT(mean, WithinAbs(20.3 * q, 0.6 * q));
+  CHECK(seen_swing(ph::edge_observer{q}, 1.9 * q) > 2.0 * q);
+  CHECK_THAT(seen_swing(held, 4.0 * q), WithinRel(seen_swing(ph::edge_observer{q}, 4.0 * q), 1e-9));
+  const ph::edge_observer not_so_far{.quantum = q, .presliding = q / 2};
+  CHECK_THAT(seen_swing(not_so_far, 0.9 * q),
+             WithinRel(seen_swing(ph::edge_observer{q}, 0.9 * q), 1e-9));
+}
+
+TEST_CASE("edge_observer leaves a rest with the first step beyond what it swung over", "[motion]") {
+  seeing eyes(ph::edge_observer{.quantum = q, .presliding = 1.5 * q});
+  const auto turn_between = [&eyes](double a, double b) {
+    for (int n = 0; n < 6; ++n) {
+      for (int k = 0; k < 20; ++k) (void)eyes.at(n % 2 == 0 ? a : b);
+    }
+    return eyes.at(b).position;
+  };
+  const double rest = turn_between(10.5 * q, 11.5 * q);
+  CHECK_THAT(rest, WithinAbs(11 * q, 0.2 * q));
+  CHECK_THAT(eyes.at(12.5 * q).position, WithinAbs(rest, 1e-9));  // one step more may be a tremor's
+  CHECK_THAT(eyes.at(13.5 * q).position, WithinAbs(13 * q, 0.5 * q));
+  (void)turn_between(13.5 * q, 14.5 * q);
+  for (int n = 0; n < 120; ++n) (void)eyes.at(14.5 * q);  // and one that no edge confirms is over
+  CHECK(eyes.at(14.5 * q).position >= 14 * q);
+  CHECK(eyes.at(15.5 * q).position >= 15 * q);
+}
+
 TEST_CASE("edge_observer of exact positions is the last difference", "[motion]") {
   ph::part_at<ph::edge_observer, d3> edges(ph::edge_observer{});
   ph::part_at<ph::last_difference, d3> difference(ph::last_difference{});
@@ -230,6 +298,9 @@ TEST_CASE("edge_observer begins anew after a sample that was lost, and takes new
   CHECK(now.along(1.0) == 0.0);
   eyes.motion.set(ph::edge_observer{2 * q});
   CHECK(eyes.motion.parameters().quantum == 2 * q);
+  eyes.motion.set({.quantum = q, .presliding = 2 * q});
+  CHECK(eyes.motion.parameters().presliding == 2 * q);
+  CHECK(ph::edge_observer{.quantum = q, .presliding = -1.0}.check());
   CHECK(ph::edge_observer{-1.0}.check());
   CHECK(ph::edge_observer{std::nan("")}.check());
   CHECK_FALSE(ph::edge_observer{}.check());

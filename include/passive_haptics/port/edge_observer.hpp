@@ -15,6 +15,7 @@ inline namespace v0 {
 ///     an edge again     x = the edge,    v ← v + g (Δx̂/t − v)       t since the last, g = t/(4 dt) ≤ 1
 ///     an edge back      x = the edge,    v ← −4/5 min(|v|, 4q/t)    it turned round within the step
 ///     between edges     x ← x + v dt     up to 2/3 q past the edge, with |v| ≤ q/t
+///     none for 100 ms   x → the middle of the step, with a time constant of 200 ms: it rests
 ///
 /// So a device that chatters at one edge makes no change of force at all, one that rests costs nothing, and
 /// one that moves meets each edge with nearly the force that belongs there. That is what a sure ledger pays
@@ -24,11 +25,19 @@ inline namespace v0 {
 ///
 /// It settles where dry friction holds the device within a step, K q ≤ 2c. Without friction the wall hunts,
 /// and mass_observer is the one. Measured: docs/design/encoders.md. With q = 0 it is last_difference.
+///
+/// Where friction is elastic over p, a device may swing for ever over q + 2p that friction pays nothing for;
+/// and where its spring c/p is stiffer than the wall, it needs no wall to be held there. So, for 2p > q:
+///     it turned twice within q + 2p     x → the middle of where it turned last, in 50 ms
+///     a step beyond that, or no edge for 100 ms     as above
+/// and the force is even under a tremor, which then drains nothing, and which it does not feed.
 struct edge_observer {
-  double quantum{};  ///< q, one step of the position shown [m]
+  double quantum{};     ///< q, one step of the position shown [m]
+  double presliding{};  ///< p of a friction that is stiffer than the wall, c > K p, else 0 [m]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::not_negative(quantum)) return {"quantum", quantum, "finite and ≥ 0 m"};
+    if (!detail::not_negative(presliding)) return {"presliding", presliding, "finite and ≥ 0 m"};
     return {};
   }
 
@@ -59,12 +68,15 @@ class edge_observer::on {
   }
   constexpr void set(const edge_observer& p) noexcept {
     quantum_ = detail::number<scalar>(p.quantum);
+    presliding_ = detail::number<scalar>(p.presliding);
   }
   [[nodiscard]] constexpr edge_observer parameters() const noexcept {
-    return {.quantum = static_cast<double>(quantum_)};
+    return {.quantum = static_cast<double>(quantum_),
+            .presliding = static_cast<double>(presliding_)};
   }
   constexpr void reset() noexcept {
-    for (auto* zero : {&position_, &velocity_, &at_edge_, &travel_, &since_, &direction_}) {
+    for (auto* zero : {&position_, &velocity_, &at_edge_, &travel_, &since_, &direction_, &low_,
+                       &high_, &turns_}) {
       *zero = P::zero();
     }
   }
@@ -84,12 +96,15 @@ class edge_observer::on {
 
  private:
   using coordinates = typename P::coordinates;
+  /// What crosses no edge for so long rests [s].
+  static constexpr scalar still = scalar(0.1);
 
   /// Anywhere in the step, at rest.
   constexpr void start(int i, scalar step) noexcept {
-    for (coordinates* zero : {&velocity_, &at_edge_, &travel_, &since_, &direction_}) {
+    for (coordinates* zero : {&velocity_, &at_edge_, &travel_, &since_, &direction_, &turns_}) {
       P::component(*zero, i) = scalar(0);
     }
+    P::component(low_, i) = P::component(high_, i) = step;
     P::component(position_, i) = step + quantum_ / scalar(2);
   }
 
@@ -101,16 +116,60 @@ class edge_observer::on {
     scalar& d = P::component(direction_, i);
     travel += shown;
     t += dt;
-    if (!(kernels::magnitude(travel) < quantum_ / scalar(2))) {
+    const bool crossed = !(kernels::magnitude(travel) < quantum_ / scalar(2));
+    if (is_held_by_friction(i, step, crossed)) {
+      const scalar middle = (P::component(low_, i) + P::component(high_, i) + quantum_) / scalar(2);
+      if (crossed) {
+        cross(i, dt);
+      } else {
+        x += (middle - x) * kernels::smaller(dt / scalar(0.05), scalar(1));
+      }
+    } else if (crossed) {
       cross(i, dt);
       x = edge(step, d) + d * kernels::smaller(d * v * dt, quantum_) / scalar(2);
+      x = within(x, step);
+    } else if (t > still) {
+      x = within(x, step);
+      x += (step + quantum_ / scalar(2) - x) * kernels::smaller(dt / scalar(0.2), scalar(1));
     } else {
       if (t * kernels::magnitude(v) > quantum_) v = v < scalar(0) ? -quantum_ / t : quantum_ / t;
       const scalar ahead = d * (edge(step, d) - x) + quantum_ * scalar(2) / scalar(3);
       x += d * kernels::larger(kernels::smaller(d * v * dt, ahead), scalar(0));
+      x = within(x, step);
     }
-    x = kernels::smaller(kernels::larger(x, step), step + quantum_);
     if (!kernels::is_finite(x + v)) start(i, step);
+  }
+
+  [[nodiscard]] constexpr scalar within(scalar x, scalar step) const noexcept {
+    return kernels::smaller(kernels::larger(x, step), step + quantum_);
+  }
+
+  /// Does it swing within what friction alone holds? low_ and high_ are where it turned last.
+  [[nodiscard]] constexpr bool is_held_by_friction(int i, scalar step, bool crossed) noexcept {
+    if (!(scalar(2) * presliding_ > quantum_)) return false;
+    scalar& low = P::component(low_, i);
+    scalar& high = P::component(high_, i);
+    scalar& turns = P::component(turns_, i);
+    const scalar enough = scalar(2);
+    const scalar a_little_more =
+        scalar(1.01);  // than a step, for what rounding does to sums of steps
+    const scalar most = scalar(2) * presliding_ + quantum_ * a_little_more;
+    if (!crossed) {
+      if (turns < enough) return false;
+      if (!(P::component(since_, i) > still)) return true;
+      turns = scalar(0);
+      P::component(position_, i) = step + quantum_ / scalar(2);
+      return false;
+    }
+    const scalar travel = P::component(travel_, i);
+    const scalar d = P::component(direction_, i);
+    if (travel * d < scalar(0)) {
+      (d < scalar(0) ? low : high) = step - travel;
+      turns = high - low <= most ? kernels::smaller(turns + scalar(1), enough) : scalar(0);
+    }
+    const scalar beyond = kernels::larger(kernels::larger(low - step, step - high), scalar(0));
+    if (high - low + beyond > most || beyond > quantum_ * a_little_more) turns = scalar(0);
+    return turns >= enough;
   }
 
   /// What an edge says of the speed.
@@ -140,10 +199,12 @@ class edge_observer::on {
     return direction < scalar(0) ? step + quantum_ : step;
   }
 
-  scalar quantum_{};
+  scalar quantum_{}, presliding_{};
   coordinates position_{}, velocity_{};         ///< x [m], v [m/s]
   coordinates at_edge_{}, travel_{}, since_{};  ///< v at the last edge, Δx̂ [m] and t [s] since
   coordinates direction_{};                     ///< d, ±1; 0: no edge was seen yet
+  coordinates low_{}, high_{};                  ///< steps at which it turned last [m]
+  coordinates turns_{};                         ///< how often, within what friction holds
 };
 
 static_assert(motion_estimator_for<edge_observer, space<float, 1>>);
