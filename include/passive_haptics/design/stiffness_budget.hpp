@@ -12,21 +12,24 @@
 // costs is the wall: each step of a swing drains the ledger, and when it is empty the hand sinks in. The
 // largest stiffness that is paid for, per metre of the way, at a speed v, by a swing of S newtons:
 //
-//     K (q + max(q, v T))/2 ≤ c + b v − 2 c p/D,     D = S/K the depth of the swing
+//     K (q/2 + max(r, v T/2)) ≤ c + b v − 2 c p/D,     D = S/K the depth of the swing
 //
-// On the left, what is not known of the position costs (a step q, changes of the force at q/2 each) and
-// what happens between two samples (lemma L2). On the right, what dry friction and damping take, less
-// what a presliding p gives back at every reversal (ours; docs/design/mathematics.md § 6). So
+// On the left, what is not known of the position costs: changes of the force q/2 each, and the force that
+// is held over a step r, by which an edge_observer lags, q/3 once it has seen four edges after a turn and
+// q/2 before, r = q/3 + q/6 min(1, 4 q/D); or what happens between two samples (lemma L2). On the right,
+// what dry friction and damping take, less what a presliding p gives back at every reversal (ours;
+// docs/design/mathematics.md § 6). Where v T is less than a step and D than four, and p = 0, this is
+// K ≤ (c + b v)/q; as q → 0 it is 2 b/T + 2 c/(v T), Colgate's 2 b/T for fast motions. Beside it
+// K ≤ 2 c/q, for the chatter of a hand that holds still at the edge of a step (Abbott and Okamura, 2005),
+// and K ≤ κ m/T², what a sampled mass can be held with (§ 9).
 //
-//     K ≤ (c + b v)/((q + max(q, v T))/2 + 2 c p/S)
+// How fast a hand kneads depends on the wall: f times a second with a force F it moves by F/K, no faster
+// than π f F/K. How deep, on the friction: of a swing H of the hand the wall gets H − 2 c, H − 4 c where the
+// device has twice the friction that is stated of it.
 //
-// Where v T ≤ q and p = 0 this is (c + b v)/q, as q → 0 it is 2 b/T + 2 c/(v T), Colgate's 2 b/T for fast
-// motions. Beside it K ≤ 2 c/q, for the chatter of a hand that holds still at the edge of a step (Abbott
-// and Okamura, 2005), and K ≤ κ m/T², what a sampled mass can be held with (§ 9).
-//
-// The hand's swings are larger than S by what the friction takes of them. One that stays within the
-// presliding, to and fro over 2p and more than a step, is paid by nothing: friction gives back all it
-// takes. It drains `crossing` for each step of it, whatever K is (measured: docs/design/encoders.md).
+// A swing that stays within the presliding, to and fro over 2p and more than a step, is paid by nothing:
+// friction gives back all it takes. edge_observer rests there, where c > K p, and it drains nothing
+// (measured: docs/design/encoders.md); an estimator that does not drains `crossing` for each step of it.
 //
 // Without dry friction all that is left at slow speeds is b v/q, some newtons per metre: nothing stiff
 // is guaranteed there, and the budget says 0.
@@ -48,9 +51,10 @@ struct stated_device {
   double damping{};            ///< b [N·s/m]
   double friction{};           ///< c, dry; the least level, where it varies [N]
   double presliding = none;    ///< p, over which friction is elastic [m]; stated where c > 0
-  double quantum{};            ///< q, step of the position, noise included [m]
+  double quantum{};            ///< q, step of the position and noise from peak to peak, added [m]
   double force_limit{};        ///< what the motors hold [N]
   double longest_tick = 1e-3;  ///< T [s]
+  int latency = 0;  ///< k, ticks by which the force is late, as late_loop_limits<k> has it
 
   double continuous_force =
       std::numeric_limits<double>::infinity();  ///< what they hold for ever [N]
@@ -69,6 +73,7 @@ struct stated_device {
     if (!not_negative(quantum)) return {"quantum", quantum, "finite and ≥ 0 m"};
     if (!positive(force_limit)) return {"force_limit", force_limit, "finite and > 0 N"};
     if (!positive(longest_tick)) return {"longest_tick", longest_tick, "finite and > 0 s"};
+    if (latency < 0) return {"latency", static_cast<double>(latency), "≥ 0 ticks"};
     if (!(continuous_force >= 0.0)) return {"continuous_force", continuous_force, "≥ 0 N"};
     if (continuous_force < force_limit && !positive(winding_time)) {
       return {"winding_time", winding_time, "finite and > 0 s"};
@@ -84,8 +89,10 @@ struct stated_device {
 struct intended_use {
   double slowest = 5e-3;            ///< speed of the slowest kneading [m/s]
   double fastest = 12e-3;           ///< and of the fastest [m/s]
+  double frequency = 2.0;           ///< f, of the fastest kneading: v ≤ π f `force`/K [Hz]
   double swing = 0.4;               ///< S, least swing of the wall's force, friction overcome [N]
-  double force = 3.0;               ///< held with; no more than the motors' [N]
+  double hand_swing = 0.9;          ///< H, least of the hand's: S is no less than H − 4 c [N]
+  double force = 3.0;               ///< F, held with; no more than the motors' [N]
   double hand_force = 5.0;          ///< the most the hand pushes with [N]
   double stiffness_fraction = 0.1;  ///< κ, as in damped_spring
 
@@ -95,7 +102,11 @@ struct intended_use {
     if (!(fastest >= slowest) || !positive(fastest)) {
       return {"fastest", fastest, "finite and ≥ slowest"};
     }
+    if (!positive(frequency)) return {"frequency", frequency, "finite and > 0 Hz"};
     if (!positive(swing)) return {"swing", swing, "finite and > 0 N"};
+    if (!passive_haptics::detail::not_negative(hand_swing)) {
+      return {"hand_swing", hand_swing, "finite and ≥ 0 N"};
+    }
     if (!(force >= 0.0)) return {"force", force, "≥ 0 N"};
     if (!(hand_force >= 0.0)) return {"hand_force", hand_force, "≥ 0 N"};
     if (!(stiffness_fraction > 0.0 && stiffness_fraction <= 1.0)) {
@@ -106,7 +117,7 @@ struct intended_use {
 };
 
 enum class stiffness_limit : std::uint8_t {
-  sampled_mass,   ///< κ m/T²
+  sampled_mass,   ///< κ m/((2k + 1) T)²: the force lags (k + 1/2) T
   slow_kneading,  ///< what friction and damping pay at the slowest speed
   fast_kneading,  ///< and at the fastest, where sampling costs more than the steps
   holding,        ///< 2 c/q
@@ -133,7 +144,9 @@ struct budget {
   double stiffness = 0.0;  ///< K [N/m], the least of the limits
   stiffness_limit binding = stiffness_limit::not_stated;
   std::array<double, 4> limits{};  ///< each of them, in the order of stiffness_limit [N/m]
-  double working_capital = 0.0;  ///< F (q/2 + reach), what the force in use needs in the ledger [J]
+  double working_capital =
+      0.0;            ///< F (q/2 + reach), what the force in use needs in the ledger [J];
+                      ///< reach: of the k + 1 ticks to come
   double loan = 0.0;  ///< F_max q: what lets a first touch from rest be stiff; E ≥ −loan then [J]
   double crossing = 0.0;  ///< what a crossing of a step costs a hand that holds still, at K [J]
 
@@ -148,8 +161,7 @@ struct budget {
         return "A mass sampled so slowly can be held with no more than kappa m/T^2: "
                "a faster loop or a heavier grip raises it.";
       case stiffness_limit::slow_kneading:
-        return "Kneading slowly, friction and damping pay for no more than (c + b v)/(q + 2 c "
-               "p/S): "
+        return "Kneading slowly, friction and damping pay for some (c + b v)/(q + 2 c p/S): "
                "finer encoders, more sure friction or less presliding raise it.";
       case stiffness_limit::fast_kneading:
         return "Kneading fast, sampling costs more than friction and damping take: "
@@ -169,17 +181,39 @@ struct budget {
 
 namespace detail {
 
-/// The largest K for swings of so many newtons at speed v [N/m].
-[[nodiscard]] constexpr double kneaded(const stated_device& d, double v, double swing) noexcept {
-  const double known = (d.quantum + kernels::larger(d.quantum, v * d.longest_tick)) / 2.0;
+/// What is left of friction and damping for each metre of the way of swings of S newtons at a speed v,
+/// as above; a force that is k ticks late lags by k v T more [N].
+[[nodiscard]] constexpr double surplus(const stated_device& d, double K, double v,
+                                       double swing) noexcept {
+  const double q = d.quantum;
+  const double way = v * d.longest_tick;
+  const double lag = q / 3.0 + q / 6.0 * kernels::smaller(1.0, 4.0 * q * K / swing);
+  const double known = q / 2.0 + kernels::larger(lag, way / 2.0) + d.latency * way;
   const double turned = d.friction > 0.0 ? 2.0 * d.friction * d.presliding / swing : 0.0;
-  return (d.friction + d.damping * v) / (known + turned);
+  return d.friction + d.damping * v - K * (known + turned);
+}
+
+/// The largest K that leaves none of them less than 0, for speeds of `slowest` and above: no more than
+/// `most`, and than `push` a second of a force takes the hand through [N/s].
+[[nodiscard]] constexpr double kneaded(const stated_device& d, double slowest, double most,
+                                       double push, double swing) noexcept {
+  const double least_known = d.quantum * 5.0 / 6.0;
+  const double way = slowest * d.longest_tick / 2.0;
+  double low = 0.0;
+  double high =
+      (d.friction + d.damping * most) / kernels::larger(least_known, d.quantum / 2.0 + way);
+  for (int i = 0; i < 60; ++i) {
+    const double K = (low + high) / 2.0;
+    const double v = kernels::larger(slowest, kernels::smaller(most, push / K));
+    (K > 0.0 && surplus(d, K, v, swing) >= 0.0 ? low : high) = K;
+  }
+  return low;
 }
 
 }  // namespace detail
 
-/// The largest stiffness that the ledger of this device sustains in that use. As the payment is affine
-/// in v on either side of q/T, and rises up to there, the slowest and the fastest speed are the worst.
+/// The largest stiffness that the ledger of this device sustains in that use. What is left of a metre is
+/// concave in v, so the slowest and the fastest speed are the worst.
 [[nodiscard]] constexpr budget stiffness_budget(const stated_device& device,
                                                 const intended_use& use = {}) noexcept {
   if (device.check() || use.check()) return {};
@@ -187,9 +221,13 @@ namespace detail {
   const double q = device.quantum;
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   budget b;
-  b.limits = {use.stiffness_fraction * device.mass / (T * T),
-              detail::kneaded(device, use.slowest, use.swing),
-              detail::kneaded(device, use.fastest, use.swing),
+  const double F = kernels::smaller(use.force, device.force_limit);
+  const double swing = kernels::larger(use.swing, use.hand_swing - 4.0 * device.friction);
+  constexpr double pi = 3.14159265358979323846;
+  const double late = (2.0 * device.latency + 1.0) * T;
+  b.limits = {use.stiffness_fraction * device.mass / (late * late),
+              detail::kneaded(device, use.slowest, use.slowest, 0.0, swing),
+              detail::kneaded(device, use.slowest, use.fastest, pi * use.frequency * F, swing),
               q > 0.0 ? 2.0 * device.friction / q : unlimited};
   b.stiffness = unlimited;
   for (std::size_t i = 0; i < b.limits.size(); ++i) {
@@ -198,8 +236,9 @@ namespace detail {
       b.binding = static_cast<stiffness_limit>(i);
     }
   }
-  const double F = kernels::smaller(use.force, device.force_limit);
-  const double reach = q + (F + use.hand_force) * T * T / device.mass;
+  const double faster = (F + use.hand_force) * T * T / device.mass;  // a tick's way, tick by tick
+  const int ticks = device.latency + 1;
+  const double reach = ticks * (q + (ticks + 1) / 2.0 * faster);
   b.working_capital = F * (q / 2.0 + reach);
   b.loan = device.force_limit * q;
   b.crossing =
