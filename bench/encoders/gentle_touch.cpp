@@ -58,6 +58,7 @@ struct touch_row {
   std::vector<double> ratios{};  ///< of each touch, over what the law displays
   double first_three = 0.0;      ///< mean of the first three of each session
   double buzz = 0.0;             ///< largest swing of the device while it is held [m]
+  double own_swing = 0.0;        ///< the same with an ideal spring in place of the wall [m]
   double least_energy = 0.0;     ///< at the port, friction included [J]
 
   [[nodiscard]] double displayed() const { return what->displayed(m, stiffness); }
@@ -85,6 +86,7 @@ ex::record record_of(const touch_row& r) {
           {"median_ratio", r.median(), "%.2f"},
           {"first_three_ratio", r.first_three, "%.2f"},
           {"buzz_steps", r.buzz / r.m.preset.quantum, "%.1f"},
+          {"own_swing_steps", r.own_swing / r.m.preset.quantum, "%.1f"},
           {"least_energy_J", r.least_energy}};
 }
 
@@ -125,6 +127,25 @@ double touch(touch_row& job, int touches, std::uint64_t seed, std::vector<double
     };
     return sim::run(device, model, ticks, sim::idle, hand, watch).least_energy;
   });
+}
+
+/// How far the same machine swings, touched in the same way, on a spring that knows where it is.
+double swing_on_ideal_spring(const touch_row& row, int touches, int sessions) {
+  static const composition ideal{
+      .name = "ideal spring",
+      .promises = false,
+      .make = [](const design::stated_device& d, double) {
+        return wall(ph::local_model{
+            line{}, ph::followed<ph::half_space<line>>{}, ph::turn_at_once{}, ph::spring{},
+            ph::no_observer{}, ph::no_bound{}, ph::loop_limits{.longest_tick = d.longest_tick}});
+      }};
+  touch_row control{row.m, row.displayed(), &ideal};
+  control.m.preset.quantum = 0.0;
+  std::vector<double> ratios;
+  for (int seed = 1; seed <= sessions; ++seed) {
+    (void)touch(control, touches, static_cast<std::uint64_t>(seed), ratios);
+  }
+  return control.buzz;
 }
 
 std::vector<touch_row> cells(const session& s) {
@@ -177,6 +198,7 @@ std::vector<std::string> run_gentle_touch(const session& s) {
       row.ratios.insert(row.ratios.end(), ratios.begin(), ratios.end());
     }
     row.first_three = first / sessions;
+    if (row.what->is_capped) row.own_swing = swing_on_ideal_spring(row, touches, sessions);
     return row;
   };
   const auto rows = s.rows("gentle_touch.csv", "gentle touches", cells(s), judge);
@@ -194,7 +216,9 @@ std::vector<std::string> run_gentle_touch(const session& s) {
       "Touches of 0.6 to 2 N at 5 to 20 mm/s by a hand of 150 g, 300 N/m and 5 N·s/m; half "
       "of the device's damping and friction stated, nothing lent. Ratio: force over true "
       "depth, over what the contact law displays; share_080: of the touches, those of 0.8 "
-      "and more. Least energy: at the port, what friction took and stores included.");
+      "and more. Buzz: largest swing of the device in the second half of a hold; own swing: on "
+      "an ideal spring of that stiffness, seen exactly. Least energy: at the port, what friction "
+      "took and stores included.");
   s.out.show(ex::table_of(rows));
   s.out.member("gentle_touch", ex::json_of(rows));
   int number = 0;
