@@ -122,7 +122,7 @@ std::vector<endurance_row> cells(const session& s) {
   std::vector<endurance_row> all;
   for (const auto& preset : sim::all_presets) {
     if (s.chosen.quick && !is_quick(preset)) continue;
-    for (const double presliding : {0.0, 15e-6, 30e-6}) {
+    for (const double presliding : {0.0, 5e-6, 15e-6, 30e-6}) {
       if (presliding > 0.0 && (s.chosen.quick || !(preset.friction > 0.0))) continue;
       for (const auto& what : s.judged) {
         if (!what.fits({preset, presliding})) continue;
