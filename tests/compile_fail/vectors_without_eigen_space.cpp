@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // EXPECT: passive_haptics: vectors are Eigen's: include <passive_haptics/port/eigen_space.hpp>
+// ALONE: what it does not include is the mistake
 //
 // Two and more degrees of freedom are in a header of their own.
 
