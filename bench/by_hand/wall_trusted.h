@@ -46,7 +46,8 @@ __attribute__((flatten)) static inline struct answer1 wall_trusted_tick(struct w
     return reply1(w->held, 0, l->energy, worse(what, rejected_target), false);
   }
   const real desired = w->wall.normal * asked;
-  const real force = desired * affordable(l->energy, outflow(l, desired * desired, w->longest_tick));
+  const real force =
+      desired * affordable(l->energy, outflow(l, desired * desired, w->longest_tick));
   w->held = force;
   return reply1(force, depth, l->energy, what, force != desired);
 }
