@@ -73,9 +73,10 @@ class simulated : public c3d::cGenericHapticDevice {
     torque = ad::chai3d_types::vector(t);
     gripper = g;
     ++forces;
+    if (!takes) force.setZero();
     static_cast<void>(device_.exchange(force));
     made_clock::seconds += T;
-    return true;
+    return takes;
   }
 
   [[nodiscard]] double least_energy() const { return device_.meter().minimum(); }
@@ -83,7 +84,7 @@ class simulated : public c3d::cGenericHapticDevice {
   [[nodiscard]] double speed() const { return device_.velocity().norm(); }
   hand_type& hand() { return device_.hand(); }
 
-  bool opens = true, reads = true, mirrored = false;
+  bool opens = true, reads = true, takes = true, mirrored = false;
   double unit = 1.0;  ///< positions per metre
   vec force = vec::Zero(), torque = vec::Zero();
   double gripper = 0.0;
@@ -370,6 +371,14 @@ TEST_CASE("bad samples, mirrored frames and numbers that are none push nothing",
   CHECK(real->force.isZero());
   CHECK(device->last().what == ph::event::rejected_sample);
   real->reads = true;
+  moves();
+  real->takes = false;  // a driver that lets go
+  CHECK_FALSE(device->setForce({0.0, 0.0, 0.5}));
+  CHECK(device->last().what == ph::event::rejected_sample);
+  CHECK(vec(device->last().force).isZero());
+  real->takes = true;
+  CHECK(device->setForce({}));
+  CHECK(device->last().what == ph::event::nominal);
   moves();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   device->setForce({nan, 0.0, 0.0});

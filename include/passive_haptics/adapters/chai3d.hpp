@@ -74,6 +74,8 @@ class decorated : public ::chai3d::cGenericHapticDevice {};
 /// rigid_body, and then force and torque are one wrench. The force of a gripper is refused: no port here has
 /// its work in the ledger. What is refused is not sent, and has_refused() says so.
 ///
+/// A device that takes no force, which its setForce… says by false, has to let go of the last one.
+///
 /// The position is read again when the force is about to be sent, so that the motion between two sends is
 /// paired with the force that was held in between. `Clock` tells how long that was.
 template <class Port, class Clock = std::chrono::steady_clock>
@@ -127,7 +129,10 @@ class passive_device final : public chai3d_types::decorated {
     refused_ = (!turns && torque.lengthsq() > 0.0) || gripper_force != 0.0;
     last_ = tick(force, torque);
     const auto [f, t] = split(last_.force);
-    return device_->setForceAndTorqueAndGripperForce(f, t, 0.0);
+    if (device_->setForceAndTorqueAndGripperForce(f, t, 0.0)) return true;
+    // What was commanded was not held, so the next motion counts as unknown.
+    last_ = port_.tick(device_sample<port_type>{.dt = scalar(1e-3), .valid = false});
+    return false;
   }
 
   /// Of the last tick: the event, the energy [J], whether the force was limited.

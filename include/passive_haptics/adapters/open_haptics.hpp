@@ -101,6 +101,7 @@ requires hand_port<typename Port::port_type> &&(Port::port_type::dof == 3) class
 
   /// Of the last tick; in the servo thread, or after stop().
   [[nodiscard]] const result_type& last() const noexcept { return last_; }
+  /// To set its parameters before start(), or after stop(); in between in the feed only.
   [[nodiscard]] Port& port() noexcept { return port_; }
 
   /// What the driver says of an open device. Its damping is a controller's, not the device's, so it is no
