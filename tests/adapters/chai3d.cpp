@@ -308,6 +308,27 @@ TEST_CASE("passive_device is the device that it decorates in all but the force",
   CHECK_FALSE(device->open());
 }
 
+TEST_CASE("passive_device measures its ticks, and opening it begins anew", "[adapters][chai3d]") {
+  auto real = std::make_shared<simulated>();
+  auto device = decorate(real, strict_port());
+  REQUIRE(device->open());
+  CHECK(device->setForce({}));
+  CHECK(device->last().what == ph::event::nominal);  // the first tick has no time yet
+  for (int k = 0; k < 100; ++k) device->setForce({0.0, 0.0, 0.1});
+  CHECK(device->last().what == ph::event::nominal);
+  CHECK(device->last().energy > 0.0);
+  made_clock::seconds += 5.0 * T;
+  device->setForce({});
+  CHECK(device->last().what == ph::event::late_tick);
+
+  CHECK(device->close());
+  made_clock::seconds += 60.0;
+  REQUIRE(device->open());
+  device->setForce({});
+  CHECK(device->last().what == ph::event::nominal);
+  CHECK(device->last().energy == 0.0);
+}
+
 TEST_CASE("a second port on a device is refused, and so are no device and no metres",
           "[adapters][chai3d]") {
   auto real = std::make_shared<simulated>();
@@ -333,6 +354,7 @@ TEST_CASE("a second port on a device is refused, and so are no device and no met
 
   real->unit = 1e3;  // millimetres
   CHECK_FALSE(once->open());
+  CHECK_FALSE(real->isDeviceReady());
   CHECK(std::string(once->check().remedy).find("millimetres") != std::string::npos);
   CHECK_FALSE(once->setForce({0.0, 0.0, 1.0}));
   real->unit = 1.0;
