@@ -142,7 +142,7 @@ int run(const std::vector<std::string>& arguments) {
   table.print(std::cout);
   std::cout << "passive_device adds "
             << format("%.1f", watch.least(sides::decorated) - watch.least(sides::bare))
-            << " ns, two readings of a clock among them\n";
+            << " ns, a reading of the clock among them\n";
   return allocated > 0 || !(watch.least(sides::guard) <= 25.0) ||
                  !(watch.least(sides::touch) <= 100.0)
              ? 1

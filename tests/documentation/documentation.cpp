@@ -32,18 +32,18 @@ struct block {
   std::string text;
 };
 
-/// The fenced blocks of README that stand under `<!-- MARK: source -->`.
-std::vector<block> blocks(const std::string& mark) {
-  std::istringstream readme(text_of(root / "README.md"));
+/// The fenced blocks of a page that stand under `<!-- MARK: source -->`.
+std::vector<block> blocks(const std::string& mark, const std::filesystem::path& page) {
+  std::istringstream lines(text_of(page));
   std::vector<block> found;
   const std::string opening = "<!-- " + mark + ": ";
   std::string line;
-  while (std::getline(readme, line)) {
+  while (std::getline(lines, line)) {
     if (line.rfind(opening, 0) != 0) continue;
     block b{line.substr(opening.size(), line.size() - opening.size() - 4), ""};
-    std::getline(readme, line);
+    std::getline(lines, line);
     REQUIRE(line.rfind("```", 0) == 0);
-    while (std::getline(readme, line) && line != "```") b.text += line + "\n";
+    while (std::getline(lines, line) && line != "```") b.text += line + "\n";
     found.push_back(b);
   }
   return found;
@@ -83,13 +83,20 @@ bool documented(const std::filesystem::path& page) {
 
 }  // namespace
 
-TEST_CASE("README's code stands in the examples", "[documentation]") {
-  const auto code = blocks("from");
-  REQUIRE_FALSE(code.empty());
-  for (const auto& b : code) {
-    INFO(b.source << "\n" << b.text);
-    CHECK(text_of(root / b.source).find(b.text) != std::string::npos);
+TEST_CASE("the code of every page stands in the file that it names", "[documentation]") {
+  std::size_t compared = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    if (entry.path().extension() != ".md" || !documented(entry.path())) continue;
+    const auto code = blocks("from", entry.path());
+    const auto name = entry.path().lexically_relative(root);
+    if (name == "README.md" || name == "docs/adapters.md") CHECK_FALSE(code.empty());
+    for (const auto& b : code) {
+      INFO(name << ", from " << b.source << "\n" << b.text);
+      CHECK(text_of(root / b.source).find(b.text) != std::string::npos);
+    }
+    compared += code.size();
   }
+  CHECK(compared > 12);
 }
 
 TEST_CASE("README's figures are what the programs print", "[documentation]") {
@@ -101,7 +108,7 @@ TEST_CASE("README's figures are what the programs print", "[documentation]") {
   std::vector<std::string> printed;
   std::istringstream output(text_of(folder / "printed.txt"));
   for (std::string line; std::getline(output, line);) printed.push_back(line);
-  const auto figures = blocks("printed by");
+  const auto figures = blocks("printed by", root / "README.md");
   REQUIRE_FALSE(figures.empty());
   for (const auto& b : figures) {
     if (b.source != "thesis_experiments") {  // an example: a test compares it with its text
@@ -219,10 +226,13 @@ TEST_CASE("every file that a page links to exists", "[documentation]") {
 
 TEST_CASE("every example is named where a newcomer looks for it", "[documentation]") {
   const std::string list = text_of(root / "examples" / "README.md");
-  for (const auto& entry : std::filesystem::directory_iterator(root / "examples")) {
-    if (entry.path().extension() != ".cpp") continue;
-    INFO(entry.path());
-    CHECK(list.find("(" + entry.path().filename().string() + ")") != std::string::npos);
+  for (const char* folder : {"examples", "examples/adapters"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(root / folder)) {
+      if (entry.path().extension() != ".cpp") continue;
+      const auto link = entry.path().lexically_relative(root / "examples").generic_string();
+      INFO(link);
+      CHECK(list.find("(" + link + ")") != std::string::npos);
+    }
   }
 }
 
