@@ -246,6 +246,20 @@ TEST_CASE("a sphere that deforms is lost by an old proxy, and kept by a probe wi
   }
 }
 
+TEST_CASE("a probe follows a finger to the other side", "[adapters][chai3d]") {
+  c3d::cWorld world{.radius = 0.05, .stiffness = 800.0};
+  ad::proxy_probe<> probe(&world, 0.0, 0.02);
+  for (double turned = 0.0; turned < std::numbers::pi; turned += 0.1) {
+    const vec out(std::sin(turned), 0.0, std::cos(turned));
+    const auto plane = probe.at(vec(0.049 * out), 800.0);
+    INFO(turned);
+    REQUIRE(plane);
+    CHECK((vec(plane->normal) - out).norm() < 1e-9);
+  }
+  // The control: from above there is no way to the lower side.
+  CHECK_FALSE(ad::proxy_probe<>(&world, 0.0, 0.02).at(vec(0.0, 0.0, -0.049), 800.0));
+}
+
 TEST_CASE("a probe tells a finger that hovers of the surface below it, as far as it reaches",
           "[adapters][chai3d]") {
   c3d::cWorld world{.radius = 0.05, .stiffness = 800.0};
@@ -420,6 +434,7 @@ TEST_CASE("bad samples, mirrored frames and numbers that are none push nothing",
   CHECK(turning->last().what == ph::event::nominal);
   CHECK(turning->setForceAndTorqueAndGripperForce({}, {0.0, 0.0, 1e-6}, 0.0));
   CHECK_FALSE(turning->has_refused());
+  CHECK(real->torque.z() == 1e-6);
   real->mirrored = true;
   turning->setForceAndTorqueAndGripperForce({0.0, 0.0, 0.2}, {}, 0.0);
   CHECK(turning->last().what == ph::event::rejected_sample);

@@ -7,6 +7,7 @@
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/six_dof.hpp>
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -27,8 +28,9 @@ struct sdk {
   using hand_type = sim::impedance_hand<scene>;
   sim::device<scene, hand_type> device = made();
   bool open = false, expert = false, gone = false, knows_inertia = true, wrist = false;
-  bool mirrored = false;
-  int repeats = 0;  ///< samples that the time guard is going to repeat
+  bool mirrored = false, forces = false, refuses = false;
+  double turned = 0.0;  ///< about z [rad]
+  int repeats = 0;      ///< samples that the time guard is going to repeat
   int asked = 0;
   vec applied = vec::Zero(), torque = vec::Zero();
   double gripper = 0.0, now = 0.0;
@@ -63,7 +65,8 @@ int dhdClose(char) {
   dhd->open = false;
   return 0;
 }
-int dhdEnableForce(uchar, char) {
+int dhdEnableForce(uchar on, char) {
+  dhd->forces = on == DHD_ON;
   return 0;
 }
 const char* dhdGetSystemName(char) {
@@ -83,8 +86,10 @@ int dhdGetPosition(double* x, double* y, double* z, char) {
   return DHD_TIMEGUARD;
 }
 int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double rows[3][3], char id) {
+  const Eigen::Matrix3d r =
+      Eigen::AngleAxisd(dhd->turned, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) rows[i][j] = i == j ? 1.0 : 0.0;
+    for (int j = 0; j < 3; ++j) rows[i][j] = r(i, j);
   }
   if (dhd->mirrored) rows[1][1] = -1.0;
   return dhdGetPosition(x, y, z, id);
@@ -94,7 +99,7 @@ double dhdGetComFreq(char) {
 }
 int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty,
                                         double tz, double g, char) {
-  if (dhd->gone || !dhd->open) return -1;
+  if (dhd->gone || dhd->refuses || !dhd->open) return -1;
   const vec wanted(fx, fy, fz);
   dhd->torque = vec(tx, ty, tz);
   dhd->gripper = g;
@@ -177,6 +182,7 @@ TEST_CASE("what saturated motors held is what the ledger is told", "[adapters][f
   ad::force_dimension<scene> omega;
   open(omega);
   auto sample = omega.exchange(vec(0.0, 0.0, 5.0));
+  CHECK(dhd->forces);
   CHECK(vec(sample.held) == vec(0.0, 0.0, 5.0));
   CHECK(omega.saturated() == 0);
   sample = omega.exchange(vec(0.0, 0.0, 20.0));
@@ -249,6 +255,10 @@ TEST_CASE("a device that is not there, open elsewhere, or gone, pushes nothing a
   CHECK_FALSE(sample.valid);
   CHECK(omega.failed() == 1);
   dhd->gone = false;
+  dhd->refuses = true;  // the force alone, so nobody knows what is held
+  CHECK_FALSE(omega.exchange(vec(0.0, 0.0, 1.0)).valid);
+  CHECK(omega.failed() == 2);
+  dhd->refuses = false;
   sample = omega.exchange(vec(0.0, std::numeric_limits<double>::quiet_NaN(), 1.0));
   CHECK(sample.valid);
   CHECK(dhd->applied.isZero());
@@ -257,6 +267,11 @@ TEST_CASE("a device that is not there, open elsewhere, or gone, pushes nothing a
   omega.close();
   CHECK(dhd->applied.isZero());
   CHECK_FALSE(dhd->open);
+
+  dhd->now += 60.0;  // another time, with nothing counted yet
+  REQUIRE_FALSE(omega.open());
+  CHECK(omega.failed() == 0);
+  CHECK_THAT(omega.exchange(scene::zero()).dt, WithinRel(T, 1e-6));
 }
 
 TEST_CASE("a wrench goes to a wrist that has motors, and a mirrored frame is no sample",
@@ -274,6 +289,10 @@ TEST_CASE("a wrench goes to a wrist that has motors, and a mirrored frame is no 
   CHECK(dhd->torque == vec(0.1, 0.2, 0.3));
   CHECK(dhd->gripper == 0.0);
   CHECK_THAT(sample.position.orientation.w, WithinRel(1.0, 1e-9));
+  dhd->turned = 0.3;
+  sample = sigma.exchange(wrench);
+  REQUIRE(sample.valid);
+  CHECK_THAT(sample.position.orientation.z, WithinRel(std::sin(0.15), 1e-9));
   dhd->mirrored = true;
   CHECK_FALSE(sigma.exchange(wrench).valid);
 

@@ -8,9 +8,11 @@
 #include <passive_haptics/port/stylus.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
+#include <cmath>
 #include <deque>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace ph = passive_haptics;
 namespace sim = ph::simulation;
@@ -28,6 +30,7 @@ struct touch_device {
   bool open = false, in_frame = false;
   vec command = vec::Zero();
   double handedness = 1.0;
+  double turned = 0.0;  ///< about z [rad]
 
   static sim::device<scene, hand_type> made() {
     sim::device_parameters<scene> p;
@@ -52,6 +55,7 @@ struct driver {
   HHD current = HD_INVALID_HANDLE;
   std::deque<HDerror> errors;  ///< raised and not yet asked for
   HDerror fails_at_frame_end = HD_SUCCESS;
+  std::vector<HDenum> enabled;
   HDint rate = 1000;
   bool scheduler_full = false;
   int used_out_of_frame = 0;
@@ -119,7 +123,9 @@ HDErrorInfo hdGetError() {
   hd->errors.pop_front();
   return {error, 0, hd->current};
 }
-void hdEnable(HDenum) {}
+void hdEnable(HDenum what) {
+  hd->enabled.push_back(what);
+}
 HDstring hdGetString(HDenum) {
   return "a simulated Touch";
 }
@@ -135,9 +141,11 @@ void hdGetDoublev(HDenum what, HDdouble* values) {
   if (what == HD_CURRENT_POSITION) {
     for (int i = 0; i < 3; ++i) values[i] = mm(i);
   } else if (what == HD_CURRENT_TRANSFORM) {
-    const vec axes(1.0, 1.0, d.handedness);
     for (int i = 0; i < 16; ++i) values[i] = 0.0;
-    for (int i = 0; i < 3; ++i) values[5 * i] = axes(i);
+    values[0] = values[5] = std::cos(d.turned);
+    values[1] = std::sin(d.turned);  // of the first column
+    values[4] = -values[1];
+    values[10] = d.handedness;
     for (int i = 0; i < 3; ++i) values[12 + i] = mm(i);
     values[15] = 1.0;
   } else if (what == HD_NOMINAL_MAX_FORCE) {
@@ -287,7 +295,15 @@ TEST_CASE("an error of the driver pushes nothing, and one that is final ends the
   CHECK(hd->callbacks.empty());
   CHECK(hd->devices[1].command.isZero());
   CHECK(hd->devices[1].device.meter().minimum() >= -1e-12);
-  REQUIRE_FALSE(touch.start());  // and begins again
+  for (const HDerror gone : {HD_BAD_HANDLE, HD_DEVICE_FAULT, HD_COMM_CONFIG_ERROR}) {
+    REQUIRE_FALSE(touch.start());  // and begins again
+    CHECK(touch.stopped_by() == HD_SUCCESS);
+    hd->errors.push_back(gone);
+    hd->run(1);
+    INFO(gone);
+    CHECK(touch.stopped_by() == gone);
+  }
+  REQUIRE_FALSE(touch.start());
   CHECK(touch.stopped_by() == HD_SUCCESS);
 
   hd->scheduler_full = true;
@@ -302,9 +318,14 @@ TEST_CASE("the driver's rate is the tick, and a rate that is none is a milliseco
   with_driver driver;
   ad::open_haptics touch{guard_port(), stiff_floor};
   REQUIRE_FALSE(touch.open());
+  CHECK(hd->enabled == std::vector<HDenum>{HD_FORCE_OUTPUT, HD_MAX_FORCE_CLAMPING});
   REQUIRE_FALSE(touch.start());
-  hd->run(10);
+  hd->run(200);
   CHECK(touch.last().what == ph::event::nominal);
+  CHECK(touch.last().energy > 0.0);
+  REQUIRE_FALSE(touch.start());  // again, with an empty ledger
+  hd->run(1);
+  CHECK(touch.last().energy == 0.0);
   hd->rate = 500;
   hd->run(1);
   CHECK(touch.last().what == ph::event::late_tick);
@@ -316,9 +337,10 @@ TEST_CASE("the driver's rate is the tick, and a rate that is none is a milliseco
 TEST_CASE("a stylus has its orientation from the driver, a mirrored one pushes nothing",
           "[adapters][open_haptics]") {
   with_driver driver;
-  double tip = 0.0;
-  ad::open_haptics touch{guard_port<ph::stylus<double>>(), [&tip](auto&, const auto& pose) -> vec {
+  double tip = 0.0, turned = 0.0;
+  ad::open_haptics touch{guard_port<ph::stylus<double>>(), [&](auto&, const auto& pose) -> vec {
                            tip = vec(pose.position).y();
+                           turned = 2.0 * std::asin(pose.orientation.z);
                            return stiff_floor(pose, pose.position);
                          }};
   REQUIRE_FALSE(touch.open());
@@ -328,6 +350,9 @@ TEST_CASE("a stylus has its orientation from the driver, a mirrored one pushes n
   CHECK(tip < 0.0);
   CHECK(tip > -0.01);  // metres
   CHECK(hd->devices[1].command.y() > 0.05);
+  hd->devices[1].turned = 0.3;
+  hd->run(1);
+  CHECK(std::abs(turned - 0.3) < 1e-9);
   hd->devices[1].handedness = -1.0;
   hd->run(1);
   CHECK(touch.last().what == ph::event::rejected_sample);
