@@ -250,6 +250,27 @@ TEST_CASE("a renderer's own force loses joules, and through the port in the serv
   }
 }
 
+TEST_CASE("a program that stops while the driver's loop goes on pushes no longer",
+          "[adapters][open_haptics]") {
+  with_driver driver;
+  ph::exchange<scene::stored_effort> wanted;
+  ad::open_haptics touch{guard_port(), [&wanted](auto& port, const vec&) {
+                           if (const auto* f = wanted.take()) port.source().update(*f);
+                         }};
+  REQUIRE_FALSE(touch.open());
+  REQUIRE_FALSE(touch.start());
+  for (int k = 0; k < 300; ++k) {
+    wanted.publish(vec(0.0, 0.1, 0.0));
+    hd->run(1);
+  }
+  CHECK(hd->devices[1].command.y() > 0.05);  // the control: somebody is there
+  hd->run(90);
+  CHECK(hd->devices[1].command.y() > 0.05);
+  hd->run(70);
+  CHECK(hd->devices[1].command.isZero());
+  CHECK(touch.last().what == ph::event::stale_target);
+}
+
 TEST_CASE("two devices have a port each, and one device only one", "[adapters][open_haptics]") {
   with_driver driver;
   ad::open_haptics left{guard_port(), stiff_floor}, right{guard_port(), stiff_floor};
