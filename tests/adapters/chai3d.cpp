@@ -30,7 +30,6 @@ struct made_clock {
   using rep = duration::rep;
   using period = duration::period;
   using time_point = std::chrono::time_point<made_clock>;
-  static constexpr bool is_steady = true;
   static inline double seconds = 0.0;
   static time_point now() noexcept { return time_point(duration(seconds)); }
 };
