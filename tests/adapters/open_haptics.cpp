@@ -316,7 +316,8 @@ TEST_CASE("an error of the driver pushes nothing, and one that is final ends the
   CHECK(hd->callbacks.empty());
   CHECK(hd->devices[1].command.isZero());
   CHECK(hd->devices[1].device.meter().minimum() >= -1e-12);
-  for (const HDerror gone : {HD_BAD_HANDLE, HD_DEVICE_FAULT, HD_COMM_CONFIG_ERROR}) {
+  for (const HDerror gone :
+       {HDerror{HD_BAD_HANDLE}, HDerror{HD_DEVICE_FAULT}, HDerror{HD_COMM_CONFIG_ERROR}}) {
     REQUIRE_FALSE(touch.start());  // and begins again
     CHECK(touch.stopped_by() == HD_SUCCESS);
     hd->errors.push_back(gone);
