@@ -22,7 +22,6 @@
 #include <passive_haptics/adapters/poses.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/contact/given_force.hpp>
-#include <passive_haptics/design/device_facts.hpp>
 #include <passive_haptics/passive_port.hpp>
 
 #include <devices/CGenericHapticDevice.h>
@@ -58,14 +57,10 @@ class decorated : public ::chai3d::cGenericHapticDevice {};
 /// What CHAI3D's source says of a device. Its damping is what it recommends to a controller, not what the
 /// device has, so it is no fact here.
 [[nodiscard]] inline design::device_facts facts_of(const ::chai3d::cHapticDeviceInfo& info) {
-  const auto known = [](double value) {
-    return value > 0.0
-               ? design::fact{value, design::evidence::software, "CHAI3D, cHapticDeviceInfo"}
-               : design::fact{};
-  };
-  return {.peak_force = known(info.m_maxLinearForce),
-          .stiffness = known(info.m_maxLinearStiffness),
-          .workspace_radius = known(info.m_workspaceRadius)};
+  constexpr const char* source = "CHAI3D, cHapticDeviceInfo";
+  return {.peak_force = said_by(source, info.m_maxLinearForce),
+          .stiffness = said_by(source, info.m_maxLinearStiffness),
+          .workspace_radius = said_by(source, info.m_workspaceRadius)};
 }
 
 /// A device whose every force goes through a port; in all else it is the device that it decorates.

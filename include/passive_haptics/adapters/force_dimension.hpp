@@ -17,7 +17,6 @@
 
 #include <passive_haptics/adapters/poses.hpp>
 #include <passive_haptics/concepts.hpp>
-#include <passive_haptics/design/device_facts.hpp>
 #include <passive_haptics/port/rigid_body.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -128,28 +127,30 @@ class force_dimension {
                        dhdJointAnglesToInertiaMatrix(joints, inertia, id_) >= 0;
     (void)dhdDisableExpertMode();
     if (!known) return 0.0;
-    Eigen::Matrix<double, 6, 6> all;
-    for (int row = 0; row < 6; ++row) {
-      for (int column = 0; column < 6; ++column) all(row, column) = inertia[row][column];
-    }
-    return least_apparent_mass(all);
+    return least_apparent_mass(matrix_of(inertia));
   }
 
   /// What the SDK says of an open device. It knows of no damping and no friction.
   [[nodiscard]] design::device_facts facts() const {
-    const auto known = [](double value) {
-      return value > 0.0 ? design::fact{value, design::evidence::software, "DHD"} : design::fact{};
-    };
     if (!is_open()) return {};
     return {.name = dhdGetSystemName(id_),
-            .mass = known(least_mass()),
-            .peak_force = known(dhd::most_force(id_)),
-            .rate = known(dhdGetComFreq(id_) * 1e3)};  // the SDK says it in kHz
+            .mass = said_by("DHD", least_mass()),
+            .peak_force = said_by("DHD", dhd::most_force(id_)),
+            .rate = said_by("DHD", dhdGetComFreq(id_) * 1e3)};  // the SDK says it in kHz
   }
 
  private:
   static constexpr char closed = -1;
   static constexpr bool turns = Port::dof == 6;
+
+  template <int N>
+  [[nodiscard]] static Eigen::Matrix<double, N, N> matrix_of(const double (&rows)[N][N]) {
+    Eigen::Matrix<double, N, N> all;
+    for (int row = 0; row < N; ++row) {
+      for (int column = 0; column < N; ++column) all(row, column) = rows[row][column];
+    }
+    return all;
+  }
 
   int send(const effort& w) const noexcept {
     if (!is_open()) return -1;
@@ -188,11 +189,7 @@ class force_dimension {
       }
     }
     if (said < 0 || said == DHD_TIMEGUARD) return false;
-    Eigen::Matrix3d columns;
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) columns(row, column) = rows[row][column];
-    }
-    const auto pose = pose_of<Port>(x, columns);
+    const auto pose = pose_of<Port>(x, matrix_of(rows));
     if (pose) into = *pose;
     return pose.has_value();
   }

@@ -23,7 +23,6 @@
 // it.
 
 #include <passive_haptics/adapters/poses.hpp>
-#include <passive_haptics/design/device_facts.hpp>
 #include <passive_haptics/passive_port.hpp>
 
 #include <HD/hd.h>
@@ -110,9 +109,7 @@ requires hand_port<typename Port::port_type> &&(Port::port_type::dof == 3) class
     const auto ask = [](HDenum what, double unit) {
       HDdouble value = 0.0;
       hdGetDoublev(what, &value);
-      const bool known = !HD_DEVICE_ERROR(hdGetError()) && value > 0.0;
-      return known ? design::fact{value * unit, design::evidence::software, "HDAPI"}
-                   : design::fact{};
+      return said_by("HDAPI", HD_DEVICE_ERROR(hdGetError()) ? 0.0 : value * unit);
     };
     if (device_ == HD_INVALID_HANDLE) return {};
     hdMakeCurrentDevice(device_);
@@ -122,8 +119,7 @@ requires hand_port<typename Port::port_type> &&(Port::port_type::dof == 3) class
             .peak_force = ask(HD_NOMINAL_MAX_FORCE, 1.0),
             .continuous_force = ask(HD_NOMINAL_MAX_CONTINUOUS_FORCE, 1.0),
             .stiffness = ask(HD_NOMINAL_MAX_STIFFNESS, 1e3),  // N/mm
-            .rate = rate > 0 ? design::fact{double(rate), design::evidence::software, "HDAPI"}
-                             : design::fact{}};
+            .rate = said_by("HDAPI", double(rate))};
   }
 
  private:

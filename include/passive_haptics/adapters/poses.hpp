@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What adapters share: a pose out of what an SDK gives, a length in metres, and the time of a tick.
+// What adapters share: a pose and facts out of what an SDK gives, a length in metres, the time of a tick.
 
 #include <passive_haptics/concepts.hpp>
+#include <passive_haptics/design/device_facts.hpp>
 #include <passive_haptics/port/rotation.hpp>
 
 #include <Eigen/Geometry>
@@ -54,6 +55,11 @@ template <class Result, port P>
   Result r{};
   r.force = P::zero();
   return r;
+}
+
+/// What the source of an SDK says of a device, if it says anything: zero and less is nothing.
+[[nodiscard]] constexpr design::fact said_by(const char* sdk, double value) noexcept {
+  return value > 0.0 ? design::fact{value, design::evidence::software, sdk} : design::fact{};
 }
 
 /// Is a handle so far from the origin [m] in a workspace of this radius [m]? Ten times as far is no place
