@@ -1,8 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include <passive_haptics/simulation/device.hpp>
 
+namespace sim = ph::simulation;
 using Catch::Matchers::WithinRel;
+
+namespace {
+
+struct landing {
+  double swing;   ///< [m] in the fifth second
+  double energy;  ///< [J], the least at the port
+};
+
+// 0.1 kg under 1 N fall from 20 mm onto a wall of 10 kN/m, in a loop so many ticks late.
+template <int Latency>
+landing fall(double stiffness_fraction) {
+  sim::device_parameters<d1> parameters{};
+  parameters.mass = 0.1;
+  parameters.damping = 0.03;
+  parameters.load = -1.0;
+  parameters.start = 0.02;
+  parameters.latency = Latency;
+  sim::device<d1> device(parameters);
+  ph::local_model wall{
+      d1{},
+      ph::fixed{ph::half_space<d1>{0.0, 1.0, 1e4}},
+      ph::turn_at_once{},
+      ph::damped_spring{.mass = 0.1, .stiffness_fraction = stiffness_fraction, .force_limit = 9.0},
+      ph::reduced_energy{.damping = 0.03},
+      ph::bound_chain{ph::reachable_bound{.mass = 0.1, .hand_force = 5.0},
+                      ph::actuator_limit{.most = 9.0}},
+      ph::late_loop_limits<Latency>{.longest_tick = 1e-3}};
+  double least = 1.0;
+  double most = -1.0;
+  auto s = device.exchange(0.0);
+  for (int tick = 0; tick < 5000; ++tick) {
+    s = device.exchange(wall.tick(s.position, s.dt).force);
+    if (tick < 4000) continue;
+    least = std::min(least, device.position());
+    most = std::max(most, device.position());
+  }
+  return {.swing = most - least, .energy = device.meter().minimum()};
+}
+
+}  // namespace
 
 TEST_CASE("damped_spring keeps the static stiffness up to the cap of the sampled mass (§ 9)",
           "[contact]") {
@@ -40,6 +82,20 @@ TEST_CASE("damped_spring deeper than the motors can answer for is a secant to th
     CHECK(law.force(depth, 1e3) == 0.0);
   }
   CHECK(law.force(0.1, 0.05) > law.force(0.01, 0.05));  // it lets go more gently
+}
+
+TEST_CASE("a tick late the default damped_spring bounces and loses nothing, a softer one settles",
+          "[contact]") {
+  const double usual = ph::damped_spring{}.stiffness_fraction;
+  const landing on_time = fall<0>(usual);
+  const landing late = fall<1>(usual);
+  const landing softer = fall<1>(0.02);
+  const landing later = fall<2>(0.02);
+  CHECK(on_time.swing < 1e-6);
+  CHECK(late.swing > 1e-3);
+  CHECK(softer.swing < 1e-6);
+  CHECK(later.swing < 1e-6);
+  for (const landing& l : {on_time, late, softer, later}) CHECK(l.energy >= 0.0);
 }
 
 TEST_CASE("parameters of damped_spring are refused with their name", "[contact]") {
