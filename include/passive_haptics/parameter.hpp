@@ -12,6 +12,7 @@ namespace passive_haptics {
 inline namespace v0 {
 
 /// Why a parameter is refused. Converts to true when there IS a fault:
+///
 ///     static_assert(!ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}.check());
 ///     if (const auto fault = touch.check()) complain(fault.parameter, fault.value, fault.remedy);
 struct parameter_fault {

@@ -47,6 +47,7 @@ struct coulomb_friction {
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
 };
 
+/// What a simulated device may rub with: dry friction without elasticity, or a model that has a state.
 template <class F>
 concept device_friction = std::same_as<F, coulomb_friction> || friction_model<F>;
 
