@@ -3,6 +3,7 @@
 // What a bench leaves behind: CSV files, one JSON file, SVG plots by gnuplot, one HTML page and, if
 // it has a name, the same page in Markdown.
 
+#include "page.hpp"
 #include "progress.hpp"
 #include "text.hpp"
 
@@ -64,7 +65,8 @@ inline std::string curves(const std::map<std::string, std::string>& points) {
     plots += (plots.empty() ? "plot " : ", \\\n ") + block + " using 1:2 with linespoints title '" +
              name + "'";
   }
-  return data + plots;
+  // Beside the picture, for below it many names would leave it no height.
+  return "set key outside right center vertical maxcols 1 width -5 Left reverse\n" + data + plots;
 }
 
 struct report_files {
@@ -88,12 +90,12 @@ class report {
 
   void section(const std::string& title, const std::string& text) {
     std::cout << title << "\n\n" << paragraph(text) << "\n\n";
-    page_ += "<h2>" + title + "</h2>\n<p>" + html_text(text) + "</p>\n";
+    page_.section(title, text);
     text_ += "## " + title + "\n\n" + text + "\n\n";
   }
   void show(const table& t) {
     t.print(std::cout);
-    page_ += t.html();
+    page_.show(t);
     text_ += t.markdown();
   }
   void member(const std::string& name, const std::string& json) {
@@ -101,22 +103,19 @@ class report {
   }
 
   /// A plot: the gnuplot commands after `set output`. They read the CSV files of this folder.
-  void plot(const std::string& name, const std::string& caption, const std::string& commands) {
+  void plot(const std::string& name, const caption& said, const std::string& commands) {
     output_file script(path(name + ".gp"));
-    script.stream()
-        << "set terminal svg size 860,420 dynamic font 'sans,12' background 'white'\n"
-        << "set output '" << name << ".svg'\n"
-        << "set datafile separator ','\nset key autotitle columnhead\nset key below\nset grid\n"
-        << commands << '\n';
+    script.stream() << plot_preamble << "set output '" << name << ".svg'\n" << commands << '\n';
     script.close();
-    scripts_.push_back(name);
-    page_ += "<figure><img src=\"" + name + ".svg\" alt=\"" + caption + "\"><figcaption>" +
-             caption + "</figcaption></figure>\n";
-    text_ += "![" + caption + "](" + name + ".svg)\n\n";
+    plots_.emplace_back(name, said.title);
+    page_.figure(name, said);
+    text_ +=
+        "![" + said.title + "](" + name + ".svg)\n\n**" + said.title + ".** " + said.see + "\n\n";
   }
 
-  /// Writes the JSON file and the pages and runs gnuplot. False: it did not draw every plot.
-  bool finish(const std::string& title) {
+  /// Writes the JSON file and the pages and runs gnuplot; `lead` says under the title what the page is
+  /// about. False: gnuplot did not draw every plot.
+  bool finish(const std::string& title, const std::string& lead = {}) {
     output_file json(path(names_.json));
     json.stream() << "{";
     for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -127,35 +126,44 @@ class report {
     json.close();
 
     bool drawn = true;
-    for (const auto& name : scripts_) {
-      const std::string command =
-          "cd '" + folder_.string() + "' && gnuplot '" + name + ".gp' 2> " + name + ".log";
-      drawn = std::system(command.c_str()) == 0 && drawn;
-    }
+    for (const auto& [name, what] : plots_) drawn = draw(name, what) && drawn;
+    std::vector<std::string> files{names_.json};
+    if (!names_.markdown.empty()) files.push_back(names_.markdown);
     output_file html(path("index.html"));
-    html.stream() << "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>" << title
-                  << "</title>\n<style>body{font:16px/1.5 sans-serif;max-width:60rem;margin:2rem "
-                     "auto;padding:0 1rem}table{border-collapse:collapse}td,th{border:1px solid "
-                     "#bbb;padding:.2rem .6rem;text-align:left}img{max-width:100%}figcaption{"
-                     "font-size:.9rem;color:#444}</style>\n<h1>"
-                  << title << "</h1>\n";
-    if (!drawn)
-      html.stream() << "<p><b>Some plots are missing: gnuplot did not draw them.</b></p>\n";
-    html.stream() << page_ << "</html>\n";
+    html.stream() << page_.html(title, lead, drawn, files);
     html.close();
     if (!names_.markdown.empty()) {
       output_file page(path(names_.markdown));
-      page.stream() << "# " << title << "\n\n" << text_;
+      page.stream() << "# " << title << "\n\n" << (lead.empty() ? "" : lead + "\n\n") << text_;
       page.close();
     }
     return drawn;
   }
 
  private:
+  /// Runs gnuplot, and gives what it drew its name and both colour schemes.
+  [[nodiscard]] bool draw(const std::string& name, const std::string& what) const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && gnuplot '" + name + ".gp' 2> '" + name + ".log'";
+    if (std::system(command.c_str()) != 0) return false;
+    std::ifstream drawn(path(name + ".svg"));
+    std::string svg{std::istreambuf_iterator<char>(drawn), {}};
+    drawn.close();
+    const std::string unnamed = "<title>Gnuplot</title>";
+    const auto at = svg.find(unnamed);
+    if (at == std::string::npos) return false;
+    svg.replace(at, unnamed.size(), "<title>" + html_text(what) + "</title>\n" + plot_style);
+    output_file styled(path(name + ".svg"));
+    styled.stream() << svg;
+    styled.close();
+    return true;
+  }
+
   std::filesystem::path folder_;
   report_files names_;
-  std::string page_, text_;  // HTML, Markdown
-  std::vector<std::string> scripts_;
+  page page_;
+  std::string text_;                                        // the same in Markdown
+  std::vector<std::pair<std::string, std::string>> plots_;  // name and title
   std::vector<std::pair<std::string, std::string>> members_;
 };
 

@@ -12,8 +12,9 @@
 namespace experiments {
 
 /// Finishes the report of a program and says where it is; the program's exit code.
-inline int conclude(report& out, const std::string& program, const std::string& title, bool well) {
-  if (!out.finish(title)) {
+inline int conclude(report& out, const std::string& program, const std::string& title,
+                    const std::string& lead, bool well) {
+  if (!out.finish(title, lead)) {
     std::cout << "gnuplot did not draw every plot: is it installed? The rest is complete.\n";
   }
   std::cout << "results: " << out.path(program + ".md").string() << ", "

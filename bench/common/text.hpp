@@ -134,16 +134,25 @@ class table {
       out << '\n';
     } while (next < width.size());
   }
+  /// Columns of numbers stand to the right.
   [[nodiscard]] std::string html() const {
-    std::string text = "<table>\n";
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      text += "<tr>";
-      for (const auto& cell : rows_[r]) {
-        text += r == 0 ? "<th>" + html_text(cell) + "</th>" : "<td>" + html_text(cell) + "</td>";
+    std::vector<bool> numbers(rows_[0].size(), rows_.size() > 1);
+    for (std::size_t r = 1; r < rows_.size(); ++r) {
+      for (std::size_t i = 0; i < rows_[r].size(); ++i) {
+        numbers[i] = numbers[i] && is_number(rows_[r][i]);
       }
-      text += "</tr>\n";
     }
-    return text + "</table>\n";
+    std::string text = "<table>\n<thead>\n";
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const std::string tag = r == 0 ? "th" : "td";
+      text += "<tr>";
+      for (std::size_t i = 0; i < rows_[r].size(); ++i) {
+        text += "<" + tag + (numbers[i] ? " class=\"n\">" : ">") + html_text(rows_[r][i]) + "</" +
+                tag + ">";
+      }
+      text += r == 0 ? "</tr>\n</thead>\n<tbody>\n" : "</tr>\n";
+    }
+    return text + "</tbody>\n</table>\n";
   }
   [[nodiscard]] std::string markdown() const {
     std::string text;
@@ -159,6 +168,14 @@ class table {
 
  private:
   static constexpr std::size_t gap = 2;  ///< between columns
+
+  /// One word that begins as a number does, or the dash that stands for none.
+  static bool is_number(const std::string& cell) {
+    if (cell.empty() || cell == "-") return true;
+    const std::size_t sign = cell[0] == '-' || cell[0] == '+' ? 1 : 0;
+    return sign < cell.size() && cell[sign] >= '0' && cell[sign] <= '9' &&
+           cell.find(' ') == std::string::npos;
+  }
 
   /// What each column takes.
   [[nodiscard]] std::vector<std::size_t> widths() const {

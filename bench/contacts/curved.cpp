@@ -80,8 +80,14 @@ void plot_stroke(const session& s, const curved::triangulated& mesh) {
             curved::stiffness * std::max(0.0, flat.at(x).depth));
   }
   csv.close();
-  s.out.plot("stroke_force", "The force on a finger that strokes a ball, N over s",
-             "plot 'stroke_force.csv' using 1:3 with lines, '' using 1:2 with lines lw 2");
+  s.out.plot(
+      "stroke_force",
+      {"The force on a finger that strokes a ball",
+       "The finger goes 1 to 3 mm deep and back, and the force should swing as smoothly. On "
+       "the nearest of 320 triangles it steps where it crosses an edge; on a quadric, which is "
+       "published 30 times a second, it has none."},
+      "set xlabel 'time [s]'\nset ylabel 'force [N]'\nplot 'stroke_force.csv' using 1:3 with "
+      "lines lt 2 lw 1.2, '' using 1:2 with lines lt 1");
 }
 
 }  // namespace

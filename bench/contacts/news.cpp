@@ -122,9 +122,13 @@ void plot_news(const session& s) {
     csv.row(static_cast<double>(i) * T, felt[0][i], felt[1][i]);
   }
   csv.close();
-  s.out.plot("news_force",
-             "The force on a device that holds still while three planes change, N over s",
-             "plot 'news_force.csv' using 1:3 with lines, '' using 1:2 with lines lw 2");
+  s.out.plot(
+      "news_force",
+      {"The force on a device that holds still while three planes change",
+       "30 times a second a plane comes, goes or moves. Taken at once it is a step of newtons, "
+       "a click in the hand; followed it is a slope."},
+      "set xlabel 'time [s]'\nset ylabel 'force [N]'\nset yrange [0:*]\nplot 'news_force.csv' "
+      "using 1:3 with lines lt 2 lw 1.2, '' using 1:2 with lines lt 1");
 }
 
 /// A surface of 10 mm at 1.2 Hz under a finger, told 30 times a second.

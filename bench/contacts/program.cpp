@@ -61,7 +61,10 @@ int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop
     }
     for (const auto& sentence : found) std::cerr << "contacts: " << sentence << '\n';
     report.member("failures", ex::json_of(found));
-    return ex::conclude(report, "contacts", "passive_haptics: every contact", found.empty());
+    return ex::conclude(report, "contacts", "passive_haptics: every contact",
+                        "Corners, rough planes, curved surfaces and rigid tools: do several "
+                        "contacts at once settle, step, creep or lose energy?",
+                        found.empty());
   });
 }
 

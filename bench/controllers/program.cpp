@@ -61,6 +61,8 @@ int run(const std::vector<std::string>& arguments, const std::vector<controller>
     if (chosen.part.of > 1) return 0;  // a part is no report
     for (const auto& sentence : found) std::cerr << "controllers: " << sentence << '\n';
     return ex::conclude(report, "controllers", "passive_haptics: all controllers side by side",
+                        "Every composition on the same walls, against the same hands and "
+                        "adversaries: what it promises, what it keeps, and how it feels.",
                         found.empty());
   });
 }

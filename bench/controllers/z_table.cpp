@@ -68,7 +68,7 @@ std::map<std::string, z_row> read_parts(const std::vector<std::string>& files) {
 std::string plot_of(const std::string& points) {
   const auto squares = [](int level, const std::string& colour, const std::string& title) {
     return "$cells using (column(3) == " + std::to_string(level) +
-           " ? column(1) : NaN):2 with points pt 5 ps 0.9 lc rgb '" + colour + "' title '" + title +
+           " ? column(1) : NaN):2 with points pt 5 ps 0.6 lc rgb '" + colour + "' title '" + title +
            "', \\\n ";
   };
   return "$cells << EOD\nB,K,passive for,stable\n" + points +
@@ -76,11 +76,11 @@ std::string plot_of(const std::string& points) {
          "set ylabel 'K of the wall [N/m]'\n"
          "set xrange [0.0008:125]\nset yrange [8:125000]\nset samples 2000\nb = 0.03\nT = 0.001\n"
          "plot " +
-         squares(2, "#4caf50", "passive") + squares(1, "#ffd54f", "passive for a hand of 5 N") +
-         squares(0, "#ef9a9a", "loses energy") +
-         "$cells using (column(4) == 0 ? column(1) : NaN):2 with points pt 2 ps 0.5 lc rgb 'black' "
-         "title 'unstable', \\\n (x < b ? 2*(b - x)/T : NaN) with lines lw 2 lc rgb '#1a237e' "
-         "title 'Colgate: b = KT/2 + |B|', \\\n 2*(b + x)/T with lines lw 2 dt 2 lc rgb '#1a237e' "
+         squares(2, "#2e9a5b", "passive") + squares(1, "#b8860b", "passive for a hand of 5 N") +
+         squares(0, "#d4552a", "loses energy") +
+         "$cells using (column(4) == 0 ? column(1) : NaN):2 with points pt 2 ps 0.6 lc rgb 'black' "
+         "title 'unstable', \\\n (x < b ? 2*(b - x)/T : NaN) with lines lt 1 lw 2.5 "
+         "title 'Colgate: b = KT/2 + |B|', \\\n 2*(b + x)/T with lines lt 1 lw 2.5 dt 2 "
          "title 'Gil, Hulin: K = 2(b + B)/T'";
 }
 
@@ -159,7 +159,13 @@ void show_z_width(const session& s, const std::vector<z_row>& rows) {
   s.out.member("z_width", ex::json_of(sums));
   for (const auto& sum : sums) {
     s.out.plot(z_plot_name(sum.controller),
-               "Z-width: " + sum.controller + " (" + to_string(sum.tag) + ")", plot_of(sum.points));
+               {"Z-width: " + sum.controller + " (" + to_string(sum.tag) + ")",
+                "Each square is a wall, stiffer upwards and more viscous to the right. " +
+                    std::to_string(sum.passive) + " of " + std::to_string(sum.cells) +
+                    " are passive whatever the hand does, " + std::to_string(sum.stable) +
+                    " come to rest; a cross does not. Left of and below the solid line a wall "
+                    "needs no controller at all."},
+               plot_of(sum.points));
   }
 }
 

@@ -153,9 +153,11 @@ void plot_budget(const session& s, const std::vector<endurance_row>& rows) {
   }
   lines["the budget"] = "1000,1000\n10000,10000\n";
   s.out.plot("endurance",
-             "The largest stiffness that a minute of kneading leaves standing, over the budget of "
-             "the device",
-             "set logscale xy\nset xlabel 'budget, N/m'\nset ylabel 'largest found, N/m'\n" +
+             {"How stiff a wall lasts",
+              "The largest stiffness that kneading leaves standing, over the budget that the "
+              "device's own figures promise beforehand. A point on or above the line of the budget "
+              "keeps the promise; far above it the budget is cautious."},
+             "set logscale xy\nset xlabel 'budget [N/m]'\nset ylabel 'largest that lasts [N/m]'\n" +
                  ex::curves(lines));
 }
 

@@ -176,11 +176,13 @@ void plot_device(const session& s, const std::vector<touch_row>& rows, const cha
     lines[name] += ex::format("%g", r.stiffness) + "," + ex::format("%g", r.share(0.8)) + "\n";
   }
   s.out.plot("gentle_touch_" + std::to_string(number),
-             std::string(device) +
-                 ": share of gentle touches that feel 0.8 of the wall or more, "
-                 "friction rigid and elastic over 15 µm",
-             "set logscale x\nset yrange [-0.05:1.05]\nset xlabel 'stiffness of the wall, N/m'\n"
-             "set ylabel 'share of touches'\n" +
+             {std::string(device) + ": who feels the wall",
+              "The share of gentle touches that feel 0.8 of the wall's stiffness or more; dry "
+              "friction is rigid (0 µm) or elastic over 15 µm. A curve at 1 always feels the wall, "
+              "one at 0 never, as if it had been switched off."},
+             "set logscale x\nset xrange [900:11000]\nset xtics (1000, 3000, 10000)\nset yrange "
+             "[-0.05:1.05]\nset xlabel "
+             "'stiffness of the wall [N/m]'\nset ylabel 'share of touches'\n" +
                  ex::curves(lines));
 }
 

@@ -82,7 +82,10 @@ int run(const std::vector<std::string>& arguments, const std::vector<composition
     }
     for (const auto& sentence : found) std::cerr << "encoders: " << sentence << '\n';
     report.member("failures", ex::json_of(found));
-    return ex::conclude(report, "encoders", "passive_haptics: walls on encoders", found.empty());
+    return ex::conclude(report, "encoders", "passive_haptics: walls on encoders",
+                        "What a hand feels of a guaranteed wall where positions come in steps and "
+                        "friction is elastic, and how stiff a wall may be to last.",
+                        found.empty());
   });
 }
 

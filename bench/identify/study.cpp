@@ -156,7 +156,10 @@ int run_study(const settings& chosen, const std::atomic<bool>& stop) {
       well = false;
     }
   }
-  return ex::conclude(report, "identify", "passive_haptics: identification", well);
+  return ex::conclude(report, "identify", "passive_haptics: identification",
+                      "Devices drawn at random, measured by their own encoder and motor: how "
+                      "often the bounds that come out of it hold.",
+                      well);
 }
 
 }  // namespace identify

@@ -63,7 +63,9 @@ int run(const std::vector<std::string>& arguments) {
   const auto lost = stability::try_all(
       out, stability::parse(stiff ? std::vector<std::string>{} : std::vector{"--quick"s}),
       controllers::catalogue());
-  if (!out.finish("passive_haptics: error against run time")) {
+  if (!out.finish("passive_haptics: error against run time",
+                  "How exact a scalar and how true a local model is, for what it costs; then the "
+                  "stiff and extreme cases.")) {
     std::cout << "gnuplot did not draw every plot: is it installed? The rest is complete.\n";
   }
   std::cout << "results: " << out.path("error_vs_runtime.md").string() << ", "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tables.hpp"
 
+#include "../common/pareto.hpp"
 #include "../common/work.hpp"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ std::string gnuplot_points(const std::string& part, int column, const std::strin
 }
 
 std::string front_of(const std::string& part) {
-  return "'front_" + part + ".csv' using 1:2 with steps lw 2 lc rgb '#555555' title 'Pareto front'";
+  return "'front_" + part + ".csv' using 1:2 with steps lw 2 lt 8 title 'Pareto front'";
 }
 
 }  // namespace
@@ -53,21 +54,6 @@ measured_cost measure(const candidate& c, const settings& chosen) {
   measured_cost cost{c.time(), std::nan("")};
   if (chosen.counts) cost.instructions = instructions_per_tick(chosen.program, c.name);
   return cost;
-}
-
-std::vector<std::size_t> pareto_front(const std::vector<std::pair<double, double>>& points) {
-  std::vector<std::size_t> order(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });
-  std::vector<std::size_t> front;
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::size_t i : order) {
-    if (!(points[i].second < least)) continue;
-    least = points[i].second;
-    front.push_back(i);
-  }
-  return front;
 }
 
 bool report_arithmetic(report& out, const settings& chosen, figures& all) {
@@ -136,7 +122,7 @@ bool report_arithmetic(report& out, const settings& chosen, figures& all) {
   out.member("arithmetic", json_of(shown, std::identity{}));
   all.write_front(out, "arithmetic");
   std::string plot =
-      "set logscale xy\nset format y '10^{%L}'\nset xlabel 'run time [ns a tick]'\n"
+      "set logscale xy\nset format '10^{%L}'\nset xlabel 'run time [ns a tick]'\n"
       "set ylabel 'largest force error / largest force'\nplot ";
   int series = 0;
   for (const auto& composition : compositions) {
@@ -144,8 +130,11 @@ bool report_arithmetic(report& out, const settings& chosen, figures& all) {
     plot += gnuplot_points("arithmetic", 2, composition.name, 4 + series, series);
   }
   out.plot("arithmetic",
-           "Arithmetic error of the force after " +
-               format("%.0e", static_cast<double>(chosen.ticks)) + " ticks against run time",
+           {"What rounding costs: error of the force after " +
+                format("%.0e", static_cast<double>(chosen.ticks)) + " ticks against run time",
+            "Down is more exact, left is faster. Two levels are to be seen, float above and double "
+            "below, and hardly any slope between: exactness is not bought with time, and the "
+            "cheapest on the grey line is the one to take."},
            plot + front_of("arithmetic"));
   return sound;
 }
@@ -240,7 +229,11 @@ bool report_models(report& out, const settings& chosen, figures& figured) {
     for (const double rate : rates) {
       plot += gnuplot_points(scene.name, 5, format("%g Hz", rate), 7, ++colour);
     }
-    out.plot("model_" + scene.name, "Model error against run time: " + scene.name,
+    out.plot("model_" + scene.name,
+             {"Model error against run time: " + scene.name,
+              "Each point is a composition at one rate of the environment, the colours are the "
+              "rates. Faster environments lie to the right, for they are paid for, and lower; the "
+              "grey line joins what nothing else beats in both."},
              plot + front_of(scene.name));
   }
   out.member("models", json_of(models, std::identity{}));

@@ -49,9 +49,6 @@ class figures {
   std::map<std::string, std::vector<std::pair<double, double>>> points_;
 };
 
-/// The points (cost, error) that no other beats in both, by cost. [indices]
-std::vector<std::size_t> pareto_front(const std::vector<std::pair<double, double>>& points);
-
 /// False: an error is far beyond what rounding can do, so something is broken.
 bool report_arithmetic(report& out, const settings& chosen, figures& all);
 bool report_models(report& out, const settings& chosen, figures& figured);

@@ -35,8 +35,11 @@ int run(const std::vector<std::string>& arguments,
     const settings chosen = parse(arguments);
     ex::report report(chosen.out, {.json = "stability.json", .markdown = "stability.md"});
     const auto found = try_all(report, chosen, judged);
-    return ex::conclude(report, "stability", "passive_haptics: stiff and extreme cases",
-                        found.empty());
+    return ex::conclude(
+        report, "stability", "passive_haptics: stiff and extreme cases",
+        "Every controller where it is stiff, slow, far away, tiny, late or no number "
+        "at all: what it keeps, what it refuses, and what it says.",
+        found.empty());
   });
 }
 

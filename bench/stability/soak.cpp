@@ -123,9 +123,11 @@ void plot(const session& s, const std::vector<soak_row>& rows) {
   }
   s.out.plot(
       "soak",
-      "Drift of the ledger from the true energy against ticks; only the control's is "
-      "ever upwards",
-      "set logscale xy\nset format y '%.0e'\nset xlabel 'ticks'\nset ylabel '|drift| [J]'\n" +
+      {"How far the ledger drifts from the true energy",
+       "Rounding adds up with the ticks, in float far sooner than in double. All drift is "
+       "downwards, to the safe side, but that of the control, whose ledger rounds to the "
+       "nearest; the sign is in the table above."},
+      "set logscale xy\nset format '10^{%L}'\nset xlabel 'ticks'\nset ylabel '|drift| [J]'\n" +
           ex::curves(lines));
 }
 

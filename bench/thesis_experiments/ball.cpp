@@ -117,30 +117,45 @@ void run_ball(report& out) {
       "degrees a tick.");
   out.show(table_of(rows, std::identity{}));
   out.member("ball", json_of(rows, std::identity{}));
-  const auto positions = [&out](const std::string& name, const std::string& caption,
+  const auto positions = [&out](const std::string& name, const caption& said,
                                 const std::string& run) {
-    const std::string data = "'ball_" + run + ".csv' using 1:";
-    out.plot(name, caption,
-             "set xlabel 'time [s]'\nset ylabel 'device position [mm]'\nplot " + data +
-                 "($2*1e3) with lines title 'x', " + data + "($3*1e3) with lines title 'y', " +
-                 data + "($4*1e3) with lines title 'z'");
+    const std::string data = "'ball_" + run + ".csv' every 4 using 1:";
+    out.plot(name, said,
+             "set xlabel 'time [s]'\nset ylabel 'device position [mm]'\nset xrange [0:7]\nplot " +
+                 data + "($2*1e3) with lines title 'x', " + data +
+                 "($3*1e3) with lines title 'y', " + data + "($4*1e3) with lines title 'z'");
   };
-  const auto normals = [&out](const std::string& name, const std::string& caption,
+  const auto normals = [&out](const std::string& name, const caption& said,
                               const std::string& columns, const std::string& run) {
-    out.plot(name, caption,
-             "set size ratio -1\nset xtics 0.05\nset ytics 0.05\nset xlabel 'n_x'\nset ylabel "
-             "'n_y'\nplot 'ball_" +
-                 run + ".csv' using " + columns + " with linespoints pt 7 ps 0.4 notitle");
+    out.plot(name, said,
+             "set xtics 0.05\nset ytics 0.05\nset xlabel 'normal, x'\nset ylabel 'normal, y'\n"
+             "plot 'ball_" +
+                 run + ".csv' every 20 using " + columns + " with linespoints lt 1 lw 1 notitle");
   };
-  positions("fig_3_5", "As Fig. 3.5: updates every 0.5 s, normals taken at once: jumps",
+  positions("fig_3_5",
+            {"As Fig. 3.5: an update every 0.5 s, normals taken at once",
+             "Look at 6 s: an update turns the face under the device, which jumps by millimetres "
+             "and rings. Smaller jumps stand at the updates before it."},
             "0.500_turn_at_once");
-  normals("fig_3_6", "As Fig. 3.6: the normals that the environment sends, x-y view", "8:9",
-          "0.500_turn_at_once");
-  positions("fig_3_7", "As Fig. 3.7: the same with normals that turn slowly: smooth",
+  normals("fig_3_6",
+          {"As Fig. 3.6: the normals that the environment sends, seen from above",
+           "Each point is the direction of the surface in one update. They lie far apart, and what "
+           "follows them at once jumps as far."},
+          "8:9", "0.500_turn_at_once");
+  positions("fig_3_7",
+            {"As Fig. 3.7: the same with normals that turn slowly",
+             "The same updates, and no jump at 6 s: the device slides to where the surface has "
+             "turned."},
             "0.500_turn_limited");
-  normals("fig_3_8a", "As Fig. 3.8a: normals sent by the environment, x-y view", "8:9",
-          "0.500_turn_limited");
-  normals("fig_3_8b", "As Fig. 3.8b: the same in the local model", "5:6", "0.500_turn_limited");
+  normals("fig_3_8a",
+          {"As Fig. 3.8a: what the environment sends to the slow normals, seen from above",
+           "A few points far apart, as before: the environment is as coarse as it was."},
+          "8:9", "0.500_turn_limited");
+  normals("fig_3_8b",
+          {"As Fig. 3.8b: what the local model makes of it",
+           "The same journey without a gap: a tick turns the normal by at most 0.0286 degrees, and "
+           "every twentieth has a point."},
+          "5:6", "0.500_turn_limited");
 }
 
 }  // namespace experiments

@@ -65,7 +65,10 @@ int run_thesis_experiments(const std::vector<std::string>& arguments) {
       run_ball(out);
     }
     show_strokes(out, scene, stroked);
-    if (!out.finish("passive_haptics: the thesis experiments")) {
+    if (!out.finish(
+            "passive_haptics: the thesis experiments",
+            "A simulated device falls onto a wall, presses into a ball and strokes an organ, "
+            "with and without a passivity controller.")) {
       std::cout << "gnuplot did not draw every plot: is it installed? The rest is complete.\n";
     }
     std::cout << "results: " << out.path("results.json").string() << ", "

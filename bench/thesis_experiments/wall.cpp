@@ -99,38 +99,63 @@ void run_wall(report& out, int seeds) {
                   r[7].renamed("force error N")};
   }));
   out.member("wall", json_of(rows, std::identity{}));
-  const auto figure = [&out](const std::string& name, const std::string& caption,
-                             const std::string& run, const std::string& range) {
+  const auto figure = [&out](const std::string& name, const caption& said, const std::string& run,
+                             const std::string& times, const std::string& positions) {
     const std::string data = "'wall_" + run + "_1.csv' using 1:";
-    out.plot(name, caption,
-             "set xlabel 'time [s]'\nset ylabel 'position [mm]'\nset xrange " + range +
-                 "\nset autoscale y\nplot " + data +
-                 "($2*1e3) with lines lc rgb '#cc2222' dt 4 title 'device', " + data +
-                 "($3*1e3) with lines lc rgb 'black' title 'local model', " + data +
-                 "($4*1e3) with lines lc rgb '#777777' dt 2 title 'environment'");
+    out.plot(name, said,
+             "set xlabel 'time [s]'\nset ylabel 'position [mm]'\nset xrange " + times +
+                 "\nset yrange " + positions + "\nplot " + data +
+                 "($3*1e3) with lines lt 1 lw 4 title 'local model', " + data +
+                 "($4*1e3) with lines lt -1 title 'environment', " + data +
+                 "($2*1e3) with lines lt 2 dt 2 title 'device'");
   };
-  figure("fig_3_1", "As Fig. 3.1: without a bound the device bounces for ever (S1)", "S1_none",
-         "[0:2]");
-  figure(
-      "fig_3_1_S2",
-      "Fig. 3.1 on a device with 9 N saturation and 0.2 N friction: a limit cycle of millimetres "
-      "(S2)",
-      "S2_none", "[0:2]");
-  figure("fig_3_2", "As Fig. 3.2: with the thesis's bound (S1)", "S1_thesis", "[0:2]");
-  figure("fig_3_2_S2", "Fig. 3.2 on the device of S2: it settles", "S2_thesis", "[0:1]");
+  figure("fig_3_1",
+         {"As Fig. 3.1: no bound, the wall gives way (S1)",
+          "Above 0 is inside the wall. Each time the device comes out of it, it flies as far as "
+          "before, for ever, although it is left alone: the wall pays for what damping takes."},
+         "S1_none", "[0:2]", "[*:*]");
+  figure("fig_3_1_S2",
+         {"The same on a device of 9 N and 0.2 N of dry friction (S2)",
+          "Friction takes the large bounces, but not the last millimetres: the device goes on in "
+          "and out of the wall, and a hand feels that as a buzz."},
+         "S2_none", "[0:2]", "[*:*]");
+  figure("fig_3_2",
+         {"As Fig. 3.2: the thesis's bound, the wall gives way (S1)",
+          "The bounces are cut down at once. A tremble of a millimetre or two stays, for this "
+          "device has no friction, and the bound forbids gain without damping."},
+         "S1_thesis", "[0:2]", "[-10:6]");
+  figure("fig_3_2_S2",
+         {"The same on the device of S2",
+          "With a little dry friction, as every real device has, it settles in a third of a "
+          "second: all three curves end as one level line."},
+         "S2_thesis", "[0:1]", "[-10:8]");
   figure("fig_3_3",
-         "As Fig. 3.3: the local model between two updates, where the bound holds it (S1)",
-         "S1_thesis", "[0.1:0.3]");
-  const auto energy = [](const std::string& run, const std::string& title) {
-    return "'wall_S0_" + run + "_1.csv' every 10 using 1:7 with lines lw 2 title '" + title + "'";
+         {"As Fig. 3.3: between two updates, enlarged (S1)",
+          "The thin steps are all that the environment says. Where the force that it asks for "
+          "would be too much, the bound moves the surface of the local model, which then goes "
+          "back with the device."},
+         "S1_thesis", "[0.1:0.3]", "[-9:5]");
+  const auto energy = [](const std::string& run, const std::string& style,
+                         const std::string& title) {
+    return "'wall_S0_" + run + "_1.csv' every 10 using 1:7 with lines " + style + " title '" +
+           title + "'";
   };
-  out.plot("port_energy", "Energy that the hand has paid in, less what it got back (S0)",
-           "set xlabel 'time [s]'\nset ylabel 'energy at the port [J]'\nset xrange [0:3]\nplot " +
-               energy("none", "no bound: the wall feeds the hand") + ", " +
-               energy("strict", "strict bound") + ", " +
-               energy("damped_spring__reachable", "damped spring + reachable bound"));
-  figure("fig_settled", "Passive and settled: damped spring + reachable bound (S1)",
-         "S1_damped_spring__reachable", "[0:2]");
+  out.plot("port_energy",
+           {"What the hand has paid in, less what it got back (S0)",
+            "Below zero a wall has given more than it ever got: without a bound it goes there at "
+            "once, and further at each bounce. The strict bound gives all back and no more, so "
+            "the device bounces on. With the damped spring what is paid in stays, and the device "
+            "is at rest."},
+           "set xlabel 'time [s]'\nset ylabel 'energy at the port [J]'\nset xrange [0:3]\n"
+           "set xzeroaxis lt -1 lw 1\nplot " +
+               energy("none", "lt 2", "no bound: the wall feeds the hand") + ", " +
+               energy("strict", "lt 3", "strict bound") + ", " +
+               energy("damped_spring__reachable", "lt 1", "damped spring + reachable bound"));
+  figure("fig_settled",
+         {"Passive and settled: damped spring + reachable bound (S1)",
+          "A few touches, and the device rests on the wall within half a second; after that no "
+          "curve can be told from another."},
+         "S1_damped_spring__reachable", "[0:1]", "[-26:6]");
 }
 
 }  // namespace experiments

@@ -6,6 +6,7 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
+#include <cmath>
 #include <cstdlib>
 
 namespace ex = experiments;
@@ -105,7 +106,7 @@ TEST_CASE("without gnuplot a report has everything but the plots, and says so", 
   const std::string path = std::getenv("PATH");
   for (const bool there : {false, true}) {
     ex::report out(folder.path());
-    out.plot("line", "A line", "plot x");
+    out.plot("line", {"A line", "It rises."}, "plot x");
     out.member("answer", "42");
     if (!there) setenv("PATH", "/nowhere", 1);
     const bool drawn = out.finish("title");
@@ -118,4 +119,122 @@ TEST_CASE("without gnuplot a report has everything but the plots, and says so", 
     CHECK(std::filesystem::exists(folder / "results.json"));
     if (!there) CHECK_FALSE(drawn);
   }
+}
+
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+/// What a browser would fetch from elsewhere: sources, styles and imports with an address.
+std::size_t external_requests(const std::string& page) {
+  std::size_t n = 0;
+  for (const char* from : {"src=\"http", "src=\"//", "url(http", "url(//", "@import", "<link"}) {
+    n += count(page, from);
+  }
+  return n;
+}
+
+/// Relative luminance, as WCAG has it, of #rgb or #rrggbb.
+double luminance(const std::string& colour) {
+  const std::string wide =
+      colour.size() == 4
+          ? std::string{'#', colour[1], colour[1], colour[2], colour[2], colour[3], colour[3]}
+          : colour;
+  double sum = 0.0;
+  const double weight[] = {0.2126, 0.7152, 0.0722};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double c = std::stoi(wide.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;
+    sum += weight[i] * (c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+  }
+  return sum;
+}
+double contrast(const std::string& a, const std::string& b) {
+  const double x = luminance(a), y = luminance(b);
+  return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
+}
+/// A colour of the stylesheet, in its light or its dark scheme.
+std::string variable(const std::string& name, bool dark) {
+  const std::string style = ex::page_style;
+  const auto scheme = style.find(dark ? "prefers-color-scheme:dark" : ":root{");
+  const auto at = style.find("--" + name + ":", scheme);
+  REQUIRE(at != std::string::npos);
+  const auto from = at + name.size() + 3;
+  return style.substr(from, style.find_first_of(";}", from) - from);
+}
+
+}  // namespace
+
+TEST_CASE("a page has a table of contents, a caption for each plot, and asks nobody", "[report]") {
+  const scratch_folder folder;
+  ex::report out(folder.path());
+  ex::table numbers({"what", "N"});
+  numbers.add({"a <b>", "1.5"});
+  out.section("First & last", "Text.");
+  out.show(numbers);
+  out.plot("line", {"A \"line\"", "It rises."}, "plot x");
+  out.section("First & last", "The same name once more.");
+  out.plot("wave", {"A wave", "It does not."}, "plot sin(x)");
+  static_cast<void>(out.finish("title", "What it is about."));
+  const std::string page = text_of(folder / "index.html");
+
+  CHECK(mentions(page, "<nav aria-label=\"Contents\">"));
+  for (const char* id : {"first-last", "first-last-2", "figure-line", "figure-wave"}) {
+    INFO(id);
+    CHECK(count(page, "id=\"" + std::string(id) + "\"") == 1);
+    CHECK(count(page, "href=\"#" + std::string(id) + "\"") == 1);
+  }
+  CHECK(count(page, "<figure ") == 2);
+  CHECK(count(page, "<figcaption>") == 2);
+  CHECK(mentions(page, "<b>A \"line\"</b> It rises."));
+  CHECK(mentions(page, "alt=\"A &quot;line&quot;\""));
+  CHECK(mentions(page, "<td>a &lt;b&gt;</td><td class=\"n\">1.5</td>"));
+  CHECK(mentions(page, "<meta name=\"description\" content=\"What it is about.\">"));
+  CHECK(mentions(page, "width=device-width"));
+  CHECK(external_requests(page) == 0);
+  CHECK(external_requests(page + "<img src=\"https://example.org/a.svg\">") == 1);  // the control
+}
+
+TEST_CASE("a plot has no ground of its own and is readable in both schemes", "[report]") {
+  const scratch_folder folder;
+  ex::report out(folder.path());
+  out.plot("line", {"Line & dot", "It rises."}, "plot x lt 1, 2*x lt -1");
+  if (!out.finish("title")) {
+    WARN("gnuplot is not installed, or did not draw: left out");
+    return;
+  }
+  const std::string svg = text_of(folder / "line.svg");
+  CHECK(mentions(svg, "<title>Line &amp; dot</title>"));
+  CHECK(mentions(svg, "prefers-color-scheme:dark"));
+  CHECK(mentions(svg, "<rect x=\"0\" y=\"0\" width=\"760\" height=\"430\" fill=\"none\"/>"));
+  CHECK(mentions(svg, "stroke='black'"));  // lt -1, which the style turns into ink
+}
+
+TEST_CASE("text and curves stand out from the page, light and dark", "[report]") {
+  for (const bool dark : {false, true}) {
+    for (const char* ground : {"paper", "raised"}) {
+      const std::string paper = variable(ground, dark);
+      INFO((dark ? "dark " : "light ") << ground << " " << paper);
+      CHECK(contrast(variable("ink", dark), paper) >= 7.0);
+      CHECK(contrast(variable("soft", dark), paper) >= 4.5);
+      CHECK(contrast(variable("link", dark), paper) >= 4.5);
+      const std::string preamble = ex::plot_preamble;
+      int colours = 0;
+      for (auto at = preamble.find('#'); at != std::string::npos; at = preamble.find('#', at + 1)) {
+        INFO(preamble.substr(at, 7));
+        CHECK(contrast(preamble.substr(at, 7), paper) >= 3.0);
+        ++colours;
+      }
+      CHECK(colours == 8);
+    }
+  }
+  CHECK(contrast("#fff", "#777777") < 4.5);  // the control
 }
