@@ -1,10 +1,37 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Each header of `folder` must compile by itself: `compile` is a command line that takes one more file.
+# One that includes something of Eigen, itself or through another, has included Eigen/Core by that: it is
+# given Core ready-made, by `with_core`, which saves most of the time and hides nothing.
+function(includes_eigen result header)
+  get_property(known GLOBAL PROPERTY "eigen ${header}")
+  if(known STREQUAL "")
+    set(known FALSE)
+    set_property(GLOBAL PROPERTY "eigen ${header}" FALSE)  # ends a circle
+    file(STRINGS ${include}/${header} lines REGEX "^#include <(Eigen|passive_haptics)/")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^#include <([^>]*)>.*" "\\1" next "${line}")
+      if(next MATCHES "^Eigen/")
+        set(known TRUE)
+      elseif(NOT known AND EXISTS ${include}/${next})
+        includes_eigen(known ${next})
+      endif()
+    endforeach()
+    set_property(GLOBAL PROPERTY "eigen ${header}" ${known})
+  endif()
+  set(${result} ${known} PARENT_SCOPE)
+endfunction()
+
 file(GLOB headers RELATIVE ${include} ${folder}/*.hpp)
 set(failed "")
 foreach(header IN LISTS headers)
   file(WRITE ${scratch} "#include <${header}>\n")
-  execute_process(COMMAND ${compile} ${scratch} ERROR_VARIABLE said RESULT_VARIABLE code)
+  set(ready "")
+  includes_eigen(eigen ${header})
+  if(eigen)
+    set(ready ${with_core})
+  endif()
+  execute_process(COMMAND ${compile} ${ready} -fsyntax-only -x c++ ${scratch}
+    ERROR_VARIABLE said RESULT_VARIABLE code)
   if(NOT code EQUAL 0)
     string(APPEND failed "${header}:\n${said}\n")
   endif()
