@@ -158,6 +158,34 @@ TEST_CASE("a patch is of whole edges, however the mesh is", "[environment][curve
   }
 }
 
+TEST_CASE(
+    "a surface that knows its neighbours gives the patch that looking through all of it gives",
+    "[environment][curved]") {
+  const auto same = [](const auto& surface, const auto& nodes, const env::surface_point& on) {
+    const auto slow = env::patch_at<24>(env::surface_view(surface), nodes, on, 500);
+    const auto fast = env::patch_at<24>(env::surface_graph(surface, nodes.size()), nodes, on, 500);
+    REQUIRE(slow.triangle_count > 10);
+    REQUIRE(fast.triangle_count == slow.triangle_count);
+    REQUIRE(fast.node_count == slow.node_count);
+    CHECK(fast.triangles == slow.triangles);
+    for (std::size_t i = 0; i < slow.node_count; ++i) {
+      CHECK(Vector3d(fast.nodes[i]) == Vector3d(slow.nodes[i]));
+    }
+  };
+  const mesh ball(2);
+  for (const auto& x : {Vector3d(0.03, 0.02, 0.01), Vector3d(0, 0, 1), Vector3d(-1, 0.3, 0.2)}) {
+    same(std::vector(ball.surface.begin(), ball.surface.end()), ball.nodes, ball.closest(x));
+  }
+  // Ties of distance, and an edge of four triangles.
+  const auto cubes = blocks(3, [](int i, int j, int k) { return (i + j + k) % 2 == 0; });
+  const auto surface = env::boundary(cubes);
+  for (int i = 0; i < static_cast<int>(surface.size()); i += 7) {
+    const auto t = env::corners(surface[static_cast<std::size_t>(i)], cubes.nodes);
+    same(surface, cubes.nodes,
+         *env::point_on(surface, cubes.nodes, i, env::point_at(t, Vector3d::Constant(1.0 / 3))));
+  }
+}
+
 TEST_CASE("a deformable body publishes a quadric and a patch of its contact, none before it",
           "[environment][curved]") {
   env::deformable_body body(env::ball(0.05), {.young = 2e4, .poisson = 0.3},

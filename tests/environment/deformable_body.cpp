@@ -3,6 +3,7 @@
 #include "environment/bodies.hpp"
 #include <passive_haptics/environment/deformable_body.hpp>
 #include <passive_haptics/environment/msh_reader.hpp>
+#include <passive_haptics/environment/sparse_ldlt.hpp>
 
 #include <numeric>
 #include <span>
@@ -225,4 +226,76 @@ TEST_CASE("an organ can be laid down and pressed", "[environment][body]") {
   CHECK_THAT(contact.depth, WithinRel(0.5e-3, 0.2));  // both give way alike
   CHECK(contact.stiffness > 1.0);
   CHECK(contact.stiffness < 1e4);
+}
+
+TEST_CASE("deformable_body says the same by any solver", "[environment][body]") {
+  const auto mesh = env::scaled(blocks(4, [](int, int, int) { return true; }), 0.02);
+  std::vector<int> held;
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    if (mesh.nodes[i].z() < 1e-6) held.push_back(static_cast<int>(i));
+  }
+  using by_columns = env::basic_tetrahedral_fem<env::sparse_ldlt>;
+  for (const auto split : {env::force_split::barycentric, env::force_split::by_distance}) {
+    env::body_options options;
+    options.split = split;
+    env::deformable_body fronts(mesh, soft, held, options);
+    env::basic_deformable_body<by_columns> columns(mesh, soft, held, options);
+    options.moved = env::moved_nodes::around;
+    env::deformable_body around(mesh, soft, held, options);
+    std::mt19937 random(8);
+    Vector3d device{0.033, 0.046, 0.078};
+    int contacts = 0;
+    for (int update = 0; update < 50; ++update) {
+      device = (device + 2e-3 * anything(random))
+                   .cwiseMax(Vector3d(0.01, 0.01, 0.07))
+                   .cwiseMin(Vector3d(0.07, 0.07, 0.083));
+      const auto last = fronts.contact();
+      const Vector3d force = last.stiffness * std::max(0.0, last.depth) * last.normal;
+      const auto a = fronts.update(device, force);
+      const auto b = columns.update(device, force);
+      const auto c = around.update(device, force);
+      for (const auto& other : {b, c}) {
+        REQUIRE((a.fresh && other.fresh));
+        REQUIRE(other.triangle == a.triangle);
+        REQUIRE((other.point - a.point).norm() < 1e-10);
+        REQUIRE_THAT(other.depth, WithinAbs(a.depth, 1e-10));
+        REQUIRE_THAT(other.stiffness, WithinRel(a.stiffness, 1e-8));
+      }
+      contacts += a.depth > 0.0 ? 1 : 0;
+      double apart = 0.0;
+      for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+        apart = std::max(apart, (fronts.nodes()[i] - columns.nodes()[i]).norm());
+      }
+      // Two rings around the contact are where they are in the whole body; the rest is at rest.
+      const auto& search = around.search();
+      for (const int node : search[std::size_t(c.triangle)].nodes) {
+        for (const int t : search.triangles_at(node)) {
+          for (const int ring : search[std::size_t(t)].nodes) {
+            for (const int i : search.triangles_at(ring)) {
+              for (const int n : search[std::size_t(i)].nodes) {
+                const auto at = std::size_t(n);
+                apart = std::max(apart, (around.nodes()[at] - fronts.nodes()[at]).norm());
+              }
+            }
+          }
+        }
+      }
+      REQUIRE(apart < 1e-10);
+    }
+    CHECK(contacts > 20);
+    const auto picture = around.picture();
+    const auto whole = fronts.picture();
+    double moved = 0.0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      CHECK((picture[i] - whole[i]).norm() < 1e-10);
+      moved = std::max(moved, (whole[i] - mesh.nodes[i]).norm());
+    }
+    CHECK(moved > 1e-6);
+  }
+  const auto text = text_of<std::invalid_argument>([&] {
+    env::deformable_body(
+        mesh, soft, held,
+        {.selection = env::contact_selection::normal_match, .moved = env::moved_nodes::around});
+  });
+  CHECK(contains(text, "choose closest_point"));
 }

@@ -51,8 +51,14 @@ TEST_CASE("tetrahedral_fem wants three nodes of every connected part", "[environ
   CHECK(left({9, 5, 6, 11, 12}) == 1);
   CHECK(left({9, 5, 6, 11, 12, 13}) == 0);
   CHECK_NOTHROW(env::tetrahedral_fem(mesh, soft, std::vector{9, 5, 6, 11, 12, 13}));
-  CHECK(contains(text_of<env::singular_stiffness>([&] {
-                   env::tetrahedral_fem(mesh, soft, std::vector{9, 5, 6});
-                 }),
-                 "6 rigid modes left by the fixed nodes in 2 connected part(s)"));
+  const auto text = [&](const std::vector<int>& fixed) {
+    return text_of<env::singular_stiffness>([&] { env::tetrahedral_fem(mesh, soft, fixed); });
+  };
+  CHECK(
+      contains(text({9, 5, 6}),
+               "6 rigid modes left by 3 fixed nodes in 2 connected part(s), the first in the part "
+               "of node 11, 11 nodes large; fix at least three nodes"));
+  CHECK(contains(text({}),
+                 "12 rigid modes left by 0 fixed nodes in 2 connected part(s), the first in "
+                 "the part of node 0, 11 nodes large"));
 }

@@ -13,6 +13,7 @@
 #include <passive_haptics/environment/curvature.hpp>
 #include <passive_haptics/environment/deformable_body.hpp>
 #include <passive_haptics/environment/surface.hpp>
+#include <passive_haptics/environment/surface_search.hpp>
 
 #include <Eigen/Core>
 
@@ -22,6 +23,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -34,9 +36,10 @@ struct quadric_options {
 
 /// The quadric at a point of the surface, of this stiffness [N/m]. Curvatures are kept within
 /// ±1/(2 thickness), so that it does not fold: a sharper edge or dent is felt as one of that radius.
-[[nodiscard]] inline quadric<space<double, 3>> quadric_at(surface_view surface, nodes_view nodes,
-                                                          const surface_point& on, double stiffness,
-                                                          const quadric_options& options = {}) {
+template <class Surface>
+[[nodiscard]] quadric<space<double, 3>> quadric_at(const Surface& surface, nodes_view nodes,
+                                                   const surface_point& on, double stiffness,
+                                                   const quadric_options& options = {}) {
   const surface_shape shape = shape_at(surface, nodes, on.triangle, on.weights);
   const double sharpest = 0.5 / options.thickness;
   const auto kept = [&](double c) { return (std::max)(-sharpest, (std::min)(c, sharpest)); };
@@ -50,11 +53,39 @@ struct quadric_options {
           .reach = options.reach};
 }
 
+[[nodiscard]] inline surface_view triangles_of(surface_view surface) {
+  return surface;
+}
+[[nodiscard]] inline surface_view triangles_of(const surface_graph& surface) {
+  return surface.triangles();
+}
+
+/// Calls visit(i) for all triangles that may share an edge with one of these.
+template <class Visit>
+void for_triangles_beside(surface_view surface, std::span<const int> /*taken*/,
+                          const Visit& visit) {
+  for (int i = 0; i < static_cast<int>(surface.size()); ++i) visit(i);
+}
+template <class Visit>
+void for_triangles_beside(const surface_graph& surface, std::span<const int> taken,
+                          const Visit& visit) {
+  for (const int number : taken) {
+    const auto& t = surface[slot(number)].nodes;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const int i : surface.triangles_at(t[k])) {
+        const auto& other = surface[slot(i)].nodes;
+        if (std::find(other.begin(), other.end(), t[(k + 1) % 3]) != other.end()) visit(i);
+      }
+    }
+  }
+}
+
 /// The M triangles around a point of the surface that are the closest to it and hang together by whole
-/// edges. One that would be the third at an edge is left out.
-template <std::size_t M = 16>
+/// edges. One that would be the third at an edge is left out. A surface_view is looked through for them; a
+/// surface_graph knows which triangles are neighbours, which is what a large surface needs.
+template <std::size_t M = 16, class Surface>
 [[nodiscard]] patch<space<double, 3>, M> patch_at(
-    surface_view surface, nodes_view nodes, const surface_point& on, double stiffness,
+    const Surface& surface, nodes_view nodes, const surface_point& on, double stiffness,
     double thickness = (std::numeric_limits<double>::max)()) {
   using result_type = patch<space<double, 3>, M>;
   result_type result;
@@ -100,13 +131,15 @@ template <std::size_t M = 16>
     if (result.triangle_count == M) break;
     next = -1;
     double shortest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < static_cast<int>(surface.size()); ++i) {
-      if (!fits(surface[static_cast<std::size_t>(i)])) continue;
-      const auto candidate = point_on(surface, nodes, i, on.point);
-      if (!candidate || !(candidate->distance < shortest)) continue;
+    const auto so_far = std::span<const int>(taken).first(result.triangle_count);
+    for_triangles_beside(surface, so_far, [&](int i) {
+      if (!fits(surface[static_cast<std::size_t>(i)])) return;
+      const auto candidate = point_on(triangles_of(surface), nodes, i, on.point);
+      if (!candidate || candidate->distance > shortest) return;
+      if (candidate->distance == shortest && i > next) return;  // whatever the order
       shortest = candidate->distance;
       next = i;
-    }
+    });
   }
   return result;
 }
@@ -123,19 +156,21 @@ template <std::size_t M = 16>
 
 /// The quadric at the last contact of a body, of the stiffness that it has there; before the first
 /// contact one that every supply refuses.
-[[nodiscard]] inline quadric<space<double, 3>> quadric_at(const deformable_body& body,
-                                                          const quadric_options& options = {}) {
+template <class Elastic>
+[[nodiscard]] quadric<space<double, 3>> quadric_at(const basic_deformable_body<Elastic>& body,
+                                                   const quadric_options& options = {}) {
   if (body.contact().triangle < 0) return {};
-  return quadric_at(body.surface(), body.nodes(), point_of(body.contact()),
-                    body.contact().stiffness, options);
+  return quadric_at(body.search(), body.nodes(), point_of(body.contact()), body.contact().stiffness,
+                    options);
 }
 
 /// The patch at the last contact of a body; before the first one that every supply refuses.
-template <std::size_t M = 16>
+template <std::size_t M = 16, class Elastic>
 [[nodiscard]] patch<space<double, 3>, M> patch_at(
-    const deformable_body& body, double thickness = (std::numeric_limits<double>::max)()) {
+    const basic_deformable_body<Elastic>& body,
+    double thickness = (std::numeric_limits<double>::max)()) {
   if (body.contact().triangle < 0) return {};
-  return patch_at<M>(body.surface(), body.nodes(), point_of(body.contact()),
+  return patch_at<M>(body.search(), body.nodes(), point_of(body.contact()),
                      body.contact().stiffness, thickness);
 }
 

@@ -7,6 +7,7 @@
 // until another is closer by more than a margin (A26).
 
 #include <passive_haptics/environment/surface.hpp>
+#include <passive_haptics/environment/surface_search.hpp>
 
 #include <Eigen/Core>
 
@@ -31,15 +32,25 @@ class contact_tracker {
   /// more than the margin. None, and nothing changes, where closest_point has none.
   [[nodiscard]] std::optional<surface_point> find(surface_view surface, nodes_view nodes,
                                                   const Eigen::Vector3d& x) {
-    const auto closest = closest_point(surface, nodes, x);
-    if (!closest) return std::nullopt;
-    if (triangle_ >= 0 && triangle_ < static_cast<int>(surface.size())) {
-      const auto held = point_on(surface, nodes, triangle_, x);
-      const bool close_enough = held && held->distance <= closest->distance + margin_;
-      if (close_enough && (held->depth > 0.0) == (closest->depth > 0.0)) return held;
+    return held_or(closest_point(surface, nodes, x), surface, nodes, x);
+  }
+  /// The same for a large surface, whose tree has followed the nodes.
+  [[nodiscard]] std::optional<surface_point> find(const surface_search& surface, nodes_view nodes,
+                                                  const Eigen::Vector3d& x) {
+    return held_or(surface.closest_point(nodes, x, triangle_), surface.triangles(), nodes, x);
+  }
+  /// The same from the present triangle over its neighbours, and by the tree if there is none: what is
+  /// touched is followed, what comes close elsewhere is not seen. before(i) is called before triangle i is
+  /// looked at, and may still move its nodes.
+  template <class Before>
+  [[nodiscard]] std::optional<surface_point> follow(const surface_search& surface, nodes_view nodes,
+                                                    const Eigen::Vector3d& x,
+                                                    const Before& before) {
+    if (triangle_ < 0 || triangle_ >= static_cast<int>(surface.size()) || !x.allFinite()) {
+      return find(surface, nodes, x);
     }
-    triangle_ = closest->triangle;
-    return closest;
+    return held_or(surface.closest_near(nodes, x, triangle_, before), surface.triangles(), nodes,
+                   x);
   }
 
   /// The present triangle, −1 before the first contact.
@@ -50,6 +61,19 @@ class contact_tracker {
   void reset() noexcept { triangle_ = -1; }
 
  private:
+  [[nodiscard]] std::optional<surface_point> held_or(const std::optional<surface_point>& closest,
+                                                     surface_view surface, nodes_view nodes,
+                                                     const Eigen::Vector3d& x) {
+    if (!closest) return std::nullopt;
+    if (triangle_ >= 0 && triangle_ < static_cast<int>(surface.size())) {
+      const auto held = point_on(surface, nodes, triangle_, x);
+      const bool close_enough = held && held->distance <= closest->distance + margin_;
+      if (close_enough && (held->depth > 0.0) == (closest->depth > 0.0)) return held;
+    }
+    triangle_ = closest->triangle;
+    return closest;
+  }
+
   double margin_;
   int triangle_ = -1;
 };

@@ -9,11 +9,12 @@
 //   shape_at             point, normal, principal curvatures of the smooth surface
 //
 // A curvature is a symmetric tensor C [1/m] with C n = 0: the normal turns by C δ along δ; positive
-// where the body bulges, 1/r on a ball. Only triangles around the contact count, but they are found by
-// looking at all of them, as elsewhere in this room: nothing is kept, so the body may deform. Nothing
-// here allocates.
+// where the body bulges, 1/r on a ball. Only triangles around the contact count. A surface_view is looked
+// through for them; a surface_graph knows them, which is what a large surface needs. Nothing is kept of
+// the positions, so the body may deform. Nothing here allocates.
 
 #include <passive_haptics/environment/surface.hpp>
+#include <passive_haptics/environment/surface_search.hpp>
 #include <passive_haptics/environment/triangle.hpp>
 
 #include <Eigen/Cholesky>
@@ -39,9 +40,21 @@ void for_triangles_at(surface_view surface, nodes_view nodes, int node, const Vi
   }
 }
 
+template <class Visit>
+void for_triangles_at(const surface_graph& surface, nodes_view nodes, int node,
+                      const Visit& visit) {
+  for (const int i : surface.triangles_at(node)) {
+    const surface_triangle& t = surface[slot(i)];
+    if (is_degenerate(corners(t, nodes))) continue;
+    const auto at = std::find(t.nodes.begin(), t.nodes.end(), node);
+    visit(t, static_cast<std::size_t>(at - t.nodes.begin()));
+  }
+}
+
 /// The unit normal of a node: Σ (a × b)/(|a|²|b|²), a and b the edges of each triangle there. Exact where
 /// the node and its neighbours are on one sphere. Zero for a node of no usable triangle.
-[[nodiscard]] inline Eigen::Vector3d node_normal(surface_view surface, nodes_view nodes, int node) {
+template <class Surface>
+[[nodiscard]] Eigen::Vector3d node_normal(const Surface& surface, nodes_view nodes, int node) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for_triangles_at(surface, nodes, node, [&](const surface_triangle& t, std::size_t k) {
     const triangle shape = corners(t, nodes);
@@ -82,8 +95,9 @@ void for_triangles_at(surface_view surface, nodes_view nodes, int node, const Vi
 }
 
 /// The curvature at a node: the mean over its triangles, by their areas.
-[[nodiscard]] inline Eigen::Matrix3d node_curvature(surface_view surface, nodes_view nodes,
-                                                    int node, const Eigen::Vector3d& normal) {
+template <class Surface>
+[[nodiscard]] Eigen::Matrix3d node_curvature(const Surface& surface, nodes_view nodes, int node,
+                                             const Eigen::Vector3d& normal) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   double area = 0.0;
   for_triangles_at(surface, nodes, node, [&](const surface_triangle& t, std::size_t /*k*/) {
@@ -112,8 +126,9 @@ struct surface_shape {
 /// The shape at the point of a triangle with these barycentric weights. Normal and curvature are blended
 /// from those of the three nodes; the point stands above the facet by what the curvature gives between
 /// the nodes, Σ wₖ ½ δₖᵀC δₖ with δₖ from the point to node k, so that the surface goes through the nodes.
-[[nodiscard]] inline surface_shape shape_at(surface_view surface, nodes_view nodes, int number,
-                                            const Eigen::Vector3d& weights) {
+template <class Surface>
+[[nodiscard]] surface_shape shape_at(const Surface& surface, nodes_view nodes, int number,
+                                     const Eigen::Vector3d& weights) {
   const surface_triangle& t = surface[static_cast<std::size_t>(number)];
   const triangle shape = corners(t, nodes);
   std::array<Eigen::Vector3d, 3> normals;

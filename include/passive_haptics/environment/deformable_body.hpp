@@ -14,6 +14,7 @@
 #include <passive_haptics/environment/contact_tracker.hpp>
 #include <passive_haptics/environment/mesh.hpp>
 #include <passive_haptics/environment/surface.hpp>
+#include <passive_haptics/environment/surface_search.hpp>
 #include <passive_haptics/environment/tetrahedral_fem.hpp>
 #include <passive_haptics/environment/triangle.hpp>
 
@@ -22,10 +23,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace passive_haptics {
@@ -52,6 +55,14 @@ enum class contact_selection : std::uint8_t {
 
 enum class force_relaxation : std::uint8_t { none, dead_beat };
 
+/// Which nodes an update moves.
+enum class moved_nodes : std::uint8_t {
+  all,     ///< nodes() is the whole body, and the contact the closest point of it all
+  around,  ///< those that the contact is followed over and two rings around it: for large bodies. In
+  ///< contact it goes from triangle to triangle, and does not see what comes close elsewhere;
+  ///< the other nodes of nodes() are at rest
+};
+
 struct body_options {
   double margin = 2e-4;  ///< hysteresis of closest_point [m]
   force_split split = force_split::barycentric;
@@ -59,23 +70,54 @@ struct body_options {
   force_relaxation relaxation = force_relaxation::dead_beat;
   double local_stiffness = 0.0;  ///< K_LM [N/m]; 0: the local model uses the one reported
   double max_stiffness = 1e6;    ///< [N/m] reported at most: a face of three fixed nodes is rigid
+  moved_nodes moved = moved_nodes::all;
+  on_progress tell = {};  ///< asked while the body is factorised; false throws stopped_by_caller
+  double memory_limit = 0.0;  ///< for the factor [B]; 0: what the system has (memory_limit.hpp)
 };
 
-/// Neither copied nor moved: it holds a factorisation.
-class deformable_body {
+/// What a body to be touched asks of the elastic solid behind it. A point is pressed once: C [m/N] says
+/// how far it gives way; then it is loaded with one force after the other, and nodes are asked for.
+template <class E>
+concept elastic_solid = requires(E solid, const std::array<int, 3>& nodes, const Eigen::Vector3d& v,
+                                 int node) {
+  { solid.press(nodes, v) } -> std::convertible_to<Eigen::Matrix3d>;
+  { solid.compliance(nodes, v) } -> std::convertible_to<Eigen::Matrix3d>;
+  solid.load(v);
+  { solid.displacement(node) } -> std::convertible_to<Eigen::Vector3d>;
+  { solid.moves(node) } -> std::convertible_to<bool>;
+  { solid.mesh_nodes() } -> std::convertible_to<std::size_t>;
+};
+
+/// A body on an elastic solid: finite elements (deformable_body), or a table of their answers
+/// (compliance_table.hpp). Neither copied nor moved: it holds a factorisation.
+template <elastic_solid Elastic>
+class basic_deformable_body {
  public:
   /// Throws what tetrahedral_fem, boundary and contact_tracker throw, and std::invalid_argument for
   /// an option out of range.
-  deformable_body(const tetrahedral_mesh& mesh, const material& m, std::span<const int> fixed_nodes,
-                  const body_options& options = {})
+  basic_deformable_body(const tetrahedral_mesh& mesh, const material& m,
+                        std::span<const int> fixed_nodes, const body_options& options = {})
+      : basic_deformable_body(mesh,
+                              Elastic(mesh, m, fixed_nodes,
+                                      {.tell = options.tell, .memory_limit = options.memory_limit}),
+                              options) {}
+
+  /// The same on a solid that is there already, made of this mesh; one of another size is refused.
+  basic_deformable_body(const tetrahedral_mesh& mesh, Elastic solid,
+                        const body_options& options = {})
       : options_(options),
-        fem_(mesh, m, fixed_nodes),
-        surface_(boundary(mesh)),
+        solid_(std::move(solid)),
+        search_(boundary(mesh), mesh.nodes),
         tracker_(options.margin),
         rest_(mesh.nodes),
         nodes_(mesh.nodes),
         next_(mesh.nodes),
-        forces_(mesh.nodes.size(), Eigen::Vector3d::Zero()) {
+        when_(mesh.nodes.size(), 0) {
+    if (solid_.mesh_nodes() != mesh.nodes.size()) {
+      refuse_argument("deformable_body: a solid of ", solid_.mesh_nodes(),
+                      " nodes is refused on a mesh of ", mesh.nodes.size(),
+                      "; give the mesh that it was made of");
+    }
     if (!(options.local_stiffness >= 0.0) || !std::isfinite(options.local_stiffness)) {
       refuse_argument("deformable_body: local stiffness ", options.local_stiffness,
                       " N/m is refused; give a finite one, 0: as reported");
@@ -84,6 +126,22 @@ class deformable_body {
       refuse_argument("deformable_body: greatest stiffness ", options.max_stiffness,
                       " N/m is refused; give a finite one above zero");
     }
+    if (around() && options.selection == contact_selection::normal_match) {
+      refuse_argument(
+          "deformable_body: normal_match looks at the whole body, and moved_nodes::around moves a "
+          "part of it; choose closest_point, or moved_nodes::all");
+    }
+    for (int node = 0; node < static_cast<int>(rest_.size()); ++node) {
+      if (solid_.moves(node)) moving_.push_back(node);
+    }
+    for (int i = 0; i < static_cast<int>(search_.size()); ++i) {
+      const auto& corner = search_[slot(i)].nodes;
+      if (std::any_of(corner.begin(), corner.end(), [&](int n) { return solid_.moves(n); })) {
+        moving_triangles_.push_back(i);
+      }
+    }
+    moved_.reserve(rest_.size());
+    moved_before_.reserve(rest_.size());
     double volume = 0.0;
     for (const auto& t : mesh.tetrahedra) {
       for (const int node : t) {
@@ -100,41 +158,62 @@ class deformable_body {
   /// Away from the body the force is zero, the body comes to rest, and the contact names the
   /// nearest triangle with depth ≤ 0. Input that is not finite, or would move a node by 1000 times
   /// the size of the body, changes nothing: the last contact comes back with fresh = false. Never
-  /// throws, allocates or factorises.
+  /// throws, allocates or factorises, unless the solid does (compliance_cache.hpp).
   surface_contact update(const Eigen::Vector3d& device, const Eigen::Vector3d& force_on_device) {
     contact_.fresh = false;
     if (!device.allFinite() || !force_on_device.allFinite()) return contact_;
     const Eigen::Vector3d force = relaxed(force_on_device);
-    if (!deform_under(force)) return contact_;
-    const auto found = options_.selection == contact_selection::closest_point
-                           ? tracker_.find(surface_, next_, device)
-                           : match_normal(surface_, next_, centre_, device);
-    if (!found || !std::isfinite(found->depth)) return contact_;
+    const auto found = around() ? find_around(device, force) : find_anywhere(device, force);
+    if (!found || !within_reach_ || !std::isfinite(found->depth)) return contact_;
 
     force_ = force;
     nodes_.swap(next_);
-    const surface_triangle& t = surface_[static_cast<std::size_t>(found->triangle)];
-    const double stiffness = fem_.stiffness(t.nodes, found->weights, found->normal);
-    contact_ = {corners(t, nodes_),
+    moved_.swap(moved_before_);
+    const surface_triangle& t = search_[slot(found->triangle)];
+    const triangle shape = corners(t, nodes_);
+    const Eigen::Vector3d& n = found->normal;
+    // By the weights of the point its compliance and its load are one and the same solution.
+    const bool by_weights = options_.split == force_split::barycentric;
+    const double give = n.dot((by_weights ? solid_.press(t.nodes, found->weights)
+                                          : solid_.compliance(t.nodes, found->weights)) *
+                              n);
+    if (!by_weights) solid_.press(t.nodes, force_shares(options_.split, shape, found->weights));
+    contact_ = {shape,
                 found->point,
-                found->normal,
+                n,
                 found->weights,
                 found->triangle,
                 found->depth,
-                (std::min)(stiffness, options_.max_stiffness),
+                give * options_.max_stiffness > 1.0 ? 1.0 / give : options_.max_stiffness,
                 true};
     return contact_;
   }
 
   /// Present positions of the nodes [m].
   [[nodiscard]] const std::vector<Eigen::Vector3d>& nodes() const noexcept { return nodes_; }
-  [[nodiscard]] const std::vector<surface_triangle>& surface() const noexcept { return surface_; }
+  [[nodiscard]] const std::vector<surface_triangle>& surface() const noexcept {
+    return search_.triangles();
+  }
+  /// The surface and which triangles meet at a node: for quadric_at.
+  [[nodiscard]] const surface_search& search() const noexcept { return search_; }
   [[nodiscard]] const surface_contact& contact() const noexcept { return contact_; }
 
   /// The relaxed force [N] whose reaction deforms the body.
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
 
+  /// All nodes [m] with that force at the present contact: a picture, also where an update moves only some.
+  /// Takes as long as an update of all of them.
+  [[nodiscard]] std::vector<Eigen::Vector3d> picture() {
+    std::vector<Eigen::Vector3d> all = rest_;
+    if (contact_.triangle < 0) return all;
+    solid_.load(-force_);
+    for (const int node : moving_) all[slot(node)] += solid_.displacement(node);
+    return all;
+  }
+
  private:
+  [[nodiscard]] bool around() const noexcept { return options_.moved == moved_nodes::around; }
+
   /// F + w (F_LM − F) with the w of the contact that was answered; zero before the first. (A12)
   [[nodiscard]] Eigen::Vector3d relaxed(const Eigen::Vector3d& answer) const {
     if (contact_.triangle < 0) return Eigen::Vector3d::Zero();
@@ -144,36 +223,85 @@ class deformable_body {
     return force_ + contact_.stiffness / (contact_.stiffness + local) * (answer - force_);
   }
 
-  /// next_ ← rest + u(−force at the last contact); false if the body would fly apart. (A13)
-  [[nodiscard]] bool deform_under(const Eigen::Vector3d& force) {
-    std::fill(forces_.begin(), forces_.end(), Eigen::Vector3d::Zero());
-    if (contact_.triangle >= 0) {
-      const surface_triangle& t = surface_[static_cast<std::size_t>(contact_.triangle)];
-      const Eigen::Vector3d shares =
-          force_shares(options_.split, corners(t, nodes_), contact_.weights);
-      for (std::size_t k = 0; k < 3; ++k) {
-        forces_[static_cast<std::size_t>(t.nodes[k])] =
-            -shares[static_cast<Eigen::Index>(k)] * force;
+  /// next_ of a node ← rest + u, once per update. (A13)
+  void move(int node) {
+    if (when_[slot(node)] == now_) return;
+    when_[slot(node)] = now_;
+    moved_.push_back(node);
+    const Eigen::Vector3d u = solid_.displacement(node);
+    next_[slot(node)] = rest_[slot(node)] + u;
+    within_reach_ = within_reach_ && u.norm() < 1e3 * extent_;
+  }
+  void begin_moves(const Eigen::Vector3d& force) {
+    within_reach_ = true;
+    for (const int node : moved_) next_[slot(node)] = rest_[slot(node)];
+    moved_.clear();
+    if (++now_ == 0) {
+      std::fill(when_.begin(), when_.end(), 0U);
+      now_ = 1;
+    }
+    if (contact_.triangle >= 0) solid_.load(-force);
+  }
+
+  [[nodiscard]] std::optional<surface_point> find_anywhere(const Eigen::Vector3d& device,
+                                                           const Eigen::Vector3d& force) {
+    begin_moves(force);
+    const bool at_rest = force.isZero(0.0);
+    if (!at_rest) {
+      for (const int node : moving_) move(node);
+      if (!within_reach_) return std::nullopt;
+    }
+    if (options_.selection == contact_selection::normal_match) {
+      return match_normal(surface(), next_, centre_, device);
+    }
+    if (!at_rest || !fitted_to_rest_) search_.refit(next_, moving_triangles_);
+    fitted_to_rest_ = at_rest;
+    return tracker_.find(search_, next_, device);
+  }
+
+  /// The tree stays at rest: it finds the first contact, which the others follow.
+  [[nodiscard]] std::optional<surface_point> find_around(const Eigen::Vector3d& device,
+                                                         const Eigen::Vector3d& force) {
+    begin_moves(force);
+    if (force.isZero(0.0)) return tracker_.find(search_, next_, device);
+    const auto move_corners = [&](int i) {
+      for (const int node : search_[slot(i)].nodes) move(node);
+    };
+    const auto found = tracker_.follow(search_, next_, device, move_corners);
+    if (!found) return found;
+    for (const int node : search_[slot(found->triangle)].nodes) {
+      for (const int beside : search_.triangles_at(node)) {
+        for (const int ring : search_[slot(beside)].nodes) {
+          for (const int i : search_.triangles_at(ring)) move_corners(i);
+        }
       }
     }
-    const auto& u = fem_.displacements(forces_);
-    for (std::size_t i = 0; i < next_.size(); ++i) next_[i] = rest_[i] + u[i];
-    return std::all_of(u.begin(), u.end(), [&](const auto& d) { return d.norm() < 1e3 * extent_; });
+    return found;
   }
 
   body_options options_;
-  tetrahedral_fem fem_;
-  std::vector<surface_triangle> surface_;
+  Elastic solid_;
+  surface_search search_;
   contact_tracker tracker_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< of mass, at rest [m]
   double extent_ = 0.0;                               ///< largest distance from centre_ [m]
+  std::vector<int> moving_;                           ///< nodes that can move
+  std::vector<int> moving_triangles_;                 ///< triangles of theirs
   std::vector<Eigen::Vector3d> rest_;
   std::vector<Eigen::Vector3d> nodes_;
   std::vector<Eigen::Vector3d> next_;  ///< nodes_ to be, until the update is known to be good
-  std::vector<Eigen::Vector3d> forces_;
+  std::vector<int> moved_;             ///< nodes of next_ that are not at rest
+  std::vector<int> moved_before_;      ///< nodes of nodes_
+  std::vector<std::uint32_t> when_;    ///< each node was moved last
+  std::uint32_t now_ = 0;              ///< this update
+  bool within_reach_ = true;           ///< no node has flown away in this update
+  bool fitted_to_rest_ = true;
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  ///< F, on the device, relaxed [N]
   surface_contact contact_;
 };
+
+/// A body of finite elements, as it can be touched at once.
+using deformable_body = basic_deformable_body<tetrahedral_fem>;
 
 }  // namespace environment
 }  // namespace v0

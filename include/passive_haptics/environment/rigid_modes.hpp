@@ -72,18 +72,39 @@ struct connected_parts {
   return static_cast<int>((squares.array() <= 1e-12 * squares.maxCoeff()).count());
 }
 
-/// The same for a mesh with fixed nodes, summed over its connected parts.
-[[nodiscard]] inline int rigid_modes_left(const tetrahedral_mesh& mesh,
-                                          std::span<const int> fixed_nodes) {
+/// What the fixed nodes leave loose of a mesh.
+struct loose_parts {
+  int modes = 0;               ///< rigid motions of all parts
+  int parts = 0;               ///< connected ones, held or not
+  int node = -1;               ///< the first of the first part that is not held, or −1
+  std::size_t part_nodes = 0;  ///< of that part
+};
+
+[[nodiscard]] inline loose_parts find_loose_parts(const tetrahedral_mesh& mesh,
+                                                  std::span<const int> fixed_nodes) {
   const connected_parts parts = find_parts(mesh);
   std::vector<std::vector<Eigen::Vector3d>> held(static_cast<std::size_t>(parts.count));
   for (const int node : fixed_nodes) {
     const auto part = parts.of_node.at(static_cast<std::size_t>(node));
     held[static_cast<std::size_t>(part)].push_back(mesh.nodes[static_cast<std::size_t>(node)]);
   }
-  return std::accumulate(held.begin(), held.end(), 0, [](int sum, const auto& points) {
-    return sum + rigid_modes_left(std::span<const Eigen::Vector3d>(points));
-  });
+  loose_parts found{.parts = parts.count};
+  for (int part = 0; part < parts.count; ++part) {
+    const std::span<const Eigen::Vector3d> points(held[static_cast<std::size_t>(part)]);
+    const int modes = rigid_modes_left(points);
+    found.modes += modes;
+    if (modes == 0 || found.node >= 0) continue;
+    const auto first = std::find(parts.of_node.begin(), parts.of_node.end(), part);
+    found.node = static_cast<int>(first - parts.of_node.begin());
+    found.part_nodes = static_cast<std::size_t>(std::count(first, parts.of_node.end(), part));
+  }
+  return found;
+}
+
+/// The rigid motions of a mesh with fixed nodes, summed over its connected parts.
+[[nodiscard]] inline int rigid_modes_left(const tetrahedral_mesh& mesh,
+                                          std::span<const int> fixed_nodes) {
+  return find_loose_parts(mesh, fixed_nodes).modes;
 }
 
 }  // namespace environment

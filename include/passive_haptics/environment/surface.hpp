@@ -8,7 +8,8 @@
 //   match_normal    the thesis's choice (appendix A.1), for comparison
 //
 // Topology (surface) and positions (nodes) are apart: the body deforms, its triangles stay the
-// same. All searches look at every triangle; some hundred triangles take some microseconds.
+// same. All searches look at every triangle; some hundred triangles take some microseconds. For more
+// there is surface_search.hpp, with the same answers.
 
 #include <passive_haptics/environment/mesh.hpp>
 #include <passive_haptics/environment/triangle.hpp>
@@ -110,17 +111,20 @@ struct surface_point {
 /// Σ αₜ nₜ over the triangles that touch the point, αₜ the angle each takes there: 2π inside a
 /// face, π on an edge, the corner's angle at a node. Its side is the side of the surface, also
 /// where the normal of one triangle is not: Bærentzen and Aanæs, "Signed distance computation using
-/// the angle weighted pseudonormal", IEEE TVCG 11(3), 2005.
-[[nodiscard]] inline Eigen::Vector3d pseudo_normal(surface_view surface, nodes_view nodes,
-                                                   const surface_point& on) {
+/// the angle weighted pseudonormal", IEEE TVCG 11(3), 2005. for_each(visit) names, in ascending order,
+/// triangles that those are among.
+template <class ForEach>
+[[nodiscard]] Eigen::Vector3d pseudo_normal(surface_view surface, nodes_view nodes,
+                                            const surface_point& on, const ForEach& for_each) {
   const surface_triangle& owner = surface[static_cast<std::size_t>(on.triangle)];
   Eigen::Index heaviest = 0;
   on.weights.maxCoeff(&heaviest);
   const bool at_node = (on.weights.array() > 0.0).count() == 1;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const surface_triangle& t : surface) {
+  for_each([&](int number) {
+    const surface_triangle& t = surface[static_cast<std::size_t>(number)];
     const triangle shape = corners(t, nodes);
-    if (!touches(t, owner, on.weights) || is_degenerate(shape)) continue;
+    if (!touches(t, owner, on.weights) || is_degenerate(shape)) return;
     double angle = 1.0;  // the same for both sides of an edge
     if (at_node) {
       const int node = owner.nodes[static_cast<std::size_t>(heaviest)];
@@ -131,8 +135,27 @@ struct surface_point {
       angle = std::atan2(a.cross(b).norm(), a.dot(b));
     }
     sum += angle * unit_normal(shape);
-  }
+  });
   return sum;
+}
+
+/// Of the triangles that touch the closest point of the surface, the one that faces x most squarely.
+template <class ForEach>
+[[nodiscard]] surface_point facing(surface_view surface, nodes_view nodes, const Eigen::Vector3d& x,
+                                   const surface_point& found, const ForEach& for_each) {
+  if (found.weights.minCoeff() > 0.0) return found;
+  const double side =
+      (found.point - x).dot(pseudo_normal(surface, nodes, found, for_each)) < 0.0 ? -1.0 : 1.0;
+  surface_point best = found;
+  for_each([&](int i) {
+    if (!touches(surface[static_cast<std::size_t>(i)],
+                 surface[static_cast<std::size_t>(found.triangle)], found.weights)) {
+      return;
+    }
+    const auto twin = point_on(surface, nodes, i, x);
+    if (twin && side * twin->depth > side * best.depth) best = *twin;
+  });
+  return best;
 }
 
 /// The point of the surface closest to x. On an edge or a node it belongs to several triangles:
@@ -141,25 +164,16 @@ struct surface_point {
 [[nodiscard]] inline std::optional<surface_point> closest_point(surface_view surface,
                                                                 nodes_view nodes,
                                                                 const Eigen::Vector3d& x) {
+  const auto for_each = [&](const auto& visit) {
+    for (int i = 0; i < static_cast<int>(surface.size()); ++i) visit(i);
+  };
   std::optional<surface_point> best;
-  const auto count = static_cast<int>(surface.size());
-  for (int i = 0; i < count; ++i) {
+  for_each([&](int i) {
     const auto candidate = point_on(surface, nodes, i, x);
     if (candidate && (!best || candidate->distance < best->distance)) best = candidate;
-  }
-  if (!best || best->weights.minCoeff() > 0.0) return best;
-  const double side =
-      (best->point - x).dot(pseudo_normal(surface, nodes, *best)) < 0.0 ? -1.0 : 1.0;
-  const surface_point found = *best;
-  for (int i = 0; i < count; ++i) {
-    if (!touches(surface[static_cast<std::size_t>(i)],
-                 surface[static_cast<std::size_t>(found.triangle)], found.weights)) {
-      continue;
-    }
-    const auto twin = point_on(surface, nodes, i, x);
-    if (twin && side * twin->depth > side * best->depth) best = twin;
-  }
-  return best;
+  });
+  if (!best) return best;
+  return facing(surface, nodes, x, *best, for_each);
 }
 
 /// True if x is inside the body.

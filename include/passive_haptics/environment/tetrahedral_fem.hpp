@@ -5,22 +5,26 @@
 //   displacements   u(f), always from the REST positions: added to the current ones the body would
 //                   creep under a constant force (A13)
 //   stiffness       1/(nᵀCn) [N/m] that a finger feels at a point of the surface
+//   press, load, displacement     the same of one point and the nodes next to it, at a haptic rate
 //
 // Not offered: large rotations, dynamics, contact within the body. Beyond a few per cent of strain
 // the linear answer is a shape, not a measurement.
 
+#include <passive_haptics/environment/memory_limit.hpp>
 #include <passive_haptics/environment/mesh.hpp>
+#include <passive_haptics/environment/multifrontal.hpp>
 #include <passive_haptics/environment/rigid_modes.hpp>
+#include <passive_haptics/environment/stiffness_solver.hpp>
 #include <passive_haptics/environment/tetrahedral_stiffness.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -43,32 +47,125 @@ class singular_stiffness : public std::runtime_error {
   int rigid_modes_;
 };
 
-class tetrahedral_fem {
+struct fem_options {
+  on_progress tell = {};      ///< asked while it factorises; false throws stopped_by_caller
+  double memory_limit = 0.0;  ///< [B]; 0: what the system has (memory_limit.hpp)
+};
+
+/// Presses a point by itself, as multifrontal does: without looking at the whole body.
+template <class S>
+concept pressing_solver = stiffness_solver<S> &&
+    requires(S solver, typename S::pressed& at, typename S::answer& to, std::span<const int> nodes,
+             std::span<const double> weights, const Eigen::Vector3d& force, int node) {
+  solver.prepare(at);
+  solver.prepare(to);
+  solver.press(at, nodes, weights);
+  solver.forget(to);
+  {solver.displacement(to, at, force, node)};
+};
+
+/// A point that forces act on, by full solutions: three columns of K⁻¹, whatever the solver.
+template <stiffness_solver Solver>
+class point_load {
+ public:
+  void prepare(const Solver& /*solver*/, Eigen::Index rows) {
+    for (auto& column : columns_) column.setZero(rows);
+  }
+  const Eigen::Matrix3d& press(Solver& solver, std::span<const int> nodes,
+                               std::span<const double> weights) {
+    for (int c = 0; c < 3; ++c) {
+      Eigen::VectorXd& column = columns_[slot(c)];
+      column.setZero();
+      for (std::size_t i = 0; i < nodes.size(); ++i) column[3 * nodes[i] + c] += weights[i];
+      solver.solve(column);
+      compliance_.col(c).setZero();
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        compliance_.col(c) += weights[i] * column.template segment<3>(3 * nodes[i]);
+      }
+    }
+    return compliance_;
+  }
+  void load(Solver& /*solver*/, const Eigen::Vector3d& force) { force_ = force; }
+  [[nodiscard]] Eigen::Vector3d displacement(Solver& /*solver*/, int node) const {
+    Eigen::Vector3d u = Eigen::Vector3d::Zero();
+    for (int c = 0; c < 3; ++c) u += columns_[slot(c)].template segment<3>(3 * node) * force_[c];
+    return u;
+  }
+
+ private:
+  std::array<Eigen::VectorXd, 3> columns_;
+  Eigen::Matrix3d compliance_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+};
+
+/// The same of a solver that presses by itself.
+template <pressing_solver Solver>
+class point_load<Solver> {
+ public:
+  void prepare(const Solver& solver, Eigen::Index /*rows*/) {
+    solver.prepare(at_);
+    solver.prepare(answer_);
+  }
+  const Eigen::Matrix3d& press(Solver& solver, std::span<const int> nodes,
+                               std::span<const double> weights) {
+    solver.press(at_, nodes, weights);
+    return at_.compliance;
+  }
+  void load(Solver& solver, const Eigen::Vector3d& force) {
+    solver.forget(answer_);
+    force_ = force;
+  }
+  [[nodiscard]] Eigen::Vector3d displacement(Solver& solver, int node) {
+    return solver.displacement(answer_, at_, force_, node);
+  }
+
+ private:
+  typename Solver::pressed at_;
+  typename Solver::answer answer_;
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+};
+
+template <stiffness_solver Solver = multifrontal>
+class basic_tetrahedral_fem {
  public:
   /// Factorises the stiffness of `mesh` [m] with `fixed_nodes` held. Throws mesh_error,
-  /// std::invalid_argument or singular_stiffness, each with the value and the remedy.
-  tetrahedral_fem(const tetrahedral_mesh& mesh, const material& m,
-                  std::span<const int> fixed_nodes) {
+  /// std::invalid_argument, singular_stiffness, memory_refused or stopped_by_caller, each with the value
+  /// and the remedy.
+  basic_tetrahedral_fem(const tetrahedral_mesh& mesh, const material& m,
+                        std::span<const int> fixed_nodes, const fem_options& options = {}) {
     check(mesh);
     check(m);
     number_ = free_numbers(mesh, fixed_nodes);
-    if (const int modes = rigid_modes_left(mesh, fixed_nodes); modes > 0) {
+    if (const loose_parts loose = find_loose_parts(mesh, fixed_nodes); loose.modes > 0) {
       refuse(singular_stiffness(
-          sentence("tetrahedral_fem: singular, ", modes, " rigid modes left by the fixed nodes in ",
-                   find_parts(mesh).count,
-                   " connected part(s); fix at least three nodes, not on one line, of each part"),
-          modes));
+          sentence("tetrahedral_fem: singular, ", loose.modes, " rigid modes left by ",
+                   fixed_nodes.size(), " fixed nodes in ", loose.parts,
+                   " connected part(s), the first in the part of node ", loose.node, ", ",
+                   loose.part_nodes,
+                   " nodes large; fix at least three nodes, not on one line, of each part, or "
+                   "remove the part"),
+          loose.modes));
     }
-    const Eigen::SparseMatrix<double> stiffness = stiffness_matrix(mesh, m, fixed_nodes);
-    if (stiffness.rows() == 0) {
+    const node_graph graph = graph_of(mesh, number_);
+    if (graph.size() == 0) {
       refuse_argument(
           "tetrahedral_fem: every node is fixed, nothing can move; leave at least one free");
     }
-    factorise(stiffness);
+    const double matrix_bytes =
+        108.0 * static_cast<double>(graph.neighbours.size() + graph.points.size());
+    const double bytes = matrix_bytes + static_cast<double>(solver_->analyse(graph));
+    check_memory("tetrahedral_fem", bytes, options.memory_limit, graph.points.size());
+    factorise(stiffness_matrix(mesh, m, number_, graph), options.tell);
     displacements_.assign(mesh.nodes.size(), Eigen::Vector3d::Zero());
-    load_.setZero(stiffness.rows());
-    work_.setZero(stiffness.rows());
+    load_.setZero(3 * graph.size());
+    loaded_.prepare(*solver_, load_.size());
+    probed_.prepare(*solver_, load_.size());
   }
+
+  [[nodiscard]] const Solver& solver() const noexcept { return *solver_; }
+  /// Of a node in the reduced system, −1 if it is fixed.
+  [[nodiscard]] const std::vector<int>& numbers() const noexcept { return number_; }
+  [[nodiscard]] std::size_t mesh_nodes() const noexcept { return number_.size(); }
 
   /// u [m] of every node under nodal forces [N]; fixed nodes stay. No allocation; the result lives
   /// until the next call. std::invalid_argument unless there is one force per node.
@@ -78,33 +175,26 @@ class tetrahedral_fem {
                       " nodes; give one per node");
     }
     for (std::size_t node = 0; node < number_.size(); ++node) {
-      if (number_[node] >= 0) load_.segment<3>(3 * number_[node]) = forces[node];
+      if (number_[node] >= 0) load_.template segment<3>(3 * number_[node]) = forces[node];
     }
-    solve();
+    solver_->solve(load_);
     for (std::size_t node = 0; node < number_.size(); ++node) {
-      if (number_[node] >= 0) displacements_[node] = load_.segment<3>(3 * number_[node]);
+      if (number_[node] >= 0) displacements_[node] = load_.template segment<3>(3 * number_[node]);
     }
     return displacements_;
   }
 
-  /// nᵀCn [m/N]: how far the point with these barycentric weights gives way along the unit vector
-  /// n, per newton along n shared out by the same weights. Zero where all three nodes are fixed.
+  /// C [m/N]: how far the point with these barycentric weights gives way to a force that is shared out by
+  /// them. Zero where all three nodes are fixed.
+  [[nodiscard]] Eigen::Matrix3d compliance(const std::array<int, 3>& nodes,
+                                           const Eigen::Vector3d& weights) {
+    return press(probed_, nodes, weights);
+  }
+  /// nᵀCn [m/N], along the unit vector n.
   [[nodiscard]] double compliance(const std::array<int, 3>& nodes, const Eigen::Vector3d& weights,
                                   const Eigen::Vector3d& n) {
-    load_.setZero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int row = number_.at(static_cast<std::size_t>(nodes[k]));
-      if (row >= 0) load_.segment<3>(3 * row) += weights[static_cast<Eigen::Index>(k)] * n;
-    }
-    solve();
-    double sum = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int row = number_.at(static_cast<std::size_t>(nodes[k]));
-      if (row >= 0) sum += weights[static_cast<Eigen::Index>(k)] * n.dot(load_.segment<3>(3 * row));
-    }
-    return sum;
+    return n.dot(compliance(nodes, weights) * n);
   }
-
   /// K = 1/(nᵀCn) [N/m]; infinite where all three nodes are fixed.
   [[nodiscard]] double stiffness(const std::array<int, 3>& nodes, const Eigen::Vector3d& weights,
                                  const Eigen::Vector3d& n) {
@@ -112,42 +202,64 @@ class tetrahedral_fem {
     return c > 0.0 ? 1.0 / c : std::numeric_limits<double>::infinity();
   }
 
+  // One point of the surface, pressed once and loaded with one force after the other: what a contact
+  // needs. By multifrontal it costs the fronts above the point and above the nodes that are asked for.
+
+  [[nodiscard]] bool moves(int node) const { return number_[slot(node)] >= 0; }
+
+  /// Chooses the point whose forces are shared out to these nodes by these shares; its C [m/N].
+  const Eigen::Matrix3d& press(const std::array<int, 3>& nodes, const Eigen::Vector3d& shares) {
+    return press(loaded_, nodes, shares);
+  }
+  /// The force [N] on the point that was pressed last.
+  void load(const Eigen::Vector3d& force) { loaded_.load(*solver_, force); }
+  /// u [m] of a node under that force.
+  [[nodiscard]] Eigen::Vector3d displacement(int node) {
+    const int number = number_[slot(node)];
+    if (number < 0) return Eigen::Vector3d::Zero();
+    return loaded_.displacement(*solver_, number);
+  }
+
  private:
-  void factorise(const Eigen::SparseMatrix<double>& stiffness) {
-    factor_.compute(stiffness);
+  const Eigen::Matrix3d& press(point_load<Solver>& point, const std::array<int, 3>& nodes,
+                               const Eigen::Vector3d& shares) {
+    std::array<int, 3> numbers{};
+    std::array<double, 3> weights{};
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int number = number_.at(slot(nodes[k]));
+      if (number < 0) continue;
+      numbers[count] = number;
+      weights[count++] = shares[static_cast<Eigen::Index>(k)];
+    }
+    return point.press(*solver_, std::span(numbers).first(count), std::span(weights).first(count));
+  }
+
+  void factorise(const Eigen::SparseMatrix<double>& stiffness, const on_progress& tell) {
+    const factor_result result = solver_->factorise(stiffness, tell);
+    if (result.stopped) {
+      refuse(stopped_by_caller("tetrahedral_fem: stopped while it factorised; nothing is kept"));
+    }
     // A pivot that is nothing but rounding error next to its diagonal: a mechanism.
-    double smallest = 0.0;
-    if (factor_.info() == Eigen::Success) {
-      const Eigen::VectorXd pivots = factor_.permutationPinv() * factor_.vectorD();
-      smallest = pivots.cwiseQuotient(stiffness.diagonal()).minCoeff();
-      inverse_pivots_ = factor_.vectorD().cwiseInverse();
-    }
-    if (!(smallest > 1e-12) || !inverse_pivots_.allFinite()) {
-      refuse(singular_stiffness(
-          sentence(
-              "tetrahedral_fem: singular, 0 rigid modes left but the smallest pivot is ", smallest,
-              " of its diagonal; parts that share only a node or an edge turn about it: fix three "
-              "nodes of each, or mesh the volume again"),
-          0));
-    }
+    if (result.smallest_pivot > 1e-12) return;
+    refuse(singular_stiffness(
+        sentence("tetrahedral_fem: singular, 0 rigid modes left but the smallest pivot is ",
+                 result.smallest_pivot,
+                 " of its diagonal; parts that share only a node or an edge turn about it: fix "
+                 "three nodes of each, or mesh the volume again"),
+        0));
   }
 
-  /// load_ ← K⁻¹ load_, by hand: SimplicialLDLT::solve allocates.
-  void solve() {
-    work_.noalias() = factor_.permutationP() * load_;
-    factor_.matrixL().solveInPlace(work_);
-    work_.array() *= inverse_pivots_.array();
-    factor_.matrixU().solveInPlace(work_);
-    load_.noalias() = factor_.permutationPinv() * work_;
-  }
-
-  std::vector<int> number_;  ///< of a node in the reduced system, −1 if fixed
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-  Eigen::VectorXd inverse_pivots_;
+  std::vector<int> number_;
+  std::unique_ptr<Solver> solver_ = std::make_unique<Solver>();  // so that any can be moved
   Eigen::VectorXd load_;
-  Eigen::VectorXd work_;
+  point_load<Solver> loaded_;
+  point_load<Solver> probed_;
   std::vector<Eigen::Vector3d> displacements_;
 };
+
+/// With the solver that the library brings.
+using tetrahedral_fem = basic_tetrahedral_fem<>;
 
 /// rest + u, node by node [m]. (A13)
 [[nodiscard]] inline std::vector<Eigen::Vector3d> deform(std::span<const Eigen::Vector3d> rest,

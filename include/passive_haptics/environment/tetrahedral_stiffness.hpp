@@ -10,11 +10,13 @@
 // vol. 1.
 
 #include <passive_haptics/environment/mesh.hpp>
+#include <passive_haptics/environment/node_graph.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -83,38 +85,65 @@ inline void check(const material& m) {
   return number;
 }
 
-/// K [N/m] of the free nodes, three rows per node, symmetric; rows and columns of the fixed nodes
-/// are struck out (thesis A.5). Without fixed nodes: the whole singular matrix. The mesh must pass
-/// check().
-[[nodiscard]] inline Eigen::SparseMatrix<double> stiffness_matrix(
-    const tetrahedral_mesh& mesh, const material& m, std::span<const int> fixed_nodes = {}) {
+/// K [N/m] of the free nodes of this graph and these numbers, three rows per node, symmetric; rows and
+/// columns of the fixed nodes are struck out (thesis A.5).
+[[nodiscard]] inline Eigen::SparseMatrix<double> stiffness_matrix(const tetrahedral_mesh& mesh,
+                                                                  const material& m,
+                                                                  const std::vector<int>& number,
+                                                                  const node_graph& graph) {
   check(m);
-  const std::vector<int> number = free_numbers(mesh, fixed_nodes);
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(144 * mesh.tetrahedra.size());
+  // Three columns per node, in each the three rows of the node itself among those of its neighbours.
+  const int size = graph.size();
+  Eigen::SparseMatrix<double> result(3 * size, 3 * size);
+  result.resizeNonZeros(9 * (static_cast<Eigen::Index>(graph.neighbours.size()) + size));
+  int next = 0;
+  for (int node = 0; node < size; ++node) {
+    const auto beside = graph.neighbours_of(node);
+    for (int c = 0; c < 3; ++c) {
+      result.outerIndexPtr()[3 * node + c] = next;
+      const auto add = [&](int row_node) {
+        for (int i = 0; i < 3; ++i) result.innerIndexPtr()[next++] = 3 * row_node + i;
+      };
+      const auto above = std::lower_bound(beside.begin(), beside.end(), node);
+      std::for_each(beside.begin(), above, add);
+      add(node);
+      std::for_each(above, beside.end(), add);
+    }
+  }
+  result.outerIndexPtr()[3 * size] = next;
+  std::fill_n(result.valuePtr(), next, 0.0);
+  const auto add_block = [&](int row, int column, const Eigen::Matrix3d& block) {
+    const auto beside = graph.neighbours_of(column);
+    auto place = std::lower_bound(beside.begin(), beside.end(), row) - beside.begin();
+    if (row > column) ++place;  // the node itself is among them
+    for (int j = 0; j < 3; ++j) {
+      double* const values = result.valuePtr() + result.outerIndexPtr()[3 * column + j] + 3 * place;
+      for (int i = 0; i < 3; ++i) values[i] += block(i, j);
+    }
+  };
   for (const auto& tetrahedron : mesh.tetrahedra) {
     const auto g = shape_gradients(mesh, tetrahedron);
     const double volume = signed_volume(mesh, tetrahedron);
     for (std::size_t a = 0; a < 4; ++a) {
       for (std::size_t b = 0; b < 4; ++b) {
-        const int row = number[static_cast<std::size_t>(tetrahedron[a])];
-        const int column = number[static_cast<std::size_t>(tetrahedron[b])];
+        const int row = number[slot(tetrahedron[a])], column = number[slot(tetrahedron[b])];
         if (row < 0 || column < 0) continue;
-        const Eigen::Matrix3d block =
+        add_block(
+            row, column,
             volume * (m.lame() * g[a] * g[b].transpose() + m.shear() * g[b] * g[a].transpose() +
-                      m.shear() * g[a].dot(g[b]) * Eigen::Matrix3d::Identity());
-        for (int i = 0; i < 3; ++i) {
-          for (int j = 0; j < 3; ++j)
-            entries.emplace_back(3 * row + i, 3 * column + j, block(i, j));
-        }
+                      m.shear() * g[a].dot(g[b]) * Eigen::Matrix3d::Identity()));
       }
     }
   }
-  Eigen::Index free_rows = 0;
-  for (const int n : number) free_rows += n < 0 ? 0 : 3;
-  Eigen::SparseMatrix<double> result(free_rows, free_rows);
-  result.setFromTriplets(entries.begin(), entries.end());
   return result;
+}
+
+/// The same of a mesh with fixed nodes. Without fixed nodes: the whole singular matrix. The mesh must
+/// pass check().
+[[nodiscard]] inline Eigen::SparseMatrix<double> stiffness_matrix(
+    const tetrahedral_mesh& mesh, const material& m, std::span<const int> fixed_nodes = {}) {
+  const std::vector<int> number = free_numbers(mesh, fixed_nodes);
+  return stiffness_matrix(mesh, m, number, graph_of(mesh, number));
 }
 
 }  // namespace environment

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// How much memory a body may take: predicted from the pattern of its matrix, refused before it is taken.
+
+#include <passive_haptics/environment/refuse.hpp>
+#include <passive_haptics/environment/stiffness_solver.hpp>
+
+#include <cstddef>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
+
+/// What the system can give without swapping [B]; none where it does not say (other than Linux).
+[[nodiscard]] inline std::optional<double> available_memory() {
+  std::ifstream info("/proc/meminfo");
+  for (std::string name; info >> name;) {
+    double kibibytes = 0.0;
+    if (name == "MemAvailable:" && info >> kibibytes) return 1024.0 * kibibytes;
+    info.ignore(200, '\n');
+  }
+  return std::nullopt;
+}
+
+/// Throws memory_refused if `bytes` are more than `limit` [B]; a limit of 0 stands for what the system has,
+/// 8 GB where it does not say.
+inline void check_memory(std::string_view what, double bytes, double limit, std::size_t nodes) {
+  const double most = limit > 0.0 ? limit : available_memory().value_or(8e9);
+  if (bytes <= most) return;
+  refuse(memory_refused(
+      sentence(what, ": ", nodes, " free nodes need ", bytes * 1e-9, " GB and ", most * 1e-9,
+               " GB are allowed; give a coarser mesh, or a larger memory_limit"),
+      bytes));
+}
+
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

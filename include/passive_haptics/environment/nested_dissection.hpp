@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// In which order the nodes of a mesh are eliminated so that its factor stays small.
+//
+//   ┌───────┬─┬───────┐    a separator S cuts the body in two; no element joins A and B. Eliminated
+//   │   A   │S│   B   │    are A, then B, then S, and A and B in the same way: a tree of dense fronts,
+//   └───────┴─┴───────┘    O(n^4/3) entries and O(n²) operations for a compact body
+//
+// A. George, "Nested dissection of a regular finite element mesh", SIAM J. Numer. Anal. 10(2), 1973. The
+// cut is the plane through the median of the longest axis, the separator the nodes next to it on the side
+// that has fewer of them.
+
+#include <passive_haptics/environment/node_graph.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
+
+/// A set of nodes that is eliminated at once, and the later ones that this couples.
+struct elimination_front {
+  int first = 0;              ///< the position of its first node in the order
+  int pivots = 0;             ///< how many nodes are eliminated here, one after the other
+  std::vector<int> bound;     ///< the positions of the later nodes that they are coupled to, sorted
+  std::vector<int> children;  ///< fronts whose bounds end in this one
+  int parent = -1;  ///< the front of its first bound node; −1: nothing is left to couple to
+};
+
+/// The order, and what a factorisation with three unknowns per node will take, before it is begun.
+struct elimination_tree {
+  std::vector<int> position;              ///< of each node in the order
+  std::vector<elimination_front> fronts;  ///< children before parents
+  std::vector<int> front_of;              ///< by position
+  double operations = 0.0;                ///< multiplications and additions
+  double factor_bytes = 0.0;              ///< of the factor, doubles [B]
+  double peak_bytes = 0.0;                ///< the most that the factorisation holds at a time [B]
+};
+
+/// How a graph is dissected; use dissect().
+class dissection {
+ public:
+  dissection(const node_graph& graph, int leaf) : graph_(graph), leaf_(leaf) {
+    side_.assign(slot(graph.size()), 0);
+    order_.reserve(slot(graph.size()));
+    std::vector<int> all(slot(graph.size()));
+    std::iota(all.begin(), all.end(), 0);
+    split(std::move(all));
+  }
+
+  [[nodiscard]] elimination_tree tree() && {
+    tree_.position.resize(order_.size());
+    for (std::size_t k = 0; k < order_.size(); ++k) {
+      tree_.position[slot(order_[k])] = static_cast<int>(k);
+    }
+    for (std::size_t t = 0; t < tree_.fronts.size(); ++t) {
+      tree_.front_of.insert(tree_.front_of.end(), slot(tree_.fronts[t].pivots),
+                            static_cast<int>(t));
+    }
+    couple();
+    predict();
+    return std::move(tree_);
+  }
+
+ private:
+  void eliminate(const std::vector<int>& nodes) {
+    if (nodes.empty()) return;
+    tree_.fronts.push_back(
+        {static_cast<int>(order_.size()), static_cast<int>(nodes.size()), {}, {}, -1});
+    order_.insert(order_.end(), nodes.begin(), nodes.end());
+  }
+
+  void split(std::vector<int> nodes) {
+    if (nodes.size() <= slot(leaf_)) return eliminate(nodes);
+    Eigen::AlignedBox3d box;
+    for (const int i : nodes) box.extend(graph_.points[slot(i)]);
+    Eigen::Index axis = 0;
+    box.sizes().maxCoeff(&axis);
+    const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
+    std::nth_element(nodes.begin(), middle, nodes.end(), [&](int a, int b) {
+      const double left = graph_.points[slot(a)][axis], right = graph_.points[slot(b)][axis];
+      return left < right || (left == right && a < b);
+    });
+    const int low = ++stamp_, high = ++stamp_;
+    for (auto i = nodes.begin(); i != middle; ++i) side_[slot(*i)] = low;
+    for (auto i = middle; i != nodes.end(); ++i) side_[slot(*i)] = high;
+    const auto borders = [&](int node, int on) {
+      const auto beside = graph_.neighbours_of(node);
+      return std::any_of(beside.begin(), beside.end(), [&](int n) { return side_[slot(n)] == on; });
+    };
+    std::vector<int> low_side, high_side, low_border, high_border;
+    for (const int i : nodes) {
+      const bool is_low = side_[slot(i)] == low;
+      auto& inner = is_low ? low_side : high_side;
+      auto& border = is_low ? low_border : high_border;
+      (borders(i, is_low ? high : low) ? border : inner).push_back(i);
+    }
+    nodes = {};  // the memory is needed below
+    const bool cut_low = low_border.size() <= high_border.size();
+    auto& kept = cut_low ? high_side : low_side;
+    const auto& border = cut_low ? high_border : low_border;
+    kept.insert(kept.end(), border.begin(), border.end());
+    split(std::move(low_side));
+    split(std::move(high_side));
+    eliminate(cut_low ? low_border : high_border);
+  }
+
+  /// What each front is coupled to: its neighbours that come later, and what is left of its children.
+  void couple() {
+    std::vector<int> seen(order_.size(), -1);
+    for (std::size_t t = 0; t < tree_.fronts.size(); ++t) {
+      elimination_front& front = tree_.fronts[t];
+      const int end = front.first + front.pivots;
+      const auto add = [&](int position) {
+        if (position < end || seen[slot(position)] == static_cast<int>(t)) return;
+        seen[slot(position)] = static_cast<int>(t);
+        front.bound.push_back(position);
+      };
+      for (int k = front.first; k < end; ++k) {
+        for (const int n : graph_.neighbours_of(order_[slot(k)])) add(tree_.position[slot(n)]);
+      }
+      for (const int child : front.children) {
+        for (const int position : tree_.fronts[slot(child)].bound) add(position);
+      }
+      std::sort(front.bound.begin(), front.bound.end());
+      if (front.bound.empty()) continue;
+      front.parent = tree_.front_of[slot(front.bound.front())];
+      tree_.fronts[slot(front.parent)].children.push_back(static_cast<int>(t));
+    }
+  }
+
+  void predict() {
+    double waiting = 0.0;  // bytes of what children leave to their parents
+    for (const elimination_front& front : tree_.fronts) {
+      const double p = 3.0 * front.pivots, u = 3.0 * static_cast<double>(front.bound.size());
+      tree_.operations += p * p * p / 3.0 + p * p * u + p * u * u;
+      tree_.factor_bytes += 8.0 * p * (p + u);
+      waiting += 8.0 * u * u;
+      tree_.peak_bytes = (std::max)(tree_.peak_bytes, tree_.factor_bytes + waiting);
+      for (const int child : front.children) {
+        const double left = 3.0 * static_cast<double>(tree_.fronts[slot(child)].bound.size());
+        waiting -= 8.0 * left * left;
+      }
+    }
+  }
+
+  const node_graph& graph_;
+  int leaf_;
+  std::vector<int> side_;  ///< of each node: the stamp of the half that it was in last
+  int stamp_ = 0;
+  std::vector<int> order_;
+  elimination_tree tree_;
+};
+
+/// The tree of a graph. Sets of up to `leaf` ≥ 1 nodes are eliminated as they are: a larger one costs
+/// memory, a smaller one makes the dense products short.
+[[nodiscard]] inline elimination_tree dissect(const node_graph& graph, int leaf = 60) {
+  return dissection(graph, leaf).tree();
+}
+
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics

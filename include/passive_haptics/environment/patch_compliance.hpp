@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What the nodes of a patch answer to forces on them, as an elastic_solid (deformable_body.hpp). Where the
+// columns come from: a file (compliance_table.hpp), or the finite elements when they are needed
+// (compliance_cache.hpp).
+//
+// D. L. James, D. K. Pai, "ArtDefo: accurate real time deformable objects", SIGGRAPH 1999. Exact for the
+// nodes of the patch, whatever else the body does; nodes outside of it do not move, as fixed ones: make the
+// patch larger than what is touched.
+
+#include <passive_haptics/environment/surface.hpp>
+#include <passive_haptics/environment/tetrahedral_fem.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
+
+/// Gives columns of K⁻¹ for the rows that are wanted, as multifrontal does.
+template <class S>
+concept column_solver = stiffness_solver<S> &&
+    requires(const S solver, std::span<const int> nodes) {
+  { solver.columns(nodes, nodes) } -> std::convertible_to<Eigen::MatrixXd>;
+};
+
+/// Columns of nodes of a patch one after the other: three for each, 3M scalars long, x y z [m/N] of node
+/// after node of the patch. Rows and columns of fixed nodes are zero.
+template <std::floating_point Scalar, column_solver Solver>
+[[nodiscard]] std::vector<Scalar> patch_columns(const basic_tetrahedral_fem<Solver>& solid,
+                                                std::span<const int> patch,
+                                                std::span<const int> nodes) {
+  // Fixed nodes have no unknowns; what the others answer goes to where they are in the patch.
+  const auto free = [&](std::span<const int> among) {
+    std::pair<std::vector<int>, std::vector<std::size_t>> found;  // number, place
+    for (std::size_t i = 0; i < among.size(); ++i) {
+      const int number = solid.numbers()[slot(among[i])];
+      if (number < 0) continue;
+      found.first.push_back(number);
+      found.second.push_back(i);
+    }
+    return found;
+  };
+  const auto [wanted, wanted_at] = free(patch);
+  const auto [loaded, loaded_at] = free(nodes);
+  const std::size_t rows = 3 * patch.size();
+  std::vector<Scalar> scalars(rows * 3 * nodes.size(), Scalar{0});
+  if (loaded.empty() || wanted.empty()) return scalars;
+  const Eigen::MatrixXd found = solid.solver().columns(loaded, wanted);
+  for (std::size_t j = 0; j < 3 * loaded.size(); ++j) {
+    Scalar* const column = scalars.data() + rows * (3 * loaded_at[j / 3] + j % 3);
+    for (std::size_t i = 0; i < 3 * wanted.size(); ++i) {
+      column[3 * wanted_at[i / 3] + i % 3] =
+          static_cast<Scalar>(found(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+    }
+  }
+  return scalars;
+}
+
+/// std::invalid_argument for a patch without nodes, or with one that the mesh does not have.
+inline void check_patch(std::string_view who, std::span<const int> patch, std::size_t mesh_nodes) {
+  for (const int node : patch) {
+    if (node >= 0 && slot(node) < mesh_nodes) continue;
+    refuse_argument(who, ": node ", node, " is refused; the mesh has nodes 0 to ", mesh_nodes - 1);
+  }
+  if (patch.empty()) refuse_argument(who, ": the patch has no nodes; give some");
+}
+
+/// The `count` nodes of a surface closest to a point [m], or all if there are fewer, in ascending order.
+[[nodiscard]] inline std::vector<int> patch_around(surface_view surface, nodes_view nodes,
+                                                   const Eigen::Vector3d& where,
+                                                   std::size_t count) {
+  std::vector<int> all;
+  for (const auto& t : surface) all.insert(all.end(), t.nodes.begin(), t.nodes.end());
+  const auto ascending = [&] {
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  };
+  ascending();
+  const auto distance = [&](int node) { return (nodes[slot(node)] - where).squaredNorm(); };
+  std::stable_sort(all.begin(), all.end(), [&](int a, int b) { return distance(a) < distance(b); });
+  all.resize((std::min)(count, all.size()));
+  ascending();
+  return all;
+}
+
+/// Columns has fetch(indices), which is told whose columns come next, and column(index): the first of the 9M
+/// scalars of a node of the patch, which stay until the next fetch.
+template <class Columns>
+class patch_compliance {
+ public:
+  /// Nodes of the patch by their numbers in the mesh, one of `mesh_nodes`.
+  patch_compliance(Columns columns, std::vector<int> nodes, std::size_t mesh_nodes)
+      : columns_(std::move(columns)), nodes_(std::move(nodes)), index_(mesh_nodes, -1) {
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      index_.at(slot(nodes_[i])) = static_cast<int>(i);
+  }
+
+  [[nodiscard]] const std::vector<int>& nodes() const noexcept { return nodes_; }
+  [[nodiscard]] const Columns& columns() const noexcept { return columns_; }
+  [[nodiscard]] std::size_t mesh_nodes() const noexcept { return index_.size(); }
+  [[nodiscard]] bool moves(int node) const { return index_[slot(node)] >= 0; }
+
+  /// How node a gives way to a force on node b [m/N]; zero where one is outside of the patch.
+  [[nodiscard]] Eigen::Matrix3d between(int a, int b) const {
+    const int row = index_[slot(a)], column = index_[slot(b)];
+    if (row < 0 || column < 0) return Eigen::Matrix3d::Zero();
+    return block(row, column);
+  }
+  /// How one point, a node triple and its shares, gives way to a force on another [m/N].
+  [[nodiscard]] Eigen::Matrix3d between(const std::array<int, 3>& at,
+                                        const Eigen::Vector3d& at_shares,
+                                        const std::array<int, 3>& by,
+                                        const Eigen::Vector3d& by_shares) const {
+    fetch(by);
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      for (Eigen::Index j = 0; j < 3; ++j) {
+        sum += at_shares[i] * by_shares[j] *
+               between(at[static_cast<std::size_t>(i)], by[static_cast<std::size_t>(j)]);
+      }
+    }
+    return sum;
+  }
+
+  // What basic_deformable_body asks (elastic_solid).
+  [[nodiscard]] Eigen::Matrix3d compliance(const std::array<int, 3>& nodes,
+                                           const Eigen::Vector3d& shares) const {
+    return between(nodes, shares, nodes, shares);
+  }
+  Eigen::Matrix3d press(const std::array<int, 3>& nodes, const Eigen::Vector3d& shares) {
+    at_ = nodes;
+    shares_ = shares;
+    return compliance(nodes, shares);
+  }
+  void load(const Eigen::Vector3d& force) {
+    force_ = force;
+    fetch(at_);
+  }
+  [[nodiscard]] Eigen::Vector3d displacement(int node) const {
+    Eigen::Vector3d u = Eigen::Vector3d::Zero();
+    const int row = index_[slot(node)];
+    if (row < 0) return u;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int column = index_[slot(at_[k])];
+      if (column >= 0) u += block(row, column) * (shares_[static_cast<Eigen::Index>(k)] * force_);
+    }
+    return u;
+  }
+
+ private:
+  void fetch(const std::array<int, 3>& nodes) const {
+    std::array<int, 3> wanted{};
+    std::size_t count = 0;
+    for (const int node : nodes) {
+      if (index_[slot(node)] >= 0) wanted[count++] = index_[slot(node)];
+    }
+    columns_.fetch(std::span<const int>(wanted).first(count));
+  }
+  [[nodiscard]] Eigen::Matrix3d block(int row, int column) const {
+    const std::size_t rows = 3 * nodes_.size();
+    const auto* const first = columns_.column(slot(column)) + 3 * slot(row);
+    Eigen::Matrix3d result;
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        result(i, j) = static_cast<double>(
+            first[static_cast<std::size_t>(j) * rows + static_cast<std::size_t>(i)]);
+      }
+    }
+    return result;
+  }
+
+  mutable Columns columns_;
+  std::vector<int> nodes_;  ///< of the patch, numbers in the mesh
+  std::vector<int> index_;  ///< of a node of the mesh in nodes_, or −1
+  std::array<int, 3> at_{0, 0, 0};
+  Eigen::Vector3d shares_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics
