@@ -1,40 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // What must hold for ANY bytes from the cable. Each function returns null, or what broke.
+#include "fuzz/reader.hpp"
 #include <passive_haptics/falcon/device.hpp>
-
-#include <cstring>
 
 namespace fuzz {
 
 namespace falcon = passive_haptics::falcon;
-using input = std::span<const falcon::byte>;
-
-/// Takes an input apart, zeros when it is used up.
-class reader {
- public:
-  explicit reader(input bytes) noexcept : bytes_(bytes) {}
-
-  falcon::byte one() noexcept {
-    if (bytes_.empty()) return 0;
-    const falcon::byte b = bytes_.front();
-    bytes_ = bytes_.subspan(1);
-    return b;
-  }
-  template <class T>
-  T any() noexcept {
-    T value{};
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-      const falcon::byte b = one();
-      std::memcpy(reinterpret_cast<unsigned char*>(&value) + i, &b, 1);
-    }
-    return value;
-  }
-  [[nodiscard]] bool empty() const noexcept { return bytes_.empty(); }
-
- private:
-  input bytes_;
-};
 
 /// Answers with what the input says: raw transfers, well-formed replies, echoes, silence.
 class far_side {

@@ -68,11 +68,11 @@ bits() { record && { [ -z "$runs" ] || same_bits; }; }
 # The control: arithmetic that rounds otherwise is found out.
 other_bits() { record "${other:?}" && { [ -z "$runs" ] || ! same_bits; }; }
 
-# Those of the Falcon may want libusb; tests/falcon is about them.
+# Those of the Falcon may want libusb; tests/falcon is about them. The remote ones are a pair, and wait.
 examples() {
   local name names=(03_two_threads 08_no_eigen)
   if [[ $mode = full ]]; then
-    mapfile -t names < <(cd examples && printf '%s\n' *.cpp | sed '/falcon/d; s/[.]cpp$//')
+    mapfile -t names < <(cd examples && printf '%s\n' *.cpp | sed '/falcon/d; /remote/d; s/[.]cpp$//')
   fi
   for name in "${names[@]}"; do
     build "$name" -O1 -pthread "examples/$name.cpp" || return

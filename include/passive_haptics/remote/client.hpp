@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The device's end of a session: it asks, and keeps the last good answer. It knows no socket; bytes go in
+// and out, and the clock is yours.
+//
+//     environment thread                                          haptic thread, 1 kHz
+//       socket.send(client.ask(probe, now), server)               if (const auto* plane = inbox.take())
+//       client.receive(bytes, now)                                  touch.update(*plane);
+//       if (const auto* news = client.take())
+//         inbox.publish(half_space_of<scene>(news->content));
+//
+// Nothing that is received is credited to a ledger: the local model's ledger books the force that it held
+// over the motion that it measured, and what crosses the network only says which force it wishes for.
+
+#include <passive_haptics/remote/content.hpp>
+#include <passive_haptics/remote/session.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace remote {
+
+struct client_settings {
+  double silence = 1.0;   ///< without an answer for so long, it says hello again [s]
+  double most_age = 0.5;  ///< an answer to what was asked longer ago is refused [s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!(silence > 0.0)) return {"silence", silence, "> 0 s; longer than a round trip"};
+    if (!(most_age > 0.0)) return {"most_age", most_age, "> 0 s; longer than a round trip"};
+    return {};
+  }
+};
+
+/// An answer, and how old it is for sure: it was made after the question that it echoes was asked, and both
+/// times are the client's, so no clocks need to agree.
+struct news {
+  remote::content content{};
+  nanoseconds asked{0};        ///< by the client's clock
+  std::uint32_t sequence = 0;  ///< of the server
+  std::uint32_t session = 0;   ///< 1, 2, 3 …, as the client has had them
+
+  /// At most [s].
+  [[nodiscard]] constexpr double age(nanoseconds now) const noexcept {
+    return std::chrono::duration<double>(now - asked).count();
+  }
+};
+
+/// Accepts an answer that has its key, is of its session, is newer than the last one, echoes a stamp that
+/// was sent and none older than one that is answered, is young enough and can be used. Everything else
+/// is counted by its verdict and changes nothing.
+///
+/// The stale rule is the local model's (port/freshness.hpp), and begins anew with every update: a surface
+/// fades when it was asked for `most_age` + `stale_after` ago, at the latest.
+class client {
+ public:
+  enum class state : std::uint8_t {
+    greeting,  ///< no session, or none that answers: it says hello
+    talking,   ///< in a session
+    waiting,   ///< greeting, and the server says that it has another client
+  };
+
+  /// One whose check() names a fault sends hello and accepts nothing.
+  explicit client(const client_settings& settings = {}, std::uint64_t key = draw_number()) noexcept
+      : settings_(settings), key_(key), sound_(!settings.check()) {}
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return settings_.check(); }
+
+  /// What to send now: a question, or a hello as long as nobody answers. Call it at the rate that you want
+  /// answers at, 50 to 200 Hz.
+  [[nodiscard]] datagram ask(const probe& where, nanoseconds now) noexcept {
+    if (state_ == state::talking && now - heard_ > detail::span_of(settings_.silence)) {
+      state_ = state::greeting;
+    }
+    if (!asked_) oldest_ = now;
+    asked_ = asked_ && *asked_ > now ? *asked_ : now;
+    message m{.kind = kind::hello, .key = key_, .stamp = now};
+    if (state_ == state::talking) {
+      m.kind = kind::question;
+      m.session = session_;
+      m.sequence = ++number_;
+      m.content = content_of(where);
+    }
+    return encode(m);
+  }
+
+  /// Takes what has come, whatever it is.
+  verdict receive(received_bytes bytes, nanoseconds now) noexcept {
+    return tally_.book(judged(bytes, now));
+  }
+
+  /// The newest answer if one came since the last take(), else null.
+  [[nodiscard]] const news* take() noexcept {
+    if (!fresh_) return nullptr;
+    fresh_ = false;
+    return &*news_;
+  }
+  /// The last good answer, or null before the first. It stays, whatever happens to the session.
+  [[nodiscard]] const news* latest() const noexcept { return news_ ? &*news_ : nullptr; }
+
+  [[nodiscard]] state where() const noexcept { return state_; }
+  /// How many sessions there have been: 2 when the server has been restarted once.
+  [[nodiscard]] std::uint32_t sessions() const noexcept { return sessions_; }
+  [[nodiscard]] const tally& counted() const noexcept { return tally_; }
+
+ private:
+  verdict judged(received_bytes bytes, nanoseconds now) noexcept {
+    const auto found = decode(bytes);
+    if (!found) return found.what;
+    const message& m = found.value;
+    if (m.kind == kind::hello || m.kind == kind::question) return verdict::misdirected;
+    if (m.key != key_ || !sound_ || !asked_) return verdict::stranger;
+    if (m.kind == kind::welcome) return welcomed(m, now);
+    if (m.kind == kind::busy) {
+      if (state_ == state::talking) return verdict::repeated;
+      state_ = state::waiting;
+      return verdict::accepted;
+    }
+    if (session_ == 0 || m.session != session_) return verdict::stranger;
+    if (m.kind == kind::lost) {
+      state_ = state::greeting;
+      session_ = 0;
+      return verdict::accepted;
+    }
+    return answered(m, now);
+  }
+
+  /// The same session once more goes on where it was: what it has sent before stays old.
+  verdict welcomed(const message& m, nanoseconds now) noexcept {
+    if (m.session == 0) return verdict::malformed;
+    if (state_ == state::talking) return verdict::repeated;
+    if (m.session != session_) {
+      session_ = m.session;
+      order_ = {};
+      number_ = 0;
+      ++sessions_;
+    }
+    heard_ = now;
+    state_ = state::talking;
+    return verdict::accepted;
+  }
+
+  verdict answered(const message& m, nanoseconds now) noexcept {
+    if (const auto order = order_.judge(m.sequence); order != verdict::accepted) return order;
+    if (m.stamp > *asked_ || m.stamp < oldest_) return verdict::untrue_stamp;
+    heard_ = now;
+    state_ = state::talking;
+    if (now - m.stamp > detail::span_of(settings_.most_age)) return verdict::too_old;
+    if (!usable(m.content)) return verdict::unusable;
+    order_.passed(m.sequence);
+    oldest_ = m.stamp;
+    news_ = news{m.content, m.stamp, m.sequence, sessions_};
+    fresh_ = true;
+    return verdict::accepted;
+  }
+
+  client_settings settings_;
+  std::uint64_t key_, session_ = 0;  // 0: none
+  bool sound_;
+  state state_ = state::greeting;
+  std::uint32_t number_ = 0;    // of the last question
+  std::uint32_t sessions_ = 0;  // so far
+  detail::in_order order_;
+  nanoseconds heard_{0};              // when the server last said something good
+  std::optional<nanoseconds> asked_;  // the newest stamp that was sent
+  nanoseconds oldest_{0};             // the oldest that may still be echoed
+  std::optional<news> news_;
+  bool fresh_ = false;
+  tally tally_;
+};
+
+}  // namespace remote
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The environment's end of a session: it hears where the device is, and tells what it touches. It knows no
+// socket; bytes go in and out, and the clock is yours.
+//
+//     const auto heard = server.receive(bytes, now);
+//     if (heard.reply) socket.send(*heard.reply, from);         // welcome, lost, busy
+//     if (heard.asked) client = from;                           // whom to answer
+//     if (const auto* question = server.take())
+//       socket.send(server.answer(content_of(plane), *question), client);
+
+#include <passive_haptics/remote/content.hpp>
+#include <passive_haptics/remote/session.hpp>
+
+#include <algorithm>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace remote {
+
+struct server_settings {
+  double silence = 1.0;  ///< a client that has not asked for so long may be followed by another [s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!(silence > 0.0)) return {"silence", silence, "> 0 s"};
+    return {};
+  }
+};
+
+/// Where the device was, and by what an answer will say so.
+struct question {
+  remote::probe probe{};
+  nanoseconds stamp{0};       ///< the client's clock: echoed, and of no meaning here
+  std::uint64_t session = 0;  ///< its number: another one for each that has ever been
+};
+
+/// One client at a time, and one server object for each socket. A hello takes nobody's place: a session
+/// begins with the first question that carries its number, so whoever says hello under a false address
+/// gets no further, and while one client asks, others are told that it is busy.
+class server {
+ public:
+  using source = std::uint64_t (*)();
+
+  /// One whose check() names a fault accepts nothing. `draw` gives the numbers of sessions: other ones for
+  /// each server that has ever run.
+  explicit server(const server_settings& settings = {}, source draw = draw_number) noexcept
+      : settings_(settings), draw_(draw), sound_(!settings.check()) {}
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return settings_.check(); }
+
+  struct heard {
+    verdict what = verdict::accepted;
+    bool asked = false;               ///< it was a question: answers go to whom it came from
+    std::optional<datagram> reply{};  ///< to be sent there at once
+  };
+
+  /// Takes what has come, whatever it is. Throws only what `draw` throws.
+  heard receive(received_bytes bytes, nanoseconds now) {
+    const heard found = judged(bytes, now);
+    tally_.book(found.what);
+    return found;
+  }
+
+  /// The newest question if one came since the last take(), else null.
+  [[nodiscard]] const question* take() noexcept {
+    if (!fresh_) return nullptr;
+    fresh_ = false;
+    return &question_;
+  }
+
+  /// What to send to the client: what there is to be touched, and of which question that was computed. As
+  /// often as there is news, more than once for a question or never.
+  [[nodiscard]] datagram answer(const content& what, const question& of) noexcept {
+    return encode({.kind = kind::answer,
+                   .key = client_.key,
+                   .session = client_.session,
+                   .sequence = ++number_,
+                   .stamp = of.stamp,
+                   .content = what});
+  }
+
+  /// Has a client asked lately?
+  [[nodiscard]] bool has_client(nanoseconds now) const noexcept {
+    return client_.session != 0 && !(now - asked_ > detail::span_of(settings_.silence));
+  }
+  [[nodiscard]] std::uint32_t sessions() const noexcept { return sessions_; }
+  [[nodiscard]] const tally& counted() const noexcept { return tally_; }
+
+ private:
+  struct partner {
+    std::uint64_t key = 0, session = 0;  // 0: nobody
+  };
+
+  [[nodiscard]] static datagram said(kind what, std::uint64_t key, std::uint64_t session) noexcept {
+    return encode({.kind = what, .key = key, .session = session});
+  }
+
+  heard judged(received_bytes bytes, nanoseconds now) {
+    const auto found = decode(bytes);
+    if (!found) return {found.what};
+    const message& m = found.value;
+    if (m.kind != kind::hello && m.kind != kind::question) return {verdict::misdirected};
+    if (!sound_) return {verdict::stranger};
+    if (m.key == 0) return {verdict::malformed};
+    return m.kind == kind::hello ? greeted(m, now) : asked(m, now);
+  }
+
+  /// Of another client than the one that asks.
+  [[nodiscard]] bool is_rival(std::uint64_t key, nanoseconds now) const noexcept {
+    return key != client_.key && has_client(now);
+  }
+
+  heard greeted(const message& m, nanoseconds now) {
+    if (is_rival(m.key, now)) return {verdict::turned_away, false, said(kind::busy, m.key, 0)};
+    const partner& guest = invited(m.key);
+    return {verdict::accepted, false, said(kind::welcome, guest.key, guest.session)};
+  }
+
+  /// With the session that it was offered before, or with a new one in the place of the oldest.
+  const partner& invited(std::uint64_t key) {
+    for (const partner& p : guests_) {
+      if (p.key == key) return p;
+    }
+    partner& newest = guests_[invitations_++ % guests_.size()];
+    newest = {key, draw_()};
+    return newest;
+  }
+
+  heard asked(const message& m, nanoseconds now) noexcept {
+    const auto is = [&m](const partner& p) {
+      return p.session != 0 && m.session == p.session && m.key == p.key;
+    };
+    if (const auto guest = std::find_if(guests_.begin(), guests_.end(), is);
+        guest != guests_.end()) {
+      if (is_rival(m.key, now)) return {verdict::turned_away, false, said(kind::busy, m.key, 0)};
+      if (m.content.form != form::probe) return {verdict::malformed};
+      client_ = *guest;
+      *guest = {};
+      order_ = {};
+      number_ = 0;
+      ++sessions_;
+    }
+    if (!is(client_)) return {verdict::stranger, false, said(kind::lost, m.key, m.session)};
+    if (m.content.form != form::probe) return {verdict::malformed};
+    if (const auto order = order_.judge(m.sequence); order != verdict::accepted) return {order};
+    order_.passed(m.sequence);
+    asked_ = now;
+    question_ = {probe_of(m.content), m.stamp, m.session};
+    fresh_ = true;
+    return {verdict::accepted, true};
+  }
+
+  server_settings settings_;
+  source draw_;
+  bool sound_;
+  partner client_;                   // who asks
+  std::array<partner, 8> guests_{};  // who was welcomed and has not asked yet
+  std::uint32_t invitations_ = 0;    // so far
+  detail::in_order order_;
+  std::uint32_t number_ = 0;    // of the last answer
+  std::uint32_t sessions_ = 0;  // so far
+  nanoseconds asked_{0};        // when the client last did, by the server's clock
+  question question_;
+  bool fresh_ = false;
+  tally tally_;
+};
+
+}  // namespace remote
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Who talks to whom: what both ends of a session have in common.
+//
+// Each end draws 64 bits at random, and every datagram carries both numbers, so whoever sees none of them
+// has to guess them: strays, and datagrams sent blindly, are refused. Whoever can READ the traffic can forge
+// it, and whoever can stop it can stop the session. This is no cryptography: where the network is not yours,
+// put both machines into a tunnel that is (WireGuard, IPsec).
+
+#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/remote/wire.hpp>
+
+#include <optional>
+#include <random>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace remote {
+
+/// 64 bits from the system's own source of randomness, not 0. Throws what std::random_device throws on a
+/// system that has none.
+[[nodiscard]] inline std::uint64_t draw_number() {
+  std::random_device source;
+  std::uint64_t drawn = 0;
+  while (drawn == 0) {
+    drawn = std::uint64_t(source()) << 32 ^ std::uint64_t(source());
+  }
+  return drawn;
+}
+
+/// How many datagrams came to which end.
+class tally {
+ public:
+  [[nodiscard]] constexpr std::uint64_t of(verdict v) const noexcept {
+    return count_[static_cast<std::size_t>(v)];
+  }
+  [[nodiscard]] constexpr std::uint64_t refused() const noexcept {
+    std::uint64_t all = 0;
+    for (std::size_t i = 1; i < verdicts; ++i) all += count_[i];
+    return all;
+  }
+  constexpr verdict book(verdict v) noexcept {
+    ++count_[static_cast<std::size_t>(v)];
+    return v;
+  }
+
+ private:
+  std::array<std::uint64_t, verdicts> count_{};
+};
+
+namespace detail {
+
+/// Lets each number pass once, and only upwards.
+class in_order {
+ public:
+  [[nodiscard]] constexpr verdict judge(std::uint32_t number) const noexcept {
+    if (!newest_ || later(number, *newest_)) return verdict::accepted;
+    return number == *newest_ ? verdict::repeated : verdict::overtaken;
+  }
+  constexpr void passed(std::uint32_t number) noexcept { newest_ = number; }
+
+ private:
+  std::optional<std::uint32_t> newest_;
+};
+
+[[nodiscard]] constexpr nanoseconds span_of(double seconds) noexcept {
+  constexpr double most = 9.0e9;  // [s]; what is longer is for ever
+  const double kept = seconds < most ? seconds : most;
+  return nanoseconds(static_cast<std::int64_t>(kept * 1e9));
+}
+
+}  // namespace detail
+
+}  // namespace remote
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A client and a server, datagram by datagram.
+#include "remote/messages.hpp"
+#include "support/catch.hpp"
+
+#include <set>
+
+using namespace remote_test;
+using remote::verdict;
+
+namespace {
+
+std::uint64_t other_each_time() {
+  static std::uint64_t last = 100;
+  return ++last;
+}
+
+/// A client and a server with nothing in between.
+struct pair_of_ends {
+  remote::client client{{.silence = 1.0, .most_age = 0.2}, 77};
+  remote::server server{{.silence = 1.0}, other_each_time};
+
+  /// The server hears it; its reply, if there is one, comes back.
+  remote::server::heard carry(const remote::datagram& bytes, remote::nanoseconds now) {
+    const auto heard = server.receive(bytes, now);
+    if (heard.reply) (void)client.receive(*heard.reply, now);
+    return heard;
+  }
+  void greet(remote::nanoseconds now) {
+    carry(client.ask({}, now), now);
+    REQUIRE(client.where() == remote::client::state::talking);
+  }
+  /// What the server says to a question asked now.
+  remote::datagram answer(remote::nanoseconds now, double stiffness = 500.0) {
+    carry(client.ask({}, now), now);
+    const auto* asked = server.take();
+    REQUIRE(asked != nullptr);
+    return server.answer(remote::content_of(plane(stiffness)), *asked);
+  }
+  static ph::half_space<d3> plane(double stiffness) {
+    auto p = floor_at_1mm;
+    p.stiffness = stiffness;
+    return p;
+  }
+  [[nodiscard]] double kept() const {
+    return client.latest() == nullptr ? 0.0 : client.latest()->content.numbers[6];
+  }
+};
+
+/// The same bytes with a part of the message changed, as whoever can read the traffic would.
+template <class Change>
+remote::datagram changed(const remote::datagram& bytes, Change change) {
+  auto m = remote::decode(bytes).value;
+  change(m);
+  return remote::encode(m);
+}
+
+}  // namespace
+
+TEST_CASE("a hello, a welcome, a question, an answer", "[remote]") {
+  pair_of_ends ends;
+  CHECK(ends.client.where() == remote::client::state::greeting);
+  CHECK(ends.client.latest() == nullptr);
+  ends.greet(ms(5));
+  CHECK_FALSE(ends.server.has_client(ms(5)));  // not before it asks
+  const remote::probe where{.position = {0.1, 0.2, 0.3}, .force = {1, 2, 3}, .energy = 0.5};
+  const auto heard = ends.carry(ends.client.ask(where, ms(10)), ms(12));
+  CHECK(heard.asked);
+  CHECK_FALSE(heard.reply);
+  CHECK(ends.server.has_client(ms(12)));
+  const auto* asked = ends.server.take();
+  REQUIRE(asked != nullptr);
+  CHECK(remote::content_of(asked->probe) == remote::content_of(where));
+  CHECK(asked->stamp == ms(10));
+  CHECK(ends.server.take() == nullptr);  // once
+  const auto first = ends.server.answer(remote::content_of(ball), *asked);
+  CHECK(ends.client.receive(first, ms(30)) == verdict::accepted);
+  const auto* news = ends.client.take();
+  REQUIRE(news != nullptr);
+  CHECK(news->content == remote::content_of(ball));
+  CHECK(news->age(ms(30)) == Approx(0.020));  // by the client's clock alone
+  CHECK(news->sequence == 1);
+  CHECK(ends.client.take() == nullptr);  // once
+  CHECK(ends.client.latest() != nullptr);
+  const auto back = remote::quadric_of<d3>(news->content);
+  CHECK(remote::content_of(back) == remote::content_of(ball));
+}
+
+TEST_CASE("only what is newer is taken, also where the count wraps round", "[remote]") {
+  for (const std::uint32_t base : {1U, 0xFFFFFFF0U}) {
+    pair_of_ends ends;
+    ends.greet(ms(0));
+    const auto any = ends.answer(ms(1));
+    const auto numbered = [&](std::uint32_t n) {
+      return changed(any, [&](auto& m) { m.sequence = base + n; });
+    };
+    CHECK(ends.client.receive(numbered(5), ms(2)) == verdict::accepted);
+    CHECK(ends.client.receive(numbered(5), ms(2)) == verdict::repeated);
+    CHECK(ends.client.receive(numbered(4), ms(2)) == verdict::overtaken);
+    for (std::uint32_t n = 6; n < 40; ++n) {
+      CHECK(ends.client.receive(numbered(n), ms(2)) == verdict::accepted);
+      CHECK(ends.client.receive(numbered(n - 1), ms(2)) == verdict::overtaken);
+    }
+    CHECK(ends.client.counted().of(verdict::accepted) == 1 + 35);
+    CHECK(ends.client.counted().refused() == 1 + 35);
+
+    const auto question = ends.client.ask({}, ms(3));
+    const auto as = [&](std::uint32_t n) {
+      return changed(question, [&](auto& m) { m.sequence = base + 100 + n; });
+    };
+    CHECK(ends.server.receive(as(2), ms(3)).asked);
+    CHECK(ends.server.receive(as(2), ms(3)).what == verdict::repeated);
+    CHECK(ends.server.receive(as(1), ms(3)).what == verdict::overtaken);
+    CHECK(ends.server.receive(as(30), ms(3)).asked);
+    CHECK(ends.server.receive(as(29), ms(3)).what == verdict::overtaken);
+  }
+}
+
+TEST_CASE("without the key and the session nothing is accepted, and the last good answer stays",
+          "[remote]") {
+  pair_of_ends ends;
+  ends.greet(ms(0));
+  REQUIRE(ends.client.receive(ends.answer(ms(1), 500.0), ms(2)) == verdict::accepted);
+  const auto next = ends.answer(ms(10), 600.0);
+  const auto refused = [&](auto change, verdict why) {
+    CHECK(ends.client.receive(changed(next, change), ms(12)) == why);
+    CHECK(ends.kept() == 500.0);
+    CHECK(ends.client.where() == remote::client::state::talking);
+  };
+  for (int bit = 0; bit < 64; ++bit) {
+    refused([bit](auto& m) { m.key ^= std::uint64_t(1) << bit; }, verdict::stranger);
+    refused([bit](auto& m) { m.session ^= std::uint64_t(1) << bit; }, verdict::stranger);
+    refused([bit](auto& m) { m.kind = remote::kind::lost, m.session ^= std::uint64_t(1) << bit; },
+            verdict::stranger);
+  }
+  refused([](auto& m) { m.key = 0; }, verdict::stranger);
+  refused([](auto& m) { m.session = 0; }, verdict::stranger);
+  refused([](auto& m) { m.kind = remote::kind::question; }, verdict::misdirected);
+  refused([](auto& m) { m.kind = remote::kind::hello; }, verdict::misdirected);
+  refused([](auto& m) { m.kind = remote::kind::welcome; }, verdict::repeated);
+  refused([](auto& m) { m.kind = remote::kind::busy; }, verdict::repeated);
+  CHECK(ends.client.counted().refused() == 3 * 64 + 6);
+  CHECK(ends.client.receive(next, ms(12)) == verdict::accepted);  // the control
+  CHECK(ends.kept() == 600.0);
+
+  // The server's end.
+  const auto question = ends.client.ask({}, ms(20));
+  for (int bit = 0; bit < 64; ++bit) {
+    for (const bool key : {true, false}) {
+      const auto heard = ends.server.receive(
+          changed(question, [=](auto& m) { (key ? m.key : m.session) ^= std::uint64_t(1) << bit; }),
+          ms(20));
+      CHECK(heard.what == verdict::stranger);
+      CHECK_FALSE(heard.asked);
+      REQUIRE(heard.reply);  // lost, for a client of a server that was restarted
+      CHECK(ends.client.receive(*heard.reply, ms(20)) == verdict::stranger);
+    }
+  }
+  CHECK(ends.server.take() == nullptr);
+  CHECK(ends.server.receive(question, ms(20)).asked);
+}
+
+TEST_CASE("a surface that no local model takes is refused, and the last good one stays",
+          "[remote]") {
+  pair_of_ends ends;
+  ends.greet(ms(0));
+  REQUIRE(ends.client.receive(ends.answer(ms(1), 500.0), ms(2)) == verdict::accepted);
+  const auto sent = [&](auto shape) {
+    ends.carry(ends.client.ask({}, ms(5)), ms(5));
+    return ends.client.receive(ends.server.answer(remote::content_of(shape), *ends.server.take()),
+                               ms(6));
+  };
+  const auto with = [](auto shape, auto change) {
+    change(shape);
+    return shape;
+  };
+  for (const double K : {0.0, -1.0, -500.0}) {
+    CHECK(sent(with(floor_at_1mm, [K](auto& p) { p.stiffness = K; })) == verdict::unusable);
+    CHECK(sent(with(ball, [K](auto& q) { q.stiffness = K; })) == verdict::unusable);
+    CHECK(sent(with(ball, [K](auto& q) { q.thickness = K; })) == verdict::unusable);
+    CHECK(sent(with(ball, [K](auto& q) { q.reach = K; })) == verdict::unusable);
+  }
+  for (const double x : {std::nan(""), HUGE_VAL}) {
+    CHECK(sent(with(floor_at_1mm, [x](auto& p) { p.point = {x, 0, 0}; })) == verdict::not_finite);
+    CHECK(sent(with(floor_at_1mm, [x](auto& p) { p.stiffness = x; })) == verdict::not_finite);
+    CHECK(sent(with(ball, [x](auto& q) { q.curvature = x; })) == verdict::not_finite);
+  }
+  CHECK(sent(with(floor_at_1mm, [](auto& p) { p.normal = {0, 0, 0}; })) == verdict::unusable);
+  CHECK(sent(with(ball, [](auto& q) { q.tangent = q.normal; })) == verdict::unusable);
+  CHECK(sent(with(ball, [](auto& q) { q.curvature = 201.0; })) == verdict::unusable);  // it folds
+  CHECK(ends.kept() == 500.0);
+  CHECK(sent(ball) == verdict::accepted);
+  CHECK(sent(floor_at_1mm) == verdict::accepted);
+}
+
+TEST_CASE("an answer says how old it is by the client's clock, and cannot lie about it",
+          "[remote]") {
+  pair_of_ends ends;
+  ends.greet(ms(1000));
+  const auto first = ends.answer(ms(1010), 1.0);
+  const auto second = ends.answer(ms(1020), 2.0);
+  const auto third = ends.answer(ms(1030), 3.0);
+  const auto stamped = [](const remote::datagram& bytes, remote::nanoseconds t) {
+    return changed(bytes, [t](auto& m) { m.stamp = t; });
+  };
+  CHECK(ends.client.receive(stamped(first, ms(1031)), ms(1100)) == verdict::untrue_stamp);
+  CHECK(ends.client.receive(stamped(first, ms(999)), ms(1100)) == verdict::untrue_stamp);
+  CHECK(ends.client.receive(stamped(first, remote::nanoseconds::max()), ms(1100)) ==
+        verdict::untrue_stamp);
+  CHECK(ends.client.receive(stamped(first, remote::nanoseconds::min()), ms(1100)) ==
+        verdict::untrue_stamp);
+  CHECK(ends.client.receive(second, ms(1100)) == verdict::accepted);
+  CHECK(ends.client.receive(stamped(third, ms(1019)), ms(1100)) == verdict::untrue_stamp);
+  CHECK(ends.client.receive(third, ms(1231)) == verdict::too_old);  // 201 ms
+  CHECK(ends.kept() == 2.0);
+  CHECK(ends.client.receive(third, ms(1230)) == verdict::accepted);  // 200 ms
+  CHECK(ends.client.latest()->age(ms(1230)) == Approx(0.2));
+}
+
+TEST_CASE("a server that is restarted is greeted anew, and its count begins anew", "[remote]") {
+  pair_of_ends ends;
+  ends.greet(ms(0));
+  for (int n = 1; n < 50; ++n) {
+    REQUIRE(ends.client.receive(ends.answer(ms(n), n), ms(n)) == verdict::accepted);
+  }
+  const auto before = ends.answer(ms(50), 999.0);  // it will be on its way for long
+  ends.server = remote::server({}, other_each_time);
+  CHECK(ends.carry(ends.client.ask({}, ms(60)), ms(60)).what == verdict::stranger);
+  CHECK(ends.client.where() == remote::client::state::greeting);
+  CHECK(ends.kept() == 49.0);  // the last good one
+  CHECK(ends.client.receive(before, ms(61)) == verdict::stranger);
+  ends.greet(ms(70));
+  CHECK(ends.client.sessions() == 2);
+  CHECK(ends.client.receive(before, ms(71)) == verdict::stranger);
+  CHECK(ends.client.receive(ends.answer(ms(80), 80.0), ms(81)) == verdict::accepted);
+  CHECK(ends.client.latest()->sequence == 1);
+  CHECK(ends.client.latest()->session == 2);
+  CHECK(ends.kept() == 80.0);
+  // An old session that comes back, by whatever forger, is still older than what is answered.
+  CHECK(ends.client.receive(changed(before,
+                                    [&](auto& m) {
+                                      m.session = remote::decode(ends.answer(ms(82))).value.session;
+                                    }),
+                            ms(83)) == verdict::untrue_stamp);
+}
+
+TEST_CASE("after a silence both ends begin anew, whoever it was that fell silent", "[remote]") {
+  pair_of_ends ends;
+  ends.greet(ms(0));
+  REQUIRE(ends.client.receive(ends.answer(ms(1), 1.0), ms(1)) == verdict::accepted);
+  (void)ends.client.ask({}, ms(1001));
+  CHECK(ends.client.where() == remote::client::state::talking);
+  (void)ends.client.ask({}, ms(1002));
+  CHECK(ends.client.where() == remote::client::state::greeting);
+  SECTION("an answer of the same session that comes after all") {
+    ends.carry(ends.client.ask({}, ms(1003)), ms(1003));  // welcomed to another
+    CHECK(ends.client.sessions() == 2);
+    CHECK(ends.client.receive(ends.answer(ms(1004), 2.0), ms(1005)) == verdict::accepted);
+  }
+  SECTION("a deaf client: a forged number far ahead lasts no longer than a silence") {
+    ends.greet(ms(1003));
+    const auto next = ends.answer(ms(1004));
+    CHECK(ends.client.receive(changed(next, [](auto& m) { m.sequence += 1U << 30; }), ms(1005)) ==
+          verdict::accepted);
+    CHECK(ends.client.receive(ends.answer(ms(1006)), ms(1007)) == verdict::overtaken);
+    ends.greet(ms(2100));
+    CHECK(ends.client.receive(ends.answer(ms(2101)), ms(2102)) == verdict::accepted);
+  }
+}
+
+TEST_CASE("one client at a time: another waits until the first is silent", "[remote]") {
+  pair_of_ends ends;
+  ends.greet(ms(0));
+  (void)ends.answer(ms(1));
+  remote::client other({}, 78);
+  const auto tries = [&](remote::nanoseconds now) {
+    const auto heard = ends.server.receive(other.ask({}, now), now);
+    if (heard.reply) (void)other.receive(*heard.reply, now);
+    return heard.what;
+  };
+  CHECK(tries(ms(10)) == verdict::turned_away);
+  CHECK(other.where() == remote::client::state::waiting);
+  CHECK(tries(ms(1001)) == verdict::turned_away);
+  CHECK(tries(ms(1002)) == verdict::accepted);
+  CHECK(other.where() == remote::client::state::talking);
+  SECTION("and has it then") {
+    CHECK(tries(ms(1003)) == verdict::accepted);
+    CHECK(ends.server.sessions() == 2);
+    CHECK(ends.carry(ends.client.ask({}, ms(1004)), ms(1004)).what == verdict::turned_away);
+  }
+  SECTION("unless the first is back before it asks") {
+    ends.greet(ms(1003));
+    (void)ends.answer(ms(1004));
+    CHECK(tries(ms(1005)) == verdict::turned_away);
+  }
+}
+
+TEST_CASE("a hello alone takes nobody's place, however many there are", "[remote]") {
+  pair_of_ends ends;
+  ends.greet(ms(0));
+  (void)ends.answer(ms(1));
+  for (std::uint64_t key = 1000; key < 2000; ++key) {  // while the client is silent, too
+    const auto hello = remote::encode({.kind = remote::kind::hello, .key = key});
+    const auto heard = ends.server.receive(hello, ms(key < 1500 ? 2 : 1500));
+    CHECK(heard.what == (key < 1500 ? verdict::turned_away : verdict::accepted));
+    REQUIRE(heard.reply);
+    CHECK(heard.reply->size() == hello.size());  // no amplifier
+    CHECK(ends.client.receive(*heard.reply, ms(2)) == verdict::stranger);
+  }
+  CHECK(ends.carry(ends.client.ask({}, ms(900)), ms(900)).asked);
+  CHECK(ends.server.sessions() == 1);
+}
+
+TEST_CASE("two clients that come at once do not keep each other out", "[remote]") {
+  // Both ask every 10 ms, 50 ms away, and neither hears that it has to stop saying hello before then.
+  remote::server server({}, other_each_time);
+  remote::client a({}, 1), b({}, 2);
+  std::vector<std::pair<remote::nanoseconds, remote::datagram>> back;
+  int asked = 0;
+  for (int n = 0; n < 100; ++n) {
+    const auto now = ms(10 * n);
+    while (!back.empty() && back.front().first <= now) {
+      (void)a.receive(back.front().second, now);
+      (void)b.receive(back.front().second, now);
+      back.erase(back.begin());
+    }
+    for (remote::client* c : {&a, &b}) {
+      const auto heard = server.receive(c->ask({}, now), now);
+      if (heard.reply) back.emplace_back(now + ms(50), *heard.reply);
+      asked += heard.asked;
+    }
+  }
+  CHECK(server.sessions() == 1);
+  CHECK(asked > 80);
+}
+
+TEST_CASE("settings out of their range are named, and accept nothing", "[remote]") {
+  CHECK_FALSE(remote::client_settings{}.check());
+  CHECK_FALSE(remote::server_settings{}.check());
+  for (const double x : {0.0, -1.0, std::nan("")}) {
+    const remote::client_settings silence{.silence = x}, age{.most_age = x};
+    CHECK(std::string(silence.check().parameter) == "silence");
+    CHECK(std::string(age.check().parameter) == "most_age");
+    CHECK(std::string(remote::server_settings{.silence = x}.check().parameter) == "silence");
+    remote::server good({}, other_each_time), bad({.silence = x}, other_each_time);
+    remote::client device(silence, 5);
+    const auto hello = device.ask({}, ms(0));
+    CHECK(bad.receive(hello, ms(0)).what == verdict::stranger);
+    CHECK(device.receive(*good.receive(hello, ms(0)).reply, ms(0)) == verdict::stranger);
+  }
+  for (const double x : {1e300, HUGE_VAL}) {  // for ever
+    pair_of_ends ends;
+    ends.client = remote::client({.silence = x, .most_age = x}, 77);
+    ends.greet(ms(0));
+    CHECK(ends.client.receive(ends.answer(ms(1)), ms(9'000'000'000)) == verdict::accepted);
+  }
+}
+
+TEST_CASE("numbers of sessions are drawn, never zero, never twice", "[remote]") {
+  std::set<std::uint64_t> drawn;
+  for (int n = 0; n < 1000; ++n) drawn.insert(remote::draw_number());
+  CHECK(drawn.size() == 1000);
+  CHECK(drawn.count(0) == 0);
+  std::uint64_t ones = 0, zeros = 0;
+  for (const auto n : drawn) ones |= n, zeros |= ~n;
+  CHECK(~ones == 0);  // every bit is drawn
+  CHECK(~zeros == 0);
+}
+
+TEST_CASE("a surface crosses the network in double and arrives in any scalar", "[remote]") {
+  using scene = ph::space<float, 3>;
+  const ph::quadric<scene> small{.point = {0.5F, -0.25F, 2},
+                                 .normal = {0, 0, 1},
+                                 .tangent = {1, 0, 0},
+                                 .curvature = 3,
+                                 .cross_curvature = -1,
+                                 .stiffness = 500,
+                                 .thickness = 0.0625F};
+  const auto c = remote::content_of(small);  // its reach is the largest float
+  CHECK(remote::usable(c));
+  auto back = remote::quadric_of<scene>(c);
+  CHECK(back.prepare());
+  CHECK(remote::content_of(back) == c);
+  CHECK(remote::half_space_of<scene>(c).prepare());  // its tangent plane
+  auto far_reaching = ball;
+  far_reaching.reach = std::numeric_limits<double>::max();
+  auto shorter = remote::quadric_of<scene>(remote::content_of(far_reaching));
+  CHECK(std::isfinite(shorter.reach));
+  CHECK(shorter.prepare());
+  for (const auto form : {remote::form::nothing, remote::form::plane, remote::form::probe}) {
+    CHECK_FALSE(remote::quadric_of<d3>(content_of_form(form)).prepare());
+    CHECK(remote::half_space_of<d3>(content_of_form(form)).prepare() ==
+          (form == remote::form::plane));
+    CHECK(remote::usable(content_of_form(form)));
+  }
+  CHECK(remote::content_of(remote::probe_of(content_of_form(remote::form::plane))) ==
+        remote::content_of(remote::probe{}));
+}
