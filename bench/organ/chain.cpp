@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain.hpp"
+
+#include "published.hpp"
+#include <passive_haptics/environment/compliance_table.hpp>
+#include <passive_haptics/environment/vtk_writer.hpp>
+#include <passive_haptics/runner.hpp>
+#include <passive_haptics/runner/scope.hpp>
+#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/presets.hpp>
+
+#include <atomic>
+#include <optional>
+#include <thread>
+
+namespace organ {
+
+namespace sim = passive_haptics::simulation;
+
+namespace {
+
+constexpr double mass = sim::falcon_like.mass, damping = sim::falcon_like.damping,
+                 force_limit = sim::falcon_like.force_limit;
+constexpr double first_second = 1.0;  // until then the hand is on its way to the organ
+
+/// A hand that strokes: a spring and a damper to where it wants to be, no stronger than 4 N.
+struct stroking_hand {
+  static constexpr double strongest = 4.0;
+  stroke_of_organ path{};
+
+  [[nodiscard]] vector force(double t, const vector& x, const vector& v) const noexcept {
+    constexpr double dt = 1e-3;
+    const vector target = path(t), speed = (path(t + dt) - target) / dt;
+    return sim::clamp_norm<volume>(300.0 * (target - x) + 2.0 * (speed - v), strongest);
+  }
+  [[nodiscard]] static double mass() noexcept { return 0.0; }
+  [[nodiscard]] static ph::parameter_fault check() noexcept { return {}; }
+};
+
+/// A device that is simulated as fast as time goes by: each exchange carries it, exactly, through the time
+/// since the last one, under the force of the last one, which its watchdog drops.
+class living_device {
+ public:
+  explicit living_device(double watchdog)
+      : body_({.mass = organ::mass,
+               .damping = damping,
+               .force_limit = force_limit,
+               .start = stroking_hand{}.path(0.0),
+               .watchdog = watchdog}) {}
+
+  ph::device_sample<volume> exchange(const vector& force) noexcept {
+    if (!watch_) {  // its time begins with the loop, however long that took to start
+      watch_.emplace();
+      return {};
+    }
+    if (!body_.set_period(watch_->lap())) return {};
+    return body_.exchange(std::exchange(held_, force));
+  }
+  [[nodiscard]] const auto& body() const noexcept { return body_; }
+
+ private:
+  sim::device<volume, stroking_hand> body_;
+  std::optional<ph::stopwatch> watch_;
+  vector held_ = vector::Zero();
+};
+
+/// What the haptic thread tells the environment.
+struct touch_news {
+  volume::coordinates device{}, force{};
+};
+
+/// What both threads share, and what is known afterwards.
+template <class Surface>
+struct meeting {
+  ph::exchange<Surface> surfaces;
+  ph::exchange<touch_news> touches;
+  std::atomic<bool> over = false;
+  std::atomic<double> haptic_cpu = 0.0;
+  double environment_cpu = 0.0, update_cpu = 0.0;
+  std::uint64_t updates = 0;
+};
+
+/// The slow thread: the newest touch in, the newest surface out.
+template <class Surface, class Body>
+void answer_touches(Body& body, meeting<Surface>& with, double rate) {
+  ph::steady_pace pace(std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate)));
+  pace.begin();
+  touch_news last{stroke_of_organ{}(0.0), vector::Zero()};
+  while (!with.over) {
+    if (const auto* news = with.touches.take()) last = *news;
+    const double begin = thread_cpu();
+    body.update(last.device, last.force);
+    with.surfaces.publish(published<Surface>(body));
+    with.update_cpu += thread_cpu() - begin;
+    ++with.updates;
+    static_cast<void>(pace.next());
+  }
+  with.environment_cpu = thread_cpu();
+}
+
+constexpr std::size_t kept = std::size_t{1} << 16;  // ticks: the last minute
+ph::scope<volume, kept> seen;
+std::array<double, kept> port_energy;  // true, of the same ticks [J]
+
+/// Touches the body, and returns what came of it.
+template <class Surface, class Body>
+chain_row touch(Body& body, const chain_settings& chosen, const env::on_progress& tell) {
+  meeting<Surface> with;
+  body.update(stroke_of_organ{}(0.0), vector::Zero());
+  with.surfaces.publish(published<Surface>(body));
+  ph::passive_port port{
+      volume{}, one_contact<Surface>(mass, force_limit), ph::reduced_energy{.damping = damping},
+      ph::bound_chain{
+          ph::reachable_bound{.mass = mass, .hand_force = 1.25 * stroking_hand::strongest},
+          ph::actuator_limit{.most = force_limit}},
+      ph::late_loop_limits<1>{.longest_tick = chosen.longest_tick,
+                              .watchdog = chosen.longest_tick}};
+  if (const auto fault = port.check()) {
+    throw std::invalid_argument(std::string("the chain's ") + fault.parameter + " must be " +
+                                fault.remedy);
+  }
+  seen.clear();
+  std::uint64_t tick = 0;
+  living_device device(chosen.longest_tick);
+  ph::runner loop{device, [&](const auto& sample) {
+                    if (const auto* surface = with.surfaces.take())
+                      port.source().update(0, *surface);
+                    const auto done = port.tick(sample);
+                    with.touches.publish({sample.position, done.force});
+                    seen.record(sample, done);
+                    port_energy[tick++ % kept] = device.body().meter().value();
+                    if (tick % 128 == 0) with.haptic_cpu = thread_cpu();
+                    return done.force;
+                  }};
+  std::thread environment([&] { answer_touches(body, with, chosen.rate); });
+  const auto started = loop.start({.priority = 80, .lock_memory = true});
+  const double end = chosen.seconds;
+  bool go_on = static_cast<bool>(started);
+  for (double t = 0.0; t < end && go_on; t += 0.1) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    go_on = loop.running() && (!tell || tell(t / end));
+  }
+  loop.stop();
+  with.over = true;
+  environment.join();
+  if (!started) throw std::runtime_error(ph::to_string(started.what));
+  if (!go_on) throw ex::interrupted("stopped: there is no report");
+  std::array<char, 600> text{};
+  std::cout << ph::describe(started.granted, text) << '\n'
+            << ph::describe(loop.timing(), text) << "\n\n";
+
+  chain_row row{.surface = name_of<Surface>,
+                .seconds = device.body().time(),
+                .updates = with.updates,
+                .update = 1e3 * with.update_cpu / static_cast<double>(with.updates),
+                .ticks = loop.counts().ticks,
+                .late = loop.counts().late,
+                .lost = loop.counts().lost,
+                .longest = 1e-6 * static_cast<double>(loop.counts().longest.count()),
+                .least_energy = device.body().meter().minimum(),
+                .missing = std::abs(device.body().residual()),
+                .haptic_cpu = 100.0 * with.haptic_cpu / device.body().time(),
+                .environment_cpu = 100.0 * with.environment_cpu / device.body().time()};
+  std::size_t counted = 0, touching = 0;
+  double after_late = 1.0;  // time since the last tick that was longer than stated [s]
+  for (std::size_t i = 1; i < seen.size(); ++i) {
+    const auto& now = seen[i];
+    row.beyond += now.dt > chosen.longest_tick ? 1U : 0U;
+    const vector given = now.given, before = seen[i - 1].given;
+    row.largest_force = std::max(row.largest_force, given.norm());
+    after_late = now.dt > chosen.longest_tick ? 0.0 : after_late + now.dt;
+    double& step = now.time < first_second ? row.touch_step
+                   : after_late < 0.01     ? row.late_step
+                                           : row.largest_step;
+    step = std::max(step, (given - before).norm());
+    if (now.time < first_second) continue;
+    ++counted;
+    touching += now.depth > 0.0 ? 1U : 0U;
+  }
+  row.contact = counted > 0 ? 100.0 * static_cast<double>(touching) / static_cast<double>(counted)
+                            : std::nan("");
+  return row;
+}
+
+template <class Body>
+chain_row touch_by(const std::string& by, Body& body, const chain_settings& chosen,
+                   const env::on_progress& tell) {
+  chain_row row =
+      chosen.planes ? touch<plane>(body, chosen, tell) : touch<quadric>(body, chosen, tell);
+  row.by = by;
+  return row;
+}
+
+/// The upper side of a body in millimetres, coloured by how far it has moved.
+void draw_surface(ex::report& out, const held_mesh& body, const std::vector<vector>& now) {
+  ex::csv_file csv(out.path("chain_surface.csv"), "x mm,y mm,z mm,moved mm");
+  for (const auto& t : env::boundary(body.mesh)) {
+    const env::triangle shape = env::corners(t, now);
+    if (env::area_vector(shape).z() <= 0.0) continue;
+    const auto corner = [&](std::size_t k) {
+      const vector x = 1e3 * shape[k];
+      const auto node = env::slot(t.nodes[k]);
+      csv.row(x.x(), x.y(), x.z(), 1e3 * (now[node] - body.mesh.nodes[node]).norm());
+    };
+    corner(0);
+    corner(1);
+    csv.line("");
+    corner(2);
+    corner(2);
+    csv.line("\n");
+  }
+  csv.close();
+  out.plot(
+      "chain_surface",
+      {"The upper side of the organ at the end",
+       "Coloured by how far it has moved. The dent is where the tool stood when time was up; its "
+       "file for ParaView is chain_organ.vtk."},
+      "set key noautotitle\nset pm3d depthorder\nset view 50,30,1.7\n"
+      "set view equal xyz\nunset border\nunset xtics\nunset ytics\nunset ztics\n"
+      "set palette defined (0 '#d8c9b4', 0.3 '#d88060', 1 '#901010')\n"
+      "set cblabel 'moved [mm]'\n"
+      "splot 'chain_surface.csv' using 1:2:3:4 with pm3d");
+}
+
+void draw_course(ex::report& out) {
+  if (!ph::save(seen, out.path("chain_scope.csv").c_str())) {
+    throw std::runtime_error("chain_scope.csv cannot be written");
+  }
+  ex::csv_file csv(out.path("chain_course.csv"), "s,force N,depth mm,port energy J,ledger J");
+  const std::uint64_t first = seen.size() > 0 ? seen[0].tick : 0;
+  for (std::size_t i = 0; i < seen.size(); i += 10) {
+    const auto& r = seen[i];
+    csv.row(r.time, vector(r.given).norm(), 1e3 * r.depth, port_energy[(first + i) % kept],
+            r.energy);
+  }
+  csv.close();
+  out.plot(
+      "chain_force",
+      {"The force on the device",
+       "It follows the strokes without a step. A spike down to zero is a tick so late that the "
+       "device's watchdog dropped the force."},
+      "set xlabel 's'\nplot 'chain_course.csv' using 1:2 with lines");
+  out.plot("chain_energy",
+           {"Energy that the hand has paid in: true, and in the ledger",
+            "The ledger stays below the truth, as it must, and neither falls below zero: nothing "
+            "came out "
+            "that the hand had not put in."},
+           "set xlabel 's'\nplot 'chain_course.csv' using 1:4 with lines, '' using 1:5 with lines");
+}
+
+}  // namespace
+
+ex::record record_of(const chain_row& r) {
+  return {{"nodes", r.nodes},
+          {"by", r.by},
+          {"surface", r.surface},
+          {"seconds", r.seconds},
+          {"updates", r.updates},
+          {"update_ms", r.update},
+          {"ticks", r.ticks},
+          {"late", r.late},
+          {"lost", r.lost},
+          {"longest_ms", r.longest},
+          {"beyond_stated", r.beyond},
+          {"contact_%", r.contact, "%.4g"},
+          {"largest_force_N", r.largest_force},
+          {"step_at_touch_N", r.touch_step},
+          {"step_when_late_N", r.late_step},
+          {"largest_step_N", r.largest_step},
+          {"least_energy_J", r.least_energy},
+          {"missing_J", r.missing, "%.1e"},
+          {"haptic_cpu_%", r.haptic_cpu},
+          {"environment_cpu_%", r.environment_cpu}};
+}
+
+chain_row run_chain(ex::report& out, const chain_settings& chosen, const env::on_progress& tell) {
+  const held_mesh body = make_organ(chosen.side);
+  env::tetrahedral_fem fem(body.mesh, organ_flesh, body.held, {.tell = tell});
+  const env::body_options around{.moved = env::moved_nodes::around};
+  chain_row row;
+  std::vector<vector> now = body.mesh.nodes;  // all of them, under the last force
+  if (chosen.by_table) {
+    const auto id = env::fingerprint_of(body.mesh, organ_flesh, body.held);
+    const auto file = out.path(ex::format("organ_%.0f.table", double(chosen.side)));
+    if (env::load_table(file, id, body.mesh.nodes.size()).fault) {
+      env::compute_table(file, fem, id, stroked_patch(body),
+                         {.threads = chosen.threads, .tell = tell});
+    }
+    env::basic_deformable_body<env::compliance_table<>> touched(
+        body.mesh, env::read_table(file, id, body.mesh.nodes.size()), around);
+    row = touch_by("table", touched, chosen, tell);
+    const auto& last = touched.contact();  // the table knows its patch alone
+    fem.press(touched.surface()[env::slot(last.triangle)].nodes, last.weights);
+    fem.load(-touched.force());
+    for (std::size_t i = 0; i < now.size(); ++i) now[i] += fem.displacement(static_cast<int>(i));
+  } else {
+    env::basic_deformable_body<env::tetrahedral_fem> touched(body.mesh, std::move(fem), around);
+    row = touch_by("elimination path", touched, chosen, tell);
+    now = touched.picture();
+  }
+  row.nodes = body.mesh.nodes.size();
+  env::write_vtk(out.path("chain_organ.vtk"), {body.mesh, now});
+  out.section(
+      "The whole chain",
+      "Real threads: an organ of finite elements at its own rate, a loop of 1 kHz, a device "
+      "of 0.25 kg and 1 N·s/m in a hand of at most 4 N that strokes the organ. The device's "
+      "watchdog is the longest tick that was stated. Late are ticks of more than 1.5 ms; "
+      "CPU is that of a core.");
+  out.show(ex::table_of(std::vector{row}));
+  out.member("chain", ex::json_of(std::vector{row}));
+  draw_surface(out, body, now);
+  draw_course(out);
+  return row;
+}
+
+}  // namespace organ

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The program, apart from main(), so that a test can run it.
+
+#include "../common/rows.hpp"
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+namespace organ {
+
+namespace ex = experiments;
+
+struct settings {
+  std::string out = "organ";
+  bool quick = false;
+  bool large = false;
+  int threads = 0;   ///< of the tables; 0: as many as the machine has
+  std::string only;  ///< this part; empty: all of them
+  struct {
+    int seconds = 60, side = 32, rate = 100;
+    bool solve = false, planes = false;
+  } chain;
+};
+
+/// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
+[[nodiscard]] settings parse(const std::vector<std::string>& arguments);
+
+/// 0: all is well. 1: a figure was missed, or something could not be written. 2: an argument is
+/// wrong. 130: stopped; nothing is half written.
+[[nodiscard]] int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop);
+
+}  // namespace organ
