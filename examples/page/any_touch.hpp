@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// One type for every composition on the page, so that a menu can choose it while the page runs.
+//
+//     constexpr std::array menu{PAGE_CONTROLLER(wall_touch, "strict", "…", ph::local_model{…})};
+//
+// The expression that is compiled is also the text that the page offers to be pasted.
+
+#include "settings.hpp"
+#include <passive_haptics/passive_haptics.hpp>
+
+#include <array>
+#include <cstddef>
+#include <new>
+#include <type_traits>
+
+namespace page {
+
+namespace ph = passive_haptics;
+
+/// What a tick says, whatever the composition.
+template <class Space>
+struct answer {
+  typename Space::vector force;
+  double ledger = 0;
+  ph::event what = ph::event::nominal;
+};
+
+/// A composition that hears of `Surfaces` planes at once; copying it copies the state.
+template <class S, int Surfaces>
+class any_touch {
+ public:
+  using Space = S;
+  using plane = ph::half_space<Space>;
+  using news = std::array<plane, Surfaces>;
+  using sample = ph::device_sample<Space>;
+
+  template <class Touch>
+  requires(!std::same_as<Touch, any_touch>) any_touch(const Touch& touch)
+  noexcept  // NOLINT: the same
+      : calls_(&table<Touch>) {
+    static_assert(std::is_trivially_copy_constructible_v<Touch> && sizeof(Touch) <= sizeof(bytes_));
+    ::new (static_cast<void*>(bytes_)) Touch(touch);
+  }
+
+  void hear(const news& all) noexcept { calls_->hear(bytes_, all); }
+  [[nodiscard]] answer<Space> tick(const sample& now) noexcept { return calls_->tick(bytes_, now); }
+  /// The planes that the controller itself works with at this moment.
+  [[nodiscard]] news local() const noexcept { return calls_->local(bytes_); }
+  [[nodiscard]] ph::parameter_fault check() const noexcept { return calls_->check(bytes_); }
+
+ private:
+  struct calls {
+    void (*hear)(void*, const news&);
+    answer<Space> (*tick)(void*, const sample&);
+    news (*local)(const void*);
+    ph::parameter_fault (*check)(const void*);
+  };
+
+  template <class Touch>
+  static void tell(Touch& touch, const news& all) noexcept {
+    if constexpr (requires { touch.first.update(all[0]); }) {
+      touch.first.update(all[0]);
+      touch.second.update(all[1]);
+    } else if constexpr (requires { touch.source().template contact<1>(); }) {
+      touch.source().template contact<0>().update(all[0]);
+      touch.source().template contact<1>().update(all[1]);
+    } else if constexpr (requires { touch.update(all[0]); }) {
+      touch.update(all[0]);
+    } else {
+      for (int i = 0; i < Surfaces; ++i) touch.source().update(i, all[static_cast<std::size_t>(i)]);
+    }
+  }
+  template <class Touch>
+  static news local_of(const Touch& touch) noexcept {
+    if constexpr (requires { touch.first; }) {
+      return {touch.first.local(), touch.second.local()};
+    } else if constexpr (requires { touch.source().template contact<1>(); }) {
+      return {touch.source().template contact<0>().local(),
+              touch.source().template contact<1>().local()};
+    } else if constexpr (requires { touch.local(); }) {
+      return {touch.local()};
+    } else {
+      news all{};
+      for (int i = 0; i < Surfaces; ++i) {
+        all[static_cast<std::size_t>(i)] = touch.source().slot(i).target();
+      }
+      return all;
+    }
+  }
+  template <class Touch>
+  static answer<Space> answered(Touch& touch, const sample& now) noexcept {
+    if constexpr (requires { touch.first; }) {  // a port each: their forces, added
+      const auto one = touch.first.tick(now), other = touch.second.tick(now);
+      return {one.force + other.force, static_cast<double>(one.energy + other.energy),
+              ph::worse(one.what, other.what)};
+    } else {
+      const auto out = touch.tick(now);
+      return {out.force, static_cast<double>(out.energy), out.what};
+    }
+  }
+  template <class Touch>
+  static ph::parameter_fault checked(const Touch& touch) noexcept {
+    if constexpr (requires { touch.first; }) {
+      const auto fault = touch.first.check();
+      return fault ? fault : touch.second.check();
+    } else {
+      return touch.check();
+    }
+  }
+
+  template <class Touch>
+  static constexpr calls table{
+      [](void* t, const news& all) { tell(*static_cast<Touch*>(t), all); },
+      [](void* t, const sample& now) { return answered(*static_cast<Touch*>(t), now); },
+      [](const void* t) { return local_of(*static_cast<const Touch*>(t)); },
+      [](const void* t) { return checked(*static_cast<const Touch*>(t)); }};
+
+  const calls* calls_;
+  alignas(std::max_align_t) std::byte bytes_[3072];
+};
+
+/// A line of a menu.
+template <class Touch>
+struct controller {
+  const char* name;
+  const char* says;  ///< in a sentence, what it does and what that costs
+  const char* text;  ///< the composition, as C++
+  ph::guarantee promise;
+  Touch (*make)(const premises&);
+};
+
+/// What a composition promises, its type says; two ports on one device promise nothing, whatever each says.
+template <class Touch>
+[[nodiscard]] constexpr ph::guarantee promise_of() noexcept {
+  if constexpr (requires { Touch::passivity; }) return Touch::passivity;
+  return ph::guarantee::none;
+}
+
+/// `Make` makes the composition.
+template <class Touch, class Make>
+[[nodiscard]] constexpr controller<Touch> line(const char* name, const char* says, const char* text,
+                                               Make /*make*/) noexcept {
+  return {name, says, text, promise_of<std::invoke_result_t<Make, const premises&>>(),
+          [](const premises& told) { return Touch(Make{}(told)); }};
+}
+
+}  // namespace page
+
+// Macros, since no template turns an expression into its text; the first one expands what the expression
+// itself abbreviates. The names that it may use are those of `premises`.
+#define PAGE_CONTROLLER(touch, name, says, ...) \
+  PAGE_CONTROLLER_AS_IS(touch, name, says, __VA_ARGS__)
+#define PAGE_CONTROLLER_AS_IS(touch, name, says, ...)                                             \
+  page::line<touch>(name, says, #__VA_ARGS__, [](const page::premises& told) {                    \
+    [[maybe_unused]] const auto [mass, damping, friction, quantum, motors, hand_force, roughness, \
+                                 tick] = told;                                                    \
+    return __VA_ARGS__;                                                                           \
+  })

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surfaces in the plane: one that heaves and tilts, a corner of two, one that rubs.
+#include "exports.hpp"
+
+#include <utility>
+
+namespace {
+
+namespace ph = passive_haptics;
+using scene = ph::space<double, 2>;
+using plane = ph::half_space<scene>;
+using touch_one = page::any_touch<scene, 1>;
+using touch_two = page::any_touch<scene, 2>;
+
+// Abbreviations of what a reader sees in full.
+#define LEDGER         \
+  ph::reduced_energy { \
+    .damping = damping \
+  }
+#define LIMITS                             \
+  ph::loop_limits {                        \
+    .longest_tick = tick, .top_speed = 100 \
+  }
+#define REACHABLE                                     \
+  ph::reachable_bound {                               \
+    .mass = mass, .hand_force = hand_force + friction \
+  }
+#define HELD(bound)             \
+  ph::bound_chain {             \
+    bound, ph::actuator_limit { \
+      .most = motors            \
+    }                           \
+  }
+#define FOLLOWED \
+  ph::followed<ph::half_space<scene>> {}
+
+// ------------------------------------------------------------------------ it heaves, and tilts
+
+#define HEAVING(name, says, ...) \
+  PAGE_CONTROLLER(touch_one, name, says, ph::local_model{scene{}, FOLLOWED, __VA_ARGS__, LIMITS})
+
+struct heaving {
+  using touch = touch_one;
+  static constexpr page::place home{0, 0.014};
+  static constexpr page::way_point round[]{
+      {0.5, {0, 0.012}}, {2.2, {-0.008, -0.014}}, {4.2, {0.008, -0.014}}, {5, {0, 0.012}}};
+
+  static constexpr page::settings begins_with() {
+    return {.stiffness = 5000, .damping = 0.3, .heave = 0.003, .tilt = 0.12};
+  }
+  static constexpr std::array menu{
+      HEAVING("none", "A bare spring to the newest plane: each piece of news is a jump.",
+              ph::turn_at_once{}, ph::spring{}, ph::no_observer{}, ph::no_bound{}),
+      HEAVING(
+          "recommended", "Damped, bounded by what can be given back, the normal turned at 2 rad/s.",
+          ph::turn_limited{.rate = 2.0}, ph::damped_spring{.mass = mass}, LEDGER, HELD(REACHABLE)),
+      HEAVING("recommended, force rate",
+              "The same, and no news moves the force by more than 100 N/s: smooth, and behind.",
+              ph::turn_limited{.rate = 2.0},
+              (ph::shaped{ph::damped_spring{.mass = mass}, ph::force_rate_limit{.rate = 100}}),
+              LEDGER, HELD(REACHABLE)),
+      HEAVING("thesis", "The rule of the thesis: stiff, and no promise.",
+              ph::turn_limited{.rate = 2.0}, (ph::shaped{ph::spring{}, ph::thesis_rule{}}), LEDGER,
+              ph::no_bound{}),
+      HEAVING("strict", "Spends only what the hand has paid, whatever happens.",
+              ph::turn_limited{.rate = 2.0}, ph::spring{}, LEDGER, ph::strict_bound{}),
+      HEAVING("PO/PC", "Time-domain passivity: a damper when the account is overdrawn.",
+              ph::turn_limited{.rate = 2.0}, ph::spring{}, ph::no_observer{},
+              ph::series_passivity_controller{.max_damping = 0.5 * mass / tick}),
+      PAGE_CONTROLLER(
+          touch_one, "contact set, reachable",
+          "News is made up for at a limited speed, so nothing jumps.",
+          ph::passive_port{scene{},
+                           ph::contact_set{ph::proxy_spring{.mass = mass}, ph::pursuit{},
+                                           ph::slots<ph::half_space<scene>, 1>{}},
+                           LEDGER, HELD(REACHABLE), LIMITS}),
+  };
+
+  void restart(const page::settings& /*set*/) noexcept {}
+  [[nodiscard]] touch::news surfaces(double time, const page::settings& set) const noexcept {
+    const double slope = set.tilt * page::wave(0.8 * time);
+    const double length = std::sqrt(1 + slope * slope);
+    return {{{.point = {0, set.heave * page::wave(1.1 * time)},
+              .normal = {slope / length, 1 / length},
+              .stiffness = set.stiffness}}};
+  }
+  [[nodiscard]] touch::news publish(double time, const page::settings& set, const scene::vector&,
+                                    const scene::vector&) const noexcept {
+    return surfaces(time, set);
+  }
+};
+
+// ------------------------------------------------------------------------ a corner of two walls
+
+#define CORNER(name, says, source, ...) \
+  PAGE_CONTROLLER(touch_two, name, says, ph::passive_port{scene{}, source, __VA_ARGS__, LIMITS})
+#define WALL(law)                     \
+  ph::local_contact {                 \
+    FOLLOWED, ph::turn_at_once{}, law \
+  }
+#define SET_OF_TWO                                                \
+  (ph::contact_set{ph::proxy_spring{.mass = mass}, ph::pursuit{}, \
+                   ph::slots<ph::half_space<scene>, 2>{}})
+#define PORT_OF_ITS_OWN                                                                     \
+  ph::local_model {                                                                         \
+    scene{}, FOLLOWED, ph::turn_at_once{}, ph::spring{}, LEDGER, ph::strict_bound{}, LIMITS \
+  }
+
+struct corner {
+  using touch = touch_two;
+  static constexpr page::place home{0.014, 0.014};
+  static constexpr page::way_point round[]{
+      {0.5, {0.012, 0.012}}, {2.6, {-0.012, -0.012}}, {3.8, {-0.016, -0.004}}, {5, {0.012, 0.012}}};
+
+  static constexpr page::settings begins_with() { return {.stiffness = 10000, .damping = 0.3}; }
+  static constexpr std::array menu{
+      CORNER("none", "Two bare springs, added.",
+             (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), ph::no_observer{},
+             ph::no_bound{}),
+      CORNER("contact set, reachable", "One spring, however many walls; settles.", SET_OF_TWO,
+             LEDGER, REACHABLE),
+      PAGE_CONTROLLER(touch_two, "a port each (wrong)",
+                      "Both types say strict, and both spend the one damping. Who shakes on "
+                      "purpose is paid for it: example 16.",
+                      std::pair{PORT_OF_ITS_OWN, PORT_OF_ITS_OWN}),
+      CORNER("one port, strict", "The sum of two springs in one port: one account.",
+             (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), LEDGER, ph::strict_bound{}),
+      CORNER("one port, reachable", "The sum of two damped springs, for a known mass and hand.",
+             (ph::contacts{WALL(ph::damped_spring{.mass = mass}),
+                           WALL(ph::damped_spring{.mass = mass})}),
+             LEDGER, REACHABLE),
+      CORNER("contact set, strict", "One spring, bounded strictly.", SET_OF_TWO, LEDGER,
+             ph::strict_bound{}),
+      CORNER("contact set, no bound", "One spring, and nobody counts.", SET_OF_TWO,
+             ph::no_observer{}, ph::no_bound{}),
+  };
+
+  void restart(const page::settings& /*set*/) noexcept {}
+  [[nodiscard]] touch::news surfaces(double time, const page::settings& set) const noexcept {
+    const double up = set.heave * page::wave(1.1 * time);
+    return {{{.point = {0, up}, .normal = {0, 1}, .stiffness = set.stiffness},
+             {.point = {0, 0}, .normal = {1, 0}, .stiffness = set.stiffness}}};
+  }
+  [[nodiscard]] touch::news publish(double time, const page::settings& set, const scene::vector&,
+                                    const scene::vector&) const noexcept {
+    return surfaces(time, set);
+  }
+};
+
+// ------------------------------------------------------------------------ it rubs
+
+#define RUBBING(name, says, friction, ...)                                                      \
+  PAGE_CONTROLLER(                                                                              \
+      touch_one, name, says,                                                                    \
+      ph::passive_port{scene{},                                                                 \
+                       ph::contact_set{ph::proxy_spring{.mass = mass}, ph::pursuit{}, friction, \
+                                       ph::slots<ph::half_space<scene>, 1>{}},                  \
+                       __VA_ARGS__, LIMITS})
+#define ROUGH \
+  (ph::stick_slip{.static_coefficient = roughness, .kinetic_coefficient = 0.66 * roughness})
+
+struct rubbing {
+  using touch = touch_one;
+  static constexpr page::place home{-0.02, 0.010};
+  static constexpr page::way_point round[]{{0.5, {-0.02, 0.010}},  {1.2, {-0.02, -0.014}},
+                                           {2.4, {0.03, -0.014}},  {3.2, {0.03, -0.014}},
+                                           {4.4, {-0.03, -0.014}}, {5, {-0.02, 0.010}}};
+
+  static constexpr page::settings begins_with() { return {.stiffness = 2000, .damping = 0.2}; }
+  static constexpr std::array menu{
+      RUBBING("smooth, reachable", "Nothing rubs: the device slides under the hand.",
+              ph::frictionless{}, LEDGER, REACHABLE),
+      RUBBING("rough, reachable", "A bristle bends while the surface holds, and slips.", ROUGH,
+              LEDGER, REACHABLE),
+      RUBBING("rough, none", "Friction and pressure, and nobody counts.", ROUGH, ph::no_observer{},
+              ph::no_bound{}),
+      RUBBING("rough, strict", "Pressure and friction out of what the hand has paid.", ROUGH,
+              LEDGER, ph::strict_bound{}),
+      RUBBING("rough, energy tank", "The same out of a tank.", ROUGH, LEDGER,
+              ph::energy_tank{.reserve = 1e-6}),
+      RUBBING("rough, memoryless", "Strict from the last tick alone.", ROUGH, LEDGER,
+              ph::memoryless_bound{}),
+      RUBBING("smooth, strict", "Nothing rubs; strict.", ph::frictionless{}, LEDGER,
+              ph::strict_bound{}),
+  };
+
+  void restart(const page::settings& /*set*/) noexcept {}
+  [[nodiscard]] touch::news surfaces(double time, const page::settings& set) const noexcept {
+    return {{{.point = {0, set.heave * page::wave(1.1 * time)},
+              .normal = {0, 1},
+              .stiffness = set.stiffness}}};
+  }
+  [[nodiscard]] touch::news publish(double time, const page::settings& set, const scene::vector&,
+                                    const scene::vector&) const noexcept {
+    return surfaces(time, set);
+  }
+};
+
+page::stage_of<heaving> heaves;
+page::stage_of<corner> corners;
+page::stage_of<rubbing> rubs;
+
+}  // namespace
+
+std::span<page::stage* const> page::stages() noexcept {
+  static constexpr std::array<page::stage*, 3> all{&heaves, &corners, &rubs};
+  return all;
+}

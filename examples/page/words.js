@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What needs no page: the scenes, the problems, the sliders, and how numbers become words.
+'use strict';
+
+const version = 1; // of what the link holds
+
+// name, label, unit, how many of it are an SI unit, least, most, logarithmic, steps of one
+const knobs = {
+  stiffness: ['Stiffness K', 'N/m', 1, 100, 50000, true],
+  young: ['Young’s modulus', 'kPa', 1e-3, 5, 200, true],
+  rate: ['News of the world', 'Hz', 1, 5, 100, true],
+  latency: ['Latency of the news', 'ms', 1e3, 0, 100],
+  loss: ['Lost packets', '%', 1e2, 0, 90],
+  damping: ['Damping b', 'N·s/m', 1, 0.02, 2, true],
+  mass: ['Mass', 'kg', 1, 0.03, 0.5, true],
+  friction: ['Dry friction', 'N', 1, 0, 1],
+  quantum: ['Encoder step', 'µm', 1e6, 0, 200],
+  motors: ['Motor limit', 'N', 1, 1, 30, true],
+  late: ['Lateness of the loop', 'ticks', 1, 0, 4, false, true],
+  heave: ['Heave of the surface', 'mm', 1e3, 0, 8],
+  tilt: ['Tilt of the surface', 'slope', 1, 0, 0.4],
+  roughness: ['Roughness µ', '', 1, 0, 1.2],
+  hand_stiffness: ['Stiffness of the hand', 'N/m', 1, 50, 500, true],
+  hand_force: ['Strength of the hand', 'N', 1, 1, 12],
+};
+
+// view: the middle of the picture and its height [m]
+const loop = ['damping', 'mass', 'friction', 'quantum', 'motors', 'late'],
+  net = ['rate', 'latency', 'loss'],
+  person = ['hand_stiffness', 'hand_force'];
+const scenes = {
+  wall: {
+    title: 'Stiff wall',
+    module: 'wall',
+    stage: 0,
+    dof: 1,
+    view: [0, -0.004, 0.046],
+    says: 'A device on a rail, and a wall that stands still.',
+    knobs: ['stiffness', ...loop, 'heave', ...net, ...person],
+  },
+  heave: {
+    title: 'Heaving surface',
+    module: 'surfaces',
+    stage: 0,
+    dof: 2,
+    view: [0, -0.001, 0.046],
+    says: 'A surface that heaves and tilts, and tells of it a few times a second.',
+    knobs: ['stiffness', 'heave', 'tilt', ...net, ...loop, ...person],
+  },
+  ball: {
+    title: 'Soft ball',
+    module: 'bodies',
+    stage: 0,
+    dof: 3,
+    view: [0, 0.03, 0.095],
+    says: 'The ball of the thesis: 16 tetrahedra, solved in the page, felt through the plane under the device.',
+    knobs: ['young', ...net, ...loop, ...person],
+  },
+  corner: {
+    title: 'Box corner',
+    module: 'surfaces',
+    stage: 1,
+    dof: 2,
+    view: [0.002, 0.002, 0.046],
+    says: 'Two walls that meet. However many walls: one device is one port.',
+    knobs: ['stiffness', 'heave', ...net, ...loop, ...person],
+  },
+  rub: {
+    title: 'Rubbing',
+    module: 'surfaces',
+    stage: 2,
+    dof: 2,
+    view: [0, -0.002, 0.046],
+    says: 'A rough surface: press, and pull along. It sticks, and slips.',
+    knobs: ['stiffness', 'roughness', 'heave', ...net, ...loop, ...person],
+  },
+  organ: {
+    title: 'Organ slice',
+    module: 'bodies',
+    stage: 1,
+    dof: 3,
+    view: [0, 0.009, 0.052],
+    says: 'A slice of 504 tetrahedra that is pushed, gives way, and answers late.',
+    knobs: ['young', ...net, ...loop, ...person],
+  },
+};
+
+const problems = {
+  'Wall buzzes': {
+    scene: 'wall',
+    left: 'none',
+    right: 'damped spring + reachable',
+    set: {},
+    says: 'A stiff wall, felt a thousand times a second: on the left a bare spring, on the right the same wall, counted.',
+  },
+  'Organ jumps': {
+    scene: 'organ',
+    left: 'none',
+    right: 'recommended',
+    set: {},
+    says: 'Tissue that answers fifteen times a second, 30 ms late. Each answer moves the plane under the device.',
+  },
+  'First touch is lost': {
+    scene: 'wall',
+    left: 'strict FBA',
+    right: 'damped spring + reachable',
+    set: {stiffness: 2000, damping: 0.1},
+    says: 'Strict means: no force before the hand has paid. The first touch sinks in. Who states mass and hand need not wait.',
+  },
+  'Network drops packets': {
+    scene: 'heave',
+    left: 'none',
+    right: 'recommended',
+    set: {rate: 60, latency: 0.06, loss: 0.4},
+    says: 'The surface heaves, its news is 60 ms old, and four packets of ten never come.',
+  },
+  'Surface heaves': {
+    scene: 'heave',
+    left: 'recommended',
+    right: 'recommended, force rate',
+    set: {},
+    says: 'Passive is not smooth: on the left each piece of news is felt, on the right it is spread, and the device lags.',
+  },
+  'Corner buzzes': {
+    scene: 'corner',
+    left: 'none',
+    right: 'contact set, reachable',
+    set: {},
+    says: 'Two bare springs in a corner fight each other and the hand; one port with one account is calm.',
+  },
+  'Finger sticks and slips': {
+    scene: 'rub',
+    left: 'smooth, reachable',
+    right: 'rough, reachable',
+    set: {},
+    says: 'The same pressure; on the right the surface holds the device until the hand pulls harder than µ times it.',
+  },
+  'Encoder steps are felt': {
+    scene: 'wall',
+    left: 'damped spring + reachable',
+    right: 'strict FBA + friction',
+    set: {quantum: 55e-6, friction: 0.13, stiffness: 2000},
+    says: 'Positions come in steps of 55 µm. Dry friction can pay for them, if it is known.',
+  },
+  'Motors are too weak': {
+    scene: 'wall',
+    left: 'none',
+    right: 'damped spring + reachable',
+    set: {motors: 2, hand_force: 6},
+    says: 'The hand is stronger than the motors: no controller can hold it. The page says how far it sinks.',
+  },
+  'Loop is late': {
+    scene: 'wall',
+    left: 'strict FBA',
+    right: 'strict FBA, 2 ticks late',
+    set: {late: 2, stiffness: 300, damping: 0.5},
+    says: 'A force that is held two ticks late makes a liar of a ledger that was not told.',
+  },
+};
+
+const promises = [
+  'promises nothing',
+  'passive for the mass and hand that are stated',
+  'passive, whatever happens',
+];
+const promiseShort = ['no promise', 'conditional', 'strict'];
+
+/** Three figures, and never 1e-7 where a reader expects a number. */
+function figures(x, most = 3) {
+  if (!Number.isFinite(x)) return String(x);
+  if (x === 0 || Math.abs(x) < 1e-12) return '0';
+  const size = Math.abs(x);
+  if (size >= 10 ** (most - 1)) return x.toFixed(0).replace('-', '−');
+  return String(Number(x.toPrecision(most))).replace('-', '−');
+}
+
+/** Joules as a reader likes them. */
+function joules(x) {
+  const size = Math.abs(x);
+  if (size >= 1) return `${figures(x)} J`;
+  if (size >= 1e-3) return `${figures(x * 1e3)} mJ`;
+  return `${figures(x * 1e6)} µJ`;
+}
+
+/** What the page says of a side: [text, 'bad' | 'price' | 'good' | ''] for each remark. */
+function remarks(v) {
+  const said = [];
+  said.push(v.made > 1e-9 ? [`made ${joules(v.made)} out of nothing`, 'bad'] : ['made no energy', 'good']);
+  if (v.buzz >= 25) said.push([`buzzes at ${figures(v.buzz)} Hz by ${figures(v.swing, 2)} N`, 'bad']);
+  else if (v.buzz > 0)
+    said.push([`jumps ${figures(v.buzz, 2)} times a second by ${figures(v.swing, 2)} N`, 'price']);
+  if (v.behind > 3e-4) said.push([`sinks ${figures(v.behind * 1e3, 2)} mm behind the surface`, 'price']);
+  if (v.settled) said.push([`settled at ${figures(v.force, 2)} N`, 'good']);
+  else if (v.touching && v.force > 0.02) {
+    if (!v.buzz) said.push([`pushes with ${figures(v.force, 2)} N`, '']);
+  } else if (!v.buzz) said.push(['in free air', '']);
+  if (v.rubs > 0.1) said.push([`rubs with ${figures(v.rubs, 2)} N`, '']);
+  return said;
+}
+
+/** A number of a field, or the sentence that says why it is none. */
+function readNumber(text, name) {
+  const [label, unit, , least, most] = knobs[name];
+  const trimmed = String(text).trim().replace(',', '.').replace('−', '-');
+  const x = trimmed === '' ? NaN : Number(trimmed);
+  if (!Number.isFinite(x)) {
+    return {
+      refused:
+        `“${String(text).slice(0, 40)}” is no number, so ${label} stays as it was. ` +
+        `Give one from ${least} to ${most} ${unit}.`,
+    };
+  }
+  if (x < least || x > most) {
+    const near = Math.min(most, Math.max(least, x));
+    return {
+      value: near,
+      said: `${label} goes from ${least} to ${most} ${unit}: ${near} was taken for ${figures(x)}.`,
+    };
+  }
+  return {value: x};
+}
+
+/** The settings in a link. What it cannot read it names, and leaves at its default. */
+function readLink(hash) {
+  const found = {scene: 'wall', left: null, right: null, set: {}, said: []};
+  const given = new URLSearchParams(hash.replace(/^#/, ''));
+  if ([...given].length === 0) return found;
+  const other = given.get('v') !== String(version);
+  const strange = [];
+  for (const [key, text] of given) {
+    if (key === 'v') continue;
+    if (key === 'scene') {
+      if (Object.hasOwn(scenes, text)) found.scene = text;
+      else strange.push(`scene “${text.slice(0, 30)}”`);
+    } else if (key === 'left' || key === 'right') {
+      found[key] = text;
+    } else if (Object.hasOwn(knobs, key)) {
+      const read = readNumber(text, key);
+      if (read.value !== undefined && !read.said) found.set[key] = read.value / knobs[key][2];
+      else strange.push(`${key} = “${text.slice(0, 20)}”`);
+    } else {
+      strange.push(`“${key.slice(0, 30)}”`);
+    }
+  }
+  if (other) found.said.push('This link was made by another version of the page; what it knows was taken.');
+  if (strange.length) found.said.push(`Left alone in the link: ${strange.slice(0, 5).join(', ')}.`);
+  return found;
+}
+
+function writeLink(scene, left, right, set, usual) {
+  const link = new URLSearchParams({v: version, scene, left, right});
+  for (const name of scenes[scene].knobs) {
+    if (set[name] !== usual[name]) link.set(name, Number((set[name] * knobs[name][2]).toPrecision(6)));
+  }
+  return `#${link}`;
+}
+
+/** A composition as one would write it: a line for each part. */
+function layOut(text) {
+  let out = '',
+    depth = 0;
+  const open = Math.max(text.indexOf('{'), 0);
+  for (let i = 0; i < text.length; ++i) {
+    const c = text[i];
+    if ('{(<'.includes(c) && !(c === '<' && text[i + 1] === ' ')) ++depth;
+    if ('})>'.includes(c)) --depth;
+    out += c;
+    if (c === ',' && depth === 1 && i > open) {
+      out += '\n    ';
+      while (text[i + 1] === ' ') ++i;
+    }
+  }
+  return out;
+}
+
+/** The C++ of a side, to be pasted. */
+function composition(scene, text, set) {
+  const n = x => Number(x.toPrecision(9));
+  const body = layOut(text);
+  const uses = name => new RegExp(`\\b${name}\\b(?! =)`).test(text.replaceAll(`.${name}`, ''));
+  const constants = [
+    ['mass', set.mass, 'of the device, the smallest there is [kg]'],
+    ['damping', set.damping, 'of the device, a lower bound [N·s/m]'],
+    ['friction', set.friction, 'dry, of the device, a lower bound [N]'],
+    ['quantum', set.quantum, 'a step of the encoders [m]'],
+    ['motors', set.motors, 'the most they hold [N]'],
+    ['hand_force', set.hand_force, 'the most the hand pushes with [N]'],
+    ['roughness', set.roughness, 'static coefficient of the surface'],
+    ['tick', 1e-3, 'the longest of your loop [s]'],
+  ]
+    .filter(([name]) => uses(name))
+    .map(([name, value, what]) => `constexpr double ${name} = ${n(value)};  // ${what}`);
+  const stored = body.startsWith('ph::passive_port')
+    ? body.replace('ph::passive_port{', 'ph::passive_port touch{')
+    : body.startsWith('ph::local_model')
+      ? body.replace('ph::local_model{', 'ph::local_model touch{')
+      : `// Wrong: each port spends the damping of the device, which is there once.\nauto touch = ${body}`;
+  return `#include <passive_haptics/passive_haptics.hpp>
+
+namespace ph = passive_haptics;
+using scene = ph::space<double, ${scenes[scene].dof}>;
+
+${constants.join('\n')}
+
+${stored};
+`;
+}
+
+if (typeof module !== 'undefined') {
+  module.exports = {
+    knobs,
+    scenes,
+    problems,
+    figures,
+    joules,
+    remarks,
+    readNumber,
+    readLink,
+    writeLink,
+    composition,
+  };
+}

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page in a real browser: mouse, touch, keys, links, sizes; not one request, not one error.
+//     node browser.mjs NODE_MODULES_FOLDER CHROMIUM index.html SCREENSHOTS
+import fs from 'node:fs';
+import {createRequire} from 'node:module';
+import {pathToFileURL} from 'node:url';
+import {expect, failures} from './page_of.mjs';
+
+const [, , modules, executablePath, html, screenshots] = process.argv;
+const {chromium} = createRequire(`${modules}/`)('playwright-core');
+let browser;
+try {
+  browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--disable-gpu']});
+} catch (problem) {
+  console.log(`page: skipped, the browser does not start: ${problem.message.split('\n')[0]}`);
+  process.exit(0);
+}
+fs.mkdirSync(screenshots, {recursive: true});
+// What a busy machine keeps waiting for ever ends here, with its name.
+let doing = 'the start';
+setTimeout(() => {
+  console.log(`FAILED: no answer for too long, in what follows ${doing}`);
+  process.exit(1);
+}, 270e3).unref();
+const url = pathToFileURL(html).href;
+
+/** A page that is watched: errors and requests besides the file itself. */
+async function open(hash = '', options = {}, script = null) {
+  const context = await browser.newContext({viewport: {width: 1280, height: 860}, ...options});
+  context.setDefaultTimeout(30e3);
+  const page = await context.newPage();
+  page.wrong = [];
+  page.on('pageerror', e => page.wrong.push(String(e)));
+  page.on('console', m => m.type() === 'error' && page.wrong.push(m.text()));
+  page.on('request', r => {
+    if (
+      !/^(file|data|blob):/.test(r.url()) ||
+      (r.url().startsWith('file:') && r.url().split('#')[0] !== url)
+    ) {
+      page.wrong.push(`request: ${r.url()}`);
+    }
+  });
+  if (script) await page.addInitScript(script);
+  await page.goto(url + hash);
+  await page.waitForSelector('html[data-state]', {timeout: 30000});
+  return page;
+}
+async function close(page, what) {
+  expect(page.wrong.length === 0, `${what}: ${page.wrong.join('; ')}`);
+  doing = what;
+  // A browser that is slow to let go of a page is no fault of the page's.
+  const slow = new Promise(gone => setTimeout(gone, 10e3, 'slow').unref());
+  if ((await Promise.race([page.context().close(), slow])) === 'slow') {
+    console.log(`${what}: the browser did not close the page within 10 s`);
+  }
+}
+const verdicts = page => page.evaluate(() => [window.page.verdict(0), window.page.verdict(1)]);
+const notice = page => page.locator('#notice').textContent();
+
+// The mouse, into the wall: the left makes energy, the right does not; and the words say so.
+{
+  const page = await open();
+  const box = await page.locator('.view').first().boundingBox();
+  const at = mm => [box.x + box.width / 2, box.y + box.height / 2 - ((mm + 4) / 46) * box.height];
+  await page.mouse.move(...at(12));
+  await page.waitForTimeout(300);
+  await page.locator('#again').click();
+  for (let i = 0; i <= 30; ++i) await page.mouse.move(...at(12 - (28 * i) / 30));
+  await page.waitForTimeout(2500);
+  const [left, right] = await verdicts(page);
+  expect(left.made > 10e-3, `left made ${left.made} J, more than 10 mJ is what it does`);
+  expect(right.made <= 1e-9, `right made ${right.made} J`);
+  expect(right.touching === 1, 'the right one was touched');
+  const words = await page.locator('.remarks').allTextContents();
+  expect(/made .* out of nothing/.test(words[0]) && /buzzes at/.test(words[0]), `left: ${words[0]}`);
+  expect(/made no energy/.test(words[1]), `right: ${words[1]}`);
+  console.log(
+    `left: ${words[0]} | right: ${words[1]} | ${(await page.evaluate(() => window.page.cost())).toFixed(1)} ms a frame`
+  );
+
+  await page.locator('#code').click();
+  expect(
+    (await page.locator('#codes pre').nth(1).textContent()).includes('ph::reachable_bound'),
+    'the C++ is shown'
+  );
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('#csv').click()]);
+  const csv = fs.readFileSync(await download.path(), 'utf8').split('\n');
+  expect(
+    csv[0].startsWith('time s,left x m') &&
+      csv.length > 1000 &&
+      csv[5].split(',').length === csv[0].split(',').length,
+    `the trace: ${csv.length} lines, ${csv[0]}`
+  );
+  await page.locator('#sound').selectOption('0');
+  await page.waitForTimeout(300);
+
+  await page.locator('#field_stiffness').fill('NaN');
+  await page.locator('#field_stiffness').press('Enter');
+  expect(/“NaN” is no number/.test(await notice(page)), `NaN in a field: ${await notice(page)}`);
+  expect((await page.locator('#field_stiffness').inputValue()) === '10000', 'the stiffness stayed');
+  await page.locator('#field_stiffness').fill('1500');
+  await page.locator('#field_stiffness').press('Enter');
+  const kept = await page.evaluate(() => location.hash);
+  expect(kept.includes('stiffness=1500'), `the link holds the settings: ${kept}`);
+  await close(page, 'the wall');
+  const again = await open(kept);
+  expect((await again.locator('#field_stiffness').inputValue()) === '1500', 'and brings them back');
+  await close(again, 'the link');
+}
+
+// Every problem and every scene, for a second each; and the bits.
+{
+  const page = await open();
+  for (const group of ['#problems', '#scenes']) {
+    for (const b of await page.locator(`${group} button`).all()) {
+      await b.click();
+      await page.waitForTimeout(600);
+      expect((await b.getAttribute('aria-pressed')) === 'true', `${await b.textContent()} is shown`);
+      expect((await page.evaluate(() => window.page.ticks())) > 100, `${await b.textContent()} runs`);
+      await page.screenshot({
+        path: `${screenshots}/${group.slice(1)}_${(await b.textContent()).replaceAll(' ', '_')}.png`,
+      });
+    }
+  }
+  await page.evaluate(() => window.page.compareBits());
+  const [equal, tried, ticks] = (await page.evaluate(() => document.documentElement.dataset.bits))
+    .split('/')
+    .map(Number);
+  expect(equal === tried && ticks > 190000, `the bits: ${equal} of ${tried}, ${ticks} ticks`);
+  console.log(await page.locator('#bitsSaid').textContent());
+  await close(page, 'problems and scenes');
+}
+
+// Keys alone; touch; resizing; a hash from another version; a page that was out of sight.
+{
+  const page = await open();
+  await page.locator('.view').first().focus();
+  for (let i = 0; i < 26; ++i) await page.keyboard.press('ArrowDown');
+  await page.waitForTimeout(1200);
+  const [, right] = await verdicts(page);
+  expect(right.touching === 1 && right.made <= 1e-9, 'the keys press on the wall');
+  expect((await page.locator('#itself').getAttribute('aria-pressed')) === 'false', 'and take the hand over');
+  for (const width of [200, 360, 1024, 1920]) {
+    await page.setViewportSize({width, height: 800});
+    await page.waitForTimeout(200);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    expect(wide <= width, `at ${width} px the page is ${wide} px wide`);
+    expect(
+      (await page
+        .locator('.view')
+        .first()
+        .evaluate(v => v.clientWidth)) > 60,
+      `there is a picture at ${width} px`
+    );
+  }
+  await close(page, 'keys and sizes');
+
+  const touched = await open('', {hasTouch: true, viewport: {width: 360, height: 740}});
+  const box = await touched.locator('.view').nth(1).boundingBox();
+  await touched.touchscreen.tap(box.x + box.width / 2, box.y + 0.9 * box.height);
+  await touched.waitForTimeout(900);
+  expect((await verdicts(touched))[1].touching === 1, 'a finger presses on the wall');
+  await close(touched, 'touch');
+
+  const other = await open('#v=99&scene=wall&left=none&right=quantum+leap&stiffness=NaN&colour=red');
+  expect(
+    /no controller|another version/.test(await notice(other)),
+    `another version: ${await notice(other)}`
+  );
+  expect((await other.locator('html').getAttribute('data-state')) === 'ready', 'it runs all the same');
+  await close(other, 'a hash of another version');
+
+  const away = await open(
+    '',
+    {},
+    `{ const real = window.requestAnimationFrame.bind(window); let shift = 0;
+    window.leap = ms => { shift += ms; }; window.requestAnimationFrame = f => real(t => f(t + shift)); }`
+  );
+  await away.waitForTimeout(500);
+  const before = await away.evaluate(() => window.page.ticks());
+  await away.evaluate(() => window.leap(3600e3));
+  await away.waitForTimeout(500);
+  const gone = (await away.evaluate(() => window.page.ticks())) - before;
+  expect(gone < 2500, `an hour out of sight is no hour of physics: ${gone} ticks`);
+  expect(/out of sight for 60 minutes/.test(await notice(away)), `and is said: ${await notice(away)}`);
+  await close(away, 'out of sight');
+}
+
+// What a browser may lack: a sentence each, never a blank page.
+for (const [what, script, sentence] of [
+  ['no WebAssembly', 'delete window.WebAssembly', /no WebAssembly/],
+  ['no DecompressionStream', 'delete window.DecompressionStream', /older than 2023/],
+  ['no canvas', 'HTMLCanvasElement.prototype.getContext = () => null', /no canvas/],
+]) {
+  const page = await open('', {}, script);
+  expect(sentence.test(await notice(page)), `${what}: “${await notice(page)}”`);
+  await close(page, what);
+}
+{
+  const page = await open('', {}, 'delete window.AudioContext; delete window.webkitAudioContext');
+  await page.locator('#sound').selectOption('1');
+  expect(/no WebAudio/.test(await notice(page)), `no audio: “${await notice(page)}”`);
+  await close(page, 'no audio');
+  const still = await open('', {reducedMotion: 'reduce'});
+  await still.waitForTimeout(600);
+  expect(
+    (await still.locator('#itself').getAttribute('aria-pressed')) === 'false',
+    'reduced motion: the hand waits'
+  );
+  await close(still, 'reduced motion');
+  const context = await browser.newContext({javaScriptEnabled: false});
+  const plain = await context.newPage();
+  await plain.goto(url);
+  expect(/needs JavaScript/.test(await plain.locator('body').innerText()), 'no JavaScript: a sentence');
+  await context.close();
+}
+
+// Sound and rumble are off until they are asked for; the volume is capped; a pad that is there rumbles.
+{
+  const page = await open(
+    '',
+    {},
+    `window.contexts = 0; window.gains = []; window.rumbles = [];
+    window.AudioContext = class extends AudioContext {
+      constructor() { super(); ++window.contexts; }
+      createGain() { const g = super.createGain(); window.gains.push(g); return g; }
+    };
+    navigator.getGamepads = () => [null, {vibrationActuator: {playEffect: async (kind, what) => window.rumbles.push(what)}}];`
+  );
+  await page.waitForTimeout(1500);
+  expect(
+    (await page.evaluate(() => window.contexts + window.rumbles.length)) === 0,
+    'neither sound nor rumble by itself'
+  );
+  await page.locator('#sound').selectOption('0');
+  await page.locator('#rumble').selectOption('0');
+  await page.waitForTimeout(2500);
+  expect(
+    await page.evaluate(() => window.contexts === 1 && window.gains.every(g => g.gain.value <= 0.2)),
+    'one quiet sound'
+  );
+  const strong = await page.evaluate(() => Math.max(...window.rumbles.map(r => r.strongMagnitude)));
+  expect(strong > 0.3 && strong <= 1, `the pad rumbles: ${strong}`);
+  await close(page, 'sound and rumble');
+}
+
+// Screenshots at three widths, light and dark.
+for (const [width, height] of [
+  [360, 740],
+  [1024, 768],
+  [1920, 1080],
+]) {
+  for (const colorScheme of ['light', 'dark']) {
+    const page = await open('', {viewport: {width, height}, colorScheme});
+    await page.waitForTimeout(1600);
+    await page.screenshot({path: `${screenshots}/wall_${width}_${colorScheme}.png`});
+    await page.screenshot({path: `${screenshots}/whole_${width}_${colorScheme}.png`, fullPage: true});
+    await close(page, `${width} ${colorScheme}`);
+  }
+}
+await Promise.race([browser.close(), new Promise(gone => setTimeout(gone, 10e3))]);
+console.log(failures() ? `${failures()} failed` : 'all is well');
+process.exit(failures() ? 1 : 0);

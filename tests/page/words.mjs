@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bits, sizes, words, links and fields of the live page, without a browser.
+//     node words.mjs SOURCE index.html wall_alone.html
+import fs from 'node:fs';
+import zlib from 'node:zlib';
+import {expect, failures, instanceOf, modulesOf, wordsOf} from './page_of.mjs';
+
+const [, , source, html, wallAlone] = process.argv;
+const words = wordsOf(source),
+  modules = modulesOf(html);
+
+// The same bits as the native run; and a fingerprint that can differ does.
+let runs = 0,
+  ticks = 0;
+const costs = [];
+for (const [name, module] of Object.entries(modules)) {
+  const {e, numbers} = await instanceOf(module);
+  expect(e.ph_stages() === module.native.length, `${name}: as many stages as natively`);
+  for (const [stage, native] of module.native.entries()) {
+    expect(native.ticks * native.prints.length > 199000, `${name} ${stage}: 200 000 ticks`);
+    for (const [i, print] of native.prints.entries()) {
+      const at = e.ph_fingerprint(stage, i, native.ticks);
+      const here = [...numbers(at, 2)].map(h => h.toString(16).padStart(8, '0')).join('');
+      expect(here === print, `${name} ${stage}, controller ${i}: ${here} natively ${print}`);
+      ++runs;
+      ticks += native.ticks;
+    }
+    // Whoever promises keeps it on this round; and who does not makes energy somewhere, or nothing was tried.
+    let made = 0;
+    for (let i = 0; i < e.ph_controllers(stage); ++i) {
+      const least = numbers(e.ph_fingerprint(stage, i, 5000), 3)[2];
+      if (e.ph_promise(stage, i) > 0)
+        expect(least >= -1e-9, `${name} ${stage}, controller ${i} promises, and made ${-least} J`);
+      made = Math.max(made, -least);
+    }
+    if (name === 'wall') expect(made > 10e-3, `the wall's worst made ${made} J`);
+    const before = process.cpuUsage();
+    e.ph_run(stage, 2000);
+    const used = process.cpuUsage(before),
+      cost = (((used.user + used.system) / 1e3 / 2000) * 1000) / 60;
+    expect(cost < 4, `${name} ${stage}: ${cost.toFixed(2)} ms of physics a frame`);
+    costs.push(cost.toFixed(2));
+    e.ph_set(stage, 5, e.ph_get(stage, 5) * (1 + 2e-16 * 4)); // the damping, in its last bits
+    const [high, low] = numbers(e.ph_fingerprint(stage, 0, native.ticks), 2);
+    expect(
+      [high, low].map(h => h.toString(16).padStart(8, '0')).join('') !== native.prints[0],
+      `${name} ${stage}: another damping has another fingerprint`
+    );
+  }
+}
+
+console.log(`physics of two sides, ms of CPU a frame at 60 Hz: ${costs.join(' ')}`);
+
+// What a problem shows on the right keeps its promise there, too, where the loop is as stated.
+for (const [problem, p] of Object.entries(words.problems)) {
+  const about = words.scenes[p.scene],
+    {e, text: said, numbers} = await instanceOf(modules[about.module]);
+  const names = Array.from({length: e.ph_controllers(about.stage)}, (_, i) =>
+    said(e.ph_name(about.stage, i))
+  );
+  const parameters = Array.from({length: e.ph_parameters()}, (_, i) => said(e.ph_parameter(i)));
+  for (const [name, value] of Object.entries(p.set)) e.ph_set(about.stage, parameters.indexOf(name), value);
+  const made = [p.left, p.right].map(
+    name => -numbers(e.ph_fingerprint(about.stage, names.indexOf(name), 10000), 3)[2]
+  );
+  expect(made[1] <= 1e-9, `${problem}: the right made ${made[1]} J`);
+  if (p.left === 'none' && problem !== 'Motors are too weak')
+    expect(made[0] > 10e-3, `${problem}: the left made ${made[0]} J`);
+}
+
+// Contrast AA, light and dark: 4.5 to 1 for every colour of text on both grounds.
+const css = fs.readFileSync(`${source}/examples/page/page.css`, 'utf8');
+const themes = [...css.matchAll(/:root \{([^}]*)\}/g)].map(([, body]) =>
+  Object.fromEntries([...body.matchAll(/--(\w+): (#\w{6})/g)].map(([, name, colour]) => [name, colour]))
+);
+expect(themes.length === 2, 'two themes');
+const light = colour =>
+  [1, 3, 5]
+    .map(i => parseInt(colour.slice(i, i + 2), 16) / 255)
+    .map(c => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4))
+    .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+const contrast = (a, b) => (Math.max(light(a), light(b)) + 0.05) / (Math.min(light(a), light(b)) + 0.05);
+expect(contrast('#000000', '#ffffff') === 21, 'black on white');
+for (const theme of themes) {
+  for (const colour of ['ink', 'soft', 'left', 'right', 'good', 'bad', 'price']) {
+    for (const ground of ['bg', 'card']) {
+      expect(
+        contrast(theme[colour], theme[ground]) >= 4.5,
+        `${colour} on ${ground}: ${contrast(theme[colour], theme[ground])}`
+      );
+    }
+  }
+}
+
+// Sizes.
+const packedSize = file => zlib.gzipSync(fs.readFileSync(file), {level: 9}).length;
+expect(packedSize(html) <= 400e3, `the page is ${packedSize(html)} bytes, 400 kB gzip at most`);
+expect(packedSize(wallAlone) <= 60e3, `the wall alone is ${packedSize(wallAlone)} bytes, 60 kB gzip at most`);
+const text = fs.readFileSync(html, 'utf8');
+expect(
+  !/(src|href)="(?!data:)/.test(text) &&
+    !/url\(/.test(text) &&
+    !/\bfetch\(|XMLHttpRequest|import\(/.test(text),
+  'nothing is loaded from anywhere'
+);
+
+// The menu of the wall is the bench's catalogue.
+const wall = await instanceOf(modules.wall);
+const menu = new Set(
+  Array.from({length: wall.e.ph_controllers(0)}, (_, i) => wall.text(wall.e.ph_name(0, i)))
+);
+const listed = new Set();
+for (const file of fs.readdirSync(`${source}/bench/controllers`).filter(f => /^catalogue_.*\.cpp$/.test(f))) {
+  const code = fs.readFileSync(`${source}/bench/controllers/${file}`, 'utf8');
+  const entry =
+    /(?:entry<\d>|over_ledger(?:<[\d, ]+>)?|entry_of<[^>]*>|growing|thesis_safe)\(\s*\{?\s*(?:\.name = )?"([^"]+)"/g;
+  for (const found of code.matchAll(entry)) listed.add(found[1]);
+}
+expect(listed.size >= 30, `the catalogue was read: ${listed.size} controllers`);
+for (const name of listed) expect(menu.has(name), `the wall's menu has “${name}” of the catalogue`);
+for (const name of menu) expect(listed.has(name), `“${name}” of the wall's menu is in the catalogue`);
+
+// Each slider and each problem speaks of what is there.
+for (const [key, scene] of Object.entries(words.scenes)) {
+  if (!modules[scene.module]) continue;
+  const {e, text: said} = await instanceOf(modules[scene.module]);
+  const parameters = Array.from({length: e.ph_parameters()}, (_, i) => said(e.ph_parameter(i)));
+  for (const knob of scene.knobs)
+    expect(parameters.includes(knob) && words.knobs[knob], `${key}: slider ${knob}`);
+  const names = Array.from({length: e.ph_controllers(scene.stage)}, (_, i) =>
+    said(e.ph_name(scene.stage, i))
+  );
+  expect(names.length >= 6, `${key}: six controllers at least`);
+  for (const [problem, p] of Object.entries(words.problems).filter(([, p]) => p.scene === key)) {
+    expect(names.includes(p.left) && names.includes(p.right), `${problem}: its controllers are in the menu`);
+    for (const name of Object.keys(p.set))
+      expect(scene.knobs.includes(name), `${problem}: ${name} has a slider`);
+  }
+}
+
+// Numbers that are none, and numbers out of range, get a sentence.
+for (const bad of ['NaN', '', 'Infinity', '1e999', 'ten', '0x', '--1']) {
+  expect(words.readNumber(bad, 'mass').refused?.includes('no number'), `“${bad}” is refused with a sentence`);
+}
+expect(
+  words.readNumber('1e6', 'mass').value === 0.5 && words.readNumber('1e6', 'mass').said,
+  'too much is cut, and said'
+);
+expect(words.readNumber('0,2', 'mass').value === 0.2, 'a decimal comma is read');
+const beginning = wall.e.ph_get(0, 0);
+wall.e.ph_set(0, 0, NaN);
+wall.e.ph_set(0, 0, Infinity);
+expect(wall.e.ph_get(0, 0) === beginning, 'the module itself takes no NaN and no infinity');
+
+// Links: what is written is read, what is strange is named.
+const usual = Object.fromEntries(Object.keys(words.knobs).map(name => [name, 1]));
+const link = words.writeLink(
+  'wall',
+  'none',
+  'strict FBA, 2 ticks late',
+  {...usual, stiffness: 1234, loss: 0.25},
+  usual
+);
+const read = words.readLink(link);
+expect(
+  read.left === 'none' &&
+    read.right === 'strict FBA, 2 ticks late' &&
+    read.set.stiffness === 1234 &&
+    read.set.loss === 0.25 &&
+    read.said.length === 0,
+  `a link is read as it was written: ${link}`
+);
+expect(
+  words.readLink('#v=7&scene=wall&left=none').said[0]?.includes('another version'),
+  'a link of another version'
+);
+for (const strange of [
+  '#v=1&scene=moon',
+  '#v=1&stiffness=NaN',
+  '#v=1&flavour=3',
+  '#v=1&stiffness=1e99',
+  '#%E0%A4%A',
+]) {
+  const found = words.readLink(strange);
+  expect(found.scene === 'wall' && found.said.length > 0, `strange: ${strange}`);
+}
+expect(words.readLink('').said.length === 0, 'no link, no sentence');
+
+// Verdicts.
+const quiet = {made: 0, buzz: 0, swing: 0, behind: 0, settled: 1, touching: 1, force: 2};
+const speak = v =>
+  words
+    .remarks({...quiet, ...v})
+    .map(([said]) => said)
+    .join('; ');
+expect(speak({}) === 'made no energy; settled at 2 N', speak({}));
+expect(
+  speak({made: 0.082, settled: 0, buzz: 210, swing: 4}) ===
+    'made 82 mJ out of nothing; buzzes at 210 Hz by 4 N',
+  speak({made: 0.082, settled: 0, buzz: 210, swing: 4})
+);
+expect(speak({behind: 3e-3}).includes('sinks 3 mm behind the surface'), speak({behind: 3e-3}));
+expect(
+  speak({settled: 0, buzz: 15, swing: 2}).includes('jumps 15 times a second by 2 N'),
+  'what comes with the news jumps'
+);
+expect(speak({made: 5e-10}).includes('made no energy'), 'rounding is no energy');
+
+console.log(
+  `${runs} runs, ${ticks} ticks; page ${packedSize(html)} bytes gzip, the wall alone ${packedSize(wallAlone)}`
+);
+console.log(failures() ? `${failures()} failed` : 'all is well');
+process.exit(failures() ? 1 : 0);
