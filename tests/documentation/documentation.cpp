@@ -99,6 +99,20 @@ TEST_CASE("the code of every page stands in the file that it names", "[documenta
   CHECK(compared > 12);
 }
 
+TEST_CASE("the tutorial's figures are what its programs print", "[documentation]") {
+  const auto figures = blocks("printed by", root / "docs" / "tutorial.md");
+  CHECK(figures.size() >= 4);
+  const std::string registered = text_of(root / "examples" / "CMakeLists.txt");
+  for (const auto& b : figures) {  // that the text is what is printed, the test of the program says
+    INFO(b.source << "\n" << b.text);
+    const auto source = root / b.source;
+    CHECK(text_of(std::filesystem::path(source).replace_extension(".txt")).find(b.text) !=
+          std::string::npos);
+    CHECK(registered.find(source.stem().string()) != std::string::npos);
+    CHECK(text_of(source).find(b.text) == std::string::npos);  // the control
+  }
+}
+
 TEST_CASE("README's figures are what the programs print", "[documentation]") {
   const scratch_folder folder;
   const std::string command = std::string("\"") + PASSIVE_HAPTICS_EXPERIMENTS + "\" --out \"" +
