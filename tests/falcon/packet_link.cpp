@@ -61,6 +61,24 @@ TEST_CASE("what comes unasked is thrown away, before a question and after a miss
     CHECK(b.device.latest().received.encoder[0] == 0);
     CHECK(b.device.latest().counts.stale == 31);
   }
+  SECTION("after a boot whose first probe was answered late") {
+    int packets = 0;
+    b.box.on_reply = [&](scripted_falcon& self, std::vector<falcon::byte>& reply) {
+      ++packets;  // a zero packet, the first probe, the second
+      if (packets == 2) reply.clear();
+      if (packets == 3) {  // the first's answer; the second's is in what follows
+        self.late = flood;
+        self.late_at = self.clock + std::chrono::microseconds(500);
+      }
+    };
+    CHECK(b.device.boot({}).how);
+    b.box.on_reply = nullptr;
+    CHECK(packets == 3);
+    CHECK(b.box.late.empty());
+    (void)b.exchange();
+    CHECK(b.device.latest().received.encoder[0] == 0);
+    CHECK(b.device.latest().counts.stale == 0);
+  }
   SECTION("after a miss") {
     spoil_once(b.box, [](auto& reply) { reply.clear(); });
     CHECK_FALSE(b.exchange().valid);

@@ -110,11 +110,24 @@ class bootloader {
         if (got.how.what == code::timeout) break;
         if (!got.how) return got.how;
         for (const byte b : std::span(bytes).first(got.bytes)) {
-          if (parser.push(b)) return {};
+          if (parser.push(b)) return i == 0 ? result{} : await_silence();
         }
       }
     }
     return {code::no_program};
+  }
+
+  /// More than one probe was sent: an answer that is still on its way would pass for the first question's.
+  [[nodiscard]] result await_silence() noexcept {
+    constexpr nanoseconds silence = std::chrono::milliseconds(2);  // two latency periods
+    const nanoseconds end = line_.now() + options_.reply;
+    std::array<byte, ftdi::usb_packet> bytes{};
+    while (line_.now() < end) {
+      const transfer got = line_.read(bytes, (std::min)(end, line_.now() + silence));
+      if (got.how.what == code::timeout) break;
+      if (!got.how) return got.how;
+    }
+    return {};
   }
 
   [[nodiscard]] result load() noexcept {
