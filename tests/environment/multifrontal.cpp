@@ -2,6 +2,7 @@
 // The solver of large bodies: equal to the sparse one, stopped, refused, and honest about a singular matrix.
 #include "environment/bodies.hpp"
 #include <passive_haptics/environment/msh_reader.hpp>
+#include <passive_haptics/environment/patch_compliance.hpp>
 #include <passive_haptics/environment/sparse_ldlt.hpp>
 
 #include <numeric>
@@ -224,5 +225,54 @@ TEST_CASE("nested dissection eliminates every node once, children first", "[envi
         REQUIRE(std::binary_search(front.bound.begin(), front.bound.end(), other));
       }
     }
+  }
+}
+
+TEST_CASE("nodes that contacts are on are eliminated together, last, and nothing else changes",
+          "[environment][fem]") {
+  std::mt19937 random(14);
+  for (const auto& [mesh, fixed] : scenes()) {
+    const auto surface = env::boundary(mesh);
+    auto touched =
+        env::patch_around(surface, mesh.nodes, mesh.nodes[random() % mesh.nodes.size()], 12);
+    touched.push_back(touched.front());  // twice, and one that is held
+    touched.push_back(fixed.front());
+    env::tetrahedral_fem plain(mesh, soft, fixed);
+    env::tetrahedral_fem close(mesh, soft, fixed, {.touched = touched});
+    std::vector<int> numbers;
+    for (const int node : touched) {
+      if (close.moves(node)) numbers.push_back(close.numbers()[std::size_t(node)]);
+    }
+    REQUIRE(numbers.size() > 3);
+    CHECK(close.solver().path_of(numbers).size() == 1);
+    CHECK(plain.solver().path_of(numbers).size() > 1);  // the control
+    for (int run = 0; run < 20; ++run) {
+      const auto& t = surface[random() % surface.size()].nodes;
+      const Vector3d some = anything(random) + Vector3d::Constant(1.2), force = anything(random);
+      const Vector3d weights = some / some.sum();
+      const Eigen::Matrix3d C = plain.press(t, weights);
+      CHECK((close.press(t, weights) - C).norm() <= 1e-10 * C.norm());
+      plain.load(force);
+      close.load(force);
+      double apart = 0.0, largest = 0.0;
+      for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node) {
+        const Vector3d u = plain.displacement(node);
+        apart = std::max(apart, (close.displacement(node) - u).norm());
+        largest = std::max(largest, u.norm());
+      }
+      CHECK(apart <= 1e-10 * largest);
+    }
+  }
+  const auto [mesh, fixed] = scenes().front();
+  std::vector<int> all(mesh.nodes.size());
+  std::iota(all.begin(), all.end(), 0);
+  env::tetrahedral_fem dense(mesh, soft, fixed, {.touched = all});  // one front of them all
+  CHECK(dense.solver().tree().fronts.size() == 1);
+  for (const int wrong : {-1, static_cast<int>(mesh.nodes.size())}) {
+    const std::vector<int> nodes{0, wrong};
+    const auto text = text_of<std::invalid_argument>([&, &mesh = mesh, &fixed = fixed] {
+      env::tetrahedral_fem(mesh, soft, fixed, {.touched = nodes});
+    });
+    CHECK(contains(text, "touched node " + std::to_string(wrong) + " is refused"));
   }
 }

@@ -9,6 +9,9 @@
 // A. George, "Nested dissection of a regular finite element mesh", SIAM J. Numer. Anal. 10(2), 1973. The
 // cut is the plane through the median of the longest axis, the separator the nodes next to it on the side
 // that has fewer of them.
+//
+// Nodes that contacts are on come last of all, in one front: what is left of the body for them is a dense
+// matrix of their own size, condensation (M. Bro-Nielsen, S. Cotin, Computer Graphics Forum 15(3), 1996).
 
 #include <passive_haptics/environment/node_graph.hpp>
 
@@ -18,7 +21,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -51,9 +53,15 @@ class dissection {
   dissection(const node_graph& graph, int leaf) : graph_(graph), leaf_(leaf) {
     side_.assign(slot(graph.size()), 0);
     order_.reserve(slot(graph.size()));
-    std::vector<int> all(slot(graph.size()));
-    std::iota(all.begin(), all.end(), 0);
-    split(std::move(all));
+    std::vector<int> last = graph.touched;
+    std::sort(last.begin(), last.end());
+    last.erase(std::unique(last.begin(), last.end()), last.end());
+    std::vector<int> others;
+    for (int i = 0; i < graph.size(); ++i) {
+      if (!std::binary_search(last.begin(), last.end(), i)) others.push_back(i);
+    }
+    split(std::move(others));
+    eliminate(last);
   }
 
   [[nodiscard]] elimination_tree tree() && {

@@ -25,6 +25,8 @@ struct node_graph {
   std::vector<Eigen::Vector3d> points;  ///< rest positions [m], N
   std::vector<int> begin;  ///< of the neighbours of each node, and the end of the last, N + 1
   std::vector<int> neighbours;
+  std::vector<int> touched =
+      {};  ///< where contacts will be, in any order: a solver may keep them at hand
 
   [[nodiscard]] int size() const noexcept { return static_cast<int>(points.size()); }
   [[nodiscard]] std::span<const int> neighbours_of(int node) const {
