@@ -275,7 +275,8 @@ ex::record record_of(const chain_row& r) {
 
 chain_row run_chain(ex::report& out, const chain_settings& chosen, const env::on_progress& tell) {
   const held_mesh body = make_organ(chosen.side);
-  env::tetrahedral_fem fem(body.mesh, organ_flesh, body.held, {.tell = tell});
+  const auto stroked = stroked_patch(body);
+  env::tetrahedral_fem fem(body.mesh, organ_flesh, body.held, {.tell = tell, .touched = stroked});
   const env::body_options around{.moved = env::moved_nodes::around};
   chain_row row;
   std::vector<vector> now = body.mesh.nodes;  // all of them, under the last force
@@ -283,8 +284,7 @@ chain_row run_chain(ex::report& out, const chain_settings& chosen, const env::on
     const auto id = env::fingerprint_of(body.mesh, organ_flesh, body.held);
     const auto file = out.path(ex::format("organ_%.0f.table", double(chosen.side)));
     if (env::load_table(file, id, body.mesh.nodes.size()).fault) {
-      env::compute_table(file, fem, id, stroked_patch(body),
-                         {.threads = chosen.threads, .tell = tell});
+      env::compute_table(file, fem, id, stroked, {.threads = chosen.threads, .tell = tell});
     }
     env::basic_deformable_body<env::compliance_table<>> touched(
         body.mesh, env::read_table(file, id, body.mesh.nodes.size()), around);

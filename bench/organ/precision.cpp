@@ -192,9 +192,11 @@ precision_result run_precision(ex::report& out, const precision_settings& chosen
     const held_mesh& body = which.body;
     which.id = env::fingerprint_of(body.mesh, organ_flesh, body.held);
     if (env::load_table(which.file, which.id, body.mesh.nodes.size()).fault) {
-      env::compute_table(which.file,
-                         env::tetrahedral_fem(body.mesh, organ_flesh, body.held, {.tell = tell}),
-                         which.id, stroked_patch(body), {.threads = chosen.threads, .tell = tell});
+      const auto stroked = stroked_patch(body);
+      const env::tetrahedral_fem fem(body.mesh, organ_flesh, body.held,
+                                     {.tell = tell, .touched = stroked});
+      env::compute_table(which.file, fem, which.id, stroked,
+                         {.threads = chosen.threads, .tell = tell});
     }
     truths.push_back(truth_of(which, chosen.seconds));
     const felt& truth = truths.back();
