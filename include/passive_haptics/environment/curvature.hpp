@@ -17,7 +17,6 @@
 #include <passive_haptics/environment/surface_search.hpp>
 #include <passive_haptics/environment/triangle.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -81,16 +80,36 @@ template <class Surface>
     squares += rows.transpose() * rows;
     right += rows.transpose() * Eigen::Vector2d(turn.dot(u), turn.dot(v));
   }
-  const Eigen::Vector3d found = squares.ldlt().solve(right);
+  // Cramer's rule; a triangle without area, which turns nothing, has no curvature.
+  const Eigen::Vector3d a = squares.col(0), b = squares.col(1), c = squares.col(2);
+  const double volume = a.dot(b.cross(c));
+  if (!(std::abs(volume) > 1e-30 * std::pow(squares.trace(), 3))) return Eigen::Matrix3d::Zero();
+  const Eigen::Vector3d found =
+      Eigen::Vector3d(right.dot(b.cross(c)), a.dot(right.cross(c)), a.dot(b.cross(right))) / volume;
   return found(0) * u * u.transpose() + found(1) * (u * v.transpose() + v * u.transpose()) +
          found(2) * v * v.transpose();
+}
+
+/// The rotation that takes one unit vector to another the shortest way, I + [v]× + [v]×²/(1 + c) with v their
+/// cross and c their dot product (Rodrigues); half a turn where they are opposite.
+[[nodiscard]] inline Eigen::Matrix3d turn_between(const Eigen::Vector3d& from,
+                                                  const Eigen::Vector3d& to) {
+  const Eigen::Vector3d v = from.cross(to);
+  const double c = from.dot(to);
+  if (1.0 + c < 1e-12) {
+    const Eigen::Vector3d axis = from.unitOrthogonal();
+    return 2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
+  }
+  Eigen::Matrix3d cross;
+  cross << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return Eigen::Matrix3d::Identity() + cross + cross * cross / (1.0 + c);
 }
 
 /// C turned with the plane that it is in, by the shortest way from one normal to another.
 [[nodiscard]] inline Eigen::Matrix3d turned(const Eigen::Matrix3d& curvature,
                                             const Eigen::Vector3d& from,
                                             const Eigen::Vector3d& to) {
-  const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+  const Eigen::Matrix3d turn = turn_between(from, to);
   return turn * curvature * turn.transpose();
 }
 

@@ -10,7 +10,7 @@
 #include <passive_haptics/environment/mesh.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cstddef>
@@ -48,28 +48,20 @@ struct connected_parts {
   return parts;
 }
 
-/// 6 − rank R, where R stacks [I, −[x]×] over the points x held in place: the rigid motions that
-/// leave them all where they are. Points closer to a line than 1e-6 of their extent count as on it.
+/// The rigid motions that leave these points where they are: all six without a point, three about one place, one
+/// about a line, none where three are not on a line. Closer to a line than 1e-6 of their extent counts as on it.
 [[nodiscard]] inline int rigid_modes_left(std::span<const Eigen::Vector3d> held) {
   if (held.empty()) return 6;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const auto& x : held) centre += x / static_cast<double>(held.size());
-  double extent = 0.0;
-  for (const auto& x : held) extent = (std::max)(extent, (x - centre).norm());
-  if (!(extent > 0.0)) extent = 1.0;
-
-  Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();  // RᵀR
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();  // from the first to the one farthest from it
   for (const auto& x : held) {
-    const Eigen::Vector3d r = (x - centre) / extent;
-    Eigen::Matrix<double, 3, 6> row;
-    row << 1, 0, 0, 0, r.z(), -r.y(),  //
-        0, 1, 0, -r.z(), 0, r.x(),     //
-        0, 0, 1, r.y(), -r.x(), 0;
-    gram += row.transpose() * row;
+    if ((x - held[0]).squaredNorm() > along.squaredNorm()) along = x - held[0];
   }
-  using solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>;
-  const Eigen::Matrix<double, 6, 1> squares = solver(gram, Eigen::EigenvaluesOnly).eigenvalues();
-  return static_cast<int>((squares.array() <= 1e-12 * squares.maxCoeff()).count());
+  if (along.isZero(0.0)) return 3;
+  const double extent = along.norm();
+  const bool on_line = std::all_of(held.begin(), held.end(), [&](const Eigen::Vector3d& x) {
+    return (x - held[0]).cross(along / extent).norm() <= 1e-6 * extent;
+  });
+  return on_line ? 1 : 0;
 }
 
 /// What the fixed nodes leave loose of a mesh.
