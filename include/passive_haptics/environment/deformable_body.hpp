@@ -11,6 +11,7 @@
 //   dead_beat   F ← F + w (F_LM − F), w = K_VE/(K_VE + K_LM): settles in one update
 //   none        F ← F_LM, the thesis: only for K_LM well below K_VE
 
+#include <passive_haptics/environment/contact_area.hpp>
 #include <passive_haptics/environment/contact_tracker.hpp>
 #include <passive_haptics/environment/mesh.hpp>
 #include <passive_haptics/environment/surface.hpp>
@@ -64,8 +65,10 @@ enum class moved_nodes : std::uint8_t {
 };
 
 struct body_options {
-  double margin = 2e-4;  ///< hysteresis of closest_point [m]
-  force_split split = force_split::barycentric;
+  double margin = 2e-4;                          ///< hysteresis of closest_point [m]
+  force_split split = force_split::barycentric;  ///< of a point, among the nodes of its triangle
+  double radius =
+      0.0;  ///< of the fingertip that the force is spread over [m]; 0: a point (contact_area.hpp)
   contact_selection selection = contact_selection::closest_point;
   force_relaxation relaxation = force_relaxation::dead_beat;
   double local_stiffness = 0.0;  ///< K_LM [N/m]; 0: the local model uses the one reported
@@ -75,12 +78,14 @@ struct body_options {
   double memory_limit = 0.0;  ///< for the factor [B]; 0: what the system has (memory_limit.hpp)
 };
 
-/// What a body to be touched asks of the elastic solid behind it. A point is pressed once: C [m/N] says
-/// how far it gives way; then it is loaded with one force after the other, and nodes are asked for.
+/// What a body to be touched asks of the elastic solid behind it. A point or an area is pressed once: C [m/N]
+/// says how far it gives way; then it is loaded with one force after the other, and nodes are asked for.
 template <class E>
 concept elastic_solid = requires(E solid, const std::array<int, 3>& nodes, const Eigen::Vector3d& v,
+                                 std::span<const int> some, std::span<const double> shares,
                                  int node) {
   { solid.press(nodes, v) } -> std::convertible_to<Eigen::Matrix3d>;
+  { solid.press(some, shares) } -> std::convertible_to<Eigen::Matrix3d>;
   { solid.compliance(nodes, v) } -> std::convertible_to<Eigen::Matrix3d>;
   solid.load(v);
   { solid.displacement(node) } -> std::convertible_to<Eigen::Vector3d>;
@@ -109,6 +114,7 @@ class basic_deformable_body {
         solid_(std::move(solid)),
         search_(boundary(mesh), mesh.nodes),
         tracker_(options.margin),
+        area_(search_, mesh.nodes),
         rest_(mesh.nodes),
         nodes_(mesh.nodes),
         next_(mesh.nodes),
@@ -117,6 +123,10 @@ class basic_deformable_body {
       refuse_argument("deformable_body: a solid of ", solid_.mesh_nodes(),
                       " nodes is refused on a mesh of ", mesh.nodes.size(),
                       "; give the mesh that it was made of");
+    }
+    if (!(options.radius >= 0.0) || !std::isfinite(options.radius)) {
+      refuse_argument("deformable_body: a fingertip of radius ", options.radius,
+                      " m is refused; give a finite one, 0: a point");
     }
     if (!(options.local_stiffness >= 0.0) || !std::isfinite(options.local_stiffness)) {
       refuse_argument("deformable_body: local stiffness ", options.local_stiffness,
@@ -172,12 +182,7 @@ class basic_deformable_body {
     const surface_triangle& t = search_[slot(found->triangle)];
     const triangle shape = corners(t, nodes_);
     const Eigen::Vector3d& n = found->normal;
-    // By the weights of the point its compliance and its load are one and the same solution.
-    const bool by_weights = options_.split == force_split::barycentric;
-    const double give = n.dot((by_weights ? solid_.press(t.nodes, found->weights)
-                                          : solid_.compliance(t.nodes, found->weights)) *
-                              n);
-    if (!by_weights) solid_.press(t.nodes, force_shares(options_.split, shape, found->weights));
+    const double give = press(t, shape, *found);
     contact_ = {shape,
                 found->point,
                 n,
@@ -221,6 +226,29 @@ class basic_deformable_body {
     const double local =
         options_.local_stiffness > 0.0 ? options_.local_stiffness : contact_.stiffness;
     return force_ + contact_.stiffness / (contact_.stiffness + local) * (answer - force_);
+  }
+
+  /// Presses what the next force will act on; how far the contact gives way along its normal [m/N].
+  [[nodiscard]] double press(const surface_triangle& t, const triangle& shape,
+                             const surface_point& on) {
+    const Eigen::Vector3d& n = on.normal;
+    if (options_.radius > 0.0) {
+      area_.gather(search_, rest_, t, on.weights, options_.radius);
+      solid_.press(area_.nodes(), area_.shares());
+      solid_.load(n);  // the middle gives way more than the area on an average
+      double give = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        give += on.weights[static_cast<Eigen::Index>(k)] * n.dot(solid_.displacement(t.nodes[k]));
+      }
+      return give;
+    }
+    // By the weights of the point its compliance and its load are one and the same solution.
+    if (options_.split == force_split::barycentric) {
+      return n.dot(solid_.press(t.nodes, on.weights) * n);
+    }
+    const double give = n.dot(solid_.compliance(t.nodes, on.weights) * n);
+    solid_.press(t.nodes, force_shares(options_.split, shape, on.weights));
+    return give;
   }
 
   /// next_ of a node ← rest + u, once per update. (A13)
@@ -283,6 +311,7 @@ class basic_deformable_body {
   Elastic solid_;
   surface_search search_;
   contact_tracker tracker_;
+  contact_area area_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< of mass, at rest [m]
   double extent_ = 0.0;                               ///< largest distance from centre_ [m]
   std::vector<int> moving_;                           ///< nodes that can move

@@ -103,6 +103,8 @@ class patch_compliance {
       : columns_(std::move(columns)), nodes_(std::move(nodes)), index_(mesh_nodes, -1) {
     for (std::size_t i = 0; i < nodes_.size(); ++i)
       index_.at(slot(nodes_[i])) = static_cast<int>(i);
+    at_.reserve(nodes_.size());
+    shares_.reserve(nodes_.size());
   }
 
   [[nodiscard]] const std::vector<int>& nodes() const noexcept { return nodes_; }
@@ -138,21 +140,36 @@ class patch_compliance {
     return between(nodes, shares, nodes, shares);
   }
   Eigen::Matrix3d press(const std::array<int, 3>& nodes, const Eigen::Vector3d& shares) {
-    at_ = nodes;
-    shares_ = shares;
-    return compliance(nodes, shares);
+    return press(std::span<const int>(nodes), std::span(shares.data(), 3));
+  }
+  /// Nodes outside of the patch do not move, so that their shares are lost.
+  Eigen::Matrix3d press(std::span<const int> nodes, std::span<const double> shares) {
+    at_.clear();
+    shares_.clear();
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (!moves(nodes[k])) continue;
+      at_.push_back(index_[slot(nodes[k])]);
+      shares_.push_back(shares[k]);
+    }
+    columns_.fetch(at_);
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (std::size_t j = 0; j < at_.size(); ++j) {
+      for (std::size_t i = 0; i < at_.size(); ++i) {
+        sum += shares_[i] * shares_[j] * block(at_[i], at_[j]);
+      }
+    }
+    return sum;
   }
   void load(const Eigen::Vector3d& force) {
     force_ = force;
-    fetch(at_);
+    columns_.fetch(at_);
   }
   [[nodiscard]] Eigen::Vector3d displacement(int node) const {
     Eigen::Vector3d u = Eigen::Vector3d::Zero();
     const int row = index_[slot(node)];
     if (row < 0) return u;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int column = index_[slot(at_[k])];
-      if (column >= 0) u += block(row, column) * (shares_[static_cast<Eigen::Index>(k)] * force_);
+    for (std::size_t k = 0; k < at_.size(); ++k) {
+      u += block(row, at_[k]) * (shares_[k] * force_);
     }
     return u;
   }
@@ -182,8 +199,8 @@ class patch_compliance {
   mutable Columns columns_;
   std::vector<int> nodes_;  ///< of the patch, numbers in the mesh
   std::vector<int> index_;  ///< of a node of the mesh in nodes_, or −1
-  std::array<int, 3> at_{0, 0, 0};
-  Eigen::Vector3d shares_ = Eigen::Vector3d::Zero();
+  std::vector<int> at_;     ///< what is pressed, by places in nodes_
+  std::vector<double> shares_;
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
 };
 

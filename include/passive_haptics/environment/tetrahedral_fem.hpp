@@ -168,6 +168,8 @@ class basic_tetrahedral_fem {
     factorise(stiffness_matrix(mesh, m, number_, graph), options.tell);
     displacements_.assign(mesh.nodes.size(), Eigen::Vector3d::Zero());
     load_.setZero(3 * graph.size());
+    pressed_.reserve(slot(graph.size()));
+    shares_.reserve(slot(graph.size()));
     loaded_.prepare(*solver_, load_.size());
     probed_.prepare(*solver_, load_.size());
   }
@@ -212,13 +214,17 @@ class basic_tetrahedral_fem {
     return c > 0.0 ? 1.0 / c : std::numeric_limits<double>::infinity();
   }
 
-  // One point of the surface, pressed once and loaded with one force after the other: what a contact
-  // needs. By multifrontal it costs the fronts above the point and above the nodes that are asked for.
+  // One point of the surface, or an area, pressed once and loaded with one force after the other: what a
+  // contact needs. By multifrontal it costs the fronts above the point and above the nodes that are asked for.
 
   [[nodiscard]] bool moves(int node) const { return number_[slot(node)] >= 0; }
 
   /// Chooses the point whose forces are shared out to these nodes by these shares; its C [m/N].
   const Eigen::Matrix3d& press(const std::array<int, 3>& nodes, const Eigen::Vector3d& shares) {
+    return press(loaded_, nodes, shares);
+  }
+  /// The same of any nodes, as many shares as nodes: of an area, whose C is the mean by these shares.
+  const Eigen::Matrix3d& press(std::span<const int> nodes, std::span<const double> shares) {
     return press(loaded_, nodes, shares);
   }
   /// The force [N] on the point that was pressed last.
@@ -231,18 +237,21 @@ class basic_tetrahedral_fem {
   }
 
  private:
-  const Eigen::Matrix3d& press(point_load<Solver>& point, const std::array<int, 3>& nodes,
-                               const Eigen::Vector3d& shares) {
-    std::array<int, 3> numbers{};
-    std::array<double, 3> weights{};
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
+  const Eigen::Matrix3d& press(point_load<Solver>& point, std::span<const int> nodes,
+                               std::span<const double> shares) {
+    pressed_.clear();
+    shares_.clear();
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
       const int number = number_.at(slot(nodes[k]));
       if (number < 0) continue;
-      numbers[count] = number;
-      weights[count++] = shares[static_cast<Eigen::Index>(k)];
+      pressed_.push_back(number);
+      shares_.push_back(shares[k]);
     }
-    return point.press(*solver_, std::span(numbers).first(count), std::span(weights).first(count));
+    return point.press(*solver_, pressed_, shares_);
+  }
+  const Eigen::Matrix3d& press(point_load<Solver>& point, const std::array<int, 3>& nodes,
+                               const Eigen::Vector3d& shares) {
+    return press(point, std::span<const int>(nodes), std::span(shares.data(), 3));
   }
 
   void factorise(const Eigen::SparseMatrix<double>& stiffness, const on_progress& tell) {
@@ -265,6 +274,8 @@ class basic_tetrahedral_fem {
   Eigen::VectorXd load_;
   point_load<Solver> loaded_;
   point_load<Solver> probed_;
+  std::vector<int> pressed_;  ///< nodes that move, by their numbers
+  std::vector<double> shares_;
   std::vector<Eigen::Vector3d> displacements_;
 };
 

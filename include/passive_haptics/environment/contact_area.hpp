@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The nodes that share the force of a fingertip as wide as 2 r, whatever the mesh:
+//
+//     wᵢ ∝ Aᵢ (1 − sᵢ²/r²)² for sᵢ < r,   Σ wᵢ = 1
+//
+// sᵢ is how far node i is from the contact at rest [m], Aᵢ a third of the triangles around it [m²]. A force on
+// a point has no displacement under it in a solid (J. Boussinesq, 1885: it is infinite), so a mesh that is
+// refined grows ever softer under a finger on three nodes; under an area it converges. Where the triangle is
+// larger than r, its longest edge is taken for r.
+
+#include <passive_haptics/environment/surface_search.hpp>
+#include <passive_haptics/environment/triangle.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace environment {
+
+class contact_area {
+ public:
+  contact_area() = default;
+  /// On the surface of a body of which `rest` are the nodes [m].
+  contact_area(const surface_graph& surface, nodes_view rest)
+      : areas_(rest.size(), 0.0), when_(rest.size(), 0) {
+    for (const surface_triangle& t : surface.triangles()) {
+      const double third = area_vector(corners(t, rest)).norm() / 3.0;
+      for (const int node : t.nodes) areas_[slot(node)] += third;
+    }
+    nodes_.reserve(rest.size());
+    shares_.reserve(rest.size());
+  }
+
+  /// Collects the nodes within `radius` [m] of the point of a triangle with these barycentric weights.
+  /// Those it is connected to over nodes within the radius; no allocation.
+  void gather(const surface_graph& surface, nodes_view rest, const surface_triangle& on,
+              const Eigen::Vector3d& weights, double radius) {
+    const triangle shape = corners(on, rest);
+    const Eigen::Vector3d centre = point_at(shape, weights);
+    for (std::size_t k = 0; k < 3; ++k) {
+      radius = (std::max)(radius, (shape[(k + 1) % 3] - shape[k]).norm());
+    }
+    nodes_.clear();
+    shares_.clear();
+    if (++now_ == 0) {
+      std::fill(when_.begin(), when_.end(), 0U);
+      now_ = 1;
+    }
+    double sum = 0.0;
+    const auto add = [&](int node) {
+      if (when_[slot(node)] == now_) return;
+      when_[slot(node)] = now_;
+      const double inside = 1.0 - (rest[slot(node)] - centre).squaredNorm() / (radius * radius);
+      if (!(inside > 0.0)) return;
+      nodes_.push_back(node);
+      shares_.push_back(areas_[slot(node)] * inside * inside);
+      sum += shares_.back();
+    };
+    for (const int node : on.nodes) add(node);
+    for (std::size_t next = 0; next < nodes_.size(); ++next) {
+      for (const int i : surface.triangles_at(nodes_[next])) {
+        for (const int node : surface[slot(i)].nodes) add(node);
+      }
+    }
+    for (double& share : shares_) share /= sum;
+  }
+
+  [[nodiscard]] std::span<const int> nodes() const noexcept { return nodes_; }
+  [[nodiscard]] std::span<const double> shares() const noexcept { return shares_; }
+
+ private:
+  std::vector<double> areas_;  ///< of each node [m²]
+  std::vector<int> nodes_;
+  std::vector<double> shares_;
+  std::vector<std::uint32_t> when_;  ///< each node was looked at last
+  std::uint32_t now_ = 0;
+};
+
+}  // namespace environment
+}  // namespace v0
+}  // namespace passive_haptics
