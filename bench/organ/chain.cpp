@@ -277,7 +277,7 @@ chain_row run_chain(ex::report& out, const chain_settings& chosen, const env::on
   const held_mesh body = make_organ(chosen.side);
   const auto stroked = stroked_patch(body);
   env::tetrahedral_fem fem(body.mesh, organ_flesh, body.held, {.tell = tell, .touched = stroked});
-  const env::body_options around{.moved = env::moved_nodes::around};
+  const env::body_options around{.radius = fingertip, .moved = env::moved_nodes::around};
   chain_row row;
   std::vector<vector> now = body.mesh.nodes;  // all of them, under the last force
   if (chosen.by_table) {
@@ -290,7 +290,10 @@ chain_row run_chain(ex::report& out, const chain_settings& chosen, const env::on
         body.mesh, env::read_table(file, id, body.mesh.nodes.size()), around);
     row = touch_by("table", touched, chosen, tell);
     const auto& last = touched.contact();  // the table knows its patch alone
-    fem.press(touched.surface()[env::slot(last.triangle)].nodes, last.weights);
+    env::contact_area area(touched.search(), body.mesh.nodes);
+    area.gather(touched.search(), body.mesh.nodes, touched.surface()[env::slot(last.triangle)],
+                last.weights, fingertip);
+    fem.press(area.nodes(), area.shares());
     fem.load(-touched.force());
     for (std::size_t i = 0; i < now.size(); ++i) now[i] += fem.displacement(static_cast<int>(i));
   } else {

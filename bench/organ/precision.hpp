@@ -41,6 +41,7 @@ struct mesh_row {
   std::size_t nodes = 0;
   double edge = 0.0;          ///< of the triangles that are touched, mean [mm]
   double stiffness = 0.0;     ///< at the contact, mean [N/m]
+  double of_point = 0.0;      ///< the same where a point is pressed, and no area [N/m]
   double force = 0.0;         ///< rms [N]
   double error = 0.0;         ///< rms, from that of the finest [N]
   double largest_step = 0.0;  ///< [N]

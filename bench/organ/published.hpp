@@ -19,6 +19,9 @@ using plane = ph::half_space<volume>;
 using quadric = ph::quadric<volume>;
 using patch = ph::patch<volume, 16>;
 
+/// The radius of what touches [m]: the force is spread over it.
+inline constexpr double fingertip = 0.010;
+
 template <class Surface>
 inline constexpr const char* name_of = "plane";
 template <>
