@@ -60,15 +60,16 @@ def workflows(yaml):
             for step in job["steps"]:
                 uses = step.get("uses", "actions/none@v1")
                 check(re.fullmatch(r"actions/[a-z-]+@v\d+", uses), f"{path.name}: {uses}")
-                check("${{" not in step.get("run", "").replace("${{ matrix.format }}", ""),
+                run = re.sub(r"\$\{\{ matrix\.[a-z]+ \}\}", "", step.get("run", ""))  # what stands above
+                check("${{" not in run,
                       f"{path.name}, {name}: a script is told values by its environment")
                 check(not (writes and "checkout" in uses), f"{path.name}, {name}: it runs our code")
 
 
 def packages(script):
-    """What `apt-get install` is told there, options and shell left out."""
+    """What `apt-get install`, or what .ci/run has in its place, is told there; no options, no shell."""
     found = set()
-    for line in re.findall(r"apt-get install ([^&>`|]*)", script.replace("\\\n", " ")):
+    for line in re.findall(r"(?:apt-get install|apt_get_installs) ([^&>`|;]*)", script.replace("\\\n", " ")):
         found |= {word for word in line.split() if re.fullmatch(r"[a-z0-9][a-z0-9+.-]+", word)}
     return found
 
