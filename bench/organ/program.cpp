@@ -205,11 +205,11 @@ update_row touch(const std::string& by, const held_mesh& scene, Body& body, doub
 struct table_row {
   std::size_t nodes = 0, patch = 0;
   std::string order{};
-  double factor = 0.0;    ///< assembled and factorised, CPU time [s]
-  double memory = 0.0;    ///< of the factor [MB]
-  double computed = 0.0;  ///< wall time [s]
-  double size = 0.0;      ///< of the file [MB]
-  double load = 0.0;      ///< wall time, every block checked [ms]
+  double factor = 0.0;             ///< assembled and factorised, CPU time [s]
+  double memory = 0.0;             ///< of the factor [MB]
+  double computed = std::nan("");  ///< wall time [s]; none: it was not
+  double size = std::nan("");      ///< of the file [MB]
+  double load = std::nan("");      ///< wall time, every block checked [ms]
 };
 ex::record record_of(const table_row& r) {
   return {{"nodes", r.nodes},   {"patch_nodes", r.patch}, {"order", r.order},
