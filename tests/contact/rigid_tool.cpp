@@ -52,7 +52,7 @@ TEMPLATE_TEST_CASE("a point of a tool presses with its force and its torque", "[
   CHECK(out.what == ph::event::nominal);
 }
 
-TEST_CASE("a tool is no stiffer with sixteen contacts than its coupling", "[rigid_tool]") {
+TEST_CASE("a tool is no stiffer with sixteen contacts than its coupling", "[rigid_tool][long]") {
   ph::laws::samples random(1);
   const double k = 1000.0 / 0.9, turns = 0.9 / 0.9;  // C⁻¹/(1 − ε)
   double steepest = 0.0;

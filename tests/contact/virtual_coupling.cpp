@@ -138,7 +138,7 @@ TEST_CASE("the massless proxy has the felt stiffness, and the damper whole on a 
 }
 
 TEST_CASE("virtual_coupling needs no ledger on a fixed wall while K_c ≤ 2(b − D_c)/T (§ 2(g))",
-          "[contact][passivity]") {
+          "[contact][passivity][long]") {
   for (const double Dc : {0.0, 0.01, 0.02, 0.029}) {
     const double Kc = 2.0 * (0.03 - Dc) / 1e-3;
     for (const double K : {30.0, 1e4}) {

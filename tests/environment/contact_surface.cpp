@@ -94,7 +94,7 @@ TEST_CASE("a quadric of a mesh that is sharp is kept from folding", "[environmen
   }
 }
 
-TEST_CASE("a patch of a dent loses no tick, a triangle of it does", "[environment][curved]") {
+TEST_CASE("a patch of a dent loses no tick, a triangle of it does", "[environment][curved][long]") {
   const mesh m = dented();
   int triangle_lost = 0, patch_lost = 0, old_triangle_lost = 0;
   double largest_step = 0.0;

@@ -115,7 +115,7 @@ TEST_CASE("the curvature of a ball is found from its triangles", "[environment][
   CHECK(chord > 6e-4);
 }
 
-TEST_CASE("the principal curvatures of an ellipsoid are found", "[environment][curvature]") {
+TEST_CASE("the principal curvatures of an ellipsoid are found", "[environment][curvature][long]") {
   const auto off = [](const Vector3d& x) {
     return (std::sqrt(x.cwiseQuotient(axes).squaredNorm()) - 1.0) * axes.z();
   };

@@ -44,7 +44,7 @@ TEST_CASE("boundary refuses a face with too many owners", "[environment][surface
 }
 
 TEST_CASE("closest_point tells inside from outside at faces, edges and nodes",
-          "[environment][surface]") {
+          "[environment][surface][long]") {
   // A sharp wedge: its acute edge is where the side of one triangle is the wrong answer.
   const env::tetrahedral_mesh wedge{{{0, 0, 0}, {4, 0, 0}, {2, 3, 0.3}, {2, 3, -0.3}},
                                     {{0, 1, 2, 3}}};

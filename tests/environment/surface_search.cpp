@@ -26,7 +26,7 @@ std::vector<env::tetrahedral_mesh> shapes() {
 }  // namespace
 
 TEST_CASE("surface_search answers as the linear search does, bit by bit",
-          "[environment][surface]") {
+          "[environment][surface][long]") {
   std::mt19937 random(22);
   int ties = 0;
   for (const auto& mesh : shapes()) {
@@ -91,7 +91,7 @@ TEST_CASE("surface_search leaves out what cannot be touched", "[environment][sur
 }
 
 TEST_CASE("a contact that is followed is where the whole search finds it",
-          "[environment][surface]") {
+          "[environment][surface][long]") {
   const auto mesh = shapes().back();
   const auto surface = env::boundary(mesh);
   const env::surface_search search(surface, mesh.nodes);
