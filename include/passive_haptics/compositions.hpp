@@ -68,9 +68,10 @@ using encoder_touch =
     local_model<Space, followed<Constraint>, turn_limited, capped<damped_spring>, dual_ledger,
                 bound_chain<reachable_bound, thermal_limit>, Limits, edge_observer>;
 
-/// Of a device as it is stated, and of the most that hand, load and friction push with [N]. One without
-/// dry friction has no budget: check() then refuses `most`, and what is left is quantised_energy with a
-/// mass_observer, soft at first.
+/// Of a device as it is stated, and of the most that hand, load and friction push with [N]. The stiffness is
+/// that of `latency` as the device states it, which may be less than that of Limits: as passive then, and
+/// stiffer than what is sure to be sustained. One without dry friction has no budget: check() then refuses
+/// `most`, and what is left is quantised_energy with a mass_observer, soft at first.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
 [[nodiscard]] constexpr encoder_touch<Space, Constraint, Limits> make_encoder_touch(
     const design::stated_device& device, double hand_force, const design::intended_use& use = {},
