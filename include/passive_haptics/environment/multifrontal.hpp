@@ -51,7 +51,8 @@ class multifrontal {
     factorised_ = !result.stopped && result.smallest_pivot > 0.0;
     if (!factorised_) return factor_ = {}, result;
     work_.setZero(stiffness.rows());
-    below_.setZero(largest_bound());
+    below_.setZero(largest_front());
+    three_.setZero(largest_front(), 3);
     return result;
   }
   [[nodiscard]] bool factorised() const noexcept { return factorised_; }
@@ -232,10 +233,10 @@ class multifrontal {
       path.push_back(t);
     }
   }
-  [[nodiscard]] Eigen::Index largest_bound() const {
-    std::size_t largest = 0;
-    for (const auto& front : tree_.fronts) largest = (std::max)(largest, front.bound.size());
-    return row(largest);
+  [[nodiscard]] Eigen::Index largest_front() const {
+    Eigen::Index largest = 0;
+    for (const auto& l : factor_) largest = (std::max)(largest, l.rows());
+    return largest;
   }
 
   // ------------------------------------------------------------------------------- factorising
@@ -387,7 +388,6 @@ class multifrontal {
     const elimination_front& front = tree_.fronts[t];
     const Eigen::MatrixXd& l = factor_[t];
     const Eigen::Index rows = l.rows(), pivots = l.cols();
-    if (three_.rows() < rows) three_.resize(rows, 3);
     three_.topRows(pivots) = x.middleRows(row(front.first), pivots);
     three_.middleRows(pivots, rows - pivots).setZero();
     for (Eigen::Index k = 0; k < pivots; k += step) {
@@ -413,8 +413,8 @@ class multifrontal {
   std::vector<Eigen::MatrixXd> factor_;  ///< of each front, its bound below its pivots
   bool factorised_ = false;
   Eigen::VectorXd work_;
-  Eigen::VectorXd below_;                           ///< of the largest front
-  Eigen::Matrix<double, Eigen::Dynamic, 3> three_;  ///< of the largest front
+  Eigen::VectorXd below_;                           ///< rows of the largest front
+  Eigen::Matrix<double, Eigen::Dynamic, 3> three_;  ///< the same
 };
 
 }  // namespace environment
