@@ -233,7 +233,7 @@ settings parse(const std::vector<std::string>& arguments) {
   ex::read_options(
       "organ",
       {ex::a_switch("--quick", "a first look", chosen.quick),
-       ex::a_switch("--large", "97 336 nodes, too (5 GB, some minutes)", chosen.large),
+       ex::a_switch("--large", "97 336 nodes, too (5 GB; 20 minutes)", chosen.large),
        ex::a_text("--out DIR", "where the results go (default: organ)", chosen.out),
        ex::a_text("--only PART", "solvers, precision, chain, remote or deflections", chosen.only),
        ex::a_number("--seconds", "of the chain (default: 60)", chosen.chain.seconds),

@@ -67,8 +67,7 @@ enum class moved_nodes : std::uint8_t {
 struct body_options {
   double margin = 2e-4;                          ///< hysteresis of closest_point [m]
   force_split split = force_split::barycentric;  ///< of a point, among the nodes of its triangle
-  double radius =
-      0.0;  ///< of the fingertip that the force is spread over [m]; 0: a point (contact_area.hpp)
+  double radius = 0.0;  ///< of a fingertip [m] (contact_area.hpp); 0: a point
   contact_selection selection = contact_selection::closest_point;
   force_relaxation relaxation = force_relaxation::dead_beat;
   double local_stiffness = 0.0;  ///< K_LM [N/m]; 0: the local model uses the one reported
