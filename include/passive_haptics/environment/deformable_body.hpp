@@ -6,6 +6,11 @@
 //     deformable_body body{ball(0.05), {.young = 2e4, .poisson = 0.3}, ball_fixed_nodes(), {}};
 //     every 20-50 ms:  contact = body.update(device position, force on the device)
 //
+// Of 10⁴ nodes and more: say where it is touched and how wide the fingertip is, and move what is near it.
+//
+//     deformable_body body{mesh, tetrahedral_fem(mesh, m, fixed, {.touched = patch}),
+//                          {.radius = 0.005, .moved = moved_nodes::around}};
+//
 // The loop of local model and body has the eigenvalue −K_LM/K_VE: with equal stiffness the surface
 // swings for ever under a device that stands still (A12). `relaxation` decides:
 //   dead_beat   F ← F + w (F_LM − F), w = K_VE/(K_VE + K_LM): settles in one update
