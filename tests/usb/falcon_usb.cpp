@@ -29,8 +29,8 @@ falcon::boot_options patiently() {
   options.attempts = 3;
   options.probes = 2;
   options.hellos = 3;
-  options.answer = std::chrono::milliseconds(500);
-  options.reply = std::chrono::milliseconds(200);
+  options.answer = std::chrono::seconds(5);
+  options.reply = std::chrono::milliseconds(600);
   return options;
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("over libusb: a silent device is a timeout, then a fault, then back", 
   emulated_falcon bus;
   run(bus, 7);
   auto quick = patient;
-  quick.reply = std::chrono::milliseconds(60);
+  quick.reply = std::chrono::milliseconds(500);
   grip device{k, quick};
   REQUIRE(device.open());
   REQUIRE(device.boot({}, patiently()).how);
@@ -179,7 +179,7 @@ TEST_CASE("over libusb: several packets in a transfer, status bytes in each", "[
   std::string got;
   std::array<falcon::byte, 100> part{};
   while (got.size() < sent.size()) {
-    const auto transfer = usb.read(part, usb.now() + std::chrono::seconds(2));
+    const auto transfer = usb.read(part, usb.now() + std::chrono::seconds(20));
     if (!transfer.how) FAIL(falcon::to_string(transfer.how.what));
     got.append(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(transfer.bytes));
   }
