@@ -106,3 +106,23 @@ TEST_CASE("a compliance cache refuses what it cannot hold", "[environment][cache
   CHECK(contains(make({3, 125}, 1e6), "node 125 is refused; the mesh has nodes 0 to 124"));
   CHECK(contains(make({-1}, 1e6), "node -1 is refused"));
 }
+
+TEST_CASE("a compliance cache has room for all nodes that one contact presses",
+          "[environment][cache]") {
+  const scene s;
+  auto cache = env::cache_compliance<double>(s.fem(), s.patch, s.room(3));
+  REQUIRE(cache.columns().places() == 3);
+  const std::vector<int> nodes(s.patch.end() - 12, s.patch.end());
+  const std::vector<double> shares(nodes.size(), 1.0 / 12.0);
+  (void)cache.press(nodes, shares);
+  cache.load({1, 2, 3});
+  env::tetrahedral_fem fem = s.fem();
+  (void)fem.press(nodes, shares);
+  fem.load({1, 2, 3});
+  for (const int node : s.patch) {
+    const Vector3d u = fem.displacement(node);
+    CHECK((cache.displacement(node) - u).norm() <= 1e-10 * (u.norm() + 1e-3));
+  }
+  CHECK(cache.columns().places() == 12);
+  CHECK(cache.columns().computed() == 12);  // and none of them again
+}

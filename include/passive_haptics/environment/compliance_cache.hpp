@@ -7,8 +7,9 @@
 //     env::basic_deformable_body<env::compliance_cache<>> body(mesh, std::move(cache));
 //
 // A node takes 9M scalars for M nodes of the patch. Where they do not all fit, those of the node that was
-// asked for longest ago are given up. An update that needs a new node takes a full solution and the heap; one
-// that needs none takes neither.
+// asked for longest ago are given up; those of one contact always fit, also of a fingertip that is wider than
+// most_bytes. An update that needs a new node takes a full solution and the heap; one that needs none takes
+// neither.
 
 #include <passive_haptics/environment/memory_limit.hpp>
 #include <passive_haptics/environment/patch_compliance.hpp>
@@ -39,13 +40,12 @@ class computed_columns {
     const auto places =
         static_cast<std::size_t>((std::min)(most_bytes / each, static_cast<double>(patch_.size())));
     check_memory("compliance_cache", each * static_cast<double>(places), 0.0, patch_.size());
-    scalars_.resize(9 * patch_.size() * places);
-    node_at_.assign(places, -1);
-    used_.assign(places, 0);
+    make_room(places);
   }
 
-  /// Computes what is not there, for all of them at once; up to three.
+  /// Computes what is not there, for all of them at once. There is always room for what is asked for at once.
   void fetch(std::span<const int> indices) {
+    if (indices.size() > places()) make_room(indices.size());
     missing_.clear();
     ++now_;
     for (const int i : indices) {
@@ -83,6 +83,12 @@ class computed_columns {
   [[nodiscard]] std::size_t computed() const noexcept { return computed_; }
 
  private:
+  void make_room(std::size_t places) {
+    scalars_.resize(9 * patch_.size() * places);
+    node_at_.resize(places, -1);
+    used_.resize(places, 0);
+  }
+
   basic_tetrahedral_fem<Solver> solid_;
   std::vector<int> patch_;
   std::vector<int> place_of_;        ///< of a node of the patch, or −1
