@@ -36,8 +36,13 @@
   /** An instance of its own. What a module asks of a system, and never uses, is answered with 0. */
   async function instance(name) {
     const compiled = await unpack(name);
+    // What a module may ask of a system is not there: 8, no such descriptor; to end is an error that shows.
+    const absent = name => () => {
+      if (name === 'proc_exit') throw new Error('the module has ended');
+      return 8;
+    };
     const imports = {};
-    for (const i of WebAssembly.Module.imports(compiled)) (imports[i.module] ??= {})[i.name] = () => 0;
+    for (const i of WebAssembly.Module.imports(compiled)) (imports[i.module] ??= {})[i.name] = absent(i.name);
     const e = (await WebAssembly.instantiate(compiled, imports)).exports;
     e._initialize();
     return e;

@@ -17,12 +17,14 @@ namespace environment {
 
 /// What the system can give without swapping [B]; none where it does not say (other than Linux).
 [[nodiscard]] inline std::optional<double> available_memory() {
+#ifdef __linux__
   std::ifstream info("/proc/meminfo");
   for (std::string name; info >> name;) {
     double kibibytes = 0.0;
     if (name == "MemAvailable:" && info >> kibibytes) return 1024.0 * kibibytes;
     info.ignore(200, '\n');
   }
+#endif
   return std::nullopt;
 }
 
