@@ -61,7 +61,7 @@ class dissection {
       if (!std::binary_search(last.begin(), last.end(), i)) others.push_back(i);
     }
     split(std::move(others));
-    eliminate(last);
+    eliminate(std::move(last));
   }
 
   [[nodiscard]] elimination_tree tree() && {
@@ -79,15 +79,17 @@ class dissection {
   }
 
  private:
-  void eliminate(const std::vector<int>& nodes) {
+  /// In ascending order, whatever order the library's nth_element has left them in: the same bits everywhere.
+  void eliminate(std::vector<int> nodes) {
     if (nodes.empty()) return;
+    std::sort(nodes.begin(), nodes.end());
     tree_.fronts.push_back(
         {static_cast<int>(order_.size()), static_cast<int>(nodes.size()), {}, {}, -1});
     order_.insert(order_.end(), nodes.begin(), nodes.end());
   }
 
   void split(std::vector<int> nodes) {
-    if (nodes.size() <= slot(leaf_)) return eliminate(nodes);
+    if (nodes.size() <= slot(leaf_)) return eliminate(std::move(nodes));
     Eigen::AlignedBox3d box;
     for (const int i : nodes) box.extend(graph_.points[slot(i)]);
     Eigen::Index axis = 0;
@@ -118,7 +120,7 @@ class dissection {
     kept.insert(kept.end(), border.begin(), border.end());
     split(std::move(low_side));
     split(std::move(high_side));
-    eliminate(cut_low ? low_border : high_border);
+    eliminate(std::move(cut_low ? low_border : high_border));
   }
 
   /// What each front is coupled to: its neighbours that come later, and what is left of its children.
