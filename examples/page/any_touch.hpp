@@ -157,3 +157,23 @@ template <class Touch, class Make>
                                  tick] = told;                                                    \
     return __VA_ARGS__;                                                                           \
   })
+
+// Abbreviations of what a reader sees in full, for PAGE_CONTROLLER.
+#define LEDGER         \
+  ph::reduced_energy { \
+    .damping = damping \
+  }
+#define LIMITS                             \
+  ph::loop_limits {                        \
+    .longest_tick = tick, .top_speed = 100 \
+  }
+#define REACHABLE                                     \
+  ph::reachable_bound {                               \
+    .mass = mass, .hand_force = hand_force + friction \
+  }
+#define HELD(bound)             \
+  ph::bound_chain {             \
+    bound, ph::actuator_limit { \
+      .most = motors            \
+    }                           \
+  }

@@ -29,24 +29,6 @@ using scene = ph::space<double, 3>;
 using vector = scene::vector;
 using body_touch = page::any_touch<scene, 1>;
 
-#define LEDGER         \
-  ph::reduced_energy { \
-    .damping = damping \
-  }
-#define LIMITS                             \
-  ph::loop_limits {                        \
-    .longest_tick = tick, .top_speed = 100 \
-  }
-#define REACHABLE                                     \
-  ph::reachable_bound {                               \
-    .mass = mass, .hand_force = hand_force + friction \
-  }
-#define HELD(bound)             \
-  ph::bound_chain {             \
-    bound, ph::actuator_limit { \
-      .most = motors            \
-    }                           \
-  }
 #define BODY(name, says, ...) \
   PAGE_CONTROLLER(            \
       body_touch, name, says, \

@@ -12,25 +12,6 @@ using plane = ph::half_space<scene>;
 using touch_one = page::any_touch<scene, 1>;
 using touch_two = page::any_touch<scene, 2>;
 
-// Abbreviations of what a reader sees in full.
-#define LEDGER         \
-  ph::reduced_energy { \
-    .damping = damping \
-  }
-#define LIMITS                             \
-  ph::loop_limits {                        \
-    .longest_tick = tick, .top_speed = 100 \
-  }
-#define REACHABLE                                     \
-  ph::reachable_bound {                               \
-    .mass = mass, .hand_force = hand_force + friction \
-  }
-#define HELD(bound)             \
-  ph::bound_chain {             \
-    bound, ph::actuator_limit { \
-      .most = motors            \
-    }                           \
-  }
 #define FOLLOWED \
   ph::followed<ph::half_space<scene>> {}
 

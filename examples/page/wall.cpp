@@ -20,14 +20,6 @@ using wall_touch = page::any_touch<scene, 1>;
                                                    rubs, ph::slots<ph::half_space<scene>, 1>{}},  \
                                    ph::reduced_energy{.damping = damping}, bound,                 \
                                    ph::loop_limits{.longest_tick = tick, .top_speed = 100}})
-#define LEDGER         \
-  ph::reduced_energy { \
-    .damping = damping \
-  }
-#define REACHABLE                                     \
-  ph::reachable_bound {                               \
-    .mass = mass, .hand_force = hand_force + friction \
-  }
 
 struct wall {
   using touch = wall_touch;
