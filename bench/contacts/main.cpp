@@ -5,18 +5,9 @@
 //     contacts --quick --out DIR       a first look
 //     contacts --only settling,news    some of the sections
 
+#include "../common/interruptible.hpp"
 #include "program.hpp"
 
-#include <csignal>
-
-namespace {
-
-std::atomic<bool> stop = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
-}  // namespace
-
 int main(int argc, char** argv) {
-  std::signal(SIGINT, [](int) { stop = true; });
-  return contacts::run({argv + 1, argv + argc}, stop);
+  return experiments::interruptible(argc, argv, contacts::run);
 }

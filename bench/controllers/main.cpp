@@ -6,18 +6,11 @@
 //     controllers --shard 2/8 --out DIR        a part of the Z-width sweep, for a job array
 //     controllers --merge DIR/z_width_*.csv --out DIR
 
+#include "../common/interruptible.hpp"
 #include "program.hpp"
 
-#include <csignal>
-
-namespace {
-
-std::atomic<bool> stop = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
-}  // namespace
-
 int main(int argc, char** argv) {
-  std::signal(SIGINT, [](int) { stop = true; });
-  return controllers::run({argv + 1, argv + argc}, controllers::catalogue(), stop);
+  return experiments::interruptible(argc, argv, [](const auto& arguments, const auto& stop) {
+    return controllers::run(arguments, controllers::catalogue(), stop);
+  });
 }

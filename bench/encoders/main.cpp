@@ -5,18 +5,11 @@
 //     encoders --quick --out DIR       a first look
 //     encoders --only gentle_touch     of gentle_touch, endurance, guarantee
 
+#include "../common/interruptible.hpp"
 #include "program.hpp"
 
-#include <csignal>
-
-namespace {
-
-std::atomic<bool> stop = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
-}  // namespace
-
 int main(int argc, char** argv) {
-  std::signal(SIGINT, [](int) { stop = true; });
-  return encoders::run({argv + 1, argv + argc}, encoders::compositions(), stop);
+  return experiments::interruptible(argc, argv, [](const auto& arguments, const auto& stop) {
+    return encoders::run(arguments, encoders::compositions(), stop);
+  });
 }

@@ -7,18 +7,9 @@
 //
 // A real device: examples/18_falcon_identify.cpp, or identification::identify() on your own.
 
+#include "../common/interruptible.hpp"
 #include "program.hpp"
 
-#include <csignal>
-
-namespace {
-
-std::atomic<bool> stop = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
-}  // namespace
-
 int main(int argc, char** argv) {
-  std::signal(SIGINT, [](int) { stop = true; });
-  return identify::run({argv + 1, argv + argc}, stop);
+  return experiments::interruptible(argc, argv, identify::run);
 }
