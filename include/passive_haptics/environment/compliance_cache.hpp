@@ -105,8 +105,8 @@ class computed_columns {
 template <std::floating_point Scalar = float, column_solver Solver = multifrontal>
 using compliance_cache = patch_compliance<computed_columns<Scalar, Solver>>;
 
-/// Of a patch of `solid`, in no more than `most_bytes` [B] beside its factor. std::invalid_argument for a
-/// patch that is none or does not fit, memory_refused where the system has less.
+/// Of a patch of `solid`, in `most_bytes` [B] beside its factor, or what one contact needs if that is more.
+/// std::invalid_argument for a patch that is none or does not fit, memory_refused where the system has less.
 template <std::floating_point Scalar = float, column_solver Solver>
 [[nodiscard]] compliance_cache<Scalar, Solver> cache_compliance(basic_tetrahedral_fem<Solver> solid,
                                                                 std::vector<int> patch,

@@ -4,7 +4,7 @@
 //
 //     const auto id = env::fingerprint_of(mesh, m, fixed);
 //     const auto patch = env::patch_around(env::boundary(mesh), mesh.nodes, where, 1000);
-//     const env::tetrahedral_fem fem(mesh, m, fixed, {.touched = patch});      // once: a minute for 1e5 nodes
+//     const env::tetrahedral_fem fem(mesh, m, fixed, {.touched = patch});      // once: minutes for 1e5 nodes
 //     env::compute_table("organ.table", fem, id, patch);                       // seconds
 //     env::basic_deformable_body<env::compliance_table<>> body(                // each start: milliseconds
 //         mesh, env::read_table("organ.table", id, mesh.nodes.size()));

@@ -9,6 +9,7 @@
 // refined grows ever softer under a finger on three nodes; under an area it converges. Where the triangle is
 // larger than r, its longest edge is taken for r.
 
+#include <passive_haptics/environment/marks.hpp>
 #include <passive_haptics/environment/surface_search.hpp>
 #include <passive_haptics/environment/triangle.hpp>
 
@@ -17,7 +18,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -30,7 +30,7 @@ class contact_area {
   contact_area() = default;
   /// On the surface of a body of which `rest` are the nodes [m].
   contact_area(const surface_graph& surface, nodes_view rest)
-      : areas_(rest.size(), 0.0), when_(rest.size(), 0) {
+      : areas_(rest.size(), 0.0), seen_(rest.size()) {
     for (const surface_triangle& t : surface.triangles()) {
       const double third = area_vector(corners(t, rest)).norm() / 3.0;
       for (const int node : t.nodes) areas_[slot(node)] += third;
@@ -50,14 +50,10 @@ class contact_area {
     }
     nodes_.clear();
     shares_.clear();
-    if (++now_ == 0) {
-      std::fill(when_.begin(), when_.end(), 0U);
-      now_ = 1;
-    }
+    seen_.clear();
     double sum = 0.0;
     const auto add = [&](int node) {
-      if (when_[slot(node)] == now_) return;
-      when_[slot(node)] = now_;
+      if (!seen_.add(node)) return;
       const double inside = 1.0 - (rest[slot(node)] - centre).squaredNorm() / (radius * radius);
       if (!(inside > 0.0)) return;
       nodes_.push_back(node);
@@ -80,8 +76,7 @@ class contact_area {
   std::vector<double> areas_;  ///< of each node [m²]
   std::vector<int> nodes_;
   std::vector<double> shares_;
-  std::vector<std::uint32_t> when_;  ///< each node was looked at last
-  std::uint32_t now_ = 0;
+  marks seen_;
 };
 
 }  // namespace environment

@@ -18,6 +18,7 @@
 
 #include <passive_haptics/environment/contact_area.hpp>
 #include <passive_haptics/environment/contact_tracker.hpp>
+#include <passive_haptics/environment/marks.hpp>
 #include <passive_haptics/environment/mesh.hpp>
 #include <passive_haptics/environment/surface.hpp>
 #include <passive_haptics/environment/surface_search.hpp>
@@ -122,7 +123,7 @@ class basic_deformable_body {
         rest_(mesh.nodes),
         nodes_(mesh.nodes),
         next_(mesh.nodes),
-        when_(mesh.nodes.size(), 0) {
+        met_(mesh.nodes.size()) {
     if (solid_.mesh_nodes() != mesh.nodes.size()) {
       refuse_argument("deformable_body: a solid of ", solid_.mesh_nodes(),
                       " nodes is refused on a mesh of ", mesh.nodes.size(),
@@ -257,8 +258,7 @@ class basic_deformable_body {
 
   /// next_ of a node ← rest + u, once per update. (A13)
   void move(int node) {
-    if (when_[slot(node)] == now_) return;
-    when_[slot(node)] = now_;
+    if (!met_.add(node)) return;
     moved_.push_back(node);
     const Eigen::Vector3d u = solid_.displacement(node);
     next_[slot(node)] = rest_[slot(node)] + u;
@@ -268,10 +268,7 @@ class basic_deformable_body {
     within_reach_ = true;
     for (const int node : moved_) next_[slot(node)] = rest_[slot(node)];
     moved_.clear();
-    if (++now_ == 0) {
-      std::fill(when_.begin(), when_.end(), 0U);
-      now_ = 1;
-    }
+    met_.clear();
     if (contact_.triangle >= 0) solid_.load(-force);
   }
 
@@ -325,8 +322,7 @@ class basic_deformable_body {
   std::vector<Eigen::Vector3d> next_;  ///< nodes_ to be, until the update is known to be good
   std::vector<int> moved_;             ///< nodes of next_ that are not at rest
   std::vector<int> moved_before_;      ///< nodes of nodes_
-  std::vector<std::uint32_t> when_;    ///< each node was moved last
-  std::uint32_t now_ = 0;              ///< this update
+  marks met_;                          ///< nodes that this update has moved
   bool within_reach_ = true;           ///< no node has flown away in this update
   bool fitted_to_rest_ = true;
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  ///< F, on the device, relaxed [N]

@@ -9,6 +9,7 @@
 // J. W. H. Liu, "The multifrontal method for sparse matrix solution", SIAM Review 34(1), 1992. Eigen's
 // dense products do the work; one thread factorises.
 
+#include <passive_haptics/environment/marks.hpp>
 #include <passive_haptics/environment/nested_dissection.hpp>
 #include <passive_haptics/environment/stiffness_solver.hpp>
 
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -140,9 +140,8 @@ class multifrontal {
   };
   /// Displacements under one force, of the nodes that were asked for.
   struct answer {
-    Eigen::VectorXd u;                ///< 3N, in the order of elimination [m]
-    std::vector<std::uint32_t> when;  ///< each front was solved last
-    std::uint32_t now = 0;
+    Eigen::VectorXd u;         ///< 3N, in the order of elimination [m]
+    marks solved;              ///< fronts
     std::vector<int> waiting;  ///< fronts, on the way to one that is solved
   };
   /// Room for them: afterwards press() and displacement() do not allocate.
@@ -152,8 +151,7 @@ class multifrontal {
   }
   void prepare(answer& to) const {
     to.u.setZero(static_cast<Eigen::Index>(3 * node_at_.size()));
-    to.when.assign(tree_.fronts.size(), 0);
-    to.now = 0;
+    to.solved = marks(tree_.fronts.size());
     to.waiting.reserve(tree_.fronts.size());
   }
 
@@ -184,18 +182,14 @@ class multifrontal {
   }
 
   /// Another force from now on.
-  static void forget(answer& of) {
-    if (++of.now != 0) return;
-    std::fill(of.when.begin(), of.when.end(), 0U);
-    of.now = 1;
-  }
+  static void forget(answer& of) { of.solved.clear(); }
   /// u [m] of a node under `force` [N] at the point. Asked again before forget() it costs nothing.
   [[nodiscard]] Eigen::Vector3d displacement(answer& of, const pressed& at,
                                              const Eigen::Vector3d& force, int node) {
-    if (!factorised_ || of.now == 0) return Eigen::Vector3d::Zero();
+    if (!factorised_ || of.u.size() == 0) return Eigen::Vector3d::Zero();
     const int position = tree_.position[slot(node)];
     of.waiting.clear();
-    for (int t = tree_.front_of[slot(position)]; t >= 0 && of.when[slot(t)] != of.now;
+    for (int t = tree_.front_of[slot(position)]; t >= 0 && !of.solved.has(t);
          t = tree_.fronts[slot(t)].parent) {
       of.waiting.push_back(t);
     }
@@ -208,7 +202,7 @@ class multifrontal {
         pivots.setZero();
       }
       backward(slot(*it), of.u, below_);
-      of.when[slot(*it)] = of.now;
+      of.solved.add(*it);
     }
     return of.u.segment<3>(row(position));
   }
