@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cache says what the finite elements say, computes a node once, and keeps within its memory.
-#include "environment/bodies.hpp"
+#include "environment/touch_alike.hpp"
 #include <passive_haptics/environment/compliance_cache.hpp>
-#include <passive_haptics/environment/deformable_body.hpp>
 #include <passive_haptics/environment/several_contacts.hpp>
 
 namespace {
@@ -34,24 +33,7 @@ TEST_CASE("a body on a compliance cache is the body of finite elements, however 
     CHECK(cache.columns().places() == std::min(s.patch.size(), static_cast<std::size_t>(nodes)));
     env::deformable_body elements(s.mesh, soft, s.held);
     env::basic_deformable_body<env::compliance_cache<double>> cached(s.mesh, std::move(cache));
-    std::mt19937 random(51);
-    Vector3d device{0.033, 0.046, 0.078};
-    int contacts = 0;
-    for (int update = 0; update < 100; ++update) {
-      device = (device + 2e-3 * anything(random))
-                   .cwiseMax(Vector3d(0.01, 0.01, 0.07))
-                   .cwiseMin(Vector3d(0.07, 0.07, 0.083));
-      const auto last = elements.contact();
-      const Vector3d force = last.stiffness * std::max(0.0, last.depth) * last.normal;
-      const auto a = elements.update(device, force);
-      const auto b = cached.update(device, force);
-      REQUIRE((a.fresh && b.fresh));
-      REQUIRE(a.triangle == b.triangle);
-      REQUIRE((a.point - b.point).norm() < 1e-10);
-      REQUIRE_THAT(b.stiffness, WithinRel(a.stiffness, 1e-8));
-      contacts += a.depth > 0.0 ? 1 : 0;
-    }
-    CHECK(contacts > 25);
+    CHECK(touch_alike(elements, cached, 100, 51) > 25);
   }
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The table says what the finite elements say, its file survives whatever happens to it, or is refused.
-#include "environment/bodies.hpp"
+#include "environment/touch_alike.hpp"
 #include <passive_haptics/environment/compliance_table.hpp>
-#include <passive_haptics/environment/deformable_body.hpp>
 #include <passive_haptics/environment/several_contacts.hpp>
 
 #include <filesystem>
@@ -119,24 +118,7 @@ TEST_CASE("a body on a table is the body of finite elements as long as it is tou
   env::deformable_body elements(s.mesh, soft, s.held);
   env::basic_deformable_body<env::compliance_table<double>> table(
       s.mesh, env::read_table<double>(s.path, s.id, s.mesh.nodes.size()));
-  std::mt19937 random(31);
-  Vector3d device{0.033, 0.046, 0.078};
-  int contacts = 0;
-  for (int update = 0; update < 200; ++update) {
-    device = (device + 2e-3 * anything(random))
-                 .cwiseMax(Vector3d(0.01, 0.01, 0.07))
-                 .cwiseMin(Vector3d(0.07, 0.07, 0.083));
-    const auto last = elements.contact();
-    const Vector3d force = last.stiffness * std::max(0.0, last.depth) * last.normal;
-    const auto a = elements.update(device, force);
-    const auto b = table.update(device, force);
-    REQUIRE((a.fresh && b.fresh));
-    REQUIRE(a.triangle == b.triangle);
-    REQUIRE((a.point - b.point).norm() < 1e-10);
-    REQUIRE_THAT(b.stiffness, WithinRel(a.stiffness, 1e-8));
-    contacts += a.depth > 0.0 ? 1 : 0;
-  }
-  CHECK(contacts > 50);
+  CHECK(touch_alike(elements, table, 200, 31) > 50);
 }
 
 TEST_CASE("a table that was stopped goes on where it was", "[environment][table]") {
