@@ -2,8 +2,8 @@
 // A session with a device: how late is its loop? Then touch a wall, change it while it is touched, let
 // it go, and start anew. The controller is an ordinary class member.
 
+#include <passive_haptics/identification/measure_latency.hpp>
 #include <passive_haptics/passive_haptics.hpp>
-#include <passive_haptics/port/measure_latency.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
 #include <cstdio>

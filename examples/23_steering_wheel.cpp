@@ -14,7 +14,7 @@
 #include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/force_bound/bound_chain.hpp>
 #include <passive_haptics/force_bound/reachable_bound.hpp>
-#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
 #include <cstdio>

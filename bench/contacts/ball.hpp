@@ -7,7 +7,7 @@
 #include <passive_haptics/constraint_geometry/quadric.hpp>
 #include <passive_haptics/constraint_geometry/sphere.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
 
 #include <Eigen/Core>
 

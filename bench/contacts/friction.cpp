@@ -2,7 +2,7 @@
 // Dry friction of contacts: it stays inside its cone, sticks and slips, holds a finger that trembles where
 // it is, and lets it come to rest. What a normal that wobbles does to it is shown as well.
 #include "program.hpp"
-#include <passive_haptics/laws/samples.hpp>
+#include <passive_haptics/base/samples.hpp>
 
 namespace contacts {
 

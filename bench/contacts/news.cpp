@@ -2,9 +2,9 @@
 // What a hand that holds still feels of a world that does not: planes that appear, vanish, jump and turn 30
 // times a second; and a surface that beats like a heart.
 #include "program.hpp"
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/force_bound/actuator_limit.hpp>
-#include <passive_haptics/laws/samples.hpp>
 
 namespace contacts {
 

@@ -3,9 +3,9 @@
 // vanish every 30 ticks, smooth and rough, on time and a tick late, against every adversary. And does it out
 // of what people would do otherwise: a ledger for each contact, or none?
 #include "program.hpp"
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/force_bound/actuator_limit.hpp>
-#include <passive_haptics/laws/samples.hpp>
 #include <passive_haptics/simulation/challenge.hpp>
 
 namespace contacts {

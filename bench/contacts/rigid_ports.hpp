@@ -7,7 +7,7 @@
 #include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/force_bound/rigid_reachable_bound.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 #include <passive_haptics/simulation/adversary_rigid.hpp>
 
 #include <cmath>

@@ -4,11 +4,11 @@
 
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/contact/contact_set.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/force_bound/reachable_bound.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/passive_port.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 

@@ -3,7 +3,7 @@
 // 1e9 N/m, from 61 mm, ideal positions and encoders of 60 µm.
 #include "program.hpp"
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
-#include <passive_haptics/port/mass_observer.hpp>
+#include <passive_haptics/motion_estimator/mass_observer.hpp>
 
 namespace contacts {
 

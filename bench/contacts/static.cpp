@@ -2,9 +2,9 @@
 // Lemma P: planes at rest need no ledger as long as the coupling is no stiffer than 2b/T, rough or not, whoever
 // moves the device; and they do need one when it is stiffer.
 #include "program.hpp"
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/force_bound/actuator_limit.hpp>
-#include <passive_haptics/laws/samples.hpp>
 
 namespace contacts {
 

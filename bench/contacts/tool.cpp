@@ -3,8 +3,8 @@
 // 0.45 kg, 1e3 to 1e9 N/m, three attitudes, smooth and rough.
 #include "program.hpp"
 #include <passive_haptics/contact/rigid_tool.hpp>
+#include <passive_haptics/device/rigid_damping.hpp>
 #include <passive_haptics/force_bound/rigid_reachable_bound.hpp>
-#include <passive_haptics/port/rigid_damping.hpp>
 #include <passive_haptics/simulation/rigid_device.hpp>
 
 namespace contacts {

@@ -5,10 +5,10 @@
 // workload. Everything else about these scenes is as in scenes.hpp.
 
 #include "scenes.hpp"
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/contact/rigid_tool.hpp>
+#include <passive_haptics/device/rigid_damping.hpp>
 #include <passive_haptics/force_bound/rigid_reachable_bound.hpp>
-#include <passive_haptics/laws/samples.hpp>
-#include <passive_haptics/port/rigid_damping.hpp>
 
 namespace cost {
 

@@ -26,8 +26,8 @@
 #include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/force_bound/thermal_limit.hpp>
 #include <passive_haptics/local_model.hpp>
+#include <passive_haptics/motion_estimator/edge_observer.hpp>
 #include <passive_haptics/normal_interpolation/turn_limited.hpp>
-#include <passive_haptics/port/edge_observer.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

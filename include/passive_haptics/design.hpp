@@ -19,8 +19,8 @@
 // How stiff a wall behind a bound may be before its ledger runs dry: design/stiffness_budget.hpp. What is
 // known of devices: design/device_facts.hpp.
 
+#include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/design/frequency.hpp>
-#include <passive_haptics/parameter.hpp>
 
 #include <limits>
 

@@ -5,9 +5,10 @@
 //   hardware_space<float, 1>   space<float, 1>, if the FPU computes floats
 //   space<float, 1>            the same without that question: for cores that compute in software
 //
-// Two and three degrees of freedom need vectors: include port/eigen_space.hpp, too. The flags to use,
+// Two and three degrees of freedom need vectors: include device/eigen_space.hpp, too. The flags to use,
 // how to tick from an interrupt, PlatformIO, Arduino, Zephyr and FreeRTOS: docs/firmware.md.
 
+#include <passive_haptics/base/exchange.hpp>
 #include <passive_haptics/constraint_geometry/fixed.hpp>
 #include <passive_haptics/constraint_geometry/followed.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
@@ -20,7 +21,6 @@
 #include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
-#include <passive_haptics/exchange.hpp>
 #include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/force_bound/bound_chain.hpp>
 #include <passive_haptics/force_bound/energy_bounding.hpp>
@@ -31,11 +31,11 @@
 #include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/force_bound/thermal_limit.hpp>
 #include <passive_haptics/local_model.hpp>
+#include <passive_haptics/motion_estimator/edge_observer.hpp>
+#include <passive_haptics/motion_estimator/mass_observer.hpp>
 #include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 #include <passive_haptics/normal_interpolation/turn_limited.hpp>
-#include <passive_haptics/passive_port.hpp>
-#include <passive_haptics/port/edge_observer.hpp>
-#include <passive_haptics/port/mass_observer.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 #include <passive_haptics/shaper/force_rate_limit.hpp>
 #include <passive_haptics/shaper/reference_energy.hpp>
 #include <passive_haptics/shaper/set_position_modulation.hpp>

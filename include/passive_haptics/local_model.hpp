@@ -3,7 +3,7 @@
 // The passive local model: a passive port with one contact, composed in one line.
 
 #include <passive_haptics/contact/local_contact.hpp>
-#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

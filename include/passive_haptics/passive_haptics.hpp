@@ -5,17 +5,18 @@
 //
 //   compositions.hpp        start here: touch, force_guard
 //   local_model.hpp         one contact on one device
-//   passive_port.hpp        one device, whatever pushes on it; its pieces in port/
+//   port/passive_port.hpp   one device, whatever pushes on it
 //   energy_observer/        counts the energy that the hand and the device exchange
 //   force_bound/            limits the force by that energy
 //   normal_interpolation/   limits how fast the contact normal turns
 //   constraint_geometry/    pieces of the world, and who moves them
 //   contact/                depth to force; several contacts; a force of your own
 //   shaper/                 what looks at the contact before the bound does
-//   exchange.hpp            news from another thread
+//   base/exchange.hpp       news from another thread
 //   laws.hpp                what a part of your own must obey; not in here
 //   six_dof.hpp             devices that turn, or sense that they do; not in here
 
+#include <passive_haptics/base/exchange.hpp>
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/constraint_geometry/distance_brick.hpp>
 #include <passive_haptics/constraint_geometry/distance_field.hpp>
@@ -38,11 +39,12 @@
 #include <passive_haptics/contact/shaped.hpp>
 #include <passive_haptics/contact/spring.hpp>
 #include <passive_haptics/contact/virtual_coupling.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
+#include <passive_haptics/device/joint_space.hpp>
 #include <passive_haptics/energy_observer/dual_ledger.hpp>
 #include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
-#include <passive_haptics/exchange.hpp>
 #include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/force_bound/bound_chain.hpp>
 #include <passive_haptics/force_bound/energy_bounding.hpp>
@@ -54,13 +56,11 @@
 #include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/force_bound/thermal_limit.hpp>
 #include <passive_haptics/local_model.hpp>
+#include <passive_haptics/motion_estimator/edge_observer.hpp>
+#include <passive_haptics/motion_estimator/mass_observer.hpp>
 #include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 #include <passive_haptics/normal_interpolation/turn_limited.hpp>
-#include <passive_haptics/passive_port.hpp>
-#include <passive_haptics/port/edge_observer.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
-#include <passive_haptics/port/joint_space.hpp>
-#include <passive_haptics/port/mass_observer.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 #include <passive_haptics/shaper/force_rate_limit.hpp>
 #include <passive_haptics/shaper/reference_energy.hpp>
 #include <passive_haptics/shaper/set_position_modulation.hpp>

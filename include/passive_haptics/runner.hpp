@@ -19,8 +19,8 @@
 // tick late: late_loop_limits<1>; measure_latency.hpp finds out. How long the ticks were, and which
 // longest_tick to state, is in lateness.hpp; what is asked of the computer, in realtime.hpp.
 
-#include <passive_haptics/exchange.hpp>
-#include <passive_haptics/no_unique_address.hpp>
+#include <passive_haptics/base/exchange.hpp>
+#include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/runner/haptic_device.hpp>
 #include <passive_haptics/runner/lateness.hpp>
 #include <passive_haptics/runner/pace.hpp>

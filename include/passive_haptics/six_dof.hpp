@@ -2,11 +2,11 @@
 #pragma once
 // Devices that turn, or sense that they do: everything of passive_haptics.hpp, and
 //
-//   port/rigid_body.hpp                      pose (p, q), motion (Δp, θ), wrench (f, τ)
-//   port/stylus.hpp                          six are sensed, three are pushed
+//   device/rigid_body.hpp                      pose (p, q), motion (Δp, θ), wrench (f, τ)
+//   device/stylus.hpp                          six are sensed, three are pushed
 //   port/reported_work.hpp                   the driver says what its motors did: motors in joints
-//   port/rigid_damping.hpp                   b, b_ω, and what a turn may hide from its ends
-//   port/rigid_inertia.hpp                   mass, moments, where the centre of mass is
+//   device/rigid_damping.hpp                   b, b_ω, and what a turn may hide from its ends
+//   device/rigid_inertia.hpp                   mass, moments, where the centre of mass is
 //   force_bound/rigid_reachable_bound.hpp    in joules, on time or a tick late; rigid_actuator_limit
 //   contact/rigid_tool.hpp                   a tool that touches at several points
 //   contact/at_tip.hpp                       what a stylus touches with its tip
@@ -22,10 +22,10 @@
 
 #include <passive_haptics/contact/at_tip.hpp>
 #include <passive_haptics/contact/rigid_tool.hpp>
+#include <passive_haptics/device/rigid_body.hpp>
+#include <passive_haptics/device/rigid_damping.hpp>
+#include <passive_haptics/device/rigid_inertia.hpp>
+#include <passive_haptics/device/stylus.hpp>
 #include <passive_haptics/force_bound/rigid_reachable_bound.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 #include <passive_haptics/port/reported_work.hpp>
-#include <passive_haptics/port/rigid_body.hpp>
-#include <passive_haptics/port/rigid_damping.hpp>
-#include <passive_haptics/port/rigid_inertia.hpp>
-#include <passive_haptics/port/stylus.hpp>

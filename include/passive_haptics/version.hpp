@@ -3,7 +3,7 @@
 // The version of the library, and its only home: CMakeLists.txt and conan/conanfile.py read it
 // here.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

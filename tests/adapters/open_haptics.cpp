@@ -3,9 +3,9 @@
 // devices, a scheduler that the tests run, and a frame without which nothing is read or sent.
 #include "support/catch.hpp"
 #include <passive_haptics/adapters/open_haptics.hpp>
+#include <passive_haptics/base/exchange.hpp>
 #include <passive_haptics/compositions.hpp>
-#include <passive_haptics/exchange.hpp>
-#include <passive_haptics/port/stylus.hpp>
+#include <passive_haptics/device/stylus.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
 #include <cmath>

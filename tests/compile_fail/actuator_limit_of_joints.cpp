@@ -3,8 +3,8 @@
 //
 // A torque and a force have no common length: each motor has its own limit.
 
+#include <passive_haptics/device/joint_space.hpp>
 #include <passive_haptics/force_bound/actuator_limit.hpp>
-#include <passive_haptics/port/joint_space.hpp>
 
 namespace ph = passive_haptics;
 

@@ -5,6 +5,6 @@
 //
 // Sums in any order round bounds in any direction. clang++ does not tell.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 static_assert(passive_haptics::kernels::is_finite(1.0F));

@@ -3,7 +3,7 @@
 //
 // exchange() is called in a loop that nothing may leave.
 
-#include <passive_haptics/port/measure_latency.hpp>
+#include <passive_haptics/identification/measure_latency.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;

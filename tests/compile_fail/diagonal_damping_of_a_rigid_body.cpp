@@ -3,8 +3,8 @@
 //
 // A damping for six joints knows nothing of the path between two orientations.
 
+#include <passive_haptics/device/rigid_damping.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
-#include <passive_haptics/port/rigid_damping.hpp>
 
 namespace ph = passive_haptics;
 using body = ph::rigid_body<float>;

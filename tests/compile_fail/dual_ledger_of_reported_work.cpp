@@ -7,7 +7,7 @@
 #include <passive_haptics/energy_observer/dual_ledger.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 #include <passive_haptics/port/reported_work.hpp>
 
 namespace ph = passive_haptics;

@@ -3,8 +3,8 @@
 //
 // Two joints, three encoders.
 
-#include <passive_haptics/port/encoder_steps.hpp>
-#include <passive_haptics/port/joint_space.hpp>
+#include <passive_haptics/device/encoder_steps.hpp>
+#include <passive_haptics/device/joint_space.hpp>
 
 namespace ph = passive_haptics;
 

@@ -3,8 +3,8 @@
 //
 // Eigen's vectors have a copy constructor of their own: they stay in their thread.
 
-#include <passive_haptics/exchange.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/base/exchange.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
 
 namespace ph = passive_haptics;
 

@@ -4,6 +4,6 @@
 //
 // Whatever part of the library is included, the equations come with it, and they refuse.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 static_assert(passive_haptics::kernels::is_finite(1.0F));

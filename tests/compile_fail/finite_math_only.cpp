@@ -4,6 +4,6 @@
 //
 // The one part of -ffast-math that turns a refused sample into a force.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 static_assert(passive_haptics::kernels::is_finite(1.0F));

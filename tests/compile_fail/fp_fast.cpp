@@ -4,6 +4,6 @@
 //
 // MSVC's -ffast-math. The macro is what it defines then, and is all that this test has of it.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 static_assert(passive_haptics::kernels::is_finite(1.0F));

@@ -3,8 +3,8 @@
 //
 // A joint has a damping and a friction of its own.
 
-#include <passive_haptics/port/dry_friction.hpp>
-#include <passive_haptics/port/joint_space.hpp>
+#include <passive_haptics/device/dry_friction.hpp>
+#include <passive_haptics/device/joint_space.hpp>
 
 namespace ph = passive_haptics;
 

@@ -3,8 +3,8 @@
 //
 // A joint has a damping of its own [N·m·s].
 
-#include <passive_haptics/port/damping.hpp>
-#include <passive_haptics/port/joint_space.hpp>
+#include <passive_haptics/device/damping.hpp>
+#include <passive_haptics/device/joint_space.hpp>
 
 namespace ph = passive_haptics;
 

@@ -3,7 +3,7 @@
 //
 // A port has at least one degree of freedom.
 
-#include <passive_haptics/port/joint_space.hpp>
+#include <passive_haptics/device/joint_space.hpp>
 
 namespace ph = passive_haptics;
 

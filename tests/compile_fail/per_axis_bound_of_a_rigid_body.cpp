@@ -4,10 +4,10 @@
 // A ledger for each axis does not see that a torque across a turn may do work.
 
 #include <passive_haptics/contact/given_force.hpp>
+#include <passive_haptics/device/rigid_damping.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/passive_port.hpp>
-#include <passive_haptics/port/rigid_damping.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 
 namespace ph = passive_haptics;
 using body = ph::rigid_body<float>;

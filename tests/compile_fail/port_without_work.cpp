@@ -6,7 +6,7 @@
 #include <passive_haptics/contact/given_force.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;

@@ -3,8 +3,8 @@
 //
 // One number of kilograms says nothing of a joint's inertia.
 
+#include <passive_haptics/device/joint_space.hpp>
 #include <passive_haptics/force_bound/reachable_bound.hpp>
-#include <passive_haptics/port/joint_space.hpp>
 
 namespace ph = passive_haptics;
 

@@ -3,8 +3,8 @@
 //
 // Dry friction counts into `hand`, what pushes beside the motors; it is no credit here.
 
+#include <passive_haptics/device/dry_friction.hpp>
 #include <passive_haptics/force_bound/reachable_bound.hpp>
-#include <passive_haptics/port/dry_friction.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;

@@ -3,7 +3,7 @@
 //
 // A point in space does not turn.
 
-#include <passive_haptics/port/rigid_damping.hpp>
+#include <passive_haptics/device/rigid_damping.hpp>
 
 namespace ph = passive_haptics;
 

@@ -3,8 +3,8 @@
 //
 // A slope needs motion along the force.
 
+#include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/force_bound/sector_bound.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
 
 namespace ph = passive_haptics;
 

@@ -8,7 +8,7 @@
 #include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/force_bound/bound_chain.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;

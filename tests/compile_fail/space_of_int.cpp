@@ -3,7 +3,7 @@
 //
 // Forces are real numbers.
 
-#include <passive_haptics/port/space.hpp>
+#include <passive_haptics/device/space.hpp>
 
 namespace ph = passive_haptics;
 

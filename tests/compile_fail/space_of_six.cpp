@@ -3,7 +3,7 @@
 //
 // A wrench is no vector of a space: radians and metres do not add up.
 
-#include <passive_haptics/port/joint_space.hpp>
+#include <passive_haptics/device/joint_space.hpp>
 
 namespace ph = passive_haptics;
 

@@ -3,9 +3,9 @@
 //
 // Its ball has a radius in newtons.
 
+#include <passive_haptics/device/joint_space.hpp>
 #include <passive_haptics/force_bound/energy_bounding.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/port/joint_space.hpp>
 
 namespace ph = passive_haptics;
 

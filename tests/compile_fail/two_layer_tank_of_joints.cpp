@@ -3,9 +3,9 @@
 //
 // One number of N·s/m is no damping of joints.
 
+#include <passive_haptics/device/joint_space.hpp>
 #include <passive_haptics/force_bound/energy_tank.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/port/joint_space.hpp>
 
 namespace ph = passive_haptics;
 

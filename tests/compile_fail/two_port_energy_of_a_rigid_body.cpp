@@ -4,9 +4,9 @@
 // A ledger of a port in a channel books τ·θ for the work of the torque.
 
 #include <passive_haptics/contact/given_force.hpp>
+#include <passive_haptics/device/rigid_damping.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/passive_port.hpp>
-#include <passive_haptics/port/rigid_damping.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 #include <passive_haptics/two_port/energy.hpp>
 
 namespace ph = passive_haptics;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/contact/proxy.hpp>
-#include <passive_haptics/laws/samples.hpp>
 
 using Catch::Matchers::WithinRel;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/contact/rigid_tool.hpp>
-#include <passive_haptics/laws/samples.hpp>
-#include <passive_haptics/port/rigid_damping.hpp>
+#include <passive_haptics/device/rigid_damping.hpp>
 
 #include <string>
 

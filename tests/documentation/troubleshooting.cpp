@@ -2,7 +2,7 @@
 // Every symptom of docs/troubleshooting.md: here it is, and here it ends with the remedy of the page.
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
-#include <passive_haptics/port/measure_latency.hpp>
+#include <passive_haptics/identification/measure_latency.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // against adversaries: simulation/adversary_encoders.cpp, full/bounds_dual.cpp.
 #include "force_bound/upkeep.hpp"
 #include "support/scenes.hpp"
-#include <passive_haptics/port/joint_space.hpp>
+#include <passive_haptics/device/joint_space.hpp>
 #include <passive_haptics/simulation/adversary_motions.hpp>
 #include <passive_haptics/simulation/friction.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>

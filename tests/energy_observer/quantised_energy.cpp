@@ -3,7 +3,7 @@
 // against adversaries: tests/full/bounds_quantised.cpp.
 #include "energy_observer/stepped.hpp"
 #include "force_bound/upkeep.hpp"
-#include <passive_haptics/port/joint_space.hpp>
+#include <passive_haptics/device/joint_space.hpp>
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // reduced_energy and capped_energy: what is booked, what is forgotten, how it rounds; no_observer.
 #include "force_bound/upkeep.hpp"
-#include <passive_haptics/port/joint_space.hpp>
+#include <passive_haptics/device/joint_space.hpp>
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;

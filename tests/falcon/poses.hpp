@@ -3,7 +3,7 @@
 // Poses of the Falcon at random, and what its tests compare them by.
 #include "support/catch.hpp"
 #include "support/falcon_vectors.hpp"
-#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
 #include <Eigen/Eigenvalues>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Limits that need no ledger: actuator_limit, motor_limits, no_bound.
 #include "force_bound/upkeep.hpp"
-#include <passive_haptics/port/joint_space.hpp>
+#include <passive_haptics/device/joint_space.hpp>
 
 TEST_CASE("actuator_limit and no_bound obey the laws of bounds that reduce", "[bound][law]") {
   CHECK(broken_laws<d1, f3>(ph::actuator_limit{.most = 5.0}).empty());

@@ -2,11 +2,11 @@
 // The bounds that are for comparison, and the observers' rarer parameters, under the laws of their
 // roles at the ports they are made for: one line each. The others: laws.cpp.
 #include "force_bound/upkeep.hpp"
+#include <passive_haptics/device/joint_space.hpp>
 #include <passive_haptics/force_bound/energy_bounding.hpp>
 #include <passive_haptics/force_bound/energy_tank.hpp>
 #include <passive_haptics/force_bound/passivity_controller.hpp>
 #include <passive_haptics/force_bound/sector_bound.hpp>
-#include <passive_haptics/port/joint_space.hpp>
 
 namespace {
 

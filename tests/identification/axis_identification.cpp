@@ -2,8 +2,8 @@
 // One axis identified: the bounds hold, what cannot be found is not invented, and a hand, a weak force, a
 // short stroke, a sensor that fails or a device that runs away end it with a sentence and no force.
 #include "support/catch.hpp"
+#include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/identification.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/friction.hpp>
 #include <passive_haptics/simulation/presets.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is printed to be pasted compiles, and says what was found: no bound is rounded beyond it.
 #include "support/catch.hpp"
+#include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/identification/describe.hpp>
 #include <passive_haptics/passive_haptics.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
 
 #include <fstream>
 #include <sstream>

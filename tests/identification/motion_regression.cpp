@@ -2,9 +2,9 @@
 // Mass, damping, friction, load and latency from positions with steps: against the simulated truth, and
 // what must not count.
 #include "support/catch.hpp"
+#include <passive_haptics/device/space.hpp>
 #include <passive_haptics/identification/motion_regression.hpp>
 #include <passive_haptics/identification/relay_motion.hpp>
-#include <passive_haptics/port/space.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 

@@ -37,9 +37,9 @@ import mutants
 HERE = pathlib.Path(__file__).resolve().parent
 REPOSITORY = HERE.parent.parent
 INCLUDE = pathlib.Path("include/passive_haptics")
-HEADERS = ["passive_port.hpp", "local_model.hpp", "kernels.hpp", "ledger.hpp", "parameter.hpp",
-           "concepts.hpp", "port/*", "energy_observer/*", "force_bound/*", "contact/*",
-           "constraint_geometry/*", "normal_interpolation/*"]
+HEADERS = ["local_model.hpp", "base/*", "device/*", "port/*", "motion_estimator/*",
+           "energy_observer/*", "force_bound/*", "contact/*", "constraint_geometry/*",
+           "normal_interpolation/*"]
 SWITCH = INCLUDE / "mutation.hpp"  # which mutant is executed; in the copy alone
 FOLDER = REPOSITORY / "build" / "mutation"
 MEMORY = 4 << 30  # bytes that a mutant may take

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
-#include <passive_haptics/laws/samples.hpp>
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/normal_interpolation/carry.hpp>
 
 TEMPLATE_TEST_CASE("carry turns as little as takes one normal to the other", "[normals]", d2, d3,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A part that holds nothing takes no room, under Microsoft's ABI either. No header of the standard
 // library, so that it compiles for targets without one.
-#include <passive_haptics/no_unique_address.hpp>
+#include <passive_haptics/base/no_unique_address.hpp>
 
 struct nothing {};
 

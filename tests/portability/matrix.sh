@@ -91,7 +91,8 @@ tests() {
   mkdir "$here/catch"
   ln -s /usr/include/catch2 "$here/catch/catch2"
   build tests -O1 -isystem "$here/catch" "-DPASSIVE_HAPTICS_TEST_DATA=\"$PWD/tests/data\"" \
-    tests/{support/main,*,port/*,energy_observer/*,force_bound/*,shaper/*,contact/*}.cpp \
+    tests/{support/main,*,base/*,device/*,port/*,motion_estimator/*,energy_observer/*}.cpp \
+    tests/{force_bound,shaper,contact,laws,design}/*.cpp \
     tests/{constraint_geometry,normal_interpolation}/*.cpp || return
   if [ -n "$runs" ]; then run tests; fi
 }

@@ -4,7 +4,7 @@
     The device loses at least h(Δ) in a tick in which it moves by Δ. All later proofs know of h only
     bounds of its conjugate h*(u) = sup u·Δ − h(Δ), which is the largest energy that the force u can
     hand out in the tick: lemma L3 of docs/design/mathematics.md § 1, with its friction credit of § 2.
-    This file proves those bounds for the damping policies of port/damping.hpp, that they are the
+    This file proves those bounds for the damping policies of device/damping.hpp, that they are the
     least possible, and lemma L1: that a tick of continuous motion dissipates h(Δ) at least. *)
 
 From Coq Require Import Reals Lra Lia.
@@ -23,7 +23,7 @@ Variable n : nat.
 Notation "u · v" := (dot n u v) (at level 40).
 Notation "| u |" := (norm n u) (at level 30, u at level 99).
 
-(** ** The policies of port/damping.hpp *)
+(** ** The policies of device/damping.hpp *)
 
 (** b|Δ|²/T + c|Δ|: [damping_and_friction::dissipated], and [isotropic_damping] with c = 0. *)
 Definition dissipated (b c T : R) (d : vec) : R := b * (d · d) / T + c * norm n d.

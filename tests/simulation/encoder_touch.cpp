@@ -6,7 +6,7 @@
 #include "support/scenes.hpp"
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
-#include <passive_haptics/port/mass_observer.hpp>
+#include <passive_haptics/motion_estimator/mass_observer.hpp>
 #include <passive_haptics/simulation/challenge.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>

@@ -3,7 +3,7 @@
 // honestly or as the mean; what the second costs in energy is in numbers here.
 #include "simulation/challenged.hpp"
 #include <passive_haptics/compositions.hpp>
-#include <passive_haptics/port/mass_observer.hpp>
+#include <passive_haptics/motion_estimator/mass_observer.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
 #include <algorithm>

@@ -10,8 +10,8 @@ import re
 import subprocess
 import sys
 
-ROOTS = ["firmware.hpp", "passive_haptics.hpp", "compositions.hpp", "port/measure_latency.hpp",
-         "laws.hpp", "design.hpp"]
+ROOTS = ["firmware.hpp", "passive_haptics.hpp", "compositions.hpp", "laws.hpp", "design.hpp",
+         "identification/measure_latency.hpp"]
 OWN = re.compile(r"#include <passive_haptics/(.*)>")
 OTHER = re.compile(r"#include <(.*)>")
 

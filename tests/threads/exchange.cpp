@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
-#include <passive_haptics/exchange.hpp>
+#include <passive_haptics/base/exchange.hpp>
 
 #include <array>
 #include <cstdint>

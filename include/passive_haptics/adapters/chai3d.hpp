@@ -22,7 +22,7 @@
 #include <passive_haptics/adapters/poses.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/contact/given_force.hpp>
-#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 
 #include <devices/CGenericHapticDevice.h>
 #include <forces/CAlgorithmFingerProxy.h>

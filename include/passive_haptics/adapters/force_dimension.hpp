@@ -16,8 +16,8 @@
 // sees them.
 
 #include <passive_haptics/adapters/poses.hpp>
-#include <passive_haptics/concepts.hpp>
-#include <passive_haptics/port/rigid_body.hpp>
+#include <passive_haptics/device/rigid_body.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <Eigen/Eigenvalues>
 

@@ -19,11 +19,11 @@
 //
 // Each device has its own object: its frame makes it the current one. The driver is asked for the time of a
 // tick as a rate; hdGetSchedulerTimeStamp() tells the time WITHIN a tick and is of no use here. A force goes
-// out at the end of its frame: measure the latency of your device (port/measure_latency.hpp) before you state
+// out at the end of its frame: measure the latency of your device (identification/measure_latency.hpp) before you state
 // it.
 
 #include <passive_haptics/adapters/poses.hpp>
-#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 
 #include <HD/hd.h>
 #include <array>

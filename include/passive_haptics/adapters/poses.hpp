@@ -2,9 +2,9 @@
 #pragma once
 // What adapters share: a pose and facts out of what an SDK gives, a length in metres, the time of a tick.
 
-#include <passive_haptics/concepts.hpp>
 #include <passive_haptics/design/device_facts.hpp>
-#include <passive_haptics/port/rotation.hpp>
+#include <passive_haptics/device/rotation.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <Eigen/Geometry>
 

@@ -7,7 +7,7 @@
 #include <passive_haptics/constraint_geometry/distance_field.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
 
 #include <array>
 #include <cstddef>

@@ -5,7 +5,7 @@
 //   fixed      one constraint, known from the start, never moving: no second copy, no age
 //   followed   the environment publishes, the local model follows as fast as the bound allows
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -3,7 +3,7 @@
 // How the nodes of a constraint follow the environment's: along the lines of Fig. 2.5, clamped and
 // projected (A22): unclamped, half of random cases leave the segment and some triangles flip.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -4,8 +4,8 @@
 //
 //   followed    the environment publishes, the local model follows as fast as the bound allows
 
-#include <passive_haptics/concepts.hpp>
-#include <passive_haptics/no_unique_address.hpp>
+#include <passive_haptics/base/no_unique_address.hpp>
+#include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/port/freshness.hpp>
 
 namespace passive_haptics {

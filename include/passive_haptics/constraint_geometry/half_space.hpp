@@ -18,7 +18,7 @@
 // Each one carries its stiffness, because the environment knows it. Who owns a constraint and who
 // moves it is said by a supply: fixed.hpp, followed.hpp.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

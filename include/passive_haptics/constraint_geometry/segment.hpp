@@ -6,7 +6,7 @@
 
 #include <passive_haptics/constraint_geometry/follow_node.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

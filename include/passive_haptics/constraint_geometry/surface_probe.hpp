@@ -3,7 +3,7 @@
 // What curved surfaces have in common: how they answer, where they are, and where a force on them
 // comes from (the menu is in half_space.hpp, the proofs are in docs/design/curved.md).
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -2,8 +2,8 @@
 #pragma once
 // The point of a triangle that is closest to another one, for surfaces that are made of triangles.
 
-#include <passive_haptics/concepts.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <array>
 

@@ -5,7 +5,7 @@
 //     ph::passive_port touch{ph::stylus<double>{}, ph::at_tip{ph::contact_set{…}, tip}, …};
 
 #include <passive_haptics/contact/local_contact.hpp>
-#include <passive_haptics/port/stylus.hpp>
+#include <passive_haptics/device/stylus.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

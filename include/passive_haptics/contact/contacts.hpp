@@ -39,7 +39,7 @@ class contacts<Sources...>::on {
   static constexpr bool asks_for_numbers = false;  // a sum may not be one
   static constexpr bool needs_ledger = (detail::spends_ledger<part_at<Sources, Space>>() || ...);
   static_assert((source_for<Sources, Space> && ...),
-                "passive_haptics: the source does not model source_for: see concepts.hpp");
+                "passive_haptics: the source does not model source_for: see port/concepts.hpp");
 
   constexpr explicit on(const contacts& p) noexcept : on(p, all{}) {}
 

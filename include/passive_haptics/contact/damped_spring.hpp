@@ -4,7 +4,7 @@
 //
 //   damped_spring     f* = K_s d − D_s max(0, v_out)   (§ 9); needs the device's mass
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

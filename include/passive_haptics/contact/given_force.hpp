@@ -7,8 +7,8 @@
 //     motors.command(device.tick(position, dt, wanted).force);     // a new force in every tick
 //     motors.command(device.tick(position, dt).force);             // none: the last one grows older
 
-#include <passive_haptics/concepts.hpp>
-#include <passive_haptics/no_unique_address.hpp>
+#include <passive_haptics/base/no_unique_address.hpp>
+#include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/port/freshness.hpp>
 
 namespace passive_haptics {

@@ -6,8 +6,8 @@
 //             depth in  n_LM →   f* = K d…                                              own piece
 //             both      n_VE                                                            at depth f/K
 
+#include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/contact/shaped.hpp>
-#include <passive_haptics/no_unique_address.hpp>
 
 #include <utility>
 
@@ -54,16 +54,17 @@ class local_contact {
   static constexpr bool asks_for_numbers = true;
   static constexpr bool needs_ledger = detail::spends_ledger<Law>();  ///< a shaper of it does
 
-  static_assert(constraint_for<constraint_type, Space>,
-                "passive_haptics: the constraint does not model constraint_for: see concepts.hpp");
+  static_assert(
+      constraint_for<constraint_type, Space>,
+      "passive_haptics: the constraint does not model constraint_for: see port/concepts.hpp");
   static_assert(supply_for<Supply, Space>,
-                "passive_haptics: the supply does not model supply_for: see concepts.hpp");
+                "passive_haptics: the supply does not model supply_for: see port/concepts.hpp");
   static_assert(normal_interpolation_for<Normals, Space>,
                 "passive_haptics: the normal interpolation does not model "
-                "normal_interpolation_for: see concepts.hpp");
+                "normal_interpolation_for: see port/concepts.hpp");
   static_assert(
       contact_law_for<Law, Space>,
-      "passive_haptics: the contact law does not model contact_law_for: see concepts.hpp");
+      "passive_haptics: the contact law does not model contact_law_for: see port/concepts.hpp");
   static_assert(Supply::moves || !detail::wants_local_model<Law>(),
                 "passive_haptics: this shaper compares with a local model that can move: "
                 "use followed instead of fixed");

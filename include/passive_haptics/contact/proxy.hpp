@@ -12,7 +12,7 @@
 // wall are that wall, where the sum of their springs would be 8 times as stiff, and shake.
 // Source and proofs: docs/design/contacts.md.
 
-#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/base/parameter.hpp>
 
 #include <array>
 #include <cstddef>

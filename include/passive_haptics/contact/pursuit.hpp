@@ -12,11 +12,11 @@
 // Where the target is smooth, the own normal is carried along its curvature first: sliding is no news,
 // however fast. Source: docs/design/contacts.md.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/contact/proxy.hpp>
-#include <passive_haptics/no_unique_address.hpp>
 #include <passive_haptics/normal_interpolation/carry.hpp>
 #include <passive_haptics/normal_interpolation/turn_limited.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <cstdint>
 #include <utility>
@@ -103,7 +103,7 @@ class pursued {
   using vector = typename Space::vector;
   using felt = felt_surface<Space>;
   static_assert(surface_for<Surface, Space>,
-                "passive_haptics: the surface does not model surface_for: see concepts.hpp");
+                "passive_haptics: the surface does not model surface_for: see port/concepts.hpp");
 
   /// Takes a new surface while the contact is at `here`, and was at `was` with the last one, or refuses it
   /// and keeps the last good one. One that is pressed keeps the force it has; any other is met anew.

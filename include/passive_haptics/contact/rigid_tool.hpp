@@ -15,7 +15,7 @@
 // stiffer with 16 contacts than with one.
 
 #include <passive_haptics/contact/contact_engine.hpp>
-#include <passive_haptics/port/rigid_body.hpp>
+#include <passive_haptics/device/rigid_body.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -2,7 +2,7 @@
 #pragma once
 // Parts of different types, side by side, as a plain value.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <cstddef>
 #include <utility>

@@ -13,7 +13,7 @@
 // A shaper may look at the contact and at the ledger, and promises nothing: the bound answers for
 // whatever is asked of it.
 
-#include <passive_haptics/no_unique_address.hpp>
+#include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/composing.hpp>
 
 namespace passive_haptics {
@@ -47,7 +47,7 @@ class shaped<Law, Shapers...>::on : public part_at<Law, Space> {
   using law_part = part_at<Law, Space>;
   using shaper_part = part_at<sequence_type, Space>;
   static_assert((shaper_for<Shapers, Space> && ...),
-                "passive_haptics: the shaper does not model shaper_for: see concepts.hpp");
+                "passive_haptics: the shaper does not model shaper_for: see port/concepts.hpp");
 
  public:
   template <class Parameters>

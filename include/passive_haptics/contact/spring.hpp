@@ -11,7 +11,7 @@
 // Damping on the way in raises the force, and virtual damping costs passivity: Colgate's condition
 // is b > KT/2 + |D|. Only virtual_coupling has it. A law asks; it promises nothing.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

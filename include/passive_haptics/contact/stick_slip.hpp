@@ -9,8 +9,8 @@
 // One bristle for each contact, in its own cone: on the resultant of two walls it would creep along their
 // groove (docs/design/contacts.md).
 
+#include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/normal_interpolation/carry.hpp>
-#include <passive_haptics/parameter.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -16,7 +16,7 @@
 // "maximum damping" is what it recommends to a controller, not what the device has. Whatever a promise
 // rests on is to be identified on the very device; a fact is a place to begin.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <array>
 #include <cstdint>

@@ -7,7 +7,7 @@
 //   frequency_grid   where a condition over all θ is looked at
 //   cos_sin          e^{jα} by range reduction and Taylor's series
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

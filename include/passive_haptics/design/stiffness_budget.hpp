@@ -34,7 +34,7 @@
 // Without dry friction all that is left at slow speeds is b v/q, some newtons per metre: nothing stiff
 // is guaranteed there, and the budget says 0.
 
-#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/base/parameter.hpp>
 
 #include <array>
 #include <cstddef>

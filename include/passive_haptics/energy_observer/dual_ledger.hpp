@@ -12,11 +12,11 @@
 // Dry friction is what pays on encoders: a force may change by 2c at a position that does not, for
 // nothing, and each step on the way pays c q. So a wall lasts while K q is less than that (design/stiffness_budget.hpp).
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/base/no_unique_address.hpp>
+#include <passive_haptics/device/dry_friction.hpp>
+#include <passive_haptics/device/encoder_steps.hpp>
 #include <passive_haptics/energy_observer/friction_certificates.hpp>
-#include <passive_haptics/no_unique_address.hpp>
-#include <passive_haptics/port/dry_friction.hpp>
-#include <passive_haptics/port/encoder_steps.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <limits>
 
@@ -73,7 +73,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   using effort = typename P::effort;
   using damping_type = part_at<Damping, P>;
   static_assert(damping_for<Damping, P>,
-                "passive_haptics: the damping does not model damping_for: see concepts.hpp");
+                "passive_haptics: the damping does not model damping_for: see port/concepts.hpp");
   static_assert(
       !damping_type::rubs || detail::friction_for<damping_type, P>,
       "passive_haptics: this damping credits dry friction, but does not say what of it is "

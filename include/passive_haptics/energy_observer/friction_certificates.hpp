@@ -2,7 +2,7 @@
 #pragma once
 // What dry friction is worth to a ledger of positions that are known to a step only: dual_ledger's own.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <array>
 
@@ -10,7 +10,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// What a ledger asks of a friction that is elastic: port/dry_friction.hpp.
+/// What a ledger asks of a friction that is elastic: device/dry_friction.hpp.
 template <class D, class P>
 concept friction_for = requires(const D d, const typename P::motion m, const typename P::effort f,
                                 typename P::scalar s) {

@@ -4,8 +4,8 @@
 //
 //   no_observer   counts nothing   with no_bound only, or a bound that needs no ledger
 
-#include <passive_haptics/concepts.hpp>
-#include <passive_haptics/no_unique_address.hpp>
+#include <passive_haptics/base/no_unique_address.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

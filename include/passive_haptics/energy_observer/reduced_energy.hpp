@@ -8,8 +8,8 @@
 // Not offered: pairing the NEW force with the last displacement. It flips the sign of the energy
 // that the zero-order hold leaks and makes the observer blind (lemma L2).
 
-#include <passive_haptics/concepts.hpp>
-#include <passive_haptics/no_unique_address.hpp>
+#include <passive_haptics/base/no_unique_address.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <limits>
 
@@ -52,7 +52,7 @@ class basic_reduced_energy<Damping, Sum>::on {
   using effort = typename P::effort;
   using damping_type = part_at<Damping, P>;
   static_assert(damping_for<Damping, P>,
-                "passive_haptics: the damping does not model damping_for: see concepts.hpp");
+                "passive_haptics: the damping does not model damping_for: see port/concepts.hpp");
   static_assert(!damping_type::rubs,
                 "passive_haptics: reduced_energy takes what friction holds back elastically for "
                 "spent: dry friction is credited by dual_ledger");

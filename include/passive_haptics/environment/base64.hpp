@@ -2,7 +2,7 @@
 #pragma once
 // Base64 (RFC 4648), as VTU files have it.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -5,7 +5,7 @@
 // std::from_chars is the tool for it, but before version 20 libc++ has it for integers only; there a
 // stream in the "C" locale reads the same doubles, some ten times slower.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 #include <charconv>
 #include <concepts>

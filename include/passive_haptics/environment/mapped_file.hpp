@@ -2,7 +2,7 @@
 #pragma once
 // A file as memory: mapped where the system can (POSIX), else read.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <cstddef>
 #include <cstdint>

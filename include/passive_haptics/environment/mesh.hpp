@@ -12,8 +12,8 @@
 // throw (refuse.hpp says how, and what stands for it where there are no exceptions); nothing in it
 // belongs into the haptic tick.
 
+#include <passive_haptics/base/language.hpp>
 #include <passive_haptics/environment/refuse.hpp>
-#include <passive_haptics/language.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

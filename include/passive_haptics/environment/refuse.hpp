@@ -8,7 +8,7 @@
 // Under -fno-exceptions the values are the same, and what would be thrown is said on stderr and ends
 // the program: there is no third way out of a constructor.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <cstdio>
 #include <cstdlib>

@@ -8,7 +8,7 @@
 //                                  moves its point of action by 0.10 edge in the mean, 0.19 at worst
 //                                  (A25)
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -2,7 +2,7 @@
 #pragma once
 // The tags of an XML text one after the other, as far as VTU files need them: no entities, no DTD.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -12,10 +12,10 @@
 // report, so it is waited for, not insisted on. Loading is flaky in practice: it is tried again from
 // the top. No call waits without end.
 
+#include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/falcon/boot_options.hpp>
 #include <passive_haptics/falcon/firmware.hpp>
 #include <passive_haptics/falcon/transport.hpp>
-#include <passive_haptics/no_unique_address.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

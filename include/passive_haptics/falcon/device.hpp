@@ -11,10 +11,10 @@
 // a sample is the force of the packet before, from the words really sent.
 // Whenever an exchange ends without a usable position, the motors are sent zero at once.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/falcon/boot.hpp>
 #include <passive_haptics/falcon/reply_guard.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <optional>
 #include <utility>

@@ -8,9 +8,9 @@
 // torques' work, F·Δp = τ·Δθ (force_over), so the energy meter of the body is exact for the motors.
 // Mass, damping and homing angles are made up: nobody has published a Falcon's.
 
+#include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/falcon/force.hpp>
 #include <passive_haptics/falcon/packet.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
 #include <algorithm>

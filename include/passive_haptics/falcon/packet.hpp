@@ -12,7 +12,7 @@
 // There is no checksum: a flipped bit that gives another nibble goes unseen here (device.hpp
 // refuses jumps).
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <array>
 #include <cstddef>

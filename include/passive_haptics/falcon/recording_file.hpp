@@ -8,8 +8,8 @@
 // `call` is control, write or read, `code` and `value` the result, `bytes` hexadecimal. The last
 // four are there for people: the motor words or encoder counts of a packet, and its flags.
 
+#include <passive_haptics/base/kernels.hpp>
 #include <passive_haptics/falcon/recording.hpp>
-#include <passive_haptics/kernels.hpp>
 
 #include <charconv>
 

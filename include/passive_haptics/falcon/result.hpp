@@ -3,7 +3,7 @@
 // How a call to the Falcon ended. Nothing here throws: every call returns one of these codes, and
 // each has a text that says what happened and a remedy that says what to do.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 #pragma once
 // What a Falcon is told before it starts, and what it tells afterwards.
 
+#include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/falcon/force.hpp>
 #include <passive_haptics/falcon/packet_link.hpp>
-#include <passive_haptics/parameter.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

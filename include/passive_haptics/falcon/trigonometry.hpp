@@ -2,7 +2,7 @@
 #pragma once
 // sin, cos and atan2 that also work in a constant expression; at run time, those of <cmath>.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 #include <cmath>
 #include <type_traits>

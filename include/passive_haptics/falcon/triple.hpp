@@ -4,7 +4,7 @@
 // A point is no force and a torque no angle: the kind is part of the type. No Eigen, no allocation,
 // every function constexpr.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 #include <array>
 #include <cstddef>

@@ -7,7 +7,7 @@
 //   thermal_limit     and less for ever than at once  thermal_limit.hpp
 //   no_bound          f = f*                          for comparison, and for worlds proved otherwise
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

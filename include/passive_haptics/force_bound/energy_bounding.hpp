@@ -12,7 +12,7 @@
 // For comparison with the literature; memoryless_bound is simpler and strict_bound shows more. Not
 // offered with latency.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <limits>
 

@@ -9,7 +9,7 @@
 //
 // Energy quanta from another port are not offered: one port, one tank.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <cstdint>
 #include <limits>

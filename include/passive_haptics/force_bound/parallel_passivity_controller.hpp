@@ -4,7 +4,7 @@
 //
 //   parallel_passivity_controller   v = v* + β f   force in, velocity out       NOT passive
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -13,7 +13,7 @@
 // Not offered: the published pairing of the NEW force with the last displacement. On a sampled wall
 // it counts the leak of the hold with the wrong sign and never acts (lemma L2; a test shows it).
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <cstdint>
 #include <limits>

@@ -8,8 +8,8 @@
 // In a loop that is k ticks late, the k commands on their way are covered first, each over what its
 // own tick can reach.
 
-#include <passive_haptics/concepts.hpp>
-#include <passive_haptics/port/inertia.hpp>
+#include <passive_haptics/device/inertia.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -187,7 +187,7 @@ class basic_reachable_work_bound<Inertia>::on {
   using scalar = typename P::scalar;
   using effort = typename P::effort;
   static_assert(inertia_for<Inertia, P>,
-                "passive_haptics: the inertia does not model inertia_for: see concepts.hpp");
+                "passive_haptics: the inertia does not model inertia_for: see port/concepts.hpp");
 
   constexpr explicit on(const basic_reachable_work_bound& p) noexcept
       : inertia_(p.inertia), hand_(detail::number<scalar>(p.hand)) {}

@@ -7,9 +7,9 @@
 //
 // One share for the whole wrench: a force and a torque that are bounded apart spend one ledger twice.
 
-#include <passive_haptics/concepts.hpp>
-#include <passive_haptics/port/rigid_damping.hpp>
-#include <passive_haptics/port/rigid_inertia.hpp>
+#include <passive_haptics/device/rigid_damping.hpp>
+#include <passive_haptics/device/rigid_inertia.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -5,7 +5,7 @@
 //   sector_bound   0 ≤ df/dx ≤ β pressing, β ≤ df/dx ≤ 2b/T releasing   one degree of freedom; no
 //                                                                       jumps at all, soft
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <limits>
 

@@ -13,7 +13,7 @@
 // B = b/T per tick. T is always the LONGEST tick the loop can produce, the credit uses the measured
 // one: that pair survives jitter (docs/design/mathematics.md § 3).
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

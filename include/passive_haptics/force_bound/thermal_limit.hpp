@@ -6,7 +6,7 @@
 //
 //     ph::thermal_limit motors{.peak = 3.3, .continuous = 0.88, .time_constant = 20.0};  // a Touch, say
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

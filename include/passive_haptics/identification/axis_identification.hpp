@@ -16,12 +16,12 @@
 
 #include <passive_haptics/identification/axis_found.hpp>
 #include <passive_haptics/identification/friction_ramp.hpp>
+#include <passive_haptics/identification/measure_latency.hpp>
+#include <passive_haptics/identification/measure_ticks.hpp>
 #include <passive_haptics/identification/motion_regression.hpp>
 #include <passive_haptics/identification/parameters.hpp>
 #include <passive_haptics/identification/relay_motion.hpp>
 #include <passive_haptics/identification/step_finder.hpp>
-#include <passive_haptics/port/measure_latency.hpp>
-#include <passive_haptics/port/measure_ticks.hpp>
 
 #include <algorithm>
 #include <array>

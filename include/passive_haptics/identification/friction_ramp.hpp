@@ -8,7 +8,7 @@
 // meanwhile is taken off, so the break-away force is a lower bound: with a Stribeck curve the device
 // goes faster than that.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 #include <algorithm>
 #include <array>

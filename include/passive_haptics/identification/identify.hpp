@@ -11,8 +11,8 @@
 // ends, stopped or with a problem, the last command is a force of zero: hold the device by then. What is
 // one's own loop calls axis_identification::tick() instead.
 
-#include <passive_haptics/concepts.hpp>
 #include <passive_haptics/identification/axis_identification.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -17,7 +17,7 @@
 // explains the left side best. Confidence is the jackknife's, leaving out one of twelve stretches of
 // time after the other (Miller, 1974): no error has to be white for it.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 #include <Eigen/Cholesky>
 

@@ -2,7 +2,7 @@
 #pragma once
 // How a device is to be shaken while it is identified. State what it may do before it begins.
 
-#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/base/parameter.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -6,7 +6,7 @@
 // the last turn fell short of the stroke, so the swing comes to the stroke with friction, a load, a
 // latency, none of which has to be known.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@
 // motion has next to none, and errors of deviation s have 20 s². A sum of three uniform errors, which is
 // what three encoders make of a position, is no wider than 6 s; a fifth is added.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 #include <array>
 #include <cmath>

@@ -2,10 +2,10 @@
 #pragma once
 // The laws of what belongs to a contact (the menu is in laws.hpp).
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>
-#include <passive_haptics/laws/samples.hpp>
 #include <passive_haptics/port/composing.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

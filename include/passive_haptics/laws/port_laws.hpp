@@ -2,10 +2,10 @@
 #pragma once
 // The laws of what belongs to a port (the menu is in laws.hpp).
 
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/contact/given_force.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
-#include <passive_haptics/laws/samples.hpp>
-#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

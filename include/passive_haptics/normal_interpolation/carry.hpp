@@ -2,7 +2,7 @@
 #pragma once
 // What lies in a surface, taken along when the surface turns.
 
-#include <passive_haptics/port/space.hpp>
+#include <passive_haptics/device/space.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -8,7 +8,7 @@
 //
 // Not offered: a blend over one update period. It needs to know when the next update comes.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -4,7 +4,7 @@
 //
 //   turn_limited     at most `rate` rad/s
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

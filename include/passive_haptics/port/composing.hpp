@@ -3,8 +3,8 @@
 // How parts are composed: what bounds and shapers make of an effort, one after the other, and how
 // their parameters are changed while they work.
 
-#include <passive_haptics/concepts.hpp>
-#include <passive_haptics/no_unique_address.hpp>
+#include <passive_haptics/base/no_unique_address.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #pragma once
 // How old news may grow: what to do when whoever publishes a constraint or a force falls silent.
 
-#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/base/parameter.hpp>
 
 #include <cstdint>
 #include <limits>

@@ -3,7 +3,7 @@
 // The guard of a port: believes a sample or refuses it, and keeps the efforts commanded, so that every
 // motion is paired with the effort that was held while it happened.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <array>
 #include <cstdint>

@@ -11,7 +11,7 @@
 // Geometry and contact law look at the estimate. Ledger and bound never do: they count what was
 // measured, so no estimate, however wrong, costs the guarantee.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

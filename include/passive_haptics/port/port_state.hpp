@@ -7,7 +7,7 @@
 //
 // Whatever looks at the contact is a shaper and stands on the contact's side (contact/shaped.hpp).
 
-#include <passive_haptics/ledger.hpp>
+#include <passive_haptics/base/ledger.hpp>
 
 #include <array>
 #include <cstddef>

@@ -14,8 +14,8 @@
 // strict_bound keeps its promise. What reads the motion beside the ledger is refused: memoryless_bound and
 // reachable_bound would take f·Δx for the work, and the reach along a curve is longer than along its tangent.
 
-#include <passive_haptics/port/device_sample.hpp>
-#include <passive_haptics/port/space.hpp>
+#include <passive_haptics/device/device_sample.hpp>
+#include <passive_haptics/device/space.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -9,10 +9,10 @@
 //
 // Both ends compute in the scalar that they like; on the way a number is a double.
 
+#include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/quadric.hpp>
-#include <passive_haptics/parameter.hpp>
-#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/remote/wire.hpp>
 
 namespace passive_haptics {

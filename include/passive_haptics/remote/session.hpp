@@ -7,7 +7,7 @@
 // it, and whoever can stop it can stop the session. This is no cryptography: where the network is not yours,
 // put both machines into a tunnel that is (WireGuard, IPsec).
 
-#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/remote/wire.hpp>
 
 #include <optional>

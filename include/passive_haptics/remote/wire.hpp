@@ -25,7 +25,7 @@
 // Whole numbers are little-endian, and so are the bits of a binary64: the bytes are made by shifts, so they
 // are the same on every machine. Nothing here allocates, throws or reads beyond what it is given.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 #include <array>
 #include <bit>

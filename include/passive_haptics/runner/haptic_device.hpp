@@ -11,7 +11,7 @@
 //       ph::stopwatch watch_;
 //     };
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <concepts>
 #include <type_traits>

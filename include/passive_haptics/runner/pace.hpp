@@ -11,7 +11,7 @@
 // since a force for an instant that has passed is of no use to anybody. Linux sleeps with clock_nanosleep;
 // elsewhere std::this_thread::sleep_until does.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <chrono>
 #include <concepts>

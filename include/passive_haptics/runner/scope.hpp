@@ -11,7 +11,7 @@
 // thread of the loop, or anybody after its end, at any time. N rows of some 100 bytes each: make it static,
 // or a member of what is. Works at any port, with the result of a local_model or of a port of any source.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <array>
 #include <atomic>

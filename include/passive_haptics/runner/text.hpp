@@ -2,7 +2,7 @@
 #pragma once
 // Sentences into room that the caller gives, cut off where it is too small.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 //
 //   force_rate_limit  f within f_LM ± rate·dt         no jumps at updates
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

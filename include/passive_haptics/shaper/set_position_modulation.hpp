@@ -8,7 +8,7 @@
 //
 // For walls stiffer than 2b/T take strict_bound for the port.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 #include <cstdint>
 #include <limits>

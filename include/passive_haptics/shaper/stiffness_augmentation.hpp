@@ -18,7 +18,7 @@
 // Each is INSPIRED BY the work it names; the published control laws are not confirmed. Formulas and
 // proofs: docs/design/mathematics.md § 2(f).
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -2,7 +2,7 @@
 #pragma once
 // The rule of the thesis: strict when leaving and when the environment moves, free on the way in.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -10,7 +10,7 @@
 //
 // Each run returns the least true energy and the least of the ledger; a bench may ask for more runs.
 
-#include <passive_haptics/laws/samples.hpp>
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/simulation/rigid_device.hpp>
 #include <passive_haptics/simulation/rigid_hand.hpp>
 

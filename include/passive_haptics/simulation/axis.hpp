@@ -12,7 +12,7 @@
 // hits the other one. Not offered: a step size, elastic stops. Friction that is elastic, or has a
 // Stribeck curve: friction_axis.hpp.
 
-#include <passive_haptics/language.hpp>
+#include <passive_haptics/base/language.hpp>
 
 #include <cmath>
 #include <limits>

@@ -5,7 +5,7 @@
 //   send(packet, now) ─▶ lost? ─▶ arrives at now + delay + U(0, jitter) ─▶ take(now)
 //                         twice?
 
-#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
 #include <array>

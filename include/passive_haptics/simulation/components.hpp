@@ -9,7 +9,7 @@
 //
 // Includes no Eigen: a Space of two and more degrees of freedom has brought it along.
 
-#include <passive_haptics/port/space.hpp>
+#include <passive_haptics/device/space.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -13,7 +13,7 @@
 // before it slips is a third argument (friction.hpp), and then the motion is approximated, finely, and
 // the books close all the same.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/simulation/axis.hpp>
 #include <passive_haptics/simulation/driver.hpp>
 #include <passive_haptics/simulation/friction_axis.hpp>

@@ -6,7 +6,7 @@
 //   driver              refuses what is no number, saturates, delays: returns the force REALLY held
 //   driven_time         how much of a period the force lasts before the watchdog drops it
 
-#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/simulation/components.hpp>
 
 #include <array>

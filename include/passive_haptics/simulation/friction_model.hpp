@@ -7,7 +7,7 @@
 //   friction_claim     what a controller may state of a friction
 //   coulomb_friction   device_parameters::friction, rigid: what a device has unless it is told another
 
-#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/base/parameter.hpp>
 
 #include <concepts>
 

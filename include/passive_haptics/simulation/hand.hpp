@@ -11,7 +11,7 @@
 //
 // A hand that is a velocity source, stronger than any actuator, is prescribed_motion.hpp.
 
-#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/simulation/components.hpp>
 
 #include <concepts>

@@ -5,7 +5,7 @@
 //
 // Between two samples the joints move evenly, so the meter is exact: E += b_q|Δq|²/T − τ·Δq.
 
-#include <passive_haptics/port/eigen_space.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
 
 #include <cmath>
 

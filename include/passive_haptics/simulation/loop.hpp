@@ -17,7 +17,7 @@
 // Each of the three steps may be left out, and is sim::idle where a later one is not. One that returns
 // false ends the run.
 
-#include <passive_haptics/port/device_sample.hpp>
+#include <passive_haptics/device/device_sample.hpp>
 #include <passive_haptics/simulation/components.hpp>
 #include <passive_haptics/simulation/meter.hpp>
 

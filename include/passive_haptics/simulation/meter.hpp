@@ -12,7 +12,7 @@
 // Dry friction is a part of the device, too. with_friction() is E with what it took and what its
 // springs hold: what has flowed in at the port of a device that has any.
 
-#include <passive_haptics/ledger.hpp>
+#include <passive_haptics/base/ledger.hpp>
 
 #include <initializer_list>
 

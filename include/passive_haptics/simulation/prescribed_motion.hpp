@@ -3,7 +3,7 @@
 // A hand that is a velocity source: it goes where the caller says, whatever the actuators do. It
 // needs no mass and no integration, and it is the worst case of every proof that names no mass.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/simulation/driver.hpp>
 #include <passive_haptics/simulation/friction_model.hpp>
 #include <passive_haptics/simulation/meter.hpp>

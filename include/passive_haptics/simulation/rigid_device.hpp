@@ -9,8 +9,8 @@
 // Integrated by Runge and Kutta's fourth order in even steps, the energies with it. residual() is what of
 // the energy the steps have lost or made: the rounding that every figure of E stands for.
 
-#include <passive_haptics/port/device_sample.hpp>
-#include <passive_haptics/port/rigid_body.hpp>
+#include <passive_haptics/device/device_sample.hpp>
+#include <passive_haptics/device/rigid_body.hpp>
 
 #include <array>
 

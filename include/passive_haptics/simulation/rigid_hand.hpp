@@ -9,7 +9,7 @@
 //
 // Each lets go of what it does to bring a handle back that is too far away or spins too fast.
 
-#include <passive_haptics/laws/samples.hpp>
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/simulation/rigid_device.hpp>
 
 #include <cstdint>

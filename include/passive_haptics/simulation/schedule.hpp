@@ -7,8 +7,8 @@
 //   update_schedule   due(time): every 20-50 ms, at random (20-50 Hz), or at a fixed period
 //   one_update_late   answers with what it was given one update ago: a pipelined environment
 
-#include <passive_haptics/laws/samples.hpp>
-#include <passive_haptics/parameter.hpp>
+#include <passive_haptics/base/parameter.hpp>
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/simulation/components.hpp>
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 // Fault injection: a device whose samples go wrong at chosen ticks. The device behind moves on
 // truthfully, so its meter says what a fault really cost.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/simulation/components.hpp>
 
 #include <array>

@@ -14,9 +14,9 @@
 //     lay(model, surface)     whatever you do: for several contacts, for a renderer
 // A model whose constraint never moves brings its own.
 
-#include <passive_haptics/concepts.hpp>
 #include <passive_haptics/constraint_geometry/segment.hpp>
 #include <passive_haptics/constraint_geometry/triangle.hpp>
+#include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/simulation/adversary_worlds.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 

@@ -2,7 +2,7 @@
 #pragma once
 // The admittance side of a two-port: motion out to the tool in the environment, force back.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/two_port/packet.hpp>
 
 #include <limits>

@@ -2,8 +2,8 @@
 #pragma once
 // The energy observer of a device port that is one end of a two-port.
 
+#include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
-#include <passive_haptics/no_unique_address.hpp>
 #include <passive_haptics/two_port/packet.hpp>
 
 #include <limits>

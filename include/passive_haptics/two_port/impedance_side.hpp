@@ -3,7 +3,7 @@
 // The impedance side of a two-port: force out to the device, measured displacement back.
 
 #include <passive_haptics/contact/given_force.hpp>
-#include <passive_haptics/passive_port.hpp>
+#include <passive_haptics/port/passive_port.hpp>
 #include <passive_haptics/two_port/packet.hpp>
 
 namespace passive_haptics {

@@ -2,7 +2,7 @@
 #pragma once
 // What crosses the channel of a two-port, and how the newest of it is kept.
 
-#include <passive_haptics/kernels.hpp>
+#include <passive_haptics/base/kernels.hpp>
 
 #include <cstdint>
 

@@ -2,7 +2,7 @@
 #pragma once
 // The published passivity controller of the impedance side, for comparison.
 
-#include <passive_haptics/concepts.hpp>
+#include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/two_port/packet.hpp>
 
 #include <limits>

@@ -6,7 +6,7 @@
 #include "../target/cortex_m.hpp"
 #include "check.hpp"
 #include "recorded.hpp"
-#include <passive_haptics/exchange.hpp>
+#include <passive_haptics/base/exchange.hpp>
 
 namespace {
 

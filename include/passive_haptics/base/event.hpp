@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What one tick has to tell its caller, and how much a type promises.
+
+#include <passive_haptics/base/language.hpp>
+
+#include <cstdint>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// What happened in a tick, in order of rising severity; a tick reports the worst. The numbers are
+/// stable from 1.0 on.
+enum class event : std::uint8_t {
+  nominal,          ///< all is well
+  debt,             ///< the ledger is negative: the hand has been fed more than it paid
+  late_tick,        ///< dt is longer than loop_limits::longest_tick: the bound assumed less
+  repeated_sample,  ///< the sensor is slower than the loop: its motions are booked too short
+  no_target,        ///< the environment has published nothing yet: force zero
+  rejected_target,  ///< the published constraint is unusable: the last good one stays
+  stale_target,     ///< no good constraint for too long: the contact is fading out
+  outside_workspace,  ///< farther away than loop_limits::workspace; millimetres for metres? Force zero
+  rejected_sample,  ///< NaN, infinity, dt ≤ 0, an impossible jump: force zero, credit forfeited
+  rejected_parameters,  ///< check() names the fault: force zero for ever
+};
+
+/// The text of an event, for logs.
+[[nodiscard]] constexpr const char* to_string(event e) noexcept {
+  switch (e) {
+    case event::nominal:
+      return "nominal";
+    case event::debt:
+      return "debt";
+    case event::late_tick:
+      return "late tick";
+    case event::repeated_sample:
+      return "repeated sample";
+    case event::no_target:
+      return "no target";
+    case event::stale_target:
+      return "stale target";
+    case event::rejected_target:
+      return "rejected target";
+    case event::outside_workspace:
+      return "outside workspace";
+    case event::rejected_sample:
+      return "rejected sample";
+    case event::rejected_parameters:
+      return "rejected parameters";
+  }
+  return "unknown event";
+}
+
+[[nodiscard]] constexpr event worse(event a, event b) noexcept {
+  return a < b ? b : a;
+}
+
+namespace detail {
+/// A force that is no number, where it is rare enough not to be in the way of the others.
+[[nodiscard, gnu::cold, gnu::noinline]] constexpr event unusable(event so_far) noexcept {
+  return worse(so_far, event::rejected_target);
+}
+}  // namespace detail
+
+/// How far a policy, or a composition, is passive at the device port.
+///   strict       E1 ≥ 0 for every motion, every environment, every schedule of updates
+///   conditional  the same under assumptions named where the policy is defined
+///   none         no promise; the header shows the loss
+enum class guarantee : std::uint8_t { none, conditional, strict };
+
+[[nodiscard]] constexpr const char* to_string(guarantee g) noexcept {
+  switch (g) {
+    case guarantee::none:
+      return "none";
+    case guarantee::conditional:
+      return "conditional";
+    case guarantee::strict:
+      return "strict";
+  }
+  return "unknown guarantee";
+}
+
+}  // namespace v0
+}  // namespace passive_haptics

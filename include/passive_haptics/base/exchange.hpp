@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// exchange: the newest value from one thread to another, never a queue, never half of one.
+//
+//     ph::exchange<ph::half_space<scene>> inbox;         // shared
+//     inbox.publish(plane);                              // slow thread, 20-100 Hz
+//     if (const auto* plane = inbox.take()) touch.update(*plane);  // haptic thread, 1 kHz
+//
+// Wait-free for one writer and one reader, threads or an interrupt and main(): nobody waits, retries or
+// copies under the other's hands. It takes four slots and four words that are loaded and stored, never
+// swapped, so a core without atomic swaps (Cortex-M0, RISC-V without A) does it too, with no library.
+// What to do when nothing new comes is the supply's stale-data rule (port/freshness.hpp). Use a second
+// one for the way back.
+
+#include <passive_haptics/base/language.hpp>
+
+#include <array>
+#include <atomic>
+#include <type_traits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+namespace detail {
+
+/// Who may touch which of four slots, two pairs of two: H. R. Simpson, Four-slot fully asynchronous
+/// communication mechanism, IEE Proceedings E 137 (1990) 17-30. `Word` is an atomic word.
+///
+/// The writer fills the pair that the reader has not announced, and of that pair the slot that is not
+/// its newest. A writer that missed the announcement is in the reader's pair, but the reader goes to
+/// that pair's newest slot, so they still differ; every later writer sees it and goes to the other pair.
+/// That the announcement is stored before the newest slot is looked up is what this rests on: all words
+/// are sequentially consistent, so every run is an interleaving, and tests/base/exchange.cpp tries them all.
+template <class Word>
+class four_slots {
+ public:
+  /// Writer: a slot that the reader does not hold, and cannot before filled() says so.
+  [[nodiscard]] unsigned free() const noexcept {
+    const unsigned pair = 1 - reading_.load();
+    return 2 * pair + (1 - newest_[pair].load());
+  }
+  /// Writer: the slot from free() has the newest value now.
+  void filled(unsigned slot) noexcept {
+    newest_[slot / 2].store(slot % 2);
+    latest_.store(slot / 2);
+  }
+  /// Reader: the slot of the newest value. The writer keeps off it until the next call.
+  [[nodiscard]] unsigned newest() noexcept {
+    const unsigned pair = latest_.load();
+    if (reading_.load() != pair) reading_.store(pair);
+    return 2 * pair + newest_[pair].load();
+  }
+
+ private:
+  Word latest_{0};                    // the writer's: the pair of the newest value
+  std::array<Word, 2> newest_{0, 0};  // the writer's: the newer slot of each pair
+  Word reading_{0};                   // the reader's: the pair it is in
+};
+
+}  // namespace detail
+
+/// One writer thread, one reader thread. Payload: any trivially copyable value, copied once a side.
+template <class Payload>
+class exchange {
+  static_assert(std::is_trivially_copyable_v<Payload>,
+                "passive_haptics: exchange carries trivially copyable values only: store Eigen "
+                "vectors as space::coordinates");
+
+ public:
+  exchange() noexcept = default;
+  exchange(const exchange&) = delete;
+  exchange& operator=(const exchange&) = delete;
+
+  /// Writer only: replaces what the reader has not taken yet.
+  void publish(const Payload& value) noexcept {
+    const unsigned slot = order_.free();
+    slots_[slot] = value;
+    order_.filled(slot);
+  }
+
+  /// Reader only: the newest value if one came since the last take(), else null. It stays untouched
+  /// until the next take().
+  [[nodiscard]] const Payload* take() noexcept {
+    const unsigned slot = order_.newest();
+    if (slot == held_) return nullptr;  // nobody has written there since
+    held_ = slot;
+    return &slots_[slot];
+  }
+
+ private:
+  std::array<Payload, 4> slots_{};
+  detail::four_slots<std::atomic<unsigned>> order_;
+  unsigned held_ = 0;  // the reader's
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

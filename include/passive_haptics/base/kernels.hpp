@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The equations, one function each: plain scalars in, a plain scalar out, no state, no branch that
+// is not in the formula. Own your loop? Then this header is all you need.
+//
+//   2.5    damping_per_tick          B = b/T
+//   2.14   worst_outflow             f²/(4B)            most energy the next tick can take
+//   2.17   strict_force_bound        √(4 B E1)
+//   2.27   depth_bound               f/K
+//   L6     outward_reach             how far the device can come out in the next tick
+//   2(a′)  reachable_force_bound     largest force whose work over that reach the ledger covers
+//   2(a′)  reachable_outflow         most energy a force can hand over within that reach
+//   2(a′)  reachable_share, reachable_work             the same two in joules, for any port
+//   C      coning, coning_share      what a turn may hide from its ends, and the torque it is known for
+//   § 9    sampled_stiffness, sampled_damping          what a sampled mass can take
+//   -      spendable, sure_gain, sum_rounded_down     rounding costs force, never the promise
+//   2.30   half_angle_turn           cos φ and sin φ of a small turn, without cos and sin
+//
+// Numbers with a dot are equations of McWilliam's 2017 thesis "Local Model Interpolation for Stable
+// Haptic Interaction" with the signs put right (docs/design/audit.md); L and § refer to
+// docs/design/mathematics.md.
+
+#include <passive_haptics/base/language.hpp>
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <type_traits>
+
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0
+#error passive_haptics: -ffast-math takes out the checks for NaN and infinity that every promise \
+rests on: compile without it
+#endif
+#if defined(_M_FP_FAST)
+#error passive_haptics: /fp:fast takes out the checks for NaN and infinity that every promise rests on: \
+compile with /fp:precise
+#endif
+#if defined(__ASSOCIATIVE_MATH__)  // clang++ does not tell
+#error passive_haptics: -fassociative-math, a part of -ffast-math, sums in any order, so bounds are no \
+longer rounded towards zero force: compile without it
+#endif
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A real number type: float, double, long double, or anything that does arithmetic, compares, and
+/// has numeric_limits and a sqrt found by argument-dependent look-up (Boost.Multiprecision).
+template <class S>
+concept real = std::regular<S> && std::totally_ordered<S> &&
+               std::numeric_limits<S>::is_specialized && !std::numeric_limits<S>::is_integer &&
+               requires(S a, S b) {
+  {S(a + b)};
+  {S(a - b)};
+  {S(a * b)};
+  {S(a / b)};
+  {S(-a)};
+  {S(1)};
+};
+
+namespace kernels {
+
+template <real S>
+[[nodiscard]] constexpr S smaller(S a, S b) noexcept {
+  return b < a ? b : a;
+}
+template <real S>
+[[nodiscard]] constexpr S larger(S a, S b) noexcept {
+  return a < b ? b : a;
+}
+
+template <real S>
+[[nodiscard]] constexpr S magnitude(S a) noexcept {
+  if constexpr (std::floating_point<S>) {
+    if (!std::is_constant_evaluated()) return std::fabs(a);
+  }
+  return a < S(0) ? S(-a) : a;
+}
+
+/// The largest finite number, and the smallest normal one. In brackets: some compilers' headers make
+/// macros of these two names.
+template <class S>
+[[nodiscard]] constexpr S largest() noexcept {
+  return (std::numeric_limits<S>::max)();
+}
+template <real S>
+[[nodiscard]] constexpr S smallest() noexcept {
+  return (std::numeric_limits<S>::min)();
+}
+
+/// Neither NaN nor an infinity.
+template <real S>
+[[nodiscard]] constexpr bool is_finite(S x) noexcept {
+  return magnitude(x) <= largest<S>();
+}
+
+/// √x for x ≥ 0, also in a constant expression (where Newton's iteration descends until it stalls).
+template <real S>
+[[nodiscard]] constexpr S square_root(S x) noexcept {
+  if (std::is_constant_evaluated()) {
+    if (!(x > S(0)) || !is_finite(x)) return x;
+    S root = x < S(1) ? S(1) : x;
+    S next = (root + x / root) / S(2);
+    while (next < root) {
+      root = next;
+      next = (root + x / root) / S(2);
+    }
+    return root;
+  }
+  using std::sqrt;
+  return sqrt(x);
+}
+
+/// B = b/T [N/m]: damping b [N·s/m] seen over one tick of length T [s]. (2.5)
+template <real S>
+[[nodiscard]] constexpr S damping_per_tick(S b, S T) noexcept {
+  return b / T;
+}
+
+/// f²/(4B) [J]: the most energy that force f [N], held for the next tick, can hand to the user
+/// whatever the motion: min over Δx of BΔx² − fΔx, reached at Δx = f/(2B). (2.14, lemma L3)
+template <real S>
+[[nodiscard]] constexpr S worst_outflow(S f, S B) noexcept {
+  return f * f / (S(4) * B);
+}
+
+/// A margin for a dozen roundings in any direction.
+template <real S>
+[[nodiscard]] constexpr S rounding() noexcept {
+  return S(16) * std::numeric_limits<S>::epsilon();
+}
+
+/// The part of a credit E1 [J] that may be spent although every step rounds, whichever way:
+///     E1 (1 − 64ε) − min/ε,   ε and min the machine epsilon and the smallest normal number
+/// A force found from it has f²/(4B) ≤ E1 in exact arithmetic, in any direction, and what the
+/// worst motion against it books, less sure_gain's margin, still leaves no debt. The proof counts
+/// roundings (docs/design/stability.md). For b ≥ 1e-13 N·s/m.
+template <real S>
+[[nodiscard]] constexpr S spendable(S E1) noexcept {
+  using limits = std::numeric_limits<S>;
+  return E1 * (S(1) - S(4) * rounding<S>()) - smallest<S>() / limits::epsilon();
+}
+
+/// f_max = √(4 B E1) [N], rounded towards zero; zero for a ledger in debt. The clamp stays inside
+/// the root (A6). (2.17)
+template <real S>
+[[nodiscard]] constexpr S strict_force_bound(S E1, S B) noexcept {
+  const S credit = spendable(E1);
+  if (!(credit > S(0))) return S(0);
+  return square_root(smaller(S(4) * B * credit, largest<S>()));
+}
+
+/// The factor that brings a force whose worst outflow is `outflow` [J] down to what E1 [J] covers:
+/// √(E1/outflow), rounded towards zero; 1 when it is covered already. (2.17 for any direction)
+template <real S>
+[[nodiscard]] constexpr S strict_scale(S E1, S outflow) noexcept {
+  const S credit = spendable(E1);
+  if (outflow <= credit) return S(1);
+  if (!(credit > S(0))) return S(0);
+  const S share = credit / outflow;
+  if (!(share >= smallest<S>())) return S(0);
+  const S scale = square_root(share);
+  if (!(scale > S(0))) __builtin_unreachable();  // the root of what is positive: for the compiler
+  return scale;
+}
+
+/// dissipated − work [J], less what rounding can have done to either: never more than in exact
+/// arithmetic. `passed` is Σ |fᵢ Δxᵢ|, at least |work|.
+template <real S>
+[[nodiscard]] constexpr S sure_gain(S dissipated, S work, S passed) noexcept {
+  return dissipated - work - rounding<S>() * (dissipated + passed);
+}
+
+/// E + gain [J], rounded down, so that a ledger never grows by rounding: one of 1 J in float would
+/// not notice 1e-8 J going out, tick after tick. Exact to an ulp; where the gain is larger than E,
+/// to an ulp of the gain.
+template <real S>
+[[nodiscard]] constexpr S sum_rounded_down(S E, S gain) noexcept {
+  const S sum = E + gain;
+  const S ulp = magnitude(sum) * std::numeric_limits<S>::epsilon();
+  return sum - (sum - E > gain ? ulp : S(0));
+}
+
+/// d_max = f/K [m]; with no stiffness there is no force to place. (2.27, A10)
+template <real S>
+[[nodiscard]] constexpr S depth_bound(S f, S K) noexcept {
+  return K > S(0) ? f / K : S(0);
+}
+
+/// δ [m]: the farthest that a mass m [kg] can travel outwards in the next tick, of length ≤ T [s].
+///     x(n+1) − x(n) = Δx·T/T₀ + double integral of a(t),   |a| ≤ (|f| + F_other)/m
+/// `outward` is the travel along the force in the last tick [m], which lasted T₀ [s]; `held` and
+/// `next` are the force magnitudes over the last and the next tick; `other` bounds all else that
+/// pushes. Exact for the double integrator, rounded up but for `outward`. (L6)
+template <real S>
+[[nodiscard]] constexpr S outward_reach(S outward, S held, S next, S other, S m, S T0,
+                                        S T) noexcept {
+  const S last = (held + other) * T0 * T / (S(2) * m);
+  const S coming = (next + other) * T * T / (S(2) * m);
+  return outward * T / T0 + (last + coming) * (S(1) + rounding<S>());
+}
+
+/// The largest force F [N] with F s − B s² ≤ E1 for every 0 ≤ s ≤ δ:
+///     δ ≤ 0: any force      δ < √(E1/B): E1/δ + B δ      else: √(4 B E1)
+/// rounded towards zero. The two branches meet where s = δ is itself the worst case (AM-GM), so it
+/// is continuous. (§ 2(a′))
+template <real S>
+[[nodiscard]] constexpr S reachable_force_bound(S E1, S B, S reach) noexcept {
+  if (!(reach > S(0))) return largest<S>();
+  const S credit = spendable(E1);
+  if (B * reach * reach < credit) {
+    return (credit / reach + B * reach) * (S(1) - rounding<S>());
+  }
+  return strict_force_bound(E1, B);
+}
+
+/// max of f s − B s² over 0 ≤ s ≤ δ [J]: the most energy that force f [N] can hand to the user over
+/// an outward travel of at most δ [m]; f²/(4B) from δ = f/(2B) on. (L3 with a reach)
+template <real S>
+[[nodiscard]] constexpr S reachable_outflow(S f, S B, S reach) noexcept {
+  if (!(reach > S(0)) || !(f > S(0))) return S(0);
+  if (S(2) * B * reach >= f) return worst_outflow(f, B);
+  return f * reach - B * reach * reach;
+}
+
+/// max of η' − η'²/(4W) over 0 ≤ η' ≤ η [J]: the most that an effort of worst outflow W [J] can hand
+/// out when η [J] is the most work it can do; W itself from η = 2W on. (reachable_outflow in joules)
+template <real S>
+[[nodiscard]] constexpr S reachable_work(S W, S reach) noexcept {
+  if (!(reach > S(0)) || !(W > S(0))) return S(0);
+  if (reach >= S(2) * W) return W;
+  return reach - reach * reach / (S(4) * W);
+}
+
+/// The largest share s of an effort with s η' − η'²/(4W) ≤ E1 for every 0 ≤ η' ≤ η:
+///     η ≤ 0: all of it      η² < 4 W E1: E1/η + η/(4W)      else: √(E1/W)
+/// rounded towards zero, at most 1. (reachable_force_bound in joules)
+template <real S>
+[[nodiscard]] constexpr S reachable_share(S E1, S W, S reach) noexcept {
+  if (!(reach > S(0))) return S(1);
+  const S credit = spendable(E1);
+  if (credit > S(0) && reach * reach < S(4) * credit * W) {
+    return smaller(S(1), (credit / reach + reach / (S(4) * W)) * (S(1) - rounding<S>()));
+  }
+  return strict_scale(E1, W);
+}
+
+/// dt|θ × τ|²/(36 b_ω) [J], rounded up: the most by which a turn from one pose to another brings less than
+/// b_ω|θ|²/dt − τ·θ, if |θ| ≤ 1 rad and |τ| ≤ 4b_ω/dt. `across` is |θ × τ|². (lemma C)
+template <real S>
+[[nodiscard]] constexpr S coning(S across, S b, S dt) noexcept {
+  return dt * across / (S(36) * b) * (S(1) + rounding<S>());
+}
+/// The share of an effort, lowered so far that its torque is at most 4b_ω/T, rounded towards zero.
+/// `squared` is |τ|². (lemma C)
+template <real S>
+[[nodiscard]] constexpr S coning_share(S share, S squared, S b, S T) noexcept {
+  const S most = S(4) * b / T * (S(1) - rounding<S>());
+  if (!(share * share * squared > most * most)) return share;
+  return most / square_root(squared) * (S(1) - rounding<S>());
+}
+
+/// The most [rad] by which the path of a tick of length dt may have turned beside θ, its rate never changing by
+/// more than α [rad/s²]: |Ω| α dt²/12 to first order, |Ω| itself known but for the same.
+template <real S>
+[[nodiscard]] constexpr S unseen_turn(S theta, S alpha, S dt) noexcept {
+  const S gained = alpha * dt * dt;
+  return (theta + gained) * gained / S(12);
+}
+/// What an effort of that norm can reach in a tick [J] because of what was held the tick before and is held
+/// in it, ‖h‖ and ‖w‖, both of length T, beside the `pushed` of all else. (§ 3)
+template <real S>
+[[nodiscard]] constexpr S later_reach(S norm, S before, S last, S pushed, S T) noexcept {
+  return norm * (before + last + S(2) * pushed) * T * T / S(2) * (S(1) + rounding<S>());
+}
+
+/// K_s = min(K, κ m/T²) [N/m]: the stiffness that a mass sampled every T can be held with. (§ 9)
+template <real S>
+[[nodiscard]] constexpr S sampled_stiffness(S K, S fraction, S m, S T) noexcept {
+  return smaller(K, fraction * m / (T * T));
+}
+
+/// D_s = min(2 ζ √(K_s m), β m/T) [N·s/m]: damping ratio ζ, kept below what sampling allows. (§ 9)
+template <real S>
+[[nodiscard]] constexpr S sampled_damping(S K, S ratio, S fraction, S m, S T) noexcept {
+  return smaller(S(2) * ratio * square_root(K * m), fraction * m / T);
+}
+
+/// The cap on the ledger [J] that still lets a wall push back with F [N]: F²/(4B) (A9).
+template <real S>
+[[nodiscard]] constexpr S bank_for_hold(S F, S b, S T) noexcept {
+  return worst_outflow(F, damping_per_tick(b, T));
+}
+
+/// cos and sin of a turn, and the chord it spans on the unit circle.
+template <real S>
+struct turn {
+  S cosine, sine, chord_squared;
+};
+
+/// The turn by 2 atan(φ/2), from tan(turn/2) = φ/2: never more than φ [rad], short of it by φ³/12.
+/// cos² + sin² = 1 to rounding, for any φ ≥ 0. (2.30-2.31 without cos and sin, A20)
+template <real S>
+[[nodiscard]] constexpr turn<S> half_angle_turn(S angle) noexcept {
+  const S t = angle / S(2);
+  const S d = S(1) + t * t;
+  return {(S(1) - t * t) / d, S(2) * t / d, S(4) * t * t / d};
+}
+
+}  // namespace kernels
+}  // namespace v0
+}  // namespace passive_haptics

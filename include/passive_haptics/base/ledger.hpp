@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// How a ledger is kept: no entry, and no sum, is ever rounded up (docs/design/stability.md).
+//
+//   sure_gain         what a tick has brought        less what rounding can have done to it
+//   book              E += gain                      rounded down
+//   written_off       what is left at least          when a force may have cost its worst
+//   compensated_sum   a number to keep a ledger in   that loses nothing of small entries
+
+#include <passive_haptics/base/kernels.hpp>
+
+#include <cstdint>
+#include <type_traits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A sum that carries on what rounding cut off (Kahan's, with Knuth's exact error of a sum): in
+/// float, 1e-9 J still counts against 1 J.
+template <real Scalar>
+class compensated_sum {
+ public:
+  constexpr compensated_sum() noexcept = default;
+  constexpr compensated_sum(Scalar start) noexcept : sum_(start) {}  // NOLINT: a number
+
+  constexpr compensated_sum& operator+=(Scalar term) noexcept {
+    const Scalar carried = term + lost_;
+    const Scalar next = sum_ + carried;
+    const Scalar gained = next - sum_;
+    lost_ = (sum_ - (next - gained)) + (carried - gained);
+    sum_ = next;
+    return *this;
+  }
+  constexpr operator Scalar() const noexcept { return sum_; }  // NOLINT: a number
+
+ private:
+  Scalar sum_{}, lost_{};
+};
+
+/// The number a ledger is kept in: the port's scalar, or a sum that carries on what rounding cuts off.
+enum class ledger_sum : std::uint8_t { plain, compensated };
+
+namespace detail {
+
+template <class Scalar, ledger_sum Sum>
+using ledger_number = std::conditional_t<Sum == ledger_sum::plain, Scalar, compensated_sum<Scalar>>;
+
+/// What a tick has brought, `dissipated` − held·Δx [J], in exact arithmetic at least.
+template <class Port>
+[[nodiscard, gnu::always_inline]] constexpr typename Port::scalar sure_gain(
+    typename Port::scalar dissipated, const typename Port::effort& held,
+    const typename Port::motion& motion) noexcept {
+  const auto work = Port::work(held, motion);
+  return kernels::sure_gain(dissipated, work.joules, work.passed);
+}
+
+/// E += gain, rounded down.
+template <class Ledger, class Scalar>
+[[gnu::always_inline]] constexpr void book(Ledger& energy, Scalar gain) noexcept {
+  if constexpr (std::is_same_v<Ledger, Scalar>) {
+    energy = kernels::sum_rounded_down(energy, gain);
+  } else {
+    energy += gain;  // a sum that forgets nothing
+  }
+}
+
+/// What is left at least when a force may have cost its worst, down to `floor` (an empty ledger) [J].
+template <class Scalar>
+[[nodiscard]] constexpr Scalar written_off(Scalar energy, Scalar worst,
+                                           Scalar floor = Scalar(0)) noexcept {
+  const Scalar margin = Scalar(1) + kernels::rounding<Scalar>();
+  const Scalar left = kernels::sum_rounded_down(energy, Scalar(-worst * margin));
+  return kernels::larger(kernels::smaller(energy, floor), left);  // so ordered, NaN is nothing
+}
+
+}  // namespace detail
+
+}  // namespace v0
+}  // namespace passive_haptics

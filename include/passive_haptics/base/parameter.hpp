@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Parameters: stated in double, refused with a sentence, and computed with in the scalar of the port.
+//
+// A part of a composition is a plain struct of numbers, its parameters, which knows no scene:
+//     ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}
+// Its `on<Port>` is what computes at a port: the same numbers in the port's scalar, and its state.
+
+#include <passive_haptics/base/kernels.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// Why a parameter is refused. Converts to true when there IS a fault:
+///
+///     static_assert(!ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}.check());
+///     if (const auto fault = touch.check()) complain(fault.parameter, fault.value, fault.remedy);
+struct parameter_fault {
+  const char* parameter = nullptr;  ///< its name, null when all is well
+  double value = 0.0;               ///< the value refused
+  const char* remedy = "";          ///< the range allowed
+
+  constexpr explicit operator bool() const noexcept { return parameter != nullptr; }
+};
+
+namespace detail {
+
+[[nodiscard]] constexpr bool positive(double x) noexcept {
+  return x > 0.0 && kernels::is_finite(x);
+}
+[[nodiscard]] constexpr bool not_negative(double x) noexcept {
+  return x >= 0.0 && kernels::is_finite(x);
+}
+
+/// A parameter in the scalar that computes with it. What is finite stays finite, and what is not
+/// zero stays not zero, so a value that check() has passed is still in its range.
+template <real S>
+[[nodiscard]] constexpr S number(double x) noexcept {
+  if constexpr (std::same_as<S, float>) {
+    constexpr auto most = double(kernels::largest<float>());
+    constexpr auto least = double(kernels::smallest<float>());
+    const double size = kernels::magnitude(x);
+    if (size > most && kernels::is_finite(x)) return S(x < 0.0 ? -most : most);
+    if (size > 0.0 && size < least) return S(x < 0.0 ? -least : least);
+  }
+  return static_cast<S>(x);
+}
+
+/// What computes at a port: the part itself, if it is written for that port alone.
+template <class Part, class Port>
+struct at_port {
+  using type = Part;
+};
+template <class Part, class Port>
+requires requires {
+  typename Part::template on<Port>;
+}
+struct at_port<Part, Port> {
+  using type = typename Part::template on<Port>;
+};
+
+/// The first parameter of a part at its port that is out of its range, if any.
+template <class Part>
+[[nodiscard]] constexpr parameter_fault fault_in(const Part& part) noexcept {
+  if constexpr (requires { part.parameters().check(); }) {
+    return part.parameters().check();
+  } else if constexpr (requires { part.check(); }) {
+    return part.check();
+  } else {
+    return {};
+  }
+}
+
+/// Puts a part's state back to where it began; its parameters stay.
+template <class Part>
+constexpr void restart(Part& part) noexcept {
+  if constexpr (requires { part.reset(); }) part.reset();
+}
+
+}  // namespace detail
+
+/// What computes at a port when `Part` is composed into it.
+template <class Part, class Port>
+using part_at = typename detail::at_port<Part, Port>::type;
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Dampings with a dry friction that is always there, for the dual_ledger, which credits it.
+//
+//   damping_and_friction                b, c, p           the same in all directions of a space
+//   diagonal_damping_and_friction<Dof>  b, c, p per axis  joints, or sliders along the axes
+//
+// Dry friction gives way like a spring over its first micrometres, the presliding displacement p, and
+// hands back what that spring has stored: a motion smaller than p pays next to nothing. So p is stated
+// along with c, or no friction is credited. A device is covered if what its friction takes is at least
+// c times the way slipped, and the way slipped is the way moved but for a deflection of at most p:
+//
+//   covered        sliders behind springs, one or many (Maxwell, Iwan): c = Σ cᵢ, p = Σ cᵢpᵢ/c;
+//                  elasto-plastic (Dupont): p the largest deflection of the bristle;
+//                  Stribeck: c the least kinetic level, p from the static one
+//   not covered    Dahl, LuGre: they forget where they were reversed, so that "forward 2 µm, back 1"
+//                  moves on for less than c a metre, for ever, whatever p is stated
+//
+// State the least c, when warm and worn, and the largest p. Measure p as the way it takes from one sliding
+// direction to the other, halved; where each of n axes has a friction of its own, damping_and_friction is
+// told p √n, because n springs give way together. A p of zero is a claim, too: that of a rigid friction.
+
+#include <passive_haptics/device/damping.hpp>
+
+#include <limits>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace detail {
+
+[[nodiscard]] constexpr parameter_fault friction_fault(double c, double p) noexcept {
+  if (!not_negative(c)) return {"friction", c, "finite and ≥ 0 N"};
+  if (not_negative(p)) return {};
+  return {"presliding", p, "finite and ≥ 0 m, stated: over how far the friction is elastic"};
+}
+/// Presliding displacements have no default.
+inline constexpr double not_stated = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace detail
+
+/// b·I and dry friction of at least c in every direction of motion, elastic over at most p in any:
+/// credits the work c|Δx| too, and lets out c + √(4BE) instead of √(4BE). Idea of the enhanced force
+/// bounding approach (Baek, Park, Ryu; docs/design/mathematics.md § 2(a)); formula and proof there:
+///     min over s ≥ 0 of B s² − (F − c) s = −(F − c)₊²/(4B)
+/// A ledger in debt lets out nothing. What elastic friction changes: § 6 there.
+struct damping_and_friction {
+  double coefficient{};                    ///< b [N·s/m], > 0, a lower bound
+  double coulomb{};                        ///< c [N], ≥ 0, a lower bound
+  double presliding = detail::not_stated;  ///< p [m], ≥ 0, an upper bound
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(coefficient)) return {"damping", coefficient, "finite and > 0 N·s/m"};
+    return detail::friction_fault(coulomb, presliding);
+  }
+
+  template <class Space>
+  class on : public isotropic_damping::on<Space> {
+    using damper = isotropic_damping::on<Space>;
+
+   public:
+    using typename damper::effort, typename damper::motion, typename damper::scalar;
+    static_assert(
+        requires { typename Space::geometry; },
+        "passive_haptics: damping_and_friction has one number for all directions of a "
+        "space: joints need diagonal_damping_and_friction");
+
+    constexpr explicit on(const damping_and_friction& p) noexcept
+        : damper(p.coefficient),
+          c_(detail::number<scalar>(p.coulomb)),
+          p_(detail::number<scalar>(p.presliding)) {}
+    [[nodiscard]] constexpr damping_and_friction parameters() const noexcept {
+      return {.coefficient = damper::parameters().coefficient,
+              .coulomb = static_cast<double>(c_),
+              .presliding = static_cast<double>(p_)};
+    }
+
+    /// As if the friction were rigid: the function whose conjugate worst_outflow() is.
+    [[nodiscard]] constexpr scalar dissipated(const motion& dx, scalar dt) const noexcept {
+      return viscous(dx, dt) + c_ * Space::norm(dx);
+    }
+    [[nodiscard]] constexpr scalar worst_outflow(const effort& f, scalar T) const noexcept {
+      const scalar beyond = kernels::larger(Space::norm(f) - c_, scalar(0));
+      return T * beyond * beyond / (scalar(4) * this->along_axis(0));
+    }
+    [[nodiscard]] constexpr scalar affordable(const effort& f, scalar E, scalar T) const noexcept {
+      if (!(E >= scalar(0))) return scalar(0);
+      const scalar asked = Space::norm(f);
+      const scalar most = (c_ + kernels::strict_force_bound(E, this->per_tick(f, T))) *
+                          (scalar(1) - scalar(4) * kernels::rounding<scalar>());
+      return asked <= most ? scalar(1) : most / asked;
+    }
+
+    static constexpr bool rubs = true;
+    /// Δxᵀ (b/dt) Δx [J], the damper's part alone.
+    [[nodiscard]] constexpr scalar viscous(const motion& dx, scalar dt) const noexcept {
+      return damper::dissipated(dx, dt);
+    }
+    /// c [N], which a force gets for nothing along any direction.
+    [[nodiscard]] constexpr scalar friction(const effort& /*along*/) const noexcept { return c_; }
+    /// The friction force nearest to f, |u| ≤ c [N]. What it has returned it returns unchanged.
+    [[nodiscard]] constexpr effort friction_near(const effort& f) const noexcept {
+      const scalar square = Space::dot(f, f);
+      if (square <= c_ * c_ * (scalar(1) - kernels::rounding<scalar>())) return f;
+      return f * (sure() / kernels::square_root(square));
+    }
+    /// The friction force of a slip along Δx, c Δx/|Δx|; none for no motion [N].
+    [[nodiscard]] constexpr effort friction_along(const motion& dx) const noexcept {
+      const scalar square = Space::dot(dx, dx);
+      if (!(square > kernels::smallest<scalar>() / std::numeric_limits<scalar>::epsilon())) {
+        return Space::zero();
+      }
+      return dx * (sure() / kernels::square_root(square));
+    }
+    /// The most |u| [N].
+    [[nodiscard]] constexpr scalar most_friction() const noexcept { return c_; }
+    /// p|Δu| [J]: what it costs a certificate to count on another friction force. Rounded up.
+    [[nodiscard]] constexpr scalar hysteresis(const effort& change) const noexcept {
+      return p_ * Space::norm(change) * (scalar(1) + kernels::rounding<scalar>());
+    }
+    /// |u|² p/(2c) [J]: what the springs hold at least when they push with u. Rounded up.
+    [[nodiscard]] constexpr scalar stored(const effort& u) const noexcept {
+      if (!(c_ > scalar(0))) return scalar(0);
+      return Space::dot(u, u) * (p_ / (scalar(2) * c_)) * (scalar(1) + kernels::rounding<scalar>());
+    }
+    /// ½ c p [J]: the most that they can hold.
+    [[nodiscard]] constexpr scalar most_stored() const noexcept { return c_ * p_ / scalar(2); }
+
+   private:
+    [[nodiscard]] constexpr scalar sure() const noexcept {
+      return c_ * (scalar(1) - kernels::rounding<scalar>());
+    }
+    scalar c_, p_;
+  };
+};
+
+/// diag(b₁ … b_Dof), and on each axis or joint a dry friction cᵢ that is elastic over pᵢ:
+/// Σ cᵢ|Δxᵢ| is credited, and worst_outflow is Σ T(|fᵢ| − cᵢ)₊²/(4bᵢ). What of a force E covers is
+///     s = s₀ + (1 − s₀) √(E/W),    s₀ = the least cᵢ/|fᵢ|, at most 1,    W of the whole force
+/// since W(s f) ≤ ((s − s₀)/(1 − s₀))² W axis by axis (ours).
+template <int Dof>
+struct diagonal_damping_and_friction {
+  using numbers = std::array<double, static_cast<std::size_t>(Dof)>;
+
+  numbers coefficients{};             ///< bᵢ [N·s/m], > 0, lower bounds
+  numbers coulomb{};                  ///< cᵢ [N], ≥ 0, lower bounds
+  numbers presliding = not_stated();  ///< pᵢ [m], ≥ 0, upper bounds
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    for (std::size_t i = 0; i < coefficients.size(); ++i) {
+      if (!detail::positive(coefficients[i])) {
+        return {"damping", coefficients[i], "every axis finite and > 0 N·s/m"};
+      }
+      if (const auto fault = detail::friction_fault(coulomb[i], presliding[i])) return fault;
+    }
+    return {};
+  }
+  template <class Port>
+  class on;
+
+ private:
+  [[nodiscard]] static constexpr numbers not_stated() noexcept {
+    numbers all{};
+    all.fill(detail::not_stated);
+    return all;
+  }
+};
+
+template <int Dof>
+template <class Port>
+class diagonal_damping_and_friction<Dof>::on : public diagonal_damping<Dof>::template on<Port> {
+  using dampers = typename diagonal_damping<Dof>::template on<Port>;
+
+ public:
+  using typename dampers::effort, typename dampers::motion, typename dampers::scalar;
+
+  constexpr explicit on(const diagonal_damping_and_friction& p) noexcept
+      : dampers(diagonal_damping<Dof>{p.coefficients}) {
+    for (std::size_t i = 0; i < c_.size(); ++i) {
+      c_[i] = detail::number<scalar>(p.coulomb[i]);
+      p_[i] = detail::number<scalar>(p.presliding[i]);
+    }
+  }
+  [[nodiscard]] constexpr diagonal_damping_and_friction parameters() const noexcept {
+    diagonal_damping_and_friction p;
+    p.coefficients = dampers::parameters().coefficients;
+    for (std::size_t i = 0; i < c_.size(); ++i) {
+      p.coulomb[i] = static_cast<double>(c_[i]);
+      p.presliding[i] = static_cast<double>(p_[i]);
+    }
+    return p;
+  }
+
+  [[nodiscard]] constexpr scalar dissipated(const motion& dx, scalar dt) const noexcept {
+    scalar rubbed(0);
+    for (int i = 0; i < Dof; ++i) rubbed += c(i) * kernels::magnitude(Port::component(dx, i));
+    return viscous(dx, dt) + rubbed;
+  }
+  [[nodiscard]] constexpr scalar worst_outflow(const effort& f, scalar T) const noexcept {
+    effort beyond = f;
+    for (int i = 0; i < Dof; ++i) {
+      scalar& along = Port::component(beyond, i);
+      along = kernels::larger(kernels::magnitude(along) - c(i), scalar(0));
+    }
+    return dampers::worst_outflow(beyond, T);
+  }
+  [[nodiscard]] constexpr scalar affordable(const effort& f, scalar E, scalar T) const noexcept {
+    if (!(E >= scalar(0))) return scalar(0);
+    const scalar margin = scalar(1) - scalar(4) * kernels::rounding<scalar>();
+    scalar free(1);
+    for (int i = 0; i < Dof; ++i) {
+      const scalar along = kernels::magnitude(Port::component(f, i));
+      if (along * free > c(i)) free = c(i) / along;
+    }
+    if (free == scalar(1)) return scalar(1);
+    free *= margin;
+    return free + (scalar(1) - free) * margin * kernels::strict_scale(E, worst_outflow(f, T));
+  }
+
+  static constexpr bool rubs = true;
+  [[nodiscard]] constexpr scalar viscous(const motion& dx, scalar dt) const noexcept {
+    return dampers::dissipated(dx, dt);
+  }
+  /// The least Σ cᵢ|Δxᵢ| of a way of 1 m along f, whatever happens across it [N].
+  [[nodiscard]] constexpr scalar friction(const effort& along) const noexcept {
+    const scalar length = Port::norm(along);
+    scalar least = kernels::largest<scalar>();
+    for (int i = 0; i < Dof; ++i) {
+      const scalar share = kernels::magnitude(Port::component(along, i));
+      if (share > scalar(0)) least = kernels::smaller(least, c(i) * (length / share));
+    }
+    return length > scalar(0) ? least : scalar(0);
+  }
+  [[nodiscard]] constexpr effort friction_near(const effort& f) const noexcept {
+    effort nearest = f;
+    for (int i = 0; i < Dof; ++i) {
+      scalar& along = Port::component(nearest, i);
+      along = kernels::smaller(kernels::larger(along, -c(i)), c(i));
+    }
+    return nearest;
+  }
+  [[nodiscard]] constexpr effort friction_along(const motion& dx) const noexcept {
+    effort against = dx;
+    for (int i = 0; i < Dof; ++i) {
+      scalar& along = Port::component(against, i);
+      along = along > scalar(0) ? c(i) : along < scalar(0) ? -c(i) : scalar(0);
+    }
+    return against;
+  }
+  [[nodiscard]] constexpr scalar most_friction() const noexcept {
+    scalar sum(0);
+    for (int i = 0; i < Dof; ++i) sum += c(i) * c(i);
+    return kernels::square_root(sum);
+  }
+  [[nodiscard]] constexpr scalar hysteresis(const effort& change) const noexcept {
+    scalar sum(0);
+    for (int i = 0; i < Dof; ++i) sum += p(i) * kernels::magnitude(Port::component(change, i));
+    return sum * (scalar(1) + kernels::rounding<scalar>());
+  }
+  [[nodiscard]] constexpr scalar stored(const effort& u) const noexcept {
+    scalar sum(0);
+    for (int i = 0; i < Dof; ++i) {
+      const scalar along = Port::component(u, i);
+      if (c(i) > scalar(0)) sum += along * along * (p(i) / (scalar(2) * c(i)));
+    }
+    return sum * (scalar(1) + kernels::rounding<scalar>());
+  }
+  [[nodiscard]] constexpr scalar most_stored() const noexcept {
+    scalar sum(0);
+    for (int i = 0; i < Dof; ++i) sum += c(i) * p(i) / scalar(2);
+    return sum;
+  }
+
+ private:
+  [[nodiscard]] constexpr scalar c(int i) const noexcept { return c_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] constexpr scalar p(int i) const noexcept { return p_[static_cast<std::size_t>(i)]; }
+  std::array<scalar, static_cast<std::size_t>(Dof)> c_{}, p_{};
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// joint_space<Scalar, Joints>: the port of a device that is told by its joints, a gripper's included.
+//
+// Angles and torques, or travels and forces, joint by joint: what the motors hold between two samples
+// is the torque, so τ·Δq is their work exactly, whatever the mechanism (lemma J,
+// docs/design/mathematics.md). There is no geometry in it and no length of a vector either, because a
+// radian and a metre do not add up: constraints, directions and whatever measures a force in newtons
+// need a space. Take diagonal_damping, a damping for each joint.
+
+#include <passive_haptics/device/eigen_space.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// Scalar is float, double or any `real`; Joints ≥ 1. Models port (port/concepts.hpp).
+template <real Scalar, int Joints>
+struct joint_space {
+  static_assert(Joints >= 1, "passive_haptics: a joint_space has one joint or more");
+
+ private:
+  using algebra = detail::vectors<Scalar, Joints>;
+
+ public:
+  using scalar = Scalar;
+  static constexpr int dof = Joints;
+  using vector = typename algebra::vector;
+  using coordinates = typename algebra::coordinates;
+
+  using pose = vector;    ///< [rad], or [m] where a joint slides
+  using motion = vector;  ///< from one pose to another [rad], [m]
+  using effort = vector;  ///< [N·m], [N]
+  using stored_pose = coordinates;
+  using stored_effort = coordinates;
+
+  [[nodiscard]] static constexpr vector zero() noexcept { return algebra::zero(); }
+  [[nodiscard]] static constexpr bool is_finite(const vector& a) noexcept {
+    return algebra::is_finite(a);
+  }
+  /// Joint i of a vector or of coordinates, to read and to write.
+  template <class Vector>
+  [[nodiscard]] static constexpr decltype(auto) component(Vector& a, int i) noexcept {
+    return algebra::component(a, i);
+  }
+  [[nodiscard]] static constexpr motion between(const pose& from, const pose& to) noexcept {
+    return to - from;
+  }
+  /// τ·Δq [J].
+  [[nodiscard]] static constexpr auto work(const effort& torque, const motion& turned) noexcept {
+    return detail::work<algebra>(torque, turned);
+  }
+  /// The square of the joint that moved most: loop_limits::top_speed is that of the fastest joint.
+  [[nodiscard]] static constexpr Scalar squared(const motion& turned) noexcept {
+    Scalar most(0);
+    for (int i = 0; i < dof; ++i) {
+      const Scalar one = component(turned, i) * component(turned, i);
+      if (one > most || one != one) most = one;  // so written, NaN comes and stays
+    }
+    return most;
+  }
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

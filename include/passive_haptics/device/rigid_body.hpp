@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// rigid_body<Scalar>: the port of a handle that moves and turns, with motors for all six.
+//
+//     pose     p [m], q             where the handle point is, and how the handle is turned
+//     motion   (Δp, θ) [m], [rad]   θ = Log(R₁R₀ᵀ), the shortest turn, in the WORLD frame
+//     effort   (f, τ) [N], [N·m]    at the handle point, in the world frame, held there over the tick
+//
+// A wrench is paired with (Δp, θ) and with nothing else: the logarithm of SE(3), 2 vec(q) and the travel of
+// a tip beside the handle all book another work than the wrench did (docs/design/six_dof.md). Still, a path
+// that is not straight may do other work than its ends show, so the damping must be one that knows by
+// how much: rigid_damping (lemma C). Where a driver reports what its motors did, use reported_work.hpp.
+//
+// Metres and radians do not add up: there is no length of a motion or an effort here, and what measures
+// one refuses this port. loop_limits::top_speed counts a radian as 0.1 m: 5 m/s is 50 rad/s, too.
+
+#include <passive_haptics/device/rotation.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+struct rigid_damping;
+
+/// Where a handle is and how it is turned, at rest and to compute with. A plain value.
+template <real Scalar>
+struct rigid_pose {
+  stored_vector<Scalar, 3> position{};  ///< p of the handle point [m]
+  quaternion<Scalar> orientation{};     ///< from the handle to the world; q and −q are the same
+};
+
+namespace detail {
+
+/// What ports of a rigid_pose have in common.
+template <real Scalar>
+struct rigid_poses {
+  using scalar = Scalar;
+  using pose = rigid_pose<Scalar>;
+  using stored_pose = rigid_pose<Scalar>;
+  using body_space = space<Scalar, 3>;  ///< where the handle point moves
+
+  /// Where the handle point is [m]; loop_limits::workspace is asked of it.
+  [[nodiscard]] static typename body_space::vector place(const pose& x) noexcept {
+    return x.position;
+  }
+  /// Finite, and turned by what is a rotation: the norm of its quaternion is within 1e-3 of 1.
+  [[nodiscard]] static bool is_finite(const pose& x) noexcept {
+    return body_space::is_finite(place(x)) && rotation::is_unit(x.orientation);
+  }
+};
+
+}  // namespace detail
+
+/// Scalar is float, double or any `real`. Models port (port/concepts.hpp).
+template <real Scalar>
+struct rigid_body : detail::rigid_poses<Scalar> {
+ private:
+  using algebra = detail::vectors<Scalar, 6>;
+  using poses = detail::rigid_poses<Scalar>;
+
+ public:
+  static constexpr int dof = 6;
+  static constexpr bool turns = true;      ///< the path of a tick is not known from its ends
+  using damping_of_turns = rigid_damping;  ///< one that knows what a turn may hide
+  using vector = typename algebra::vector;
+  using coordinates = typename algebra::coordinates;
+  using triple = typename poses::body_space::vector;
+
+  using typename poses::pose;
+  using motion = vector;  ///< (Δp, θ) [m], [rad]
+  using effort = vector;  ///< (f, τ) [N], [N·m]
+  using stored_effort = coordinates;
+
+  [[nodiscard]] static vector zero() noexcept { return algebra::zero(); }
+  using poses::is_finite;
+  [[nodiscard]] static bool is_finite(const vector& a) noexcept { return algebra::is_finite(a); }
+  template <class Vector>
+  [[nodiscard]] static decltype(auto) component(Vector& a, int i) noexcept {
+    return algebra::component(a, i);
+  }
+  /// Δp or f of a motion or an effort.
+  [[nodiscard]] static triple linear(const vector& a) noexcept { return {a(0), a(1), a(2)}; }
+  /// θ or τ.
+  [[nodiscard]] static triple angular(const vector& a) noexcept { return {a(3), a(4), a(5)}; }
+  [[nodiscard]] static vector join(const triple& linear, const triple& angular) noexcept {
+    vector all;
+    for (int i = 0; i < 3; ++i) {
+      all(i) = linear(i);
+      all(i + 3) = angular(i);
+    }
+    return all;
+  }
+
+  /// (Δp, θ). Not a number where a quaternion is none of a rotation, so that no ledger books it.
+  [[nodiscard]] static motion between(const pose& from, const pose& to) noexcept {
+    const triple travel = triple(to.position) - triple(from.position);
+    if (!rotation::is_unit(from.orientation) || !rotation::is_unit(to.orientation)) {
+      const Scalar nan = std::numeric_limits<Scalar>::quiet_NaN();
+      return join(travel, {nan, nan, nan});
+    }
+    return join(travel, rotation::turned(rotation::normalised(from.orientation),
+                                         rotation::normalised(to.orientation)));
+  }
+  /// The pose that a motion leads to.
+  [[nodiscard]] static pose moved(const pose& from, const motion& by) noexcept {
+    const auto turned = rotation::product(rotation::exp<Scalar>(angular(by)), from.orientation);
+    return {triple(triple(from.position) + linear(by)), rotation::normalised(turned)};
+  }
+  /// f·Δp + τ·θ [J].
+  [[nodiscard]] static auto work(const effort& w, const motion& m) noexcept {
+    return detail::work<algebra>(w, m);
+  }
+  /// The larger of |Δp|² and (0.1 m/rad · |θ|)² [m²].
+  [[nodiscard]] static Scalar squared(const motion& m) noexcept {
+    const Scalar gone = m(0) * m(0) + m(1) * m(1) + m(2) * m(2);
+    const Scalar turned = (m(3) * m(3) + m(4) * m(4) + m(5) * m(5)) / Scalar(100);
+    return turned > gone || turned != turned ? turned : gone;  // so written, NaN stays
+  }
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The inertia of a handle that moves and turns, from below: what it cannot do within a tick.
+//
+//   rigid_inertia   its mass, its least moment, how unequal they are, how far off its centre is
+
+#include <passive_haptics/base/parameter.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// What a wrench at the handle point can do to a body of mass m whose centre is off by c, at most:
+///     ‖w‖² = |f|²/m + (|τ| + |c||f|)²/I ≥ wᵀM⁻¹w
+/// The body itself pushes as it turns, its centre outwards and its axes towards each other; both together
+/// have a norm of at most |ω|² √(m|c|² + (I_max − I_min)²/(4I)).
+///
+/// The matrix of the device's own inertia at the handle may nowhere be below that of this body. Where `mass`
+/// is told below the true one, raise `offset` in the proportion of their square roots, at least.
+struct rigid_inertia {
+  double mass{};    ///< m [kg], > 0
+  double least{};   ///< I, the smallest principal moment about the centre of mass [kg·m²], > 0
+  double spread{};  ///< I_max − I_min about it, an upper bound [kg·m²], ≥ 0
+  double offset{};  ///< |c|, centre of mass to handle point, an upper bound [m], ≥ 0
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
+    if (!detail::positive(least)) return {"least", least, "finite and > 0 kg·m²"};
+    if (!detail::not_negative(spread)) return {"spread", spread, "finite and ≥ 0 kg·m²"};
+    if (!detail::not_negative(offset)) return {"offset", offset, "finite and ≥ 0 m"};
+    return {};
+  }
+  template <class Port>
+  class on;
+};
+
+template <class Port>
+class rigid_inertia::on {
+ public:
+  using scalar = typename Port::scalar;
+
+  constexpr explicit on(const rigid_inertia& p) noexcept
+      : mass_(detail::number<scalar>(p.mass)),
+        least_(detail::number<scalar>(p.least)),
+        spread_(detail::number<scalar>(p.spread)),
+        offset_(detail::number<scalar>(p.offset)),
+        per_mass_(scalar(1) / mass_),
+        per_least_(scalar(1) / least_),
+        rate_(kernels::square_root(per_least_)),
+        turning_(kernels::square_root(
+            scalar(mass_ * offset_ * offset_ + spread_ * spread_ / (scalar(4) * least_)))) {}
+  [[nodiscard]] constexpr rigid_inertia parameters() const noexcept {
+    return {.mass = static_cast<double>(mass_),
+            .least = static_cast<double>(least_),
+            .spread = static_cast<double>(spread_),
+            .offset = static_cast<double>(offset_)};
+  }
+
+  /// ‖w‖ of a force and a torque of these lengths [N], [N·m], in whatever directions [√J/s].
+  [[nodiscard]] constexpr scalar norm(scalar force, scalar torque) const noexcept {
+    const scalar about_centre = torque + offset_ * force;
+    return kernels::square_root(
+        scalar(force * force * per_mass_ + about_centre * about_centre * per_least_));
+  }
+  /// ‖w‖ [√J/s].
+  [[nodiscard]] constexpr scalar norm(const typename Port::effort& w) const noexcept {
+    const scalar force = squared<0>(w), torque = squared<3>(w);
+    if (!(offset_ > scalar(0))) {
+      return kernels::square_root(scalar(force * per_mass_ + torque * per_least_));
+    }
+    return norm(kernels::square_root(force), kernels::square_root(torque));
+  }
+  /// Of what the body does to itself while it turns by at most `rate` [rad/s]: [√J/s].
+  [[nodiscard]] constexpr scalar of_turning(scalar rate) const noexcept {
+    return rate * rate * turning_;
+  }
+  /// The most that anything of this norm can do to the rate of turn [rad/s²].
+  [[nodiscard]] constexpr scalar turning_by(scalar norm) const noexcept { return norm * rate_; }
+  /// |f| or |τ|, |Δp| or |θ|: the length of three components from `First` on.
+  template <int First>
+  [[nodiscard]] static constexpr scalar length(const typename Port::effort& w) noexcept {
+    return kernels::square_root(squared<First>(w));
+  }
+  /// Their square.
+  template <int First>
+  [[nodiscard]] static constexpr scalar squared(const typename Port::effort& w) noexcept {
+    const scalar x = Port::component(w, First);
+    const scalar y = Port::component(w, First + 1);
+    const scalar z = Port::component(w, First + 2);
+    return x * x + y * y + z * z;
+  }
+
+ private:
+  scalar mass_, least_, spread_, offset_;
+  scalar per_mass_, per_least_;
+  scalar rate_;     ///< 1/√I
+  scalar turning_;  ///< √(m|c|² + spread²/(4I))
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// stylus<Scalar>: the port of a device that senses six and actuates three, as a Touch and its kin do.
+//
+// The motors push at the centre of the gimbal, so that is where energy is counted: a force (3) times its
+// travel (3), as in space<Scalar, 3>, with the same damping and the same bounds. How the stylus is turned is
+// part of the pose, for whoever asks what its tip touches, and no part of the work. A tip that is turned
+// into a wall has paid nothing for the push that follows, and an empty ledger does not allow it: see
+// docs/design/six_dof.md for what to do then.
+
+#include <passive_haptics/device/rigid_body.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// Scalar is float, double or any `real`. Models port (port/concepts.hpp).
+template <real Scalar>
+struct stylus : detail::vectors<Scalar, 3>, private detail::rigid_poses<Scalar> {
+ private:
+  using poses = detail::rigid_poses<Scalar>;
+
+ public:
+  using scalar = Scalar;
+  using geometry = space<Scalar, 3>;  ///< where the gimbal moves and forces act
+  using typename poses::body_space, typename poses::pose, typename poses::stored_pose;
+  using vector = typename geometry::vector;
+  using coordinates = typename geometry::coordinates;
+  using motion = vector;  ///< Δp of the gimbal [m]
+  using effort = vector;  ///< on it [N]
+  using stored_effort = coordinates;
+
+  using poses::is_finite, poses::place;
+  [[nodiscard]] static bool is_finite(const vector& a) noexcept { return geometry::is_finite(a); }
+  /// Δp; not a number where a quaternion is none of a rotation, since nobody knows then what is touched.
+  [[nodiscard]] static motion between(const pose& from, const pose& to) noexcept {
+    if (!rotation::is_unit(from.orientation) || !rotation::is_unit(to.orientation)) {
+      const Scalar nan = std::numeric_limits<Scalar>::quiet_NaN();
+      return {nan, nan, nan};
+    }
+    return geometry::between(place(from), place(to));
+  }
+  /// The pose that a motion leads to, turned as it was.
+  [[nodiscard]] static pose moved(const pose& from, const motion& by) noexcept {
+    return {motion(place(from) + by), from.orientation};
+  }
+  /// f·Δp [J].
+  [[nodiscard]] static auto work(const effort& f, const motion& dx) noexcept {
+    return geometry::work(f, dx);
+  }
+  /// |Δp|² [m²].
+  [[nodiscard]] static Scalar squared(const motion& dx) noexcept { return geometry::squared(dx); }
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A motion estimator for encoders with steps on a device with dry friction (the menu is in
+// last_difference.hpp).
+//
+//   edge_observer   at an edge between two steps the device is surely known; between edges it goes on
+
+#include <passive_haptics/port/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// On each axis, of encoders that show only the step [x̂, x̂ + q] the device is in: when it crosses an edge
+/// it is AT that edge, and the time since the last one says how fast it is:
+///     an edge again     x = the edge,    v ← v + g (Δx̂/t − v)       t since the last, g = t/(4 dt) ≤ 1
+///     an edge back      x = the edge,    v ← −4/5 min(|v|, 4q/t)    it turned round within the step
+///     between edges     x ← x + v dt     up to 2/3 q past the edge, with |v| ≤ q/t
+///     none for 100 ms   x → the middle of the step, with a time constant of 200 ms: it rests
+///
+/// So a device that chatters at one edge makes no change of force at all, one that rests costs nothing, and
+/// one that moves meets each edge with nearly the force that belongs there. That is what a sure ledger pays
+/// least for: a swing into a wall K costs it 5/6 K q for each metre of the way, where the middle of the step
+/// costs K q, and a position that lags by the step 3/2 K q. Speeds below q/(8 dt) do not count: damping them
+/// would change the force with every edge.
+///
+/// It settles where dry friction holds the device within a step, K q ≤ 2c. Without friction the wall hunts,
+/// and mass_observer is the one. Measured: docs/design/encoders.md. With q = 0 it is last_difference.
+///
+/// Where friction is elastic over p, a device may swing for ever over q + 2p that friction pays nothing for;
+/// and where its spring c/p is stiffer than the wall, it needs no wall to be held there. So, for 2p > q:
+///     it turned twice within q + 2p     x → the middle of where it turned last, in 50 ms
+///     a step beyond that, or no edge for 100 ms     as above
+/// and the force is even under a tremor, which then drains nothing, and which it does not feed.
+struct edge_observer {
+  double quantum{};     ///< q, one step of the position shown [m]
+  double presliding{};  ///< p of a friction that is stiffer than the wall, c > K p, else 0 [m]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::not_negative(quantum)) return {"quantum", quantum, "finite and ≥ 0 m"};
+    if (!detail::not_negative(presliding)) return {"presliding", presliding, "finite and ≥ 0 m"};
+    return {};
+  }
+
+  template <port P>
+  class on;
+};
+
+template <port P>
+class edge_observer::on {
+ public:
+  using scalar = typename P::scalar;
+  using vector = typename P::pose;
+
+  struct seen {
+    vector position;  ///< [m]
+    vector velocity;  ///< [m/s]
+    scalar slowest;   ///< that counts [m/s]
+    [[nodiscard]] constexpr scalar along(const vector& n) const noexcept {
+      const scalar v = P::dot(velocity, n);
+      const scalar beyond = kernels::larger(kernels::magnitude(v) - slowest, scalar(0));
+      return v < scalar(0) ? -beyond : beyond;
+    }
+  };
+
+  constexpr explicit on(const edge_observer& p) noexcept {
+    set(p);
+    reset();
+  }
+  constexpr void set(const edge_observer& p) noexcept {
+    quantum_ = detail::number<scalar>(p.quantum);
+    presliding_ = detail::number<scalar>(p.presliding);
+  }
+  [[nodiscard]] constexpr edge_observer parameters() const noexcept {
+    return {.quantum = static_cast<double>(quantum_),
+            .presliding = static_cast<double>(presliding_)};
+  }
+  constexpr void reset() noexcept {
+    for (auto* zero : {&position_, &velocity_, &at_edge_, &travel_, &since_, &direction_, &low_,
+                       &high_, &turns_}) {
+      *zero = P::zero();
+    }
+  }
+
+  [[nodiscard]] constexpr seen estimate(const vector& shown, const vector& travel,
+                                        const vector& /*held*/, scalar dt, bool known) noexcept {
+    for (int i = 0; i < P::dof; ++i) {
+      const scalar step = P::component(shown, i);
+      if (known) {
+        follow(i, step, P::component(travel, i), dt);
+      } else {
+        start(i, step);
+      }
+    }
+    return {position_, velocity_, quantum_ / (scalar(8) * dt)};
+  }
+
+ private:
+  using coordinates = typename P::coordinates;
+  /// What crosses no edge for so long rests [s].
+  static constexpr scalar still = scalar(0.1);
+
+  /// Anywhere in the step, at rest.
+  constexpr void start(int i, scalar step) noexcept {
+    for (coordinates* zero : {&velocity_, &at_edge_, &travel_, &since_, &direction_, &turns_}) {
+      P::component(*zero, i) = scalar(0);
+    }
+    P::component(low_, i) = P::component(high_, i) = step;
+    P::component(position_, i) = step + quantum_ / scalar(2);
+  }
+
+  constexpr void follow(int i, scalar step, scalar shown, scalar dt) noexcept {
+    scalar& x = P::component(position_, i);
+    scalar& v = P::component(velocity_, i);
+    scalar& travel = P::component(travel_, i);
+    scalar& t = P::component(since_, i);
+    scalar& d = P::component(direction_, i);
+    travel += shown;
+    t += dt;
+    const bool crossed = !(kernels::magnitude(travel) < quantum_ / scalar(2));
+    if (is_held_by_friction(i, step, crossed)) {
+      const scalar middle = (P::component(low_, i) + P::component(high_, i) + quantum_) / scalar(2);
+      if (crossed) {
+        cross(i, dt);
+      } else {
+        x += (middle - x) * kernels::smaller(dt / scalar(0.05), scalar(1));
+      }
+    } else if (crossed) {
+      cross(i, dt);
+      x = edge(step, d) + d * kernels::smaller(d * v * dt, quantum_) / scalar(2);
+      x = within(x, step);
+    } else if (t > still) {
+      x = within(x, step);
+      x += (step + quantum_ / scalar(2) - x) * kernels::smaller(dt / scalar(0.2), scalar(1));
+    } else {
+      if (t * kernels::magnitude(v) > quantum_) v = v < scalar(0) ? -quantum_ / t : quantum_ / t;
+      const scalar ahead = d * (edge(step, d) - x) + quantum_ * scalar(2) / scalar(3);
+      x += d * kernels::larger(kernels::smaller(d * v * dt, ahead), scalar(0));
+      x = within(x, step);
+    }
+    if (!kernels::is_finite(x + v)) start(i, step);
+  }
+
+  [[nodiscard]] constexpr scalar within(scalar x, scalar step) const noexcept {
+    return kernels::smaller(kernels::larger(x, step), step + quantum_);
+  }
+
+  /// Does it swing within what friction alone holds? low_ and high_ are where it turned last.
+  [[nodiscard]] constexpr bool is_held_by_friction(int i, scalar step, bool crossed) noexcept {
+    if (!(scalar(2) * presliding_ > quantum_)) return false;
+    scalar& low = P::component(low_, i);
+    scalar& high = P::component(high_, i);
+    scalar& turns = P::component(turns_, i);
+    const scalar enough = scalar(2);
+    const scalar a_little_more =
+        scalar(1.01);  // than a step, for what rounding does to sums of steps
+    const scalar most = scalar(2) * presliding_ + quantum_ * a_little_more;
+    if (!crossed) {
+      if (turns < enough) return false;
+      if (!(P::component(since_, i) > still)) return true;
+      turns = scalar(0);
+      P::component(position_, i) = step + quantum_ / scalar(2);
+      return false;
+    }
+    const scalar travel = P::component(travel_, i);
+    const scalar d = P::component(direction_, i);
+    if (travel * d < scalar(0)) {
+      (d < scalar(0) ? low : high) = step - travel;
+      turns = high - low <= most ? kernels::smaller(turns + scalar(1), enough) : scalar(0);
+    }
+    const scalar beyond = kernels::larger(kernels::larger(low - step, step - high), scalar(0));
+    if (high - low + beyond > most || beyond > quantum_ * a_little_more) turns = scalar(0);
+    return turns >= enough;
+  }
+
+  /// What an edge says of the speed.
+  constexpr void cross(int i, scalar dt) noexcept {
+    scalar& v = P::component(velocity_, i);
+    scalar& before = P::component(at_edge_, i);
+    scalar& travel = P::component(travel_, i);
+    scalar& t = P::component(since_, i);
+    scalar& d = P::component(direction_, i);
+    const scalar way = kernels::magnitude(travel);
+    const scalar now = travel < scalar(0) ? scalar(-1) : scalar(1);
+    const scalar many = scalar(4);  // steps, or ticks, of which an error of one is small
+    if (d != now && way <= quantum_ * scalar(1.5)) {
+      v = now * scalar(0.8) * kernels::smaller(kernels::magnitude(before), many * quantum_ / t);
+    } else if (d != now || v == scalar(0) || way >= many * quantum_ || t >= many * dt ||
+               kernels::magnitude(v) * t >= many * quantum_) {
+      v = travel / t;
+    } else {
+      v += kernels::larger(t / dt, kernels::magnitude(v) * t / quantum_) / many * (travel / t - v);
+    }
+    before = v;
+    travel = t = scalar(0);
+    d = now;
+  }
+  /// Where it came into the step, in that direction.
+  [[nodiscard]] constexpr scalar edge(scalar step, scalar direction) const noexcept {
+    return direction < scalar(0) ? step + quantum_ : step;
+  }
+
+  scalar quantum_{}, presliding_{};
+  coordinates position_{}, velocity_{};         ///< x [m], v [m/s]
+  coordinates at_edge_{}, travel_{}, since_{};  ///< v at the last edge, Δx̂ [m] and t [s] since
+  coordinates direction_{};                     ///< d, ±1; 0: no edge was seen yet
+  coordinates low_{}, high_{};                  ///< steps at which it turned last [m]
+  coordinates turns_{};                         ///< how often, within what friction holds
+};
+
+static_assert(motion_estimator_for<edge_observer, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A motion estimator for encoders whose steps are felt (the menu is in last_difference.hpp).
+//
+//   mass_observer   a mass under the force held, kept within the step shown
+
+#include <passive_haptics/port/concepts.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A state observer per axis for encoders that show only the step [x̂, x̂ + q] the device is in:
+///     predict   x⁻ = x + v dt + a dt²/2,   v⁻ = v + a dt,   a = f_held/m + w
+///     correct   x = x⁻ clamped to [x̂, x̂ + q],   c = x − x⁻
+///               v = v⁻ + c/(64 dt),   w += c/(8 · 64² dt²)
+///     believe   when the c of one direction add up to S, |S| > 4/3 q, in t seconds:
+///               v += S/t,   w += S/(2 t²)
+/// w [m/s²] is all that pushes besides the motors: hand, weight, friction. Inside a step the model
+/// runs free, so at rest the contact force does not hunt between two steps; a real motion, which
+/// quantisation cannot explain, is taken over at once. With q = 0 every correction is believed.
+///
+/// Why these numbers, and what else was tried: docs/design/settling.md. An encoder that rounds
+/// instead of cutting off moves every surface by q/2 and changes nothing else.
+struct mass_observer {
+  double mass{};     ///< m, apparent mass of the device [kg]; 30 % off still settles
+  double quantum{};  ///< q, one step of the position shown [m]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
+    if (!detail::not_negative(quantum)) return {"quantum", quantum, "finite and ≥ 0 m"};
+    return {};
+  }
+
+  template <port P>
+  class on;
+};
+
+template <port P>
+class mass_observer::on {
+ public:
+  using scalar = typename P::scalar;
+  using vector = typename P::pose;
+
+  struct seen {
+    vector position;  ///< [m]
+    vector velocity;  ///< [m/s]
+    [[nodiscard]] constexpr scalar along(const vector& n) const noexcept {
+      return P::dot(velocity, n);
+    }
+  };
+
+  constexpr explicit on(const mass_observer& p) noexcept {
+    set(p);
+    reset();
+  }
+  constexpr void set(const mass_observer& p) noexcept {
+    mass_ = detail::number<scalar>(p.mass);
+    quantum_ = detail::number<scalar>(p.quantum);
+  }
+  [[nodiscard]] constexpr mass_observer parameters() const noexcept {
+    return {.mass = static_cast<double>(mass_), .quantum = static_cast<double>(quantum_)};
+  }
+  constexpr void reset() noexcept {
+    for (auto* zero : {&position_, &velocity_, &push_, &corrected_, &since_}) *zero = P::zero();
+  }
+
+  [[nodiscard]] constexpr seen estimate(const vector& shown, const vector& /*travel*/,
+                                        const vector& held, scalar dt, bool known) noexcept {
+    for (int i = 0; i < P::dof; ++i) {
+      const scalar step = P::component(shown, i);
+      if (known) {
+        follow(i, step, P::component(held, i) / mass_, dt);
+      } else {
+        start(i, step + quantum_ / scalar(2));
+      }
+    }
+    return {position_, velocity_};
+  }
+
+ private:
+  using coordinates = typename P::coordinates;
+
+  constexpr void start(int i, scalar x) noexcept {
+    P::component(position_, i) = x;
+    for (coordinates* zero : {&velocity_, &push_, &corrected_, &since_}) {
+      P::component(*zero, i) = scalar(0);
+    }
+  }
+
+  constexpr void follow(int i, scalar step, scalar driven, scalar dt) noexcept {
+    scalar& x = P::component(position_, i);
+    scalar& v = P::component(velocity_, i);
+    scalar& w = P::component(push_, i);
+    scalar& S = P::component(corrected_, i);
+    scalar& t = P::component(since_, i);
+    const scalar gain = scalar(1) / scalar(64);
+
+    const scalar a = driven + w;
+    const scalar predicted = x + (v + a * dt / scalar(2)) * dt;
+    x = kernels::smaller(kernels::larger(predicted, step), step + quantum_);
+    const scalar c = x - predicted;
+    v += a * dt + gain * c / dt;
+    w += gain * gain * c / (scalar(8) * dt * dt);
+
+    const bool turned = c * S < scalar(0);
+    S = turned ? c : S + c;
+    t = turned ? dt : t + dt;
+    if (kernels::magnitude(S) * scalar(3) > quantum_ * scalar(4)) {
+      v += S / t;
+      w += S / (scalar(2) * t * t);
+      S = t = scalar(0);
+    }
+    if (!kernels::is_finite(x + v + w)) start(i, step + quantum_ / scalar(2));  // an absurd force
+  }
+
+  scalar mass_{}, quantum_{};
+  coordinates position_{}, velocity_{}, push_{};  ///< x [m], v [m/s], w [m/s²]
+  coordinates corrected_{}, since_{};             ///< S [m] and t [s] of each axis
+};
+
+static_assert(motion_estimator_for<mass_observer, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The contract of each role, on one page. What a concept cannot say is a law in laws.hpp.
+//
+//   the port                                                       port/
+//     port                  pose, motion, effort, work             space.hpp, joint_space.hpp, ...
+//     damping               what the device pays with              damping.hpp
+//     inertia               what cannot turn round within a tick   inertia.hpp
+//     energy observer       counts the energy at the port          energy_observer/
+//     force bound           how much force that energy allows      force_bound/
+//     motion estimator      where the device is and how fast       last_difference.hpp, ...
+//   what is asked of it
+//     source                an effort for every tick               local_contact, contacts, ...
+//   a contact                                                      contact/
+//     surface               a piece of the world: plane, quadric   constraint_geometry/
+//     constraint geometry   one that the local model follows       constraint_geometry/
+//     supply                who owns the constraint, who moves it  constraint_geometry/
+//     normal interpolation  how fast the contact normal may turn   normal_interpolation/
+//     contact law           depth and speed to desired force       contact/
+//     shaper                what looks at the contact and the port shaper/
+//   around it
+//     haptic device         position out, force in                 simulation/, falcon_hid.hpp
+//
+// A part is a struct of parameters with a template `on<Port>` that computes (parameter.hpp), or, where
+// it is written for one port, a struct that computes by itself. Every part is a plain value and never
+// throws. check() names the first parameter out of its range; a part that keeps something from tick to
+// tick has reset(), which puts it back. Only energy observers and force bounds state `passivity`.
+
+#include <passive_haptics/base/event.hpp>
+#include <passive_haptics/base/parameter.hpp>
+#include <passive_haptics/device/damping.hpp>
+#include <passive_haptics/device/device_sample.hpp>
+#include <passive_haptics/device/space.hpp>
+#include <passive_haptics/port/port_state.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A value: trivially copyable where the scalar is, so that it can be logged, sent and snapshotted;
+/// otherwise (a multiprecision scalar) one that copies without throwing.
+template <class V, class Port>
+concept plain_value = std::is_trivially_copyable_v<V> ||
+    (!std::is_trivially_copyable_v<typename Port::scalar> &&
+     std::is_nothrow_copy_constructible_v<V>);
+
+/// What a device is: effort times motion is energy. between() is the motion from one pose to another,
+/// work() what an effort did over it, squared() the square of its length or of its fastest joint.
+/// `stored_` types are the same at rest; a motion at rest is a stored_effort. Geometry is apart: a port in
+/// a space names it `geometry`. One whose poses are no vectors says by place() where they are.
+template <class P>
+concept port = requires(typename P::pose x, typename P::motion m, typename P::effort f, int i) {
+  requires real<typename P::scalar>;
+  { P::dof } -> std::convertible_to<int>;
+  { P::zero() } -> std::convertible_to<typename P::effort>;
+  { P::between(x, x) } -> std::same_as<typename P::motion>;
+  { P::work(f, m) } -> std::same_as<work_done<typename P::scalar>>;
+  { P::squared(m) } -> std::same_as<typename P::scalar>;
+  { P::is_finite(x) } -> std::same_as<bool>;
+  { P::is_finite(f) } -> std::same_as<bool>;
+  requires plain_value<typename P::stored_pose, P>;
+  requires plain_value<typename P::stored_effort, P>;
+  requires std::convertible_to<typename P::stored_pose, typename P::pose>;
+  requires std::convertible_to<typename P::stored_effort, typename P::effort>;
+};
+
+namespace detail {
+/// Is the path of a tick unknown, so that a held torque may have done other work than τ·θ? So it is where the
+/// port turns and nobody reports the work.
+template <class P>
+[[nodiscard]] constexpr bool turns() noexcept {
+  if constexpr (requires { P::turns; }) return P::turns;
+  return false;
+}
+/// Does a driver report what its motors did (reported_work.hpp)?
+template <class P>
+[[nodiscard]] constexpr bool reports_work() noexcept {
+  if constexpr (requires { P::reports_work; }) return P::reports_work;
+  return false;
+}
+/// What was held over a tick: the effort, and at a port that reports it, the work.
+template <class P>
+struct reported_effort {
+  typename P::stored_effort force{};
+  typename P::scalar work{};  ///< [J]
+};
+template <class P>
+using held_at =
+    std::conditional_t<reports_work<P>(), reported_effort<P>, typename P::stored_effort>;
+template <class P>
+[[nodiscard, gnu::always_inline]] constexpr const typename P::stored_effort& force_of(
+    const held_at<P>& held) noexcept {
+  if constexpr (reports_work<P>()) {
+    return held.force;
+  } else {
+    return held;
+  }
+}
+/// A damping that says how much less than its ends show a turn may have brought.
+template <class D, class P>
+concept knows_turns = requires(const D d, const typename P::motion m, const typename P::effort f,
+                               typename P::scalar s) {
+  { d.unsure(m, f, s) } -> std::same_as<typename P::scalar>;
+  requires noexcept(d.unsure(m, f, s));
+};
+}  // namespace detail
+
+/// dissipated(Δx, dt) [J] is never more than the device took; worst_outflow(f, T) [J] is the most that
+/// f can hand out in T, the conjugate of it; affordable(f, E, T) is the share of f that E covers.
+/// `rubs` says whether dry friction is credited; then dissipated() and worst_outflow() take it for rigid,
+/// and what it owes beside them is in friction_certificates.hpp. Where a port
+/// turns, unsure(Δx, f, dt) [J] is what a tick may have brought less than dissipated() − f·Δx.
+template <class D, class P>
+concept damping_for = requires(const part_at<D, P> d, const typename P::motion m,
+                               const typename P::effort f, typename P::scalar s) {
+  { d.dissipated(m, s) } -> std::same_as<typename P::scalar>;
+  { d.worst_outflow(f, s) } -> std::same_as<typename P::scalar>;
+  { d.affordable(f, s, s) } -> std::same_as<typename P::scalar>;
+  { part_at<D, P>::rubs } -> std::convertible_to<bool>;
+  requires noexcept(d.dissipated(m, s));
+  requires noexcept(d.worst_outflow(f, s));
+};
+
+/// norm(f) = √(fᵀM⁻¹f) [√J/s], M a lower bound of the device's inertia in every direction.
+template <class M, class P>
+concept inertia_for = requires(const part_at<M, P> m, const typename P::effort f) {
+  { m.norm(f) } -> std::same_as<typename P::scalar>;
+  requires noexcept(m.norm(f));
+};
+
+/// update() books one tick: the motion, the effort held while it happened, its length [s]; false, and
+/// nothing is booked, when the energy would be no finite number. forfeit() writes off a tick whose
+/// motion is unknown and never raises the ledger. value() is E1 [J]. `counts` is false for the one
+/// that counts nothing; `exact` is false for one that takes positions as known to a step only. One that
+/// also books the work that a device reports takes it with the effort; one that books what is unsure of a
+/// turn says `turns`.
+template <class O, class P>
+concept energy_observer_for = plain_value<part_at<O, P>, P> &&
+    requires(part_at<O, P> o, const part_at<O, P> c, const typename P::motion m,
+             const typename P::effort f, typename P::scalar s) {
+  { O::passivity } -> std::convertible_to<guarantee>;
+  { O::counts } -> std::convertible_to<bool>;
+  { O::exact } -> std::convertible_to<bool>;
+  { o.update(m, f, s) } -> std::same_as<bool>;
+  { o.forfeit(f, s) } -> std::same_as<void>;
+  { c.value() } -> std::same_as<typename P::scalar>;
+  { c.damping().worst_outflow(f, s) } -> std::same_as<typename P::scalar>;
+  requires noexcept(o.update(m, f, s));
+  requires noexcept(o.forfeit(f, s));
+  requires noexcept(c.value());
+};
+
+/// What a force bound needs. What is not stated is taken as the worst:
+///     static constexpr bound_traits traits{.needs_ledger = true, .latency = any_latency};
+struct bound_traits {
+  bool needs_ledger = false;  ///< it spends what an observer must have counted
+  bool exact_travel = true;   ///< it takes Δx as exact: not for encoders with steps
+  int latency = 0;            ///< most ticks of delay for which it holds
+  bool turns = false;         ///< it holds at a port that turns
+  bool reported_work =
+      false;  ///< it reads nothing of a tick but the ledger: the work may be reported
+};
+inline constexpr int any_latency = kernels::largest<int>();
+
+/// What its promise rests on. One that promises nothing rests on nothing.
+template <class Bound>
+[[nodiscard]] constexpr bound_traits assumptions_of() noexcept {
+  bound_traits all = Bound::traits;
+  if constexpr (requires { Bound::passivity; }) {
+    if (Bound::passivity == guarantee::none) {
+      all.exact_travel = false;
+      all.turns = all.reported_work = true;
+      all.latency = any_latency;
+    }
+  }
+  return all;
+}
+
+namespace detail {
+/// A damping that any port has, for asking whether a bound fits.
+template <class P>
+using some_damping = typename diagonal_damping<P::dof>::template on<P>;
+}  // namespace detail
+
+/// What a bound promises at a port. A chain knows it there, any other bound at once.
+template <class Bound, class P>
+concept promises = requires {
+  part_at<Bound, P>::passivity;
+}
+|| requires {
+  Bound::passivity;
+};
+template <class Bound, class P>
+requires promises<Bound, P>
+[[nodiscard]] constexpr guarantee promise_of() noexcept {
+  if constexpr (requires { part_at<Bound, P>::passivity; }) {
+    return part_at<Bound, P>::passivity;
+  } else {
+    return Bound::passivity;
+  }
+}
+
+/// limit() takes the desired effort and a port_state. A bound that only reduces answers with the share
+/// that is left; one that adds or turns with an effort.
+template <class B, class P, class State = port_state<P, detail::some_damping<P>>>
+concept force_bound_for = plain_value<part_at<B, P>, P> &&
+    requires(part_at<B, P> b, const typename P::effort f, const State s) {
+  { promise_of<B, P>() } -> std::same_as<guarantee>;
+  { B::traits } -> std::convertible_to<bound_traits>;
+  requires std::same_as<decltype(b.limit(f, s)), share<typename P::scalar>> ||
+      std::same_as<decltype(b.limit(f, s)), typename P::effort>;
+  requires noexcept(b.limit(f, s));
+};
+
+/// estimate() takes the pose shown, the motion, the effort held meanwhile, its length [s], and whether
+/// the motion is known at all; it returns `position` and, in a space, along(n), the speed along a unit
+/// vector [m/s].
+template <class M, class P>
+concept motion_estimator_for = plain_value<part_at<M, P>, P> &&
+    requires(part_at<M, P> m, const typename P::pose x, const typename P::motion dx,
+             const typename P::effort f, typename P::scalar s) {
+  { m.estimate(x, dx, f, s, true).position } -> std::convertible_to<typename P::pose>;
+  requires noexcept(m.estimate(x, dx, f, s, true));
+};
+
+/// What a port has come to, before its source makes the result of the tick of it.
+template <class P>
+struct port_result {
+  typename P::effort force;     ///< on the device [N]; joints: [N·m]
+  typename P::scalar energy;    ///< E1 [J]
+  event what = event::nominal;  ///< the worst that happened
+  bool limited = false;         ///< the bound changed the desired effort
+};
+
+/// ask() is given the estimate of the motion, the port_state and the event so far, and returns a
+/// request: `wanted`, an effort, and `nothing`, whether there is nothing to bound. answered() gets the
+/// request back with what became of it, refused() a tick that nobody could believe, of length dt [s];
+/// both return the result of the tick. `asks_for_numbers`: it never asks for NaN or an infinity, so the
+/// port need not look.
+template <class S, class P>
+concept source_for = plain_value<part_at<S, P>, P> &&
+    requires(part_at<S, P> s, const port_result<P> r, typename P::scalar dt) {
+  typename part_at<S, P>::result_type;
+  { part_at<S, P>::asks_for_numbers } -> std::convertible_to<bool>;
+  { s.refused(r, dt) } -> std::same_as<typename part_at<S, P>::result_type>;
+  requires noexcept(s.refused(r, dt));
+};
+
+/// How the normal of a surface changes along it: not at all, evenly with its curvature, or in jumps.
+/// What is not stated is faceted: then no turn of the normal is taken for curvature.
+enum class surface_kind : std::uint8_t { flat, smooth, faceted };
+
+template <class G>
+[[nodiscard]] constexpr surface_kind kind_of() noexcept {
+  if constexpr (requires { G::kind; }) return G::kind;
+  return surface_kind::faceted;
+}
+
+/// A value that crosses threads: a piece of the world as the environment publishes it. prepare()
+/// normalises it and is false when it is unusable. at(x) probes it: `depth` [m], > 0 inside;
+/// outward(), the unit normal there; covered(), the edge test. Where depth is not the distance to the
+/// surface, its gradient is not the normal: then the probe has push(), −∇depth, along which a force
+/// K·depth must act so that it gives nothing out on closed paths (docs/design/contacts.md).
+template <class G, class Space>
+concept surface_for = plain_value<G, Space> && std::default_initializable<G> &&
+    requires(G g, const G c, const typename Space::vector v, typename Space::scalar s) {
+  { c.stiffness } -> std::convertible_to<typename Space::scalar>;
+  { g.prepare() } -> std::same_as<bool>;
+  { c.at(v).depth } -> std::convertible_to<typename Space::scalar>;
+  { c.at(v).outward() } -> std::convertible_to<typename Space::vector>;
+  { c.at(v).covered() } -> std::same_as<bool>;
+  requires noexcept(g.prepare());
+  requires noexcept(c.at(v));
+};
+
+/// A surface that the local model of the thesis can follow: toward(target, x, n, d) is the same piece
+/// moved so that x lies d [m] deep under the normal n. Its depth falls by s when x moves by s along n.
+template <class G, class Space>
+concept constraint_for = surface_for<G, Space> &&
+    requires(const G c, const typename Space::vector v, typename Space::scalar s) {
+  { c.toward(c, v, v, s) } -> std::same_as<G>;
+};
+
+/// local() is the constraint that is felt, target() the environment's newest. One that `moves` also
+/// takes news with update(), ends the contact with release(), and ages: weight() is how far the contact
+/// counts, in [0, 1], and last_weight() how far it did. A tick asks what is new, moves the local model with
+/// approach() or sync(), and says that it has seen(). (constraint_geometry/followed.hpp)
+template <class S, class Space>
+concept supply_for = requires(part_at<S, Space> s, const part_at<S, Space> c,
+                              const typename Space::vector v, typename Space::scalar d) {
+  typename S::constraint_type;
+  { S::moves } -> std::convertible_to<bool>;
+  { c.local() } -> std::same_as<const typename S::constraint_type&>;
+  { c.target() } -> std::same_as<const typename S::constraint_type&>;
+  requires !S::moves || requires {
+    { s.update(c.target()) } -> std::same_as<bool>;
+    { s.release() } -> std::same_as<void>;
+    { c.published() } -> std::same_as<bool>;
+    { c.changed() } -> std::same_as<bool>;
+    { c.refused() } -> std::same_as<bool>;
+    { c.current() } -> std::same_as<bool>;
+    { c.stale() } -> std::same_as<bool>;
+    { c.together() } -> std::same_as<bool>;
+    { c.weight() } -> std::same_as<typename Space::scalar>;
+    { c.last_weight() } -> std::same_as<typename Space::scalar>;
+    { s.grow_older(d) } -> std::same_as<void>;
+    { s.seen(d) } -> std::same_as<void>;
+    { s.approach(true, v, v, d) } -> std::same_as<void>;
+    { s.sync() } -> std::same_as<void>;
+  };
+};
+
+/// step() returns the unit normal to use after dt [s] on the way from one unit normal to another.
+template <class N, class Space>
+concept normal_interpolation_for = plain_value<part_at<N, Space>, Space> &&
+    requires(part_at<N, Space> n, const typename Space::vector v, typename Space::scalar s) {
+  { n.step(v, v, s) } -> std::same_as<typename Space::vector>;
+  requires noexcept(n.step(v, v, s));
+};
+
+/// adopt() takes a new stiffness [N/m] and the longest tick [s]; force() gives the desired force
+/// [N] ≥ 0 from a depth [m] and the outward speed [m/s]; depth() is its inverse.
+template <class L, class Space>
+concept contact_law_for = plain_value<part_at<L, Space>, Space> &&
+    requires(part_at<L, Space> l, const part_at<L, Space> c, typename Space::scalar s) {
+  { l.adopt(s, s) } -> std::same_as<void>;
+  { c.force(s, s) } -> std::same_as<typename Space::scalar>;
+  { c.depth(s, s) } -> std::same_as<typename Space::scalar>;
+  requires noexcept(l.adopt(s, s));
+  requires noexcept(c.force(s, s));
+  requires noexcept(c.depth(s, s));
+};
+
+/// What a shaper may look at beside the port.
+template <class Space>
+struct contact_state {
+  typename Space::vector normal;  ///< outward, of the local model, along which the force will act
+  typename Space::scalar stiffness;     ///< K of the target [N/m]
+  typename Space::scalar depth;         ///< in the local model, ≤ 0 outside [m]
+  typename Space::scalar target_depth;  ///< in the environment's newest constraint [m]
+  typename Space::scalar
+      local_force;      ///< what the contact law gives at `depth`, along `normal` [N]
+  bool target_changed;  ///< a new constraint arrived since the last tick
+};
+
+/// shape() takes the desired force, the contact and the port, and answers as a force bound does.
+/// `needs_local_model` says that it compares with a local model that can move.
+template <class H, class Space, class State = port_state<Space, detail::some_damping<Space>>>
+concept shaper_for = plain_value<part_at<H, Space>, Space> &&
+    requires(part_at<H, Space> h, const typename Space::vector f, const contact_state<Space> c,
+             const State s) {
+  { H::needs_local_model } -> std::convertible_to<bool>;
+  requires std::same_as<decltype(h.shape(f, c, s)), share<typename Space::scalar>> ||
+      std::same_as<decltype(h.shape(f, c, s)), typename Space::vector>;
+  requires noexcept(h.shape(f, c, s));
+};
+
+/// exchange() commands an effort and returns the newest sample. Simulated, replayed or real.
+template <class D, class P>
+concept haptic_device_for = requires(D d, const typename P::effort f) {
+  { d.exchange(f) } -> std::same_as<device_sample<P>>;
+  requires noexcept(d.exchange(f));
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

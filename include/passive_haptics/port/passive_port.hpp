@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The passive port: one guard, one ledger, one bound for everything that pushes on one device.
+//
+//  sample ─▶ GUARD ─▶ LEDGER ─▶ SOURCE.ask ─▶  BOUND  ─▶ SOURCE.answered ─▶ hold ─▶ force
+//           finite?   E1 += …   wanted effort  |f| ≤     local model to       pairs the next
+//           dt > 0?             (N, N·m)       f(E1)     where the force says motion
+//
+// ONE PER DEVICE. Two ports on one device are two ledgers that spend the same damping: both types would
+// say `strict`, and the hand would be fed. Several contacts are one source (contact/contacts.hpp).
+//
+// The order is the thesis's (Fig. 2.7, A27). What is rare is kept out of line, so that the compiler sees
+// the ordinary tick as one piece. In a tick: no exception, heap, lock, clock, virtual call, I/O or
+// recursion.
+
+#include <passive_haptics/base/no_unique_address.hpp>
+#include <passive_haptics/port/composing.hpp>
+#include <passive_haptics/port/guard.hpp>
+#include <passive_haptics/port/last_difference.hpp>
+#include <passive_haptics/port/loop_limits.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// Compose by value; class template argument deduction finds the type. Force in, force out:
+///     ph::passive_port device{scene{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03},
+///                             ph::strict_bound{}, ph::loop_limits{.longest_tick = 0.0011}};
+///     motors.command(device.tick(position, dt, wanted).force);
+/// After the limits comes, where the default does not fit, a motion estimator. One that is default
+/// constructed ticks with force zero until another is assigned to it.
+template <port P, class Source, class Observer, class Bound, class Limits = loop_limits,
+          class Motion = last_difference>
+class passive_port {
+ public:
+  using port_type = P;
+  using scalar = typename P::scalar;
+  using pose = typename P::pose;
+  using motion = typename P::motion;
+  using effort = typename P::effort;
+  using source_type = part_at<Source, P>;
+  using observer_type = part_at<Observer, P>;
+  using bound_type = part_at<Bound, P>;
+  using result_type = typename source_type::result_type;
+  static constexpr int latency = Limits::latency;
+
+  static_assert(source_for<Source, P>,
+                "passive_haptics: the source does not model source_for: see port/concepts.hpp");
+  static_assert(energy_observer_for<Observer, P>,
+                "passive_haptics: the observer does not model energy_observer_for: "
+                "see port/concepts.hpp");
+  static_assert(detail::are_bounds<Bound>());
+
+ private:
+  using damping_type =
+      std::remove_cvref_t<decltype(std::declval<const observer_type&>().damping())>;
+
+ public:
+  using state_type = port_state<P, damping_type, latency, Observer::exact>;
+
+  static_assert(force_bound_for<Bound, P, state_type>,
+                "passive_haptics: the bound does not model force_bound_for: see port/concepts.hpp");
+  static_assert(motion_estimator_for<Motion, P>,
+                "passive_haptics: the motion estimator does not model motion_estimator_for: "
+                "see port/concepts.hpp");
+  static_assert(Observer::counts || !Bound::traits.needs_ledger,
+                "passive_haptics: this bound spends energy that no_observer does not count: "
+                "use reduced_energy");
+  static_assert(Observer::counts || !detail::spends_ledger<source_type>(),
+                "passive_haptics: this shaper spends energy that no_observer does not count: "
+                "use reduced_energy");
+  static_assert(
+      Observer::exact || !assumptions_of<Bound>().exact_travel,
+      "passive_haptics: this bound reads the motion itself and takes it as exact, and this "
+      "observer is for encoders with steps: use strict_bound or reachable_bound");
+  static_assert(latency <= assumptions_of<Bound>().latency,
+                "passive_haptics: this bound is not proved for a loop that is so late: "
+                "use strict_bound or reachable_bound");
+  static_assert(
+      !detail::turns<P>() || detail::books_turns<Observer>(),
+      "passive_haptics: this port turns, and this observer takes every turn for a straight one: "
+      "use reduced_energy with rigid_damping");
+  static_assert(!detail::turns<P>() || assumptions_of<Bound>().turns,
+                "passive_haptics: this bound is not proved for a port that turns: "
+                "use strict_bound or rigid_reachable_bound");
+  static_assert(
+      !detail::reports_work<P>() || detail::books_work<observer_type, P>,
+      "passive_haptics: this port reports the work of its motors, and this observer does not "
+      "book it: use reduced_energy");
+  static_assert(
+      !detail::reports_work<P>() || assumptions_of<Bound>().reported_work,
+      "passive_haptics: this port reports the work of its motors, and this bound takes it from "
+      "the motion: use strict_bound");
+
+  /// The weakest of what counts, what bounds, and what the loop is known by.
+  static constexpr guarantee passivity =
+      (std::min)({Observer::passivity, promise_of<Bound, P>(), Limits::passivity});
+
+  constexpr passive_port() noexcept
+      : passive_port(P{}, Source{}, Observer{}, Bound{}, Limits{}, Motion{}) {}
+  constexpr passive_port(P /*port*/, const Source& source, const Observer& observer,
+                         const Bound& bound, const Limits& limits,
+                         const Motion& estimator = {}) noexcept
+      : source_(source), observer_(observer), bound_(bound), limits_(limits), motion_(estimator) {
+    begin();
+  }
+
+  /// The first parameter that is out of its range, if any. Such a port ticks with force zero.
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (const auto fault = detail::fault_in(limits_)) return fault;
+    if (const auto fault = detail::fault_in(observer_)) return fault;
+    if (const auto fault = detail::fault_in(bound_)) return fault;
+    if (const auto fault = detail::fault_in(motion_)) return fault;
+    return detail::fault_in(source_);
+  }
+
+  /// New parameters for the part whose they are, checked as at the start; the ledger and all else is
+  /// kept. A fault changes nothing:
+  ///     if (const auto fault = touch.set(ph::actuator_limit{.most = 6.0})) …
+  template <class Parameters>
+  constexpr parameter_fault set(const Parameters& p) noexcept {
+    constexpr int found =
+        std::same_as<Parameters, Limits> + detail::takers<Parameters, Observer, P> +
+        detail::takers<Parameters, Bound, P> + detail::takers<Parameters, Motion, P> +
+        detail::takers<Parameters, Source, P>;
+    static_assert(found > 0, "passive_haptics: set(): no part of this port has such parameters");
+    static_assert(found < 2, "passive_haptics: set(): more than one part has such parameters");
+    if (const auto fault = detail::fault_in(p)) return fault;
+    if constexpr (std::same_as<Parameters, Limits>) limits_ = limits_type(p);
+    if constexpr (detail::takers<Parameters, Observer, P> == 1) {
+      detail::take<Observer, P>(observer_, p);
+    }
+    if constexpr (detail::takers<Parameters, Bound, P> == 1) detail::take<Bound, P>(bound_, p);
+    if constexpr (detail::takers<Parameters, Motion, P> == 1) detail::take<Motion, P>(motion_, p);
+    if constexpr (detail::takers<Parameters, Source, P> == 1) detail::take<Source, P>(source_, p);
+    begin();
+    return {};
+  }
+
+  /// Everything but the parameters as at the start, the loan included: for a device that has stopped.
+  constexpr void reset() noexcept {
+    detail::restart(source_);
+    detail::restart(observer_);
+    detail::restart(bound_);
+    detail::restart(motion_);
+    guard_.reset();
+    watch_.reset();
+    begin();
+  }
+
+  /// One tick: the device is at `position`, `dt` [s] after the last one. The effort of the last tick
+  /// is taken to have been held exactly.
+  [[nodiscard, gnu::flatten]] constexpr result_type tick(const pose& position, scalar dt) noexcept {
+    static_assert(!detail::reports_work<P>(),
+                  "passive_haptics: this port reports the work of its motors: tick with a "
+                  "device_sample, which says it");
+    return advance(position, dt, guard_.commanded().back());
+  }
+  /// The same for a device that reports the effort it really held.
+  [[nodiscard, gnu::flatten]] constexpr result_type tick(const device_sample<P>& sample) noexcept {
+    if constexpr (!trusting) {
+      if (!sample.valid || !P::is_finite(sample.held)) {
+        return refuse(event::rejected_sample, sample.dt);
+      }
+    }
+    if constexpr (detail::reports_work<P>()) {
+      return advance(sample.position, sample.dt, {sample.held, sample.work});
+    } else {
+      return advance(sample.position, sample.dt, sample.held);
+    }
+  }
+  /// The same two with an effort of your own making for this tick, from a source that takes one.
+  template <class Own = source_type>
+  requires requires(Own& s, effort f) { s.update(f); }
+  [[nodiscard, gnu::flatten]] constexpr result_type tick(const pose& position, scalar dt,
+                                                         const effort& wanted) noexcept {
+    source_.update(wanted);
+    return tick(position, dt);
+  }
+  template <class Own = source_type>
+  requires requires(Own& s, effort f) { s.update(f); }
+  [[nodiscard, gnu::flatten]] constexpr result_type tick(const device_sample<P>& sample,
+                                                         const effort& wanted) noexcept {
+    source_.update(wanted);
+    return tick(sample);
+  }
+
+  [[nodiscard]] constexpr scalar energy() const noexcept { return observer_.value(); }  ///< E1 [J]
+  /// Of the last good sample, if there has been one.
+  [[nodiscard]] constexpr pose position() const noexcept { return guard_.last(); }
+  [[nodiscard]] constexpr bool has_position() const noexcept { return guard_.has_seen(); }
+  [[nodiscard]] constexpr source_type& source() noexcept { return source_; }
+  [[nodiscard]] constexpr const source_type& source() const noexcept { return source_; }
+  [[nodiscard]] constexpr observer_type& observer() noexcept { return observer_; }
+  [[nodiscard]] constexpr const observer_type& observer() const noexcept { return observer_; }
+  [[nodiscard]] constexpr const bound_type& bound() const noexcept { return bound_; }
+
+ private:
+  using limits_type = part_at<Limits, P>;
+  using guard_type = typename Limits::template guard_type<P>;
+  using held_type = detail::held_at<P>;
+
+  /// A guard that trusts the loop leaves out what is asked of a sample, and what a bad one costs.
+  static constexpr bool trusting = guard_type::trusting;
+  /// A bound that only reduces, and remembers nothing, has no say where nothing is asked.
+  static constexpr bool zero_stays_zero =
+      detail::reduces<Bound, P, state_type>() && detail::keeps_nothing<Bound, P, state_type>();
+  /// What is asked for is finite, and the bound makes it no larger: nobody has to look again.
+  static constexpr bool always_numbers =
+      source_type::asks_for_numbers && detail::reduces<Bound, P, state_type>();
+
+  [[nodiscard, gnu::always_inline, gnu::flatten]] constexpr result_type advance(
+      const pose position, scalar dt, const held_type& held) noexcept {
+    const typename P::stored_effort& force = detail::force_of<P>(held);
+    if (!sound_) [[unlikely]] {
+      return refuse(event::rejected_parameters, dt);
+    }
+    motion travel = P::between(guard_.last(), position);
+    if constexpr (!trusting) {
+      if (!guard_.believes(position, travel, dt, limits_)) [[unlikely]] {
+        return refuse_sample(position, dt);
+      }
+    }
+    const bool known = guard_.knows_motion();
+    if (!known) [[unlikely]] {
+      travel = resume(force, dt);
+    } else if (!book(travel, held, dt)) [[unlikely]] {
+      return refuse(event::rejected_sample, dt);
+    }
+    guard_.move_to(position);
+    event what = seen(travel, dt);
+    if constexpr (Limits::traits.learns) limits_.longest_tick = limits_.held_for(dt);
+    const state_type state{.damping = observer_.damping(),
+                           .commanded = guard_.commanded(),
+                           .energy = observer_.value(),
+                           .dt = dt,
+                           .longest_tick = limits_.longest_tick,
+                           .held = force,
+                           .travel = travel,
+                           .travel_error = travel_error(),
+                           .motion_known = known};
+    const auto request = source_.template ask<zero_stays_zero>(
+        motion_.estimate(position, travel, force, dt, known), state, what);
+    if constexpr (zero_stays_zero) {
+      if (request.nothing) {
+        guard_.command(P::zero());
+        return source_.answered(request, {P::zero(), observer_.value(), what, false});
+      }
+    }
+    const auto allowed = bounded(request.wanted, state, what);
+    guard_.command(allowed.force);
+    return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
+  }
+
+  /// Nobody knows what moved since the last good sample, so it counts as the worst; returns no motion.
+  [[nodiscard, gnu::always_inline]] constexpr motion resume(const typename P::stored_effort& held,
+                                                            scalar dt) noexcept {
+    if constexpr (!trusting) observer_.forfeit(held, limits_.held_for(dt));
+    guard_.see_again();
+    return P::zero();
+  }
+  /// What is to be said of a tick that was booked.
+  [[nodiscard, gnu::always_inline]] constexpr event seen(const motion& travel, scalar dt) noexcept {
+    if constexpr (!trusting) {
+      if (watch_.repeats(travel, dt, limits_.top_speed)) return event::repeated_sample;
+      if (dt > limits_.longest_tick) return event::late_tick;
+    }
+    return observer_.value() < scalar(0) ? event::debt : event::nominal;
+  }
+  /// What the bound leaves; nothing, and an event, if that is no number.
+  [[nodiscard, gnu::always_inline]] constexpr detail::bounded<P> bounded(const effort& wanted,
+                                                                         const state_type& state,
+                                                                         event& what) noexcept {
+    auto allowed = detail::applied<P>(bound_, wanted, state);
+    if constexpr (!always_numbers) {
+      if (!P::is_finite(allowed.force)) [[unlikely]] {
+        what = worse(what, event::rejected_sample);
+        return {P::zero(), true};
+      }
+    }
+    return allowed;
+  }
+
+  /// One tick into the ledger; false if its energy is no number.
+  [[nodiscard, gnu::always_inline]] constexpr bool book(const motion& travel, const held_type& held,
+                                                        scalar dt) noexcept {
+    if constexpr (!trusting) {
+      if (dt > limits_.watchdog) return book_cut_short(travel, held, dt);
+    }
+    return observer_.update(travel, held, dt);
+  }
+  /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of
+  /// the two, and what only one of them covers, a ledger that is more than a number forgets. Vectors by
+  /// value and at rest, so that the ordinary tick keeps its own in registers.
+  [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_cut_short(
+      typename P::stored_effort travel, held_type held, scalar dt) noexcept {
+    observer_type dropped = observer_;
+    dropped.forfeit(detail::force_of<P>(held), limits_.watchdog);
+    if (!observer_.update(travel, held, dt)) return false;
+    if constexpr (!Observer::exact) observer_.forfeit(P::zero(), limits_.watchdog);
+    if (dropped.value() < observer_.value()) observer_ = dropped;
+    return true;
+  }
+
+  [[nodiscard]] constexpr scalar travel_error() const noexcept {
+    if constexpr (Observer::exact) {
+      return scalar(0);
+    } else {
+      return observer_.travel_error();
+    }
+  }
+
+  [[gnu::cold, gnu::noinline]] constexpr result_type refuse_sample(typename P::stored_pose position,
+                                                                   scalar dt) noexcept {
+    const motion travel = P::between(guard_.last(), position);
+    const bool possible = guard_.is_possible(position, travel, dt, limits_.top_speed);
+    return refuse(possible ? event::outside_workspace : event::rejected_sample, dt);
+  }
+  /// No effort; the motion since the last good sample is unknown and written off.
+  [[gnu::cold, gnu::noinline]] constexpr result_type refuse(event why, scalar dt) noexcept {
+    const bool lasted = dt > scalar(0) && kernels::is_finite(dt);
+    const scalar passed = lasted ? dt : limits_.longest_tick;
+    if constexpr (!trusting) {
+      if (sound_) observer_.forfeit(guard_.commanded().back(), limits_.held_for(passed));
+    }
+    guard_.lose_sight(passed);
+    guard_.command(P::zero());
+    return source_.refused({P::zero(), observer_.value(), why, false}, passed);
+  }
+
+  constexpr void begin() noexcept {
+    sound_ = !check();
+    if constexpr (requires { source_.begin(limits_.longest_tick); }) {
+      source_.begin(limits_.longest_tick);
+    }
+  }
+
+  source_type source_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS observer_type observer_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS bound_type bound_;
+  limits_type limits_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
+  bool sound_ = true;  ///< are the parameters good?
+};
+
+}  // namespace v0
+}  // namespace passive_haptics
