@@ -14,6 +14,11 @@ from conan.tools.cmake import CMake, CMakeDeps, CMakeToolchain, cmake_layout
 from conan.tools.files import copy, load, rmdir
 
 
+# The companions above the core, and what of each other they bring along: CMakeLists.txt has the same.
+COMPANIONS = {"environment": [], "simulation": [], "two_port": [], "remote": [], "runner": [],
+              "identification": [], "falcon": ["runner"], "adapters": []}
+
+
 class PassiveHaptics(ConanFile):
     name = "passive_haptics"
     description = "Passivity controllers for haptic interaction"
@@ -69,7 +74,16 @@ class PassiveHaptics(ConanFile):
         rmdir(self, os.path.join(self.package_folder, "share"))  # CMakeDeps writes its own
 
     def package_info(self):
-        self.cpp_info.bindirs = []
-        self.cpp_info.libdirs = []
         self.cpp_info.set_property("cmake_file_name", "passive_haptics")
-        self.cpp_info.set_property("cmake_target_name", "passive_haptics::passive_haptics")
+        self.cpp_info.set_property("cmake_target_name", "passive_haptics::all")
+        self._component("core", "passive_haptics::passive_haptics", ["eigen::eigen"])
+        for room, others in COMPANIONS.items():
+            self._component(room, f"passive_haptics::{room}", ["core", *others])
+        if self.settings.os in ("Linux", "FreeBSD"):
+            self.cpp_info.components["runner"].system_libs = ["pthread"]
+
+    def _component(self, name, target, requires):
+        component = self.cpp_info.components[name]
+        component.set_property("cmake_target_name", target)
+        component.requires = requires
+        component.bindirs = component.libdirs = []

@@ -4,6 +4,7 @@
 vcpkg.json, CITATION.cff, the workflows and the development container: their fields are known ones, they
 agree with README.md and .ci/run, and the workflows may do no more than they must."""
 
+import ast
 import json
 import pathlib
 import re
@@ -66,6 +67,15 @@ def workflows(yaml):
                 check(not (writes and "checkout" in uses), f"{path.name}, {name}: it runs our code")
 
 
+def conan():
+    """A component for each companion, and one for the core."""
+    rooms = re.search(r"set\(companion_rooms ([^)]*)\)", text("CMakeLists.txt")).group(1).split()
+    recipe = ast.parse(text("conan/conanfile.py"))
+    named = [ast.literal_eval(node.value) for node in recipe.body if isinstance(node, ast.Assign)]
+    check([list(some) for some in named] == [rooms],
+          f"conanfile.py: its components are {named}, the companions of CMakeLists.txt {rooms}")
+
+
 def packages(script):
     """What `apt-get install`, or what .ci/run has in its place, is told there; no options, no shell."""
     found = set()
@@ -96,6 +106,7 @@ def main():
         print(__doc__)
         return
     vcpkg()
+    conan()
     container()
     try:
         import yaml
