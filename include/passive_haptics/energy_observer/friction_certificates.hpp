@@ -40,7 +40,7 @@ class friction_certificates {
   using motion = typename P::motion;
   using effort = typename P::effort;
 
-  /// None that counts on any friction.
+  /// Starts anew: no certificate counts on any friction.
   constexpr void reset() noexcept {
     following_ = slipped_[0] = slipped_[1] = {P::zero(), scalar(0), scalar(0)};
     directions_ = 0;
@@ -58,7 +58,9 @@ class friction_certificates {
     }
   }
 
-  /// The force changed, which cost every certificate `doubt` [J]: for the one that follows, too much.
+  /// The held force changed by `change`, and the ledger has charged `doubt` [J] for it to all alike. The
+  /// certificate that follows changes its u along with the force and owes less, so it gets the difference
+  /// back.
   constexpr void follow(const effort& change, scalar doubt, const auto& damping,
                         const auto& steps) noexcept {
     if (!(doubt > scalar(0))) return;
@@ -119,7 +121,7 @@ class friction_certificates {
     return spare;
   }
 
-  /// The value of the best of them with that force held, less the ledger's own A [J].
+  /// By how much the best certificate is worth more than the ledger's own A while `held` is held [J].
   [[nodiscard]] constexpr scalar lead(const effort& held, const auto& steps) const noexcept {
     const scalar own = -steps.doubt(held);
     const scalar slipped =
@@ -127,8 +129,9 @@ class friction_certificates {
     return kernels::larger(own, kernels::larger(worth(following_, held, steps), slipped));
   }
 
-  /// What the best of them, with `held` held till now, loses by friction when `next` is held in a tick that
-  /// nobody sees, and then nothing: u goes there, and to zero; what the springs hold counts again [J].
+  /// What the best certificate loses by friction [J] over a tick whose motion nobody sees, in which `next` is
+  /// held after `held`: its u goes to where friction would be under `next`, then to zero, and the energy
+  /// that its springs store is counted again.
   [[nodiscard]] constexpr scalar given_up(const effort& next, const effort& held,
                                           const auto& damping, const auto& steps) const noexcept {
     const certificate own{P::zero(), scalar(0), scalar(0)};
@@ -152,7 +155,8 @@ class friction_certificates {
     scalar stored;                       ///< |u|²p/(2c) [J]
   };
 
-  /// What none counts on any longer may begin with u = 0 again, which costs `dearest_` at most.
+  /// Adds energy to a lead. A certificate could start again from u = 0 at a cost of at most dearest_, so no
+  /// lead is kept below −dearest_.
   constexpr void earn(certificate& one, scalar energy) const noexcept {
     one.lead = kernels::larger(one.lead, -dearest_) + energy;
   }
@@ -164,7 +168,7 @@ class friction_certificates {
                                               const auto& steps) noexcept {
     return one.lead - steps.doubt(effort(effort(one.friction) - held));
   }
-  /// The same, counting on another friction.
+  /// The certificate after u has changed to `to`, with the cost of the change.
   [[nodiscard]] static constexpr certificate moved(const certificate& from, const effort& to,
                                                    const auto& damping,
                                                    const auto& steps) noexcept {
@@ -177,10 +181,12 @@ class friction_certificates {
 
   certificate following_{P::zero(), scalar(0), scalar(0)};
   std::array<certificate, 2> slipped_{following_, following_};
-  std::size_t directions_ = 0;  ///< how many of them count on any friction
-  scalar missed_{};             ///< what a direction that none has would have earned by now [J]
-  scalar leaving_{};            ///< no change from some friction to none costs a lead more [J]
-  scalar dearest_{};            ///< nor one from none to some [J]
+  std::size_t directions_ = 0;  ///< how many of slipped_ count on friction
+  scalar missed_{};  ///< what a certificate against the present motion would have earned by now [J]
+  scalar
+      leaving_{};  ///< the most that a lead falls by when a certificate drops all its friction [J]
+  scalar
+      dearest_{};  ///< the most that a lead falls by when a certificate takes up some friction [J]
 };
 
 }  // namespace detail
