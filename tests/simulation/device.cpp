@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace sim = ph::simulation;
 using namespace simulated;
@@ -31,6 +32,14 @@ constexpr bool is_modelled = ph::haptic_device_for<sim::device<Space>, Space>&&
 static_assert(is_modelled<ph::space<float, 1>> && is_modelled<line>);
 static_assert(is_modelled<ph::space<float, 2>> && is_modelled<plane>);
 static_assert(is_modelled<ph::space<float, 3>> && is_modelled<room>);
+/// Devices as members, with their parameters in place: g++ 12 crashed on the first.
+struct bench_of_devices {
+  sim::device<d1> one{{.mass = 0.1}};
+  sim::device<f3, sim::impedance_hand<f3>> with_hand{{.mass = 0.1, .lower = {-1, -1, -1}},
+                                                     {.limit = 5.0}};
+  sim::prescribed_motion<d3> moved{{.mass = 0.1}};
+};
+
 struct mute {};
 static_assert(!ph::haptic_device_for<mute, line> && !sim::hand_for<mute, line> &&
               !sim::adversary_for<mute, line>);
@@ -163,6 +172,15 @@ TEST_CASE("device without a hand does not depend on how often the hand is asked"
   }
   CHECK_THAT(coarse.position(), WithinRel(fine.position(), 1e-12));
   CHECK_THAT(coarse.meter().value(), WithinRel(fine.meter().value(), 1e-11));
+}
+
+TEST_CASE("a device is a member of a class, its parameters in place", "[simulation][device]") {
+  bench_of_devices bench;
+  CHECK(bench.one.exchange(1.0).valid);
+  CHECK(bench.one.parameters().upper == std::numeric_limits<double>::infinity());
+  CHECK(bench.with_hand.exchange({0, 0, 1}).valid);
+  CHECK_FALSE(bench.with_hand.check());
+  CHECK(bench.moved.exchange({0, 0, 1}).valid);
 }
 
 TEST_CASE("device names its first bad parameter and then does not move", "[simulation][device]") {

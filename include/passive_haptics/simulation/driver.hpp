@@ -24,6 +24,9 @@ struct device_parameters {
   using coordinates = typename physical<Space>::coordinates;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int max_latency = 8;
+  // g++ 12 crashes where the first call of a function is a default below, in a device that is itself a
+  // member of a class: this is an earlier call.
+  static_assert((static_cast<void>(every_axis<Space>(infinity)), true));
 
   double mass = 0.1;                                 ///< m [kg], the same along every axis
   double damping = 0.03;                             ///< b [N·s/m]
