@@ -29,7 +29,7 @@ int main() {
   std::puts("   x [mm]   force [N]  energy [mJ]");
   for (const double millimetres :
        {3., 2., 1., 0., -1., -2., -3., -4., -4., -3., -2., -1., 0., 1.}) {
-    const auto out = wall.tick(millimetres * 1e-3, dt);
+    const auto out = wall.tick(millimetres * 1e-3, ph::seconds{dt});
     std::printf("%9.1f %11.3f %12.3f%s\n", millimetres, out.force, out.energy * 1e3,
                 out.limited ? "  limited" : "");
   }

@@ -39,7 +39,7 @@ int main() {
   double least_energy = 0.0, fastest_turn = 0.0;
   for (int tick = 1; tick <= 1000; ++tick) {
     if (tick % 33 == 1) touch.update(world(tick * dt));
-    const auto out = touch.tick(x, dt);
+    const auto out = touch.tick(x, ph::seconds{dt});
     // A hand presses with 2 N and steadies the device sideways; the device is a damped mass.
     const vector hand(-100.0 * x(0), -100.0 * x(1), -2.0);
     v += dt / mass * (hand + out.force - damping * v);

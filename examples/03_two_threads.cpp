@@ -46,9 +46,8 @@ int main() {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));  // until the next tick is due
     if (x(2) > -0.005F) x(2) -= 1e-4F;                          // a hand that presses on
     const auto before = std::exchange(now, std::chrono::steady_clock::now());
-    const std::chrono::duration<float> dt = now - before;
     if (const plane* newest = to_loop.take()) touch.update(*newest);
-    const auto out = touch.tick(x, dt.count());
+    const auto out = touch.tick(x, now - before);
     from_loop.publish(x);
     good = good && out.force(2) >= 0 && out.energy >= 0;
   }

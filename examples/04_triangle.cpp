@@ -37,7 +37,7 @@ int main() {
   int tick = 0;
   const auto move = [&](const char* what, const vector& step, int ticks) {
     for (int i = 0; i < ticks; ++i, ++tick) {
-      const auto out = touch.tick(x += step, 1e-3);
+      const auto out = touch.tick(x += step, ph::seconds{1e-3});
       if (tick % 5 != 4) continue;
       std::printf("%-6s x %5.1f mm  z %4.1f mm  depth %3.1f mm  force %5.3f N%s\n", what,
                   x(0) * 1e3, x(2) * 1e3, out.depth * 1e3, out.force(2),

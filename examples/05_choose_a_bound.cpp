@@ -33,12 +33,13 @@ void attack(const char* name, const auto& law, const auto& bound, const auto& to
   const ph::reduced_energy ledger{.damping = damping};
   const ph::followed piece{surface};
   ph::local_model wall{scene{}, piece, ph::turn_at_once{}, law, ledger, bound, told};
-  double x = 0.0, energy = 0.0, largest = 0.0, next = wall.tick(x, dt).force, held = next;
+  double x = 0.0, energy = 0.0, largest = 0.0;
+  double next = wall.tick(x, ph::seconds{dt}).force, held = next;
   const int ticks = late == 0 ? 1 : 4;  // in, and as many out
   for (int tick = 0; tick < 200 * ticks; ++tick) {
     const double step = tick % (2 * ticks) < ticks ? -delta : delta;
     energy += damping / dt * step * step - held * step;  // counted from outside
-    const double command = wall.tick(x += step, dt).force;
+    const double command = wall.tick(x += step, ph::seconds{dt}).force;
     held = late == 0 ? command : std::exchange(next, command);
     largest = std::max(largest, command);
   }

@@ -52,7 +52,7 @@ int main() {
                        chain,
                        ph::loop_limits{.longest_tick = 1e-3}};
   for (const double millimetres : {2.0, 1.0, -0.2, -0.4, -0.6, -0.8}) {
-    const auto out = wall.tick(millimetres * 1e-3, 1e-3);
+    const auto out = wall.tick(millimetres * 1e-3, ph::seconds{1e-3});
     std::printf("x %4.1f mm  force %5.3f N\n", millimetres, out.force);
   }
 }

@@ -22,7 +22,7 @@ int main() {
       ph::loop_limits{.longest_tick = 1e-3}};
 
   const auto tick = [&touch](const char* what, float x, float dt) {
-    const auto out = touch.tick(x, dt);
+    const auto out = touch.tick(x, ph::seconds{dt});
     std::printf("%-32s force %4.2f N  %s\n", what, static_cast<double>(out.force),
                 ph::to_string(out.what));
   };

@@ -35,7 +35,7 @@ constexpr outcome press() {
   outcome result;
   for (int tick = -10; tick <= 10; ++tick) {
     const float depth = 3e-3F - 5e-4F * static_cast<float>(tick < 0 ? -tick : tick);
-    const auto out = wall.tick(-depth, 1e-3F);
+    const auto out = wall.tick(-depth, ph::seconds{1e-3F});
     if (out.force > result.largest_force) result.largest_force = out.force;
     if (out.energy < result.least_energy) result.least_energy = out.energy;
   }

@@ -27,7 +27,7 @@ static_assert(std::is_trivially_copyable_v<model>);
 /// Presses the tilted plane deeper by 0.1 mm a tick.
 std::array<scene::vector, 20> press(model& touch, float start) {
   std::array<scene::vector, 20> forces{};
-  for (auto& force : forces) force = touch.tick({0, 0, start -= 1e-4F}, 1e-3F).force;
+  for (auto& force : forces) force = touch.tick({0, 0, start -= 1e-4F}, ph::seconds{1e-3F}).force;
   return forces;
 }
 
@@ -50,5 +50,5 @@ int main() {
   if (const auto fault = broken.check()) {
     std::printf("%s = %g is refused: it must be %s\n", fault.parameter, fault.value, fault.remedy);
   }
-  std::printf("a tick of it: %s\n", ph::to_string(broken.tick({0, 0, 0}, 1e-3F).what));
+  std::printf("a tick of it: %s\n", ph::to_string(broken.tick({0, 0, 0}, ph::seconds{1e-3F}).what));
 }

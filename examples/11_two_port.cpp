@@ -38,7 +38,7 @@ void press(bool controlled) {
 
     while (const packet* p = down.take(now)) tool_end.receive(*p), bare_position = p->payload;
     const double before = stored_at(tool);
-    const double step = tool_end.step(force_at(tool), T).displacement;
+    const double step = tool_end.step(force_at(tool), ph::seconds{T}).displacement;
     tool = controlled ? tool + step : bare_position;
     tool_end.settle(before - stored_at(tool));
     up.send(tool_end.packet(force_at(tool)), now);

@@ -34,7 +34,8 @@ double shaken(auto force_at) {
 
 /// A port for each wall, or one for all of them: the forces of all ports, added.
 double shaken_with(auto... port) {
-  return shaken([&](const vector& x) -> vector { return (port.tick(x, dt).force + ...); });
+  return shaken(
+      [&](const vector& x) -> vector { return (port.tick(x, ph::seconds{dt}).force + ...); });
 }
 
 int main() {

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
     if (const auto* newest = to_loop.take()) touch.update(*newest);
     const auto before = std::exchange(last, now());
     const scene::vector x(0, 0, 5e-3 - 1e-5 * n);  // a hand that comes down to −5 mm
-    const auto out = touch.tick(x, std::chrono::duration<double>(last - before).count());
+    const auto out = touch.tick(x, last - before);
     from_loop.publish({.position = x, .force = out.force});
     most = std::max(most, out.force(2));
   }

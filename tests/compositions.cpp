@@ -19,8 +19,8 @@ class hand_loop {
     guard_ = ph::make_force_guard<d1>(0.03, longest_tick);
   }
   void surface(const ph::half_space<d3>& plane) { touch_.update(plane); }
-  auto tick(const d3::vector& x) { return touch_.tick(x, 1e-3); }
-  auto guard(double x, double wanted) { return guard_.tick(x, 1e-3, wanted); }
+  auto tick(const d3::vector& x) { return touch_.tick(x, 1ms); }
+  auto guard(double x, double wanted) { return guard_.tick(x, 1ms, wanted); }
 
  private:
   ph::touch<d3> touch_;
@@ -88,12 +88,12 @@ TEST_CASE("make_encoder_touch is as stiff as the device can pay for, and says so
   loop.touch = ph::make_encoder_touch<d3>(grip, 5.0);
   CHECK_FALSE(loop.touch.check());
   loop.touch.update({d3::zero(), d3::vector(0, 0, 1), 1e4});
-  (void)loop.touch.tick({0, 0, 1e-3}, 1e-3);
+  (void)loop.touch.tick({0, 0, 1e-3}, 1ms);
   CHECK(loop.touch.law().is_capped());
   CHECK_THAT(loop.touch.law().stiffness(),
              WithinRel(ph::design::stiffness_budget(grip).stiffness, 1e-12));
   loop.touch.update({d3::zero(), d3::vector(0, 0, 1), 800.0});
-  (void)loop.touch.tick({0, 0, 1e-3}, 1e-3);
+  (void)loop.touch.tick({0, 0, 1e-3}, 1ms);
   CHECK_FALSE(loop.touch.law().is_capped());
 
   const auto refused = [](ph::design::stated_device device) {

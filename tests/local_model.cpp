@@ -26,7 +26,7 @@ TEST_CASE("a model is a value: a snapshot replays bit for bit", "[local_model]")
                         thesis_loop};
   static_assert(std::is_trivially_copyable_v<decltype(model)>);
   model.update({{0, 0, 0.001}, up, 1000});
-  for (int n = 0; n < 10; ++n) (void)model.tick({0, 1e-4 * n, 0}, 1e-3);
+  for (int n = 0; n < 10; ++n) (void)model.tick({0, 1e-4 * n, 0}, 1ms);
   auto copy = model;
   for (int n = 10; n < 200; ++n) {
     if (n % 30 == 0) {
@@ -35,7 +35,7 @@ TEST_CASE("a model is a value: a snapshot replays bit for bit", "[local_model]")
       copy.update(next);
     }
     const d3::vector x(0, 1e-4 * n, 1e-6 * n);
-    const auto a = model.tick(x, 1e-3), b = copy.tick(x, 1e-3);
+    const auto a = model.tick(x, 1ms), b = copy.tick(x, 1ms);
     if (!(a.force == b.force) || a.energy != b.energy) FAIL("tick " << n);
   }
   CHECK(model.energy() == copy.energy());
@@ -64,8 +64,8 @@ TEST_CASE("a model in one dimension ticks in a constant expression",
                           thesis_ledger(),
                           ph::strict_bound{},
                           ph::loop_limits{.longest_tick = 1e-3}};
-    (void)model.tick(0.0, 1e-3);
-    return model.tick(1e-3, 1e-3).force;
+    (void)model.tick(0.0, 1ms);
+    return model.tick(1e-3, 1ms).force;
   }();
   static_assert(force < -0.05 && force > -0.07);  // 2b/T of 1 mm
   SUCCEED();

@@ -125,8 +125,9 @@ int run(const std::vector<std::string>& arguments) {
     watch.block(sides::proxy, [&](const vec& x) {
       return proxy.computeForces(ad::chai3d_types::vector(x), {}).x();
     });
-    watch.block(sides::guard, [&](const vec& x) { return guard.tick(x, T, wanted).force[0]; });
-    watch.block(sides::touch, [&](const vec& x) { return touch.tick(x, T).force[0]; });
+    watch.block(sides::guard,
+                [&](const vec& x) { return guard.tick(x, ph::seconds{T}, wanted).force[0]; });
+    watch.block(sides::touch, [&](const vec& x) { return touch.tick(x, ph::seconds{T}).force[0]; });
     watch.block(sides::bare, [&](const vec& x) { return send(*bare, x); });
     watch.block(sides::decorated, [&](const vec& x) { return send(*decorated, x); });
   }

@@ -115,7 +115,8 @@ cost of_touch(int rounds, Touch touch, const char* composition, double friction)
   ph_port* const port = open(composition, friction);
   (void)ph_publish_plane(port, point.data(), up.data(), 800.0);
   const cost found = compare(
-      rounds, [&](const place& x) { use(touch.tick(scene::vector(x[0], x[1], x[2]), T)); },
+      rounds,
+      [&](const place& x) { use(touch.tick(scene::vector(x[0], x[1], x[2]), ph::seconds{T})); },
       [&](const place& x) {
         ph_result out;
         out.size = sizeof out;
@@ -136,7 +137,8 @@ cost of_guard(int rounds) {
   const cost found = compare(
       rounds,
       [&](const place& x) {
-        use(guard.tick(scene::vector(x[0], x[1], x[2]), T, scene::vector(0.0, 0.0, wanted(x))));
+        use(guard.tick(scene::vector(x[0], x[1], x[2]), ph::seconds{T},
+                       scene::vector(0.0, 0.0, wanted(x))));
       },
       [&](const place& x) {
         const place f{0.0, 0.0, wanted(x)};

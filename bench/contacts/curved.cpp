@@ -37,11 +37,12 @@ stroke_row stroke_of(const std::string& name, const auto& published, int every, 
                         ph::loop_limits{.longest_tick = T, .top_speed = 1e4}};
   const vector start = curved::stroke(0);
   port.source().update(0, published(start));
-  for (int i = 100; i > 0; --i) static_cast<void>(port.tick(start * (1.0 + 0.001 * i), T));
+  for (int i = 100; i > 0; --i)
+    static_cast<void>(port.tick(start * (1.0 + 0.001 * i), ph::seconds{T}));
   return {name, curved::stroked(
                     [&](int i, const vector& x) -> vector {
                       if (i % every == 0) port.source().update(0, published(x));
-                      return port.tick(x, T).force;
+                      return port.tick(x, ph::seconds{T}).force;
                     },
                     ticks)};
 }
@@ -70,13 +71,13 @@ void plot_stroke(const session& s, const curved::triangulated& mesh) {
                         ph::no_observer{}, ph::no_bound{},
                         ph::loop_limits{.longest_tick = T, .top_speed = 1e4}};
   port.source().update(0, curved::osculating<d3>(curved::stroke(0)));
-  static_cast<void>(port.tick(curved::stroke(0) * 1.1, T));  // it is met from outside
+  static_cast<void>(port.tick(curved::stroke(0) * 1.1, ph::seconds{T}));  // it is met from outside
   ex::csv_file csv(s.out.path("stroke_force.csv"), "s,quadric at 30 Hz,nearest triangle");
   for (int i = 0; i < 1000; ++i) {
     const vector x = curved::stroke(i);
     if (i % 33 == 0) port.source().update(0, curved::osculating<d3>(x));
     const auto flat = facet(mesh, x);
-    csv.row(i * T, port.tick(x, T).force.norm(),
+    csv.row(i * T, port.tick(x, ph::seconds{T}).force.norm(),
             curved::stiffness * std::max(0.0, flat.at(x).depth));
   }
   csv.close();

@@ -132,7 +132,7 @@ double largest_ratio(int ticks) {
       vector n = vector::UnitZ() + 0.3 * random.direction<d3>();
       port.source().update(0, plane{vector(0.0, 0.0, 0.0), n, 1e3});
     }
-    const vector f = port.tick(x, T).force;
+    const vector f = port.tick(x, ph::seconds{T}).force;
     const auto& slot = port.source().slot(0);
     if (!(slot.pressed() > 0.0) || f.norm() == 0.0) continue;
     const vector n = slot.normal();

@@ -72,7 +72,7 @@ news_row judge(news_row row, const Watch& watch) {
   };
   const double eps = ph::proxy_spring{}.softness;
   const double apart = std::sqrt(double(Count)) / (2.0 * std::sqrt(eps * (1.0 - eps)));
-  vector last = port.tick(vector::Zero(), T).force;
+  vector last = port.tick(vector::Zero(), ph::seconds{T}).force;
   for (int tick = 0; tick < row.seconds * 1000; ++tick) {
     if (tick % 33 == 0) {
       if (row.events == order::one_a_frame) {
@@ -89,7 +89,7 @@ news_row judge(news_row row, const Watch& watch) {
       speed = std::max(speed, slot.speed());
       sum += slot.pressed();
     }
-    const vector force = port.tick(vector::Zero(), T).force;
+    const vector force = port.tick(vector::Zero(), ph::seconds{T}).force;
     watch(tick, force);
     for (int i = 0; i < Count; ++i) {  // a surface that has been met in it as well
       speed = std::max(speed, port.source().slot(i).speed());
@@ -155,7 +155,7 @@ heart_row beat(heart_row row) {
         row.before_update = std::max(row.before_update, std::abs(slot.lag()));
       port.source().update(0, plane{vector(0.0, 0.0, z), vector(0.0, 0.0, 1.0), row.stiffness});
     }
-    const vector force = port.tick(vector::Zero(), T).force;
+    const vector force = port.tick(vector::Zero(), ph::seconds{T}).force;
     if (port.source().slot(0).pressed() > 0.0) {
       row.lag = std::max(row.lag, std::abs(port.source().slot(0).lag()));
     }

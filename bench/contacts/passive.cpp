@@ -69,7 +69,7 @@ struct port_each {
         [&](int i) { ports[static_cast<std::size_t>(i)].source().release(0); });
     vector sum = vector::Zero();
     for (auto& port : ports) {  // each is told what it commanded itself
-      sum += sample.valid ? vector(port.tick(sample.position, sample.dt).force)
+      sum += sample.valid ? vector(port.tick(sample.position, ph::seconds{sample.dt}).force)
                           : vector(port.tick(sample).force);
     }
     return sum;

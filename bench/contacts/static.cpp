@@ -33,7 +33,7 @@ double least_energy(Port port, std::uint64_t seed, double& largest) {
   ph::laws::samples random(seed);
   vector x(0.0, 0.0, 1e-3), f = vector::Zero();
   double energy = 0.0, least = 0.0;
-  static_cast<void>(port.tick(x, T));
+  static_cast<void>(port.tick(x, ph::seconds{T}));
   for (int i = 0; i < 2000; ++i) {
     const double what = random.number<double>();
     vector step = random.vector<d3>() * 3e-4;
@@ -49,7 +49,7 @@ double least_energy(Port port, std::uint64_t seed, double& largest) {
     energy += damping * step.squaredNorm() / T - f.dot(step);  // even motion, held force: exact
     least = std::min(least, energy);
     x += step;
-    f = port.tick(x, T).force;
+    f = port.tick(x, ph::seconds{T}).force;
     largest = std::max(largest, f.norm());
   }
   return least;
@@ -68,7 +68,8 @@ static_row judge(static_row row, const Friction& friction) {
     port.source().update(static_cast<int>(i),
                          plane{vector(0.0, 0.0, 0.0), row.scene->normals[i], K});
   }
-  static_cast<void>(port.tick(vector(0.0, 0.0, 1.0), T));  // they are all met from outside
+  static_cast<void>(
+      port.tick(vector(0.0, 0.0, 1.0), ph::seconds{T}));  // they are all met from outside
   for (int run = 0; run < row.runs; ++run) {
     row.least_energy =
         std::min(row.least_energy,

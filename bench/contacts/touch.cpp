@@ -33,7 +33,8 @@ touch_row judge(touch_row row) {
     port.source().update(static_cast<int>(i),
                          plane{vector(0.0, 0.0, 0.0), row.scene->normals[i], row.stiffness});
   }
-  static_cast<void>(port.tick(vector(0.0, 0.0, 1.0), T));  // they are all met from outside
+  static_cast<void>(
+      port.tick(vector(0.0, 0.0, 1.0), ph::seconds{T}));  // they are all met from outside
   const ph::proxy_spring::at<double> rule({.mass = mass});
   const auto spring = rule.sampled(row.stiffness, T);
   row.damper = spring.settling * spring.stiffness * row.speed;
@@ -42,8 +43,8 @@ touch_row judge(touch_row row) {
     for (int nm = -2000; nm < 20000; ++nm) {
       auto fresh = port;
       const vector here = vector(1e-6, 2e-6, -1e-9 * nm);
-      static_cast<void>(fresh.tick(vector(here + from * (row.speed * T)), T));
-      const vector force = fresh.tick(here, T).force;
+      static_cast<void>(fresh.tick(vector(here + from * (row.speed * T)), ph::seconds{T}));
+      const vector force = fresh.tick(here, ph::seconds{T}).force;
       if (nm > -2000) row.step = std::max(row.step, (force - last).norm());
       last = force;
     }

@@ -200,8 +200,8 @@ template <class Scene, class State>
 template <class State, class Position, class Scalar>
 [[nodiscard, gnu::always_inline, gnu::flatten]] inline auto advance(State& state, const Position& x,
                                                                     Scalar dt) noexcept {
-  if constexpr (requires { state.tick(x, dt); }) {
-    return state.tick(x, dt);
+  if constexpr (requires { state.tick(x, ph::seconds{dt}); }) {
+    return state.tick(x, ph::seconds{dt});
   } else if constexpr (requires { wall_strict_tick(&state, x, dt); }) {
     return wall_strict_tick(&state, x, dt);
   } else if constexpr (requires { half_space_reachable_tick(&state, &x, dt); }) {

@@ -61,7 +61,7 @@ verdict measured(const subject& s, auto& device,
   double force = 0.0;
   while (!of.done()) {
     const auto sample = device.exchange(force);
-    force = of.tick(sample.position, sample.dt);
+    force = of.tick(sample.position, ph::seconds{sample.dt});
   }
   return {s, of.result(), of.time()};
 }

@@ -275,7 +275,7 @@ outcome both_ends_count(const sim::channel_parameters& way, const heaving_wall& 
       const auto stored = [&] { return stiffness * std::pow(std::max(z - tool(2), 0.0), 2) / 2; };
       const auto force = [&] { return vector(0.0, 0.0, wall.force(t, tool(2))); };
       const double before = stored();
-      tool += tool_end.step(force(), tick).displacement;
+      tool += tool_end.step(force(), ph::seconds{tick}).displacement;
       tool_end.settle(before - stored());
       at_wall += before - stored();
       eye.ledger(tool_end.energy());

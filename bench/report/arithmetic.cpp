@@ -127,7 +127,8 @@ class contender {
       model_.update(constraint_from<typename Model::constraint_type>(surface_at(n)));
     }
     const auto at = stroke_at(n);
-    const auto out = model_.tick(position_in<space>(at), typename space::scalar(tick_length));
+    const auto out =
+        model_.tick(position_in<space>(at), ph::seconds{typename space::scalar(tick_length)});
     return observe(model_, out, at);
   }
   void compare(const observed& mine, const observed& reference) {

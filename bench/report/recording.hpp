@@ -94,7 +94,7 @@ class recording {
   auto feed(Model& model, long n) const {
     const auto i = static_cast<std::size_t>(n);
     if (n % ticks_per_update == 0) model.update(surfaces_[i / ticks_per_update]);
-    return model.tick(positions_[i], typename space::scalar(tick_length));
+    return model.tick(positions_[i], ph::seconds{typename space::scalar(tick_length)});
   }
 
  private:

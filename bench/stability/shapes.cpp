@@ -72,7 +72,7 @@ sliver_row sliver_row_of(const char* scalar_name, double size, double aspect, in
     auto model = on_triangle<Space>(ph::strict_bound{});
     ++row.tried;
     const bool taken = model.update(t);
-    const auto out = model.tick(point, scalar(1e-3));
+    const auto out = model.tick(point, ph::seconds{1e-3});
     if (!Space::is_finite(out.force) || !ph::kernels::is_finite(out.depth)) ++row.not_finite;
     if (!taken) {
       if (out.what != ph::event::rejected_target && out.what != ph::event::no_target) ++row.silent;

@@ -19,7 +19,7 @@ class passive_renderer : public HAPI::GodObjectRenderer {
     const auto asked = HAPI::GodObjectRenderer::renderHapticsOneStep(device, shapes, dt);
     const HAPI::Vec3 p = device->getRawPosition();  // metres, before any calibration
     const scene::vector wanted(asked.force.x, asked.force.y, asked.force.z);
-    const auto out = port_.tick(scene::vector(p.x, p.y, p.z), dt, wanted);
+    const auto out = port_.tick(scene::vector(p.x, p.y, p.z), ph::seconds{dt}, wanted);
     return {HAPI::Vec3(out.force[0], out.force[1], out.force[2])};
   }
 

@@ -45,10 +45,10 @@ int main() {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (std::chrono::steady_clock::now() < end) {
     const bool fresh = falcon.runIOLoop();  // sends the last force, reads the encoders
-    since_packet += timer.lap(1e-3);
+    since_packet += timer.lap(1e-3).count();
     if (!fresh) continue;  // no new packet came, and the position is the old one
     const std::array<double, 3> p = falcon.getPosition();
-    const auto f = wall.tick(scene::vector(p[0], p[1], p[2]), since_packet).force;
+    const auto f = wall.tick(scene::vector(p[0], p[1], p[2]), ph::seconds{since_packet}).force;
     falcon.setForce({f[0], f[1], f[2]});
     since_packet = 0.0;
   }

@@ -30,7 +30,8 @@ class passive_effort_controller : public ci::ChainableControllerInterface {
       x[i] = state_interfaces_[i].get_optional().value_or(none);
       wanted[i] = reference_interfaces_[i];  // none until somebody writes one
     }
-    const auto out = port_.tick(x, period.seconds(), wanted);  // none is an event, and no force
+    const auto out =
+        port_.tick(x, ph::seconds{period.seconds()}, wanted);  // none is an event, and no force
     bool sent = true;
     for (int i = 0; i < 3; ++i) sent = command_interfaces_[i].set_value(out.force[i]) && sent;
     return sent ? ci::return_type::OK : ci::return_type::ERROR;

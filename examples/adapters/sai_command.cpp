@@ -21,7 +21,8 @@ SaiPrimitives::HapticControllerOutput command(SaiPrimitives::HapticDeviceControl
                                               const SaiPrimitives::HapticControllerInput& input,
                                               double dt, late_guard& port) {
   auto out = controller.computeHapticControl(input);
-  out.device_command_force = port.tick(input.device_position, dt, out.device_command_force).force;
+  out.device_command_force =
+      port.tick(input.device_position, ph::seconds{dt}, out.device_command_force).force;
   out.device_command_moment.setZero();  // no ledger counts it
   return out;  // metres and newtons in the device's base frame, as they were
 }

@@ -37,7 +37,7 @@ static struct {
 // The tick. Everything it has to say about a bad sample or a dead main loop is in out.what.
 extern "C" void SysTick_Handler() {
   if (const stop* news = inbox.take()) knob.update(*news);
-  const auto out = knob.tick(board::angle(), float(period));
+  const auto out = knob.tick(board::angle(), ph::seconds{period});
   board::torque(out.force);
 
   journal.ticks = journal.ticks + 1;

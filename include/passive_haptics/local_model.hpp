@@ -16,7 +16,7 @@ inline namespace v0 {
 ///                          ph::reduced_energy{.damping = 0.03},
 ///                          ph::strict_bound{},
 ///                          ph::loop_limits{.longest_tick = 0.0011}};
-///     device.command(wall.tick(position, dt).force);
+///     device.command(wall.tick(position, ph::seconds{dt}).force);
 /// As a member of a class, spell it: ph::local_model<scene, ph::fixed<ph::half_space<scene>>,
 /// ph::turn_at_once, ph::spring, ph::reduced_energy, ph::strict_bound>. ONE PER DEVICE: two walls are two
 /// contacts of one port (contact/contacts.hpp).

@@ -16,7 +16,7 @@
 //                           ph::basic_reduced_energy<ph::rigid_damping>{
 //                               .damping = {.linear = 0.03, .angular = 1e-4}},
 //                           ph::strict_bound{}, ph::loop_limits{.longest_tick = 0.0011}};
-//     motors.command(port.tick({p, {w, x, y, z}}, dt, device::join(f, tau)).force);
+//     motors.command(port.tick({p, {w, x, y, z}}, ph::seconds{dt}, device::join(f, tau)).force);
 //
 // What is promised, and why: docs/design/six_dof.md.
 

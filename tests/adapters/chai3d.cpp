@@ -165,7 +165,7 @@ TEST_CASE("passive_device counts the device's own metres, whatever the workspace
   for (int k = 0; k < 6000; ++k) {
     x = 5.0 * real->place();
     const auto wanted = proxy.computeForces(ad::chai3d_types::vector(x), {});
-    const auto out = port.tick(x, T, ad::chai3d_types::vector(wanted));
+    const auto out = port.tick(x, ph::seconds{T}, ad::chai3d_types::vector(wanted));
     real->setForce(ad::chai3d_types::vector(vec(out.force)));
   }
   CHECK(real->least_energy() < -1e-3);
@@ -236,7 +236,7 @@ TEST_CASE("a sphere that deforms is lost by an old proxy, and kept by a probe wi
               wall.release();
             }
           }
-          return wall.tick(x, T).force;
+          return wall.tick(x, ph::seconds{T}).force;
         });
     INFO(amplitude);
     CHECK(kept.lost == 0.0);

@@ -117,7 +117,7 @@ std::vector<ph_result> run_direct(Port port) {
     const auto out =
         now.reports_held
             ? port.tick(ph::device_sample<d3>{in(now.position), in(now.held), now.dt, true})
-            : port.tick(in(now.position), now.dt);
+            : port.tick(in(now.position), ph::seconds{now.dt});
     ph_result r{};
     r.size = sizeof r;
     r.event = static_cast<int>(out.what);

@@ -18,5 +18,5 @@ ph::passive_port port{device{}, ph::given_force{}, ph::reduced_energy{}, ph::str
 #ifdef POSITIVE_CONTROL
 const auto result = port.tick({.position = 0.0F, .held = 0.0F, .dt = 1e-3F, .valid = true});
 #else
-const auto result = port.tick(0.0F, 1e-3F);
+const auto result = port.tick(0.0F, ph::seconds{1e-3});
 #endif

@@ -17,11 +17,11 @@ curved::feel through_a_set(const auto& next) {
                         ph::no_observer{}, ph::no_bound{}, thesis_loop};
   const Vector3d start = curved::stroke(0);
   REQUIRE(port.source().update(0, next(start)));
-  for (int i = 100; i > 0; --i) (void)port.tick(start * (1.0 + 0.001 * i), 1e-3);  // from outside
+  for (int i = 100; i > 0; --i) (void)port.tick(start * (1.0 + 0.001 * i), 1ms);  // from outside
   return curved::stroked(
       [&](int i, const Vector3d& x) -> Vector3d {
         if (i % 33 == 0) REQUIRE(port.source().update(0, next(x)));
-        return port.tick(x, 1e-3).force;
+        return port.tick(x, 1ms).force;
       },
       3000);
 }

@@ -16,8 +16,8 @@ auto pressed(const ph::freshness& rule) {
                         ph::reduced_energy{.damping = 0.03, .loan = 1.0},
                         ph::strict_bound{},
                         thesis_loop};
-  (void)model.tick(0.001, 1e-3);
-  (void)model.tick(0.001, 1e-3);
+  (void)model.tick(0.001, 1ms);
+  (void)model.tick(0.001, 1ms);
   return model;
 }
 
@@ -31,11 +31,11 @@ TEST_CASE("a silent environment fades out and says so", "[local_model]") {
                         ph::reduced_energy{.damping = 0.03, .loan = 1.0},
                         ph::strict_bound{},
                         thesis_loop};
-  CHECK(model.tick(0.001, 1e-3).what == ph::event::no_target);
+  CHECK(model.tick(0.001, 1ms).what == ph::event::no_target);
   model.update(wall<d1>(1000));
   double last = 0;
   for (int n = 0; n <= 160; ++n) {
-    const auto out = model.tick(0.001, 1e-3);
+    const auto out = model.tick(0.001, 1ms);
     const double age = 1e-3 * n;
     if (age < 0.0995) {
       CHECK(out.what == ph::event::nominal);
@@ -49,8 +49,8 @@ TEST_CASE("a silent environment fades out and says so", "[local_model]") {
     last = out.force;
   }
   model.update(wall<d1>(1000));
-  CHECK(model.tick(0.001, 1e-3).what == ph::event::nominal);
-  CHECK_THAT(model.tick(0.001, 1e-3).force, WithinRel(-1.0, 1e-12));
+  CHECK(model.tick(0.001, 1ms).what == ph::event::nominal);
+  CHECK_THAT(model.tick(0.001, 1ms).force, WithinRel(-1.0, 1e-12));
 }
 
 TEST_CASE("a silent environment ages while samples are bad, too", "[local_model]") {
@@ -61,9 +61,9 @@ TEST_CASE("a silent environment ages while samples are bad, too", "[local_model]
                         ph::reduced_energy{.damping = 0.03, .loan = 1.0},
                         ph::strict_bound{},
                         thesis_loop};
-  CHECK_THAT(model.tick(0.001, 1e-3).force, WithinRel(-1.0, 1e-12));  // a target from the start
-  for (int n = 0; n < 100; ++n) (void)model.tick(std::nan(""), 1e-3);
-  const auto out = model.tick(0.001, 1e-3);
+  CHECK_THAT(model.tick(0.001, 1ms).force, WithinRel(-1.0, 1e-12));  // a target from the start
+  for (int n = 0; n < 100; ++n) (void)model.tick(std::nan(""), 1ms);
+  const auto out = model.tick(0.001, 1ms);
   CHECK(out.what == ph::event::stale_target);
   CHECK(out.force == 0.0);
 }
@@ -86,7 +86,7 @@ TEST_CASE("what is released fades as stale data does, and no event is made of it
   model.release();
   double last = -1.0;
   for (int n = 1; n <= 60; ++n) {
-    const auto out = model.tick(0.001, 1e-3);
+    const auto out = model.tick(0.001, 1ms);
     CHECK(out.what == ph::event::nominal);
     CHECK(out.energy == 1.0);  // the ledger is kept
     CHECK_THAT(out.force, WithinAbs(-std::max(0.0, 1.0 - 1e-3 * n / 0.05), 1e-12));
@@ -94,7 +94,7 @@ TEST_CASE("what is released fades as stale data does, and no event is made of it
     last = out.force;
   }
   CHECK(last == 0.0);
-  CHECK(model.tick(0.005, 1e-3).force == 0.0);  // it has ended, however deep
+  CHECK(model.tick(0.005, 1ms).force == 0.0);  // it has ended, however deep
   CHECK(model.energy() > 0.9);
 }
 
@@ -102,9 +102,9 @@ TEST_CASE("the next update brings back what was released", "[local_model][releas
   for (const int ticks : {0, 10, 200}) {  // at once, half way, long after
     auto model = pressed({.stale_after = 0.1, .fade = 0.05});
     model.release();
-    for (int n = 0; n < ticks; ++n) (void)model.tick(0.001, 1e-3);
+    for (int n = 0; n < ticks; ++n) (void)model.tick(0.001, 1ms);
     REQUIRE(model.update(wall<d1>(1000)));
-    const auto out = model.tick(0.001, 1e-3);
+    const auto out = model.tick(0.001, 1ms);
     CHECK(out.what == ph::event::nominal);
     CHECK_THAT(out.force, WithinRel(-1.0, 1e-12));
     CHECK(out.energy == 1.0);
@@ -114,14 +114,14 @@ TEST_CASE("the next update brings back what was released", "[local_model][releas
 TEST_CASE("a release while the contact is fading goes on from where it is",
           "[local_model][release]") {
   auto model = pressed({.stale_after = 0.1, .fade = 0.05});
-  auto out = model.tick(0.001, 1e-3);
-  for (int n = 0; n < 1000 && out.force < -0.6; ++n) out = model.tick(0.001, 1e-3);
+  auto out = model.tick(0.001, 1ms);
+  for (int n = 0; n < 1000 && out.force < -0.6; ++n) out = model.tick(0.001, 1ms);
   REQUIRE(out.what == ph::event::stale_target);
   REQUIRE(out.force < -0.5);
   model.release();
   double last = out.force;
   for (int n = 0; n < 10; ++n) {
-    out = model.tick(0.001, 1e-3);
+    out = model.tick(0.001, 1ms);
     CHECK(out.what == ph::event::nominal);  // its end is known
     CHECK_THAT(out.force - last, WithinAbs(0.02, 1e-12));
     last = out.force;
@@ -139,25 +139,25 @@ TEST_CASE("a release before the first target, or with it, is nothing to worry ab
                         ph::strict_bound{},
                         thesis_loop};
   model.release();
-  CHECK(model.tick(0.001, 1e-3).what == ph::event::no_target);
+  CHECK(model.tick(0.001, 1ms).what == ph::event::no_target);
   REQUIRE(model.update(wall<d1>(1000)));
   model.release();
-  (void)model.tick(0.001, 1e-3);
-  for (int n = 0; n < 60; ++n) (void)model.tick(0.001, 1e-3);
-  CHECK(model.tick(0.001, 1e-3).force == 0.0);
-  CHECK(model.tick(0.001, 1e-3).what == ph::event::nominal);
+  (void)model.tick(0.001, 1ms);
+  for (int n = 0; n < 60; ++n) (void)model.tick(0.001, 1ms);
+  CHECK(model.tick(0.001, 1ms).force == 0.0);
+  CHECK(model.tick(0.001, 1ms).what == ph::event::nominal);
 }
 
 TEST_CASE("a released surface ends behind a bound that has nothing left, too",
           "[local_model][release]") {
   auto model = following_half_space<d1>(ph::spring{}, thesis_ledger(), ph::strict_bound{});
   model.update(wall<d1>(1e4));
-  for (int n = 0; n < 50; ++n) (void)model.tick(2e-5 * n, 1e-3);
+  for (int n = 0; n < 50; ++n) (void)model.tick(2e-5 * n, 1ms);
   model.release();
-  double last = model.tick(1e-3, 1e-3).force;
+  double last = model.tick(1e-3, 1ms).force;
   REQUIRE(last < 0.0);
   for (int n = 0; n < 60; ++n) {
-    const double force = model.tick(1e-3, 1e-3).force;
+    const double force = model.tick(1e-3, 1ms).force;
     CHECK(force >= last - 1e-12);
     last = force;
   }

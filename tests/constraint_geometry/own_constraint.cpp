@@ -72,7 +72,7 @@ double slide(auto model) {
       next.centre = d3::vector(random.uniform(-2e-3, 2e-3), 0.0, random.uniform(-0.041, -0.039));
       (void)model.update(next);
     }
-    x = device.exchange(model.tick(x, 1e-3).force).position;
+    x = device.exchange(model.tick(x, 1ms).force).position;
   }
   return device.meter().minimum();
 }
@@ -84,8 +84,8 @@ TEST_CASE("a sphere of one's own obeys the law of constraints and presses outwar
   CHECK(ph::laws::all<sphere, d3>(ball));
   auto model = touch(ph::no_observer{}, ph::no_bound{});
   REQUIRE(model.update(ball));
-  (void)model.tick(d3::vector(0.0, 0.05, -0.04), 1e-3);
-  const d3::vector side = model.tick(d3::vector(0.0, 0.0399, -0.04), 1e-3).force;
+  (void)model.tick(d3::vector(0.0, 0.05, -0.04), 1ms);
+  const d3::vector side = model.tick(d3::vector(0.0, 0.0399, -0.04), 1ms).force;
   CHECK_THAT(side.norm(), WithinAbs(0.2, 1e-9));
   CHECK_THAT(side.normalized().y(), WithinAbs(1.0, 1e-9));
 }

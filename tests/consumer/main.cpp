@@ -22,7 +22,7 @@ int main() {
       ph::reduced_energy{.damping = 1, .loan = 0.001},
       ph::strict_bound{},
       ph::loop_limits{.longest_tick = 0.001}};
-  const auto out = wall.tick({0, 0, narrowed}, 0.001F);
+  const auto out = wall.tick({0, 0, narrowed}, ph::seconds{1e-3});
   std::printf("passive_haptics %d.%d.%d: %.2f N\n", ph::version_major, ph::version_minor,
               ph::version_patch, static_cast<double>(out.force(2)));
   return out.force(2) > 0.4F ? 0 : 1;

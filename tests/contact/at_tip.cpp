@@ -10,7 +10,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-constexpr double T = 1e-3;
+constexpr ph::seconds T{1e-3};
 using plane = ph::half_space<d3>;
 using pose = ph::rigid_pose<double>;
 using vector = d3::vector;

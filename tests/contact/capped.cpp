@@ -45,14 +45,14 @@ TEST_CASE("a capped law changes live, by its own parameters or by those of what 
   auto model = following_half_space<d1>(ph::capped{ph::damped_spring{.mass = 0.1}, 2000.0},
                                         thesis_ledger(), ph::no_bound{});
   REQUIRE(model.update({0.0, 1.0, 5000.0}));
-  CHECK_THAT(model.tick(-1e-3, 1e-3).force, WithinRel(2.0, 1e-12));
+  CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(2.0, 1e-12));
   CHECK(model.law().is_capped());
   REQUIRE_FALSE(model.set(ph::capped{ph::damped_spring{.mass = 0.1}, 3000.0}));
   REQUIRE(model.update({0.0, 1.0, 5000.0}));
-  CHECK_THAT(model.tick(-1e-3, 1e-3).force, WithinRel(3.0, 1e-12));
+  CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(3.0, 1e-12));
   REQUIRE_FALSE(model.set(ph::damped_spring{.mass = 0.02}));
   REQUIRE(model.update({0.0, 1.0, 5000.0}));
-  CHECK_THAT(model.tick(-1e-3, 1e-3).force, WithinRel(2.0, 1e-12));  // κ m/T²
+  CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(2.0, 1e-12));  // κ m/T²
   CHECK(model.law().is_capped());
   CHECK(model.set(ph::capped{ph::damped_spring{.mass = 0.1}, 0.0}));
 }

@@ -33,7 +33,7 @@ auto corner(typename Space::scalar K = 1000) {
     port.source().update(i,
                          ph::half_space<Space>{vector(Space::zero()), vector(vector::Unit(i)), K});
   }
-  (void)port.tick(vector(vector::Constant(scalar(0.02))), scalar(T));
+  (void)port.tick(vector(vector::Constant(scalar(0.02))), ph::seconds{scalar(T)});
   return port;
 }
 
@@ -64,8 +64,8 @@ TEMPLATE_TEST_CASE("a corner presses back along every wall that is entered", "[c
   using vector = typename TestType::vector;
   auto port = corner<TestType, 3>();
   const vector deep = vector::Constant(scalar(-1e-3));
-  (void)port.tick(deep, scalar(T));
-  const auto at_rest = port.tick(deep, scalar(T));
+  (void)port.tick(deep, ph::seconds{scalar(T)});
+  const auto at_rest = port.tick(deep, ph::seconds{scalar(T)});
   for (int i = 0; i < TestType::dof; ++i)
     CHECK_THAT(at_rest.force(i), WithinRel(scalar(1), scalar(1e-4)));
   CHECK_THAT(at_rest.depth, WithinRel(scalar(1e-3), scalar(1e-4)));
@@ -73,8 +73,8 @@ TEMPLATE_TEST_CASE("a corner presses back along every wall that is entered", "[c
 
   vector beside = vector::Constant(scalar(1e-3));
   beside(0) = scalar(-2e-3);
-  (void)port.tick(beside, scalar(T));
-  const auto one = port.tick(beside, scalar(T));
+  (void)port.tick(beside, ph::seconds{scalar(T)});
+  const auto one = port.tick(beside, ph::seconds{scalar(T)});
   CHECK_THAT(one.force(0), WithinRel(scalar(2), scalar(1e-4)));
   CHECK(one.force(1) == scalar(0));
 }
@@ -83,11 +83,11 @@ TEST_CASE("one degree of freedom needs no vectors: two walls with a gap between"
   auto port = planes<d1, 2>();
   port.source().update(0, ph::half_space<d1>{0.0, 1.0, 1000.0});
   port.source().update(1, ph::half_space<d1>{0.01, -1.0, 500.0});
-  (void)port.tick(0.005, T);
-  (void)port.tick(-1e-3, T);
-  CHECK_THAT(port.tick(-1e-3, T).force, WithinRel(1.0, 1e-12));
-  (void)port.tick(0.012, T);
-  CHECK_THAT(port.tick(0.012, T).force, WithinRel(-1.0, 1e-12));
+  (void)port.tick(0.005, ph::seconds{T});
+  (void)port.tick(-1e-3, ph::seconds{T});
+  CHECK_THAT(port.tick(-1e-3, ph::seconds{T}).force, WithinRel(1.0, 1e-12));
+  (void)port.tick(0.012, ph::seconds{T});
+  CHECK_THAT(port.tick(0.012, ph::seconds{T}).force, WithinRel(-1.0, 1e-12));
 }
 
 TEST_CASE("a finger between two plates is held by both", "[contact_set]") {
@@ -96,20 +96,20 @@ TEST_CASE("a finger between two plates is held by both", "[contact_set]") {
   port.source().update(0, ph::half_space<d3>{d3::vector::Zero(), z, 1000.0});
   port.source().update(1, ph::half_space<d3>{d3::vector::Zero(), d3::vector(-z), 1000.0});
   d3::vector f;
-  for (int i = 0; i < 200; ++i) f = port.tick(d3::vector(z * 1e-3), T).force;
+  for (int i = 0; i < 200; ++i) f = port.tick(d3::vector(z * 1e-3), ph::seconds{T}).force;
   CHECK_THAT(f.z(), WithinAbs(-1000.0 * 1e-3, 0.2));  // the one that is entered pushes
-  for (int i = 0; i < 200; ++i) f = port.tick(d3::vector(z * -1e-3), T).force;
+  for (int i = 0; i < 200; ++i) f = port.tick(d3::vector(z * -1e-3), ph::seconds{T}).force;
   CHECK_THAT(f.z(), WithinAbs(1000.0 * 1e-3, 0.2));
 }
 
 TEST_CASE("a surface that appears over a finger is not felt at once, and then is",
           "[contact_set]") {
   auto port = planes<d3, 3>();
-  (void)port.tick(d3::vector::Zero(), T);
+  (void)port.tick(d3::vector::Zero(), ph::seconds{T});
   port.source().update(1, ph::half_space<d3>{d3::vector(0, 0, 2e-3), d3::vector::UnitZ(), 1000.0});
   double last = 0.0;
   for (int i = 0; i < 100; ++i) {
-    const double f = port.tick(d3::vector::Zero(), T).force.z();
+    const double f = port.tick(d3::vector::Zero(), ph::seconds{T}).force.z();
     CHECK(f >= last);
     CHECK(f - last <= 1000.0 * 0.05 * T + 1e-12);  // K ρ dt
     last = f;
@@ -123,11 +123,11 @@ TEST_CASE(
   for (const double K : {1000.0, 400.0}) {
     auto port = corner<d3, 1>();
     const d3::vector x(-2e-3, 0.0, 0.0);
-    for (int i = 0; i < 5; ++i) (void)port.tick(x, T);
+    for (int i = 0; i < 5; ++i) (void)port.tick(x, ph::seconds{T});
     port.source().update(0, ph::half_space<d3>{d3::vector(1e-3, 0, 0), d3::vector::UnitX(), K});
     double last = 2.0;
     for (int i = 0; i < 100; ++i) {
-      const double f = port.tick(x, T).force.x();
+      const double f = port.tick(x, ph::seconds{T}).force.x();
       CHECK(std::abs(f - last) <= 1000.0 * 0.06 * T);
       last = f;
     }
@@ -140,7 +140,7 @@ TEST_CASE("what is released recedes, under a finger that follows it as well, and
   for (const double follows : {0.0, 0.1}) {  // [m/s], faster than any surface recedes
     auto port = corner<d3, 1>();
     d3::vector x(-2e-3, 0.0, 0.0);
-    for (int i = 0; i < 5; ++i) (void)port.tick(x, T);
+    for (int i = 0; i < 5; ++i) (void)port.tick(x, ph::seconds{T});
     port.source().release(0);
     CHECK(port.source().slot(0).taken());
     int ticks = 0;
@@ -148,13 +148,13 @@ TEST_CASE("what is released recedes, under a finger that follows it as well, and
     ph::tick_result<d3> out{};
     while (port.source().slot(0).taken() && ticks < 1000) {
       x.x() -= follows * T;
-      out = port.tick(x, T);
+      out = port.tick(x, ph::seconds{T});
       if (ticks > 0) CHECK(out.force.x() <= last);
       last = out.force.x();
       ++ticks;
     }
     CHECK(ticks <= 45);  // 2 mm at 50 mm/s
-    CHECK(port.tick(x, T).what == ph::event::no_target);
+    CHECK(port.tick(x, ph::seconds{T}).what == ph::event::no_target);
     CHECK(
         port.source().update(0, ph::half_space<d3>{d3::vector::Zero(), d3::vector::UnitX(), 1.0}));
   }
@@ -163,11 +163,11 @@ TEST_CASE("what is released recedes, under a finger that follows it as well, and
 TEST_CASE("a set without news for too long lets go", "[contact_set]") {
   auto port = planes<d3, 1>({.stale_after = 0.02});
   port.source().update(0, ph::half_space<d3>{d3::vector::Zero(), d3::vector::UnitZ(), 1000.0});
-  (void)port.tick(d3::vector(0, 0, 1e-3), T);
+  (void)port.tick(d3::vector(0, 0, 1e-3), ph::seconds{T});
   ph::event worst{};
   double least = 1e9;
   for (int i = 0; i < 100; ++i) {
-    const auto out = port.tick(d3::vector(0, 0, -1e-3), T);
+    const auto out = port.tick(d3::vector(0, 0, -1e-3), ph::seconds{T});
     if (out.what == ph::event::stale_target) worst = out.what;
     least = std::min(least, out.force.z());
   }
@@ -182,7 +182,7 @@ TEMPLATE_TEST_CASE("an empty set, one slot too many and what is unusable say so 
   using plane = ph::half_space<TestType>;
   auto port = planes<TestType, 2>();
   const vector here(scalar(0), scalar(0), scalar(-1e-3)), up = vector::UnitZ();
-  const auto tick = [&] { return port.tick(here, scalar(T)); };
+  const auto tick = [&] { return port.tick(here, ph::seconds{scalar(T)}); };
   CHECK(tick().what == ph::event::no_target);
   CHECK(tick().force == vector::Zero());
 
@@ -227,16 +227,16 @@ TEST_CASE("a surface that shows no number presses nothing and is seen through af
         thesis_loop};
     const d3::vector here(0, 0, -1e-3);
     port.source().update(0, ph::half_space<d3>{d3::vector::Zero(), d3::vector::UnitZ(), 1000.0});
-    (void)port.tick(d3::vector(0, 0, 1e-3), T);
-    (void)port.tick(here, T);
+    (void)port.tick(d3::vector(0, 0, 1e-3), ph::seconds{T});
+    (void)port.tick(here, ph::seconds{T});
     const double before = port.energy();
     port.source().update(0, bad);
-    const auto out = port.tick(here, T);
+    const auto out = port.tick(here, ph::seconds{T});
     CHECK(out.what == ph::event::rejected_target);
     CHECK(out.force.allFinite());
     CHECK(out.energy <= before + 1e-15);
     port.source().update(0, rogue{.depth = -1.0});
-    const auto after = port.tick(here, T);
+    const auto after = port.tick(here, ph::seconds{T});
     CHECK(after.what == ph::event::nominal);
     CHECK(after.force.z() > 0.5);  // the other surface was there all the time
   }
@@ -246,19 +246,19 @@ TEST_CASE("a surface that is left over its edge recedes, and is met anew", "[con
   auto port = open_port<d3>(
       ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::slots<rogue, 1>{}});
   port.source().update(0, rogue{.depth = 1e-3});
-  for (int i = 0; i < 50; ++i) (void)port.tick(d3::vector::Zero(), T);
-  CHECK_THAT(port.tick(d3::vector::Zero(), T).force.z(), WithinRel(1.0, 1e-12));
+  for (int i = 0; i < 50; ++i) (void)port.tick(d3::vector::Zero(), ph::seconds{T});
+  CHECK_THAT(port.tick(d3::vector::Zero(), ph::seconds{T}).force.z(), WithinRel(1.0, 1e-12));
   port.source().update(0, rogue{.depth = 1e-3, .covers = false});
   double last = 1.0;
   for (int i = 0; i < 50; ++i) {
-    const double f = port.tick(d3::vector::Zero(), T).force.z();
+    const double f = port.tick(d3::vector::Zero(), ph::seconds{T}).force.z();
     CHECK((f < last || f == 0.0));
     CHECK(last - f <= 1000.0 * 0.05 * T + 1e-12);
     last = f;
   }
   CHECK(last == 0.0);
   port.source().update(0, rogue{.depth = 1e-3});
-  CHECK(port.tick(d3::vector::Zero(), T).force.z() <= 1000.0 * 0.05 * T + 1e-12);
+  CHECK(port.tick(d3::vector::Zero(), ph::seconds{T}).force.z() <= 1000.0 * 0.05 * T + 1e-12);
 }
 
 TEST_CASE("parameters of a set out of range are named, and change while it works",
@@ -283,11 +283,11 @@ TEST_CASE("parameters of a set out of range are named, and change while it works
 
   auto port = corner<d3, 3>();
   const d3::vector x(-1e-3, 0.02, 0.02);
-  (void)port.tick(x, T);
-  CHECK_THAT(port.tick(x, T).force.x(), WithinRel(1.0, 1e-12));
+  (void)port.tick(x, ph::seconds{T});
+  CHECK_THAT(port.tick(x, ph::seconds{T}).force.x(), WithinRel(1.0, 1e-12));
   CHECK_FALSE(port.set(ph::proxy_spring{.mass = 0.001}));  // K is capped at (1 − ε) κ m/T²
-  CHECK_THAT(port.tick(x, T).force.x(), WithinRel(0.095, 1e-12));
+  CHECK_THAT(port.tick(x, ph::seconds{T}).force.x(), WithinRel(0.095, 1e-12));
   CHECK(port.set(ph::pursuit{.speed = -1.0}));
   port.reset();
-  CHECK(port.tick(x, T).what == ph::event::no_target);
+  CHECK(port.tick(x, ph::seconds{T}).what == ph::event::no_target);
 }

@@ -76,7 +76,7 @@ TEST_CASE("one contact among contacts does what it does by itself", "[contacts]"
       REQUIRE(alone.source().update(next));
     }
     const d2::vector x(1e-4 * n, 2e-3 * std::sin(0.02 * n));
-    const auto a = one.tick(x, 1e-3), b = alone.tick(x, 1e-3);
+    const auto a = one.tick(x, 1ms), b = alone.tick(x, 1ms);
     REQUIRE((a.force - b.force).norm() < 1e-12);
     REQUIRE(std::abs(a.depth - b.depth) < 1e-15);
     REQUIRE(std::abs(a.energy - b.energy) < 1e-14);
@@ -94,14 +94,14 @@ TEST_CASE("in a corner both walls press, and the deepest contact is told", "[con
       port_of<d2>(ph::contacts{still<d2>({{0, 0}, right, 1000}), still<d2>({{0, 0}, up, 2000})},
                   ph::no_bound{});
   REQUIRE_FALSE(corner.check());
-  const auto both = corner.tick({-0.001, -0.0005}, 1e-3);
+  const auto both = corner.tick({-0.001, -0.0005}, 1ms);
   CHECK_THAT(both.force(0), WithinRel(1.0, 1e-12));
   CHECK_THAT(both.force(1), WithinRel(1.0, 1e-12));
   CHECK(both.depth == 0.001);
-  const auto one = corner.tick({0.001, -0.0005}, 1e-3);
+  const auto one = corner.tick({0.001, -0.0005}, 1ms);
   CHECK(one.force(0) == 0.0);
   CHECK(one.depth == 0.0005);
-  CHECK(corner.tick({0.001, 0.0005}, 1e-3).force == d2::zero());
+  CHECK(corner.tick({0.001, 0.0005}, 1ms).force == d2::zero());
 }
 
 TEST_CASE(
@@ -114,7 +114,7 @@ TEST_CASE(
   REQUIRE(wall_here.update({{0, 0}, right, 1000}));
   REQUIRE(floor_here.update({{0, 0}, up, 1000}));
   const d2::vector x(-0.003, -0.004);  // asks for 3 N and 4 N
-  const auto out = corner.tick(x, 1e-3);
+  const auto out = corner.tick(x, 1ms);
   CHECK(out.limited);
   CHECK_THAT(out.force(0), WithinRel(1.5, 1e-12));
   CHECK_THAT(out.force(1), WithinRel(2.0, 1e-12));
@@ -123,7 +123,7 @@ TEST_CASE(
   CHECK_THAT(out.depth, WithinRel(0.002, 1e-12));
 
   // the wall is let go of: who asks for nothing loses nothing
-  const auto free = corner.tick({0.001, -0.004}, 1e-3);
+  const auto free = corner.tick({0.001, -0.004}, 1ms);
   CHECK_THAT(free.force(1), WithinRel(2.5, 1e-12));
   CHECK(wall_here.local().point.values == wall_here.target().point.values);
 }
@@ -138,7 +138,7 @@ TEST_CASE(
     auto& floor_here = corner.source().contact<1>();
     REQUIRE(wall_here.update({{0, 0}, right, 1000}));
     REQUIRE(floor_here.update({{0, 0}, up, 1000}));
-    CHECK(corner.tick(x, 1e-3).limited);
+    CHECK(corner.tick(x, 1ms).limited);
     return d2::vector(wall_here.local().at(x).depth, floor_here.local().at(x).depth);
   };
   CHECK((depths({.times = 0.5}) - d2::vector(0.0015, 0.002)).norm() < 1e-15);  // the control
@@ -149,7 +149,7 @@ TEST_CASE(
   auto plates = port_of<d2>(ph::contacts{moving<d2>(), moving<d2>()}, turning_bound{.more = 1.0});
   REQUIRE(plates.source().contact<0>().update({{0.002, 0}, right, 1000}));
   REQUIRE(plates.source().contact<1>().update({{-0.002, 0}, {-1, 0}, 1000}));
-  CHECK(plates.tick({0, 0}, 1e-3).force(0) == 1.0);
+  CHECK(plates.tick({0, 0}, 1ms).force(0) == 1.0);
   CHECK(std::abs(plates.source().contact<0>().local().at({0, 0}).depth) < 1e-15);
   CHECK(std::abs(plates.source().contact<1>().local().at({0, 0}).depth) < 1e-15);
 }
@@ -158,10 +158,10 @@ TEST_CASE("two plates that squeeze a device press on it with the difference", "[
   auto plates = port_of<d2>(
       ph::contacts{still<d2>({{0.002, 0}, right, 1000}), still<d2>({{-0.002, 0}, {-1, 0}, 1000})},
       ph::strict_bound{});
-  (void)plates.tick({0, 0}, 1e-3);
-  CHECK(plates.tick({0, 0}, 1e-3).force == d2::zero());
-  CHECK(plates.tick({0, 0}, 1e-3).depth == 0.002);
-  CHECK(plates.tick({1e-6, 0}, 1e-3).force(0) < 0.0);
+  (void)plates.tick({0, 0}, 1ms);
+  CHECK(plates.tick({0, 0}, 1ms).force == d2::zero());
+  CHECK(plates.tick({0, 0}, 1ms).depth == 0.002);
+  CHECK(plates.tick({1e-6, 0}, 1ms).force(0) < 0.0);
 }
 
 TEST_CASE("two strict models on one device feed the hand, two contacts of one port do not",
@@ -174,8 +174,8 @@ TEST_CASE("two strict models on one device feed the hand, two contacts of one po
     auto both = port_of<d1>(ph::contacts{first, second}, ph::strict_bound{});
     const double deep = facing ? -5e-4 : 1e-3;
     const double apart =
-        least_energy([&](double x) { return a.tick(x, 1e-3).force + b.tick(x, 1e-3).force; }, deep);
-    const double together = least_energy([&](double x) { return both.tick(x, 1e-3).force; }, deep);
+        least_energy([&](double x) { return a.tick(x, 1ms).force + b.tick(x, 1ms).force; }, deep);
+    const double together = least_energy([&](double x) { return both.tick(x, 1ms).force; }, deep);
     CHECK(apart < -1e-4);
     CHECK(together >= -1e-12);
   }
@@ -184,23 +184,23 @@ TEST_CASE("two strict models on one device feed the hand, two contacts of one po
 TEST_CASE("each contact is updated and released by itself, and the worst news is told",
           "[contacts]") {
   auto pair = port_of<d1>(ph::contacts{moving<d1>(), moving<d1>()}, ph::no_bound{});
-  CHECK(pair.tick(0.001, 1e-3).what == ph::event::no_target);
+  CHECK(pair.tick(0.001, 1ms).what == ph::event::no_target);
   REQUIRE(pair.source().contact<0>().update(wall<d1>(1000)));
-  auto out = pair.tick(0.001, 1e-3);
+  auto out = pair.tick(0.001, 1ms);
   CHECK(out.what == ph::event::no_target);  // of the other one
   CHECK_THAT(out.force, WithinRel(-1.0, 1e-12));
   REQUIRE(pair.source().contact<1>().update(wall<d1>(500)));
-  out = pair.tick(0.001, 1e-3);
+  out = pair.tick(0.001, 1ms);
   CHECK(out.what == ph::event::nominal);
   CHECK_THAT(out.force, WithinRel(-1.5, 1e-12));
   CHECK_FALSE(pair.source().contact<1>().update(wall<d1>(-1)));
-  CHECK(pair.tick(0.001, 1e-3).what == ph::event::rejected_target);
+  CHECK(pair.tick(0.001, 1ms).what == ph::event::rejected_target);
   pair.source().contact<0>().release();
-  for (int n = 0; n < 60; ++n) out = pair.tick(0.001, 1e-3);
+  for (int n = 0; n < 60; ++n) out = pair.tick(0.001, 1ms);
   CHECK(out.what == ph::event::nominal);
   CHECK_THAT(out.force, WithinRel(-0.5, 1e-12));
   pair.reset();
-  CHECK(pair.tick(0.001, 1e-3).what == ph::event::no_target);
+  CHECK(pair.tick(0.001, 1ms).what == ph::event::no_target);
 }
 
 TEST_CASE("contacts of different kinds compose, a shaped one among them", "[contacts]") {
@@ -209,7 +209,7 @@ TEST_CASE("contacts of different kinds compose, a shaped one among them", "[cont
                    moving<d1>(ph::shaped{ph::spring{}, ph::force_rate_limit{.rate = 100.0}})},
       ph::no_bound{});
   REQUIRE(port.source().contact<1>().update(wall<d1>(1000)));
-  const auto out = port.tick(0.001, 1e-3);
+  const auto out = port.tick(0.001, 1ms);
   CHECK_THAT(out.force, WithinRel(-1.1, 1e-12));  // it appears at 100 N/s
   CHECK(out.limited);
   CHECK_THAT(port.source().contact<1>().local().at(0.001).depth, WithinRel(0.0001, 1e-9));
@@ -220,8 +220,8 @@ TEST_CASE("a fault in any contact is named, and the port ticks with force zero",
   auto port = port_of<d1>(ph::contacts{sound, flat}, ph::no_bound{});
   REQUIRE(port.check());
   CHECK(std::string(port.check().parameter) == "stiffness");
-  CHECK(port.tick(0.001, 1e-3).what == ph::event::rejected_parameters);
-  CHECK(port.tick(0.001, 1e-3).force == 0.0);
+  CHECK(port.tick(0.001, 1ms).what == ph::event::rejected_parameters);
+  CHECK(port.tick(0.001, 1ms).force == 0.0);
   CHECK_FALSE(port_of<d1>(ph::contacts{sound, sound}, ph::no_bound{}).check());
   static_assert(std::is_trivially_copyable_v<decltype(port)>);
 }
@@ -232,13 +232,13 @@ TEST_CASE("contacts share one bad sample: each grows older, and none presses", "
                    ph::local_contact{ph::followed{wall<d1>(1000), {.stale_after = 0.01}},
                                      ph::turn_at_once{}, ph::spring{}}},
       ph::no_bound{});
-  CHECK_THAT(pair.tick(0.001, 1e-3).force, WithinRel(-2.0, 1e-12));
+  CHECK_THAT(pair.tick(0.001, 1ms).force, WithinRel(-2.0, 1e-12));
   for (int n = 0; n < 100; ++n) {
-    const auto bad = pair.tick(std::nan(""), 1e-3);
+    const auto bad = pair.tick(std::nan(""), 1ms);
     CHECK(bad.what == ph::event::rejected_sample);
     CHECK(bad.force == 0.0);
   }
-  const auto out = pair.tick(0.001, 1e-3);
+  const auto out = pair.tick(0.001, 1ms);
   CHECK(out.what == ph::event::stale_target);
   CHECK_THAT(out.force, WithinRel(-1.0, 1e-12));
 }

@@ -36,7 +36,7 @@ landing fall(double stiffness_fraction) {
   double most = -1.0;
   auto s = device.exchange(0.0);
   for (int tick = 0; tick < 5000; ++tick) {
-    s = device.exchange(wall.tick(s.position, s.dt).force);
+    s = device.exchange(wall.tick(s.position, ph::seconds{s.dt}).force);
     if (tick < 4000) continue;
     least = std::min(least, device.position());
     most = std::max(most, device.position());

@@ -40,9 +40,9 @@ TEMPLATE_TEST_CASE("a point of a tool presses with its force and its torque", "[
   const scalar tiny = sizeof(scalar) == 4 ? scalar(1e-4) : scalar(1e-12);
   REQUIRE(port.source().update(0, {scalar(0.05), scalar(0), scalar(-0.02)},
                                plane_of<scalar>{{0, 0, 0}, {0, 0, 1}, scalar(1000)}));
-  (void)port.tick({{0, 0, scalar(0.021)}, {}}, scalar(T));
-  (void)port.tick({{0, 0, scalar(0.019)}, {}}, scalar(T));
-  const auto out = port.tick({{0, 0, scalar(0.019)}, {}}, scalar(T));
+  (void)port.tick({{0, 0, scalar(0.021)}, {}}, ph::seconds{scalar(T)});
+  (void)port.tick({{0, 0, scalar(0.019)}, {}}, ph::seconds{scalar(T)});
+  const auto out = port.tick({{0, 0, scalar(0.019)}, {}}, ph::seconds{scalar(T)});
   // k_v = K; k_ω = K ℓ² = 0.9 N·m/rad: 1/K_felt = 1/K + 0.05²/k_ω
   const double felt = 1.0 / (1.0 / 1000.0 + 0.05 * 0.05 / 0.9);
   CHECK_THAT(out.force(2), WithinRel(scalar(felt * 1e-3), scalar(1e-3)));
@@ -65,8 +65,8 @@ TEST_CASE("a tool is no stiffer with sixteen contacts than its coupling", "[rigi
     }
     const auto rest =
         [&port](const pose& x) {  // the surfaces have caught up, and so have the sweeps
-          for (int i = 0; i < 2000; ++i) (void)port.tick(x, T);
-          return port.tick(x, T).force;
+          for (int i = 0; i < 2000; ++i) (void)port.tick(x, ph::seconds{T});
+          return port.tick(x, ph::seconds{T}).force;
         };
     const body::effort here = rest({});
     const vector way = random.vector<d3>() * 1e-5, turn = random.vector<d3>() * 1e-4;
@@ -85,14 +85,14 @@ TEST_CASE("a tool refuses what is none, and goes on with what is", "[rigid_tool]
   auto port = open_port<double, 16>();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const pose above{{0, 0, 1e-3}, {}}, here{{0, 0, -1e-3}, {}};
-  CHECK(port.tick(above, T).what == ph::event::no_target);
+  CHECK(port.tick(above, ph::seconds{T}).what == ph::event::no_target);
   REQUIRE(port.source().update(0, {0.0, 0.0, 0.0}, floor_));
-  (void)port.tick(above, T);
-  (void)port.tick(here, T);
-  const body::effort before = port.tick(here, T).force;
+  (void)port.tick(above, ph::seconds{T});
+  (void)port.tick(here, ph::seconds{T});
+  const body::effort before = port.tick(here, ph::seconds{T}).force;
   REQUIRE(before(2) > 0.9);
   const auto refused = [&] {
-    const auto out = port.tick(here, T);
+    const auto out = port.tick(here, ph::seconds{T});
     CHECK(out.what == ph::event::rejected_target);
     CHECK(out.force == before);
   };
@@ -105,13 +105,14 @@ TEST_CASE("a tool refuses what is none, and goes on with what is", "[rigid_tool]
   CHECK_FALSE(port.source().update(0, plane{vector(0, 0, 0), vector(0, 0, 0), 1000.0}));
   refused();
   CHECK(port.source().update(0, floor_));  // the same point
-  CHECK(port.tick(here, T).force == before);
+  CHECK(port.tick(here, ph::seconds{T}).force == before);
 
-  const auto bad = port.tick({{0, 0, -1e-3}, {1.01, 0.0, 0.0, 0.0}}, T);  // no rotation
+  const auto bad =
+      port.tick({{0, 0, -1e-3}, {1.01, 0.0, 0.0, 0.0}}, ph::seconds{T});  // no rotation
   CHECK(bad.what == ph::event::rejected_sample);
   CHECK(bad.force == body::zero());
-  (void)port.tick(here, T);
-  const auto rounded = port.tick({{0, 0, -1e-3}, {1.0005, 0.0, 0.0, 0.0}}, T);
+  (void)port.tick(here, ph::seconds{T});
+  const auto rounded = port.tick({{0, 0, -1e-3}, {1.0005, 0.0, 0.0, 0.0}}, ph::seconds{T});
   CHECK(rounded.what == ph::event::nominal);
   CHECK_THAT(rounded.force(2), WithinRel(before(2), 1e-9));
 }
@@ -119,13 +120,13 @@ TEST_CASE("a tool refuses what is none, and goes on with what is", "[rigid_tool]
 TEST_CASE("a point moved along the tool keeps the force it has", "[rigid_tool]") {
   auto port = open_port<double, 1>();
   REQUIRE(port.source().update(0, {0.0, 0.0, 0.0}, floor_));
-  (void)port.tick({{0, 0, 1e-3}, {}}, T);
+  (void)port.tick({{0, 0, 1e-3}, {}}, ph::seconds{T});
   const pose here{{0, 0, -1e-3}, {}};
-  for (int i = 0; i < 5; ++i) (void)port.tick(here, T);
+  for (int i = 0; i < 5; ++i) (void)port.tick(here, ph::seconds{T});
   REQUIRE(port.source().update(0, {0.0, 0.0, -1e-3}, floor_));  // a millimetre deeper
   double last = 1.0;
   for (int i = 0; i < 100; ++i) {
-    const double f = port.tick(here, T).force(2);
+    const double f = port.tick(here, ph::seconds{T}).force(2);
     CHECK(std::abs(f - last) <= 1000.0 * 0.05 * T + 1e-9);
     last = f;
   }
@@ -145,7 +146,7 @@ TEST_CASE("every rough point of a tool pushes inside its cone, with the torque t
     place.z() = std::clamp(place.z(), 0.028, 0.031);
     x.position = place;
     x = body::moved(x, body::join(vector::Zero(), random.vector<d3>() * 1e-3));
-    const auto out = port.tick(x, T);
+    const auto out = port.tick(x, ph::seconds{T});
     const vector f = body::linear(out.force), at = ph::rotation::rotate<double>(x.orientation, arm);
     CHECK((body::angular(out.force) - d3::cross(at, f)).norm() <= 1e-12);
     const double normal = port.source().slot(0).pressed();

@@ -95,7 +95,7 @@ double first_force(const Law& law) {
                         ph::reduced_energy{.damping = 0.03, .loan = 10.0},
                         ph::strict_bound{},
                         thesis_loop};
-  return model.tick(0.002, 1e-3).force;  // the spring asks for 2 N
+  return model.tick(0.002, 1ms).force;  // the spring asks for 2 N
 }
 
 }  // namespace
@@ -156,11 +156,11 @@ TEST_CASE("the local model stands where the shaped force says", "[shaper]") {
                                         ph::reduced_energy{.damping = 0.03, .loan = 10.0},
                                         ph::strict_bound{});
   model.update(wall<d1>(1000));
-  const auto out = model.tick(0.002, 1e-3);
+  const auto out = model.tick(0.002, 1ms);
   CHECK(out.limited);
   CHECK_THAT(out.depth, WithinRel(0.001, 1e-12));
   CHECK_THAT(model.local().at(0.002).depth, WithinRel(0.001, 1e-12));
-  CHECK_FALSE(model.tick(-0.001, 1e-3).limited);
+  CHECK_FALSE(model.tick(-0.001, 1ms).limited);
 }
 
 TEST_CASE("a shaper that pushes is bounded as any other wish is", "[shaper][passivity]") {
@@ -172,7 +172,7 @@ TEST_CASE("a shaper that pushes is bounded as any other wish is", "[shaper][pass
   double x = 0.0, energy = 0.0, held = 0.0, least = 0.0;
   bool pushed = false;
   for (int n = 0; n < 5000; ++n) {
-    const auto out = model.tick(x, 1e-3);
+    const auto out = model.tick(x, 1ms);
     pushed = pushed || (x < 0.0 && out.force < 0.0);  // outside: only the shaper asks
     held = out.force;
     const double worst = held / 60.0;
@@ -201,8 +201,8 @@ TEST_CASE("a shaped law names the first fault of law and shapers, and resets the
                                         ph::strict_bound{});
   for (int run = 0; run < 2; ++run) {
     model.update(wall<d1>(1000));
-    CHECK_THAT(model.tick(0.002, 1e-3).force, WithinRel(-1.0, 1e-12));
-    CHECK_THAT(model.tick(0.002, 1e-3).force, WithinRel(-0.5, 1e-12));
+    CHECK_THAT(model.tick(0.002, 1ms).force, WithinRel(-1.0, 1e-12));
+    CHECK_THAT(model.tick(0.002, 1ms).force, WithinRel(-0.5, 1e-12));
     model.reset();
   }
 }

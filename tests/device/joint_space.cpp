@@ -95,10 +95,10 @@ TEST_CASE("a port of seven joints with a given torque is strict", "[joints][pass
   REQUIRE_FALSE(guard.check());
 
   const arm::vector small = arm::vector::Constant(0.01), large = arm::vector::Constant(50.0);
-  const auto free = guard.tick(arm::zero(), 1e-3, small);
+  const auto free = guard.tick(arm::zero(), 1ms, small);
   CHECK(free.force == small);
   CHECK(free.what == ph::event::nominal);
-  const auto bounded = guard.tick(arm::zero(), 1e-3, large);
+  const auto bounded = guard.tick(arm::zero(), 1ms, large);
   CHECK(bounded.limited);
   double outflow = 0.0;
   for (int i = 0; i < 7; ++i)
@@ -114,12 +114,12 @@ TEST_CASE("a port of joints believes no joint that jumps", "[joints]") {
   auto guard = ph::make_force_guard<arm, ph::diagonal_damping<7>>(seven, 1e-3);
   const arm::vector torque = arm::vector::Constant(0.1);
   arm::vector q = arm::zero();
-  CHECK(guard.tick(q, 1e-3, torque).what == ph::event::nominal);
+  CHECK(guard.tick(q, 1ms, torque).what == ph::event::nominal);
   q(5) = 0.004;  // 4 rad/s
-  CHECK(guard.tick(q, 1e-3, torque).what == ph::event::nominal);
+  CHECK(guard.tick(q, 1ms, torque).what == ph::event::nominal);
   q(5) = 0.010;  // 6 rad/s, and the limit is 5
-  CHECK(guard.tick(q, 1e-3, torque).what == ph::event::rejected_sample);
-  CHECK(guard.tick(q, 1e-3, torque).what == ph::event::nominal);  // it was there all the time
+  CHECK(guard.tick(q, 1ms, torque).what == ph::event::rejected_sample);
+  CHECK(guard.tick(q, 1ms, torque).what == ph::event::nominal);  // it was there all the time
 }
 
 TEST_CASE("a joint that is no number is refused, whichever it is, and the port comes back",
@@ -129,14 +129,14 @@ TEST_CASE("a joint that is no number is refused, whichever it is, and the port c
     auto guard = ph::make_force_guard<arm, ph::diagonal_damping<7>>(seven, 1e-3);
     arm::vector bad = arm::zero();
     bad(i) = std::nan("");
-    CHECK(guard.tick(bad, 1e-3, torque).what == ph::event::rejected_sample);
-    CHECK(guard.tick(arm::zero(), 1e-3, torque).what == ph::event::nominal);
+    CHECK(guard.tick(bad, 1ms, torque).what == ph::event::rejected_sample);
+    CHECK(guard.tick(arm::zero(), 1ms, torque).what == ph::event::nominal);
     for (int n = 0; n < 3; ++n) {
-      const auto out = guard.tick(bad, 1e-3, torque);
+      const auto out = guard.tick(bad, 1ms, torque);
       CHECK(out.what == ph::event::rejected_sample);
       CHECK(out.force == arm::zero());
     }
-    CHECK(guard.tick(arm::zero(), 1e-3, torque).what == ph::event::nominal);
+    CHECK(guard.tick(arm::zero(), 1ms, torque).what == ph::event::nominal);
   }
 }
 
@@ -150,7 +150,7 @@ TEST_CASE(
                        ph::strict_bound{}, thesis_loop};
   const auto by_the_tip = [&](const polar_arm& device) {
     const d2::vector out = device.tip() / device.q(1);
-    return device.torques(tip.tick(device.tip(), T, out * wanted).force);
+    return device.torques(tip.tick(device.tip(), ph::seconds{T}, out * wanted).force);
   };
   using ledger = ph::basic_reduced_energy<ph::diagonal_damping<2>>;
   const ph::diagonal_damping<2> of_joints{{b * 0.05 * 0.05, b}};  // nowhere above the damper's
@@ -158,7 +158,7 @@ TEST_CASE(
                           ph::strict_bound{}, thesis_loop};
   double farthest = 0.0;
   const auto by_the_joints = [&](const polar_arm& device) -> polar::vector {
-    const auto out = joints.tick(device.q, T, {0.0, wanted});
+    const auto out = joints.tick(device.q, ph::seconds{T}, {0.0, wanted});
     farthest = std::max(farthest, std::abs(out.energy - loan - device.energy));
     return out.force;
   };

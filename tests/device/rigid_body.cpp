@@ -8,9 +8,12 @@
 #include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/port/passive_port.hpp>
 
+#include <chrono>
+
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 namespace ph = passive_haptics;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -77,16 +80,16 @@ TEMPLATE_TEST_CASE("a pose that is no rotation is refused, the first sample too"
         ph::quaternion<double>{1, not_a_number, 0, 0}, ph::quaternion<double>{1, 1, 0, 0}}) {
     auto device = guarded<P>({.longest_tick = 1e-3});
     const typename P::pose wrong{{0, 0, 0}, bad};
-    CHECK(device.tick(wrong, 1e-3, wanted).what == ph::event::rejected_sample);
+    CHECK(device.tick(wrong, 1ms, wanted).what == ph::event::rejected_sample);
     CHECK_FALSE(device.has_position());
-    CHECK(device.tick(tilted, 1e-3, wanted).what == ph::event::nominal);
-    CHECK(device.tick(wrong, 1e-3, wanted).what == ph::event::rejected_sample);
-    CHECK(device.tick(tilted, 1e-3, wanted).what == ph::event::nominal);
+    CHECK(device.tick(tilted, 1ms, wanted).what == ph::event::nominal);
+    CHECK(device.tick(wrong, 1ms, wanted).what == ph::event::rejected_sample);
+    CHECK(device.tick(tilted, 1ms, wanted).what == ph::event::nominal);
   }
   for (const double lost : {not_a_number, std::numeric_limits<double>::infinity()}) {
     auto device = guarded<P>({.longest_tick = 1e-3});
     const typename P::pose nowhere{{0, lost, 0}, {}};
-    CHECK(device.tick(nowhere, 1e-3, wanted).what == ph::event::rejected_sample);
+    CHECK(device.tick(nowhere, 1ms, wanted).what == ph::event::rejected_sample);
   }
 }
 
@@ -94,19 +97,18 @@ TEST_CASE("a loop that trusts its samples gets over a pose that is no rotation",
   ph::passive_port device{body{}, ph::given_force{}, ph::no_observer{}, ph::no_bound{},
                           ph::trusted_loop_limits<>{.longest_tick = 1e-3}};
   const body::effort push = body::join({1, 0, 0}, {0, 0, 0});
-  CHECK(device.tick({}, 1e-3, push).force == push);
-  static_cast<void>(device.tick({{0, 0, 0}, {0.2, 0, 0, 0}}, 1e-3, push));
-  static_cast<void>(device.tick({}, 1e-3, push));
-  CHECK(device.tick({}, 1e-3, push).force == push);
+  CHECK(device.tick({}, 1ms, push).force == push);
+  static_cast<void>(device.tick({{0, 0, 0}, {0.2, 0, 0, 0}}, 1ms, push));
+  static_cast<void>(device.tick({}, 1ms, push));
+  CHECK(device.tick({}, 1ms, push).force == push);
 }
 
 TEST_CASE("the guard knows a body's place and how fast it turns", "[rigid_body]") {
   auto device = guarded<body>({.longest_tick = 1e-3, .top_speed = 5.0, .workspace = 0.5});
   const body::effort wanted = body::zero();
-  CHECK(device.tick(at({0.4, 0, 0}, {0, 0, 0}), 1e-3, wanted).what == ph::event::nominal);
-  CHECK(device.tick(at({0.4, 0, 0}, {0, 0.049, 0}), 1e-3, wanted).what == ph::event::nominal);
-  CHECK(device.tick(at({0.4, 0, 0}, {0, 0.10, 0}), 1e-3, wanted).what ==
-        ph::event::rejected_sample);
+  CHECK(device.tick(at({0.4, 0, 0}, {0, 0, 0}), 1ms, wanted).what == ph::event::nominal);
+  CHECK(device.tick(at({0.4, 0, 0}, {0, 0.049, 0}), 1ms, wanted).what == ph::event::nominal);
+  CHECK(device.tick(at({0.4, 0, 0}, {0, 0.10, 0}), 1ms, wanted).what == ph::event::rejected_sample);
   auto other = guarded<body>({.longest_tick = 1e-3, .workspace = 0.5});
-  CHECK(other.tick(at({0.6, 0, 0}, {0, 0, 0}), 1e-3, wanted).what == ph::event::outside_workspace);
+  CHECK(other.tick(at({0.6, 0, 0}, {0, 0, 0}), 1ms, wanted).what == ph::event::outside_workspace);
 }

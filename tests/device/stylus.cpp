@@ -35,7 +35,7 @@ template <class Bound>
     const pen::pose x{vec3(0, 0, height), ph::rotation::exp<double>(vec3(0, -angle, 0))};
     const vec3 tip = pen::place(x) + ph::rotation::rotate(x.orientation, vec3(length, 0, 0));
     const double pushed = std::max(0.0, -tip(2));
-    held = port.tick(x, T, vec3(0, 0, stiffness * pushed)).force;
+    held = port.tick(x, ph::seconds{T}, vec3(0, 0, stiffness * pushed)).force;
     out.least = std::min(out.least, energy);
     out.strongest = std::max(out.strongest, held(2));
   };

@@ -300,10 +300,10 @@ TEST_CASE("it drags: a force where there is nothing, and what ends it", "[troubl
                             reachable,
                             ph::loop_limits{.longest_tick = 1e-3}};
       (void)floor.update({{0, 0}, {0, 1}, 1000.0});
-      for (int n = 0; n < 10; ++n) (void)floor.tick({0, -1e-3}, 1e-3);
+      for (int n = 0; n < 10; ++n) (void)floor.tick({0, -1e-3}, 1ms);
       (void)floor.update({{0, 0}, tilted, 1000.0});
       d2::vector force = d2::zero();
-      for (int n = 0; n < 200; ++n) force = floor.tick({0, -1e-3}, 1e-3).force;
+      for (int n = 0; n < 200; ++n) force = floor.tick({0, -1e-3}, 1ms).force;
       REQUIRE(force.norm() > 0.5);
       return (force - tilted * tilted.dot(force)).norm() / force.norm();
     };
@@ -337,13 +337,13 @@ TEST_CASE("it is silent: no force at all, and what brings it", "[troubleshooting
   SECTION("millimetres for metres") {
     const auto pushed = [](double unit) {
       auto model = wall_of(2e3, settling, reachable);
-      auto out = model.tick(5.0 * unit, 1e-3);
-      for (int n = 1; n <= 100; ++n) out = model.tick((5.0 - 0.06 * n) * unit, 1e-3);
+      auto out = model.tick(5.0 * unit, 1ms);
+      for (int n = 1; n <= 100; ++n) out = model.tick((5.0 - 0.06 * n) * unit, 1ms);
       return out;
     };
     auto far_away = wall_of(2e3, settling, reachable);
-    CHECK(far_away.tick(40.0, 1e-3).what == event::outside_workspace);  // 40 m
-    CHECK(pushed(1.0).what == event::rejected_sample);                  // nearer, but 60 m/s
+    CHECK(far_away.tick(40.0, 1ms).what == event::outside_workspace);  // 40 m
+    CHECK(pushed(1.0).what == event::rejected_sample);                 // nearer, but 60 m/s
     CHECK(pushed(1.0).force == 0.0);
     CHECK(pushed(1e-3).what == event::nominal);
     CHECK(pushed(1e-3).force > 1.0);
@@ -351,8 +351,8 @@ TEST_CASE("it is silent: no force at all, and what brings it", "[troubleshooting
   SECTION("a dt that is never measured") {
     const auto pushed = [](double dt) {
       auto model = wall_of(2e3, settling, reachable);
-      auto out = model.tick(5e-3, dt);
-      for (int n = 1; n <= 100; ++n) out = model.tick(5e-3 - 6e-5 * n, dt);
+      auto out = model.tick(5e-3, ph::seconds{dt});
+      for (int n = 1; n <= 100; ++n) out = model.tick(5e-3 - 6e-5 * n, ph::seconds{dt});
       return out;
     };
     CHECK(pushed(0.0).what == event::rejected_sample);

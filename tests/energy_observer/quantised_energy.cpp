@@ -124,7 +124,7 @@ TEST_CASE("quantised_energy takes new parameters, keeps its energy and starts an
   auto pressed = model;
   (void)pressed.update(wall<d1>(1e4));
   double held = 0.0, force = 0.0;  // over the last tick, and over the next
-  for (int n = 0; n < 50; ++n) held = std::exchange(force, pressed.tick(n * 1e-4, 1e-3).force);
+  for (int n = 0; n < 50; ++n) held = std::exchange(force, pressed.tick(n * 1e-4, 1ms).force);
   const double before = pressed.energy();
   REQUIRE(held < -0.1);
   CHECK_FALSE(pressed.set(coarse));

@@ -184,5 +184,5 @@ TEST_CASE("observers take new parameters, keep their energy, refuse bad ones and
   REQUIRE(used.energy() > 1e-6);
   CHECK_FALSE(used.set(ph::capped_energy{.damping = 0.03, .cap = 1e-7}));
   CHECK(used.energy() > 1e-6);
-  CHECK(used.tick(0.0, 1e-3).energy <= 1e-7);
+  CHECK(used.tick(0.0, 1ms).energy <= 1e-7);
 }

@@ -77,7 +77,7 @@ TEST_CASE("pressed slowly, the families show 2b/T, b/T or β, and not more (L4)"
     auto model = following_half_space<d1>(ph::spring{}, thesis_ledger(), bound, limits);
     (void)model.update(wall<d1>(1e4));
     double force = 0.0;
-    for (int n = 0; n <= 10000; ++n) force = model.tick(n * 2e-6, 1e-3).force;  // 20 mm in 10 s
+    for (int n = 0; n <= 10000; ++n) force = model.tick(n * 2e-6, 1ms).force;  // 20 mm in 10 s
     return -force / 0.02;
   };
   CHECK_THAT(shown(ph::strict_bound{}, thesis_loop), WithinRel(60.0, 0.01));

@@ -163,10 +163,10 @@ TEST_CASE("the series controller damps along the motion in three dimensions, wit
       following_half_space<d3>(ph::spring{}, ph::no_observer{}, series{.max_damping = 5.0});
   (void)model.update({{0, 0, 0}, {0, 0, 1}, 1000.0});
   const d3::vector inside(0, 0, -1e-3), outside(1e-4, 0, 1e-3);
-  static_cast<void>(model.tick(inside, T));
-  static_cast<void>(model.tick(outside, T));  // pressed out by K d over 2 mm
+  static_cast<void>(model.tick(inside, ph::seconds{T}));
+  static_cast<void>(model.tick(outside, ph::seconds{T}));  // pressed out by K d over 2 mm
   const d3::vector step(2e-4, 3e-4, 0);
-  const d3::vector force = model.tick(outside + step, T).force;
+  const d3::vector force = model.tick(outside + step, ph::seconds{T}).force;
   CHECK((force + 5.0 * step / T).norm() < 1e-12);
 }
 

@@ -23,7 +23,7 @@ crossed cross(const auto& bound) {
                         ph::basic_reduced_energy<axes>{.damping = {{b[0], b[1]}}, .loan = 2.235e-3},
                         bound, ph::loop_limits{.longest_tick = T}};
   d2::vector x(0.0, 0.0), v(-0.01237, -0.42623);
-  d2::vector f = port.tick(x, T, u * 2.0829).force;
+  d2::vector f = port.tick(x, ph::seconds{T}, u * 2.0829).force;
   crossed out{};
   for (const double asked : {77.469, 0.0}) {
     for (int i = 0; i < 2; ++i) {  // exact for a constant force
@@ -32,7 +32,7 @@ crossed cross(const auto& bound) {
       x(i) += steady * T - rest * std::expm1(-b[axis] / m * T) * m / b[axis];
       v(i) = steady + rest * std::exp(-b[axis] / m * T);
     }
-    const auto now = port.tick(x, T, d2::vector(u * asked));
+    const auto now = port.tick(x, ph::seconds{T}, d2::vector(u * asked));
     f = now.force;
     out.left = now.energy;
     if (asked > 0.0) out.granted = f.norm();

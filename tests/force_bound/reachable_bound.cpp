@@ -250,7 +250,7 @@ double tapped_late(const Bound& bound, int late, std::uint64_t seed) {
   double x = -1e-3;
   for (int n = 0; n < 1500; ++n) {
     if (n % 35 == 0) (void)model.update({random.uniform(-2e-3, 2e-3), -1.0, K});
-    x = device.exchange(model.tick(x, 1e-3).force).position;
+    x = device.exchange(model.tick(x, 1ms).force).position;
   }
   return device.meter().minimum();
 }
@@ -297,7 +297,7 @@ double worst_across(const auto& bound) {
     d2::vector x = d2::zero(), v = d2::zero();
     double E = 0.0, push = -F;
     for (int tick = 0; tick < 3000; ++tick) {
-      const d2::vector f = model.tick(x, T).force;
+      const d2::vector f = model.tick(x, ph::seconds{T}).force;
       if (random.chance(0.15)) push = random.chance(0.5) || x.dot(n) > 1e-3 ? -F : F;
       for (int i = 0; i < 2; ++i) {  // exact for a constant force, but for the damper, as in L1
         const double rate = b / m(i), steady = (push * hand(i) + f(i)) / b, rest = v(i) - steady;

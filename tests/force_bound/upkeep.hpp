@@ -38,7 +38,7 @@ std::vector<double> run_of(Model& model, int ticks, std::uint64_t seed) {
   for (int n = 0; n < ticks; ++n) {
     if (n % 60 == 0) (void)model.update({random.number<double>() * 1e-3, -1.0, 1e4});
     x = 0.9 * x + random.number<double>() * 3e-4;
-    const auto out = model.tick(x, 0.5e-3 * (1.5 + random.number<double>() / 2.0));
+    const auto out = model.tick(x, ph::seconds{0.5e-3 * (1.5 + random.number<double>() / 2.0)});
     seen.insert(seen.end(), {out.force, out.energy});
   }
   return seen;

@@ -147,7 +147,7 @@ std::vector<double> played(Model model) {
         CHECK(model.update({point, normal, S(800)}));
       }
     }
-    const auto out = model.tick(x, S(n % 97 == 96 ? 1.5e-3 : 1e-3));
+    const auto out = model.tick(x, ph::seconds{S(n % 97 == 96 ? 1.5e-3 : 1e-3)});
     for (int i = 0; i < space::dof; ++i) {
       seen.push_back(static_cast<double>(space::component(out.force, i)));
     }
@@ -171,7 +171,7 @@ std::vector<double> guarded() {
   for (int n = 0; n < 500; ++n) {
     const typename joints::vector q(S(1e-2 * std::sin(0.05 * n)), S(2e-2 * std::cos(0.03 * n)));
     const typename joints::vector wanted(S(std::sin(0.2 * n)), S(-0.5));
-    const auto out = guard.tick(q, S(1e-3), wanted);
+    const auto out = guard.tick(q, 1ms, wanted);
     for (int i = 0; i < 2; ++i) seen.push_back(static_cast<double>(out.force(i)));
     seen.push_back(static_cast<double>(out.energy));
   }

@@ -173,7 +173,7 @@ TEST_CASE("memoryless_bound with latency survives it, and so does what remembers
     sim::random_source random(3);
     double position = 0.0;
     for (int n = 0; n < 20000; ++n) {
-      const double force = model.tick(position, 1e-3).force;
+      const double force = model.tick(position, 1ms).force;
       const double worst = device.upcoming(force) / 60.0;
       position += random.chance(0.5) ? random.uniform(0.0, 1e-3) : worst;
       device.move_to(position);

@@ -31,7 +31,7 @@ struct shown_positions {
   Model model;
 
   auto tick(const ph::device_sample<space_type>& sample) noexcept {
-    return model.tick(sample.position, sample.dt);
+    return model.tick(sample.position, ph::seconds{sample.dt});
   }
   bool update(const constraint_type& next) noexcept { return model.update(next); }
 };

@@ -9,6 +9,7 @@
 #include <passive_haptics/simulation/presets.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
+#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -20,6 +21,7 @@ using identification::axis_identification;
 using identification::identification_parameters;
 using d1 = ph::space<double, 1>;
 using d2 = ph::space<float, 2>;
+using namespace std::chrono_literals;
 using free_hand = sim::no_hand<d1>;
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -50,10 +52,10 @@ session identified(auto&& device, const identification_parameters& p, auto spoil
   for (int n = 0; !of.done() && n < 200000; ++n) {
     auto sample = device.exchange(force);
     spoil(n, sample);
-    force = of.tick(sample.position, sample.dt);
+    force = of.tick(sample.position, ph::seconds{sample.dt});
     s.largest = std::max(s.largest, std::abs(force));
   }
-  s.last = std::abs(force) + std::abs(of.tick(0.0, 1e-3));
+  s.last = std::abs(force) + std::abs(of.tick(0.0, 1ms));
   s.found = of.result();
   s.seconds = of.time();
   return s;
@@ -180,12 +182,12 @@ TEST_CASE("samples that are no numbers give no force, few are borne, many end it
           "[identification]") {
   const auto device = [] { return rubbing<sim::slider_and_spring>(grip, {}, rubs); };
   axis_identification of;
-  (void)of.tick(0.0, 1e-3);
-  CHECK(of.tick(0.0, 1e-3) != 0.0);  // the control
-  CHECK(of.tick(no_number, 1e-3) == 0.0);
-  CHECK(of.tick(0.0, no_number) == 0.0);
-  CHECK(of.tick(0.0, 0.0) == 0.0);
-  CHECK(of.tick(0.0, -1e-3) == 0.0);
+  (void)of.tick(0.0, 1ms);
+  CHECK(of.tick(0.0, 1ms) != 0.0);  // the control
+  CHECK(of.tick(no_number, 1ms) == 0.0);
+  CHECK(of.tick(0.0, ph::seconds{no_number}) == 0.0);
+  CHECK(of.tick(0.0, ph::seconds{0.0}) == 0.0);
+  CHECK(of.tick(0.0, ph::seconds{-1e-3}) == 0.0);
   CHECK(of.lost() == 0.0);
   const auto few = identified(device(), {}, [](int n, auto& sample) {
     if (n % 997 == 0) sample.position = no_number;
@@ -239,11 +241,11 @@ TEST_CASE("an identification can be stopped, and refuses parameters out of their
           "[identification]") {
   axis_identification of;
   CHECK(std::string(of.result().problem).find("not at its end") != std::string::npos);
-  (void)of.tick(0.0, 1e-3);
-  CHECK(of.tick(0.0, 1e-3) != 0.0);
+  (void)of.tick(0.0, 1ms);
+  CHECK(of.tick(0.0, 1ms) != 0.0);
   of.stop();
   CHECK(of.done());
-  CHECK(of.tick(0.0, 1e-3) == 0.0);
+  CHECK(of.tick(0.0, 1ms) == 0.0);
   CHECK(std::string(of.result().problem).find("stopped") != std::string::npos);
   CHECK_FALSE(identification_parameters{}.check());
   for (const identification_parameters& wrong :
@@ -257,7 +259,7 @@ TEST_CASE("an identification can be stopped, and refuses parameters out of their
     CHECK(wrong.check());
     axis_identification refused(wrong);
     CHECK(refused.done());
-    CHECK(refused.tick(0.0, 1e-3) == 0.0);
+    CHECK(refused.tick(0.0, 1ms) == 0.0);
     CHECK(refused.problem() != nullptr);
   }
 }

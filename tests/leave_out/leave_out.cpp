@@ -147,13 +147,13 @@ TEST_CASE("an unchanged target is worked out once, not in every tick", "[local_m
                         thesis_loop};
   asked = {};
   REQUIRE(touch.update(facet(0)));
-  for (int n = 0; n < 1000; ++n) static_cast<void>(touch.tick({0, 0, 1e-3 - 2e-6 * n}, 1e-3));
+  for (int n = 0; n < 1000; ++n) static_cast<void>(touch.tick({0, 0, 1e-3 - 2e-6 * n}, 1ms));
   CHECK(asked.prepared == 1);
   CHECK(asked.adopted == 1);
   // the control: each new target is worked out, and the normal turns until it is there
   asked.turned = 0;
   REQUIRE(touch.update(facet(0.02)));
-  for (int n = 0; n < 1000; ++n) static_cast<void>(touch.tick({0, 0, -1e-3}, 1e-3));
+  for (int n = 0; n < 1000; ++n) static_cast<void>(touch.tick({0, 0, -1e-3}, 1ms));
   CHECK(asked.prepared == 2);
   CHECK(asked.adopted == 2);
   CHECK(asked.turned > 10);
@@ -169,10 +169,10 @@ TEST_CASE("a local model at its target neither turns nor moves", "[local_model][
                         ph::no_observer{},
                         ph::no_bound{},
                         thesis_loop};
-  for (int n = 0; n < 10; ++n) static_cast<void>(touch.tick({0, 0, 1e-3}, 1e-3));
+  for (int n = 0; n < 10; ++n) static_cast<void>(touch.tick({0, 0, 1e-3}, 1ms));
   asked = {};
   double force = 0;
-  for (int n = 0; n < 1000; ++n) force = touch.tick({0, 0, -1e-6 * n}, 1e-3).force.norm();
+  for (int n = 0; n < 1000; ++n) force = touch.tick({0, 0, -1e-6 * n}, 1ms).force.norm();
   CHECK(force > 0.4);
   CHECK(asked.prepared + asked.adopted + asked.turned + asked.moved == 0);
 }
@@ -182,9 +182,9 @@ TEST_CASE("a bound that keeps nothing is not asked about a force of zero", "[loc
   ph::local_model touch{d1{},         ph::fixed{ph::half_space<d1>{0, 1, 1000}}, ph::turn_at_once{},
                         ph::spring{}, ph::reduced_energy{.damping = 1},          counting_bound{},
                         thesis_loop};
-  for (int n = 0; n < 10; ++n) static_cast<void>(touch.tick(1e-3, 1e-3));
+  for (int n = 0; n < 10; ++n) static_cast<void>(touch.tick(1e-3, 1ms));
   CHECK(limits == 0);
-  static_cast<void>(touch.tick(-1e-4, 1e-3));
+  static_cast<void>(touch.tick(-1e-4, 1ms));
   CHECK(limits == 1);
 }
 
@@ -197,9 +197,9 @@ TEST_CASE("a shaper that keeps nothing is not asked about a force of zero", "[lo
                         ph::reduced_energy{.damping = 1},
                         counting_bound{},
                         thesis_loop};
-  for (int n = 0; n < 10; ++n) static_cast<void>(touch.tick(1e-3, 1e-3));
+  for (int n = 0; n < 10; ++n) static_cast<void>(touch.tick(1e-3, 1ms));
   CHECK(shapes + limits == 0);
-  static_cast<void>(touch.tick(-1e-4, 1e-3));
+  static_cast<void>(touch.tick(-1e-4, 1ms));
   CHECK(shapes == 1);
   CHECK(limits == 1);
 }

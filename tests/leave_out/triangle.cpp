@@ -17,5 +17,5 @@ scene::vector facet_force(const scene::vector& position, double dt) {
   if (const auto* next = mailbox.take()) {
     static_cast<void>(facets.source().contact<0>().update(*next));
   }
-  return facets.tick(position, dt).force;
+  return facets.tick(position, ph::seconds{dt}).force;
 }

@@ -19,5 +19,5 @@ float wall_force(float position, float dt) {
                               ph::reduced_energy{.damping = 0.3},
                               ph::strict_bound{},
                               ph::loop_limits{.longest_tick = 0.001}};
-  return wall.tick(position, dt).force;
+  return wall.tick(position, ph::seconds{dt}).force;
 }

@@ -33,7 +33,7 @@ struct wrong_bound : ph::no_bound {
 template <class Port>
 auto tick(Port& port, const typename Port::pose& x, typename Port::scalar dt) noexcept
     [[clang::nonblocking]] {
-  return port.tick(x, dt);
+  return port.tick(x, ph::seconds{dt});
 }
 template <class Port>
 auto tick_sample(Port& port, const ph::device_sample<typename Port::port_type>& sample) noexcept
@@ -43,7 +43,7 @@ auto tick_sample(Port& port, const ph::device_sample<typename Port::port_type>& 
 template <class Port>
 auto tick_given(Port& port, const typename Port::pose& x, typename Port::scalar dt,
                 const typename Port::effort& wanted) noexcept [[clang::nonblocking]] {
-  return port.tick(x, dt, wanted);
+  return port.tick(x, ph::seconds{dt}, wanted);
 }
 template <class Port, class Parameters>
 auto change(Port& port, const Parameters& parameters) noexcept [[clang::nonblocking]] {
@@ -75,7 +75,7 @@ struct instantiate {
     (void)tick_sample(port, {});
     if constexpr (Port::latency == 0) (void)change(port, loop);
     start_anew(port);
-    if constexpr (requires { port.tick(x, T, x); }) (void)tick_given(port, x, T, x);
+    if constexpr (requires { port.tick(x, ph::seconds{T}, x); }) (void)tick_given(port, x, T, x);
     if constexpr (requires { port.update(port.target()); }) {
       (void)update(port, port.target());
       ph::exchange<typename Port::constraint_type> mailbox;

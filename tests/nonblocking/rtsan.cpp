@@ -23,7 +23,7 @@ void run_loop(Port& model, bool allocate) noexcept [[clang::nonblocking]] {
         static_cast<void>(model.source().update(x * scalar(100)));
       }
     }
-    static_cast<void>(model.tick(x, n % 50 == 49 ? scalar(2e-3) : scalar(1e-3)));
+    static_cast<void>(model.tick(x, ph::seconds{n % 50 == 49 ? scalar(2e-3) : scalar(1e-3)}));
     if constexpr (Port::latency == 0) {
       if (n == 200) static_cast<void>(model.set(ph::loop_limits{.longest_tick = 0.002}));
     }

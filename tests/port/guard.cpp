@@ -140,9 +140,9 @@ TEST_CASE("a tick whose energy is no number is refused, and the ledger stays one
     for (const double dt : {1e-3, 3e-3}) {  // in time, and late
       auto model = following_half_space<d1>(ph::spring{}, ledger, ph::strict_bound{});
       model.update(wall<d1>(500));
-      CHECK(model.tick(0.0, 1e-3).what == ph::event::nominal);
-      CHECK(model.tick(1e-4, 1e-3).what == ph::event::nominal);  // the control: 1e303 J
-      const auto beyond = model.tick(0.09, dt);
+      CHECK(model.tick(0.0, 1ms).what == ph::event::nominal);
+      CHECK(model.tick(1e-4, 1ms).what == ph::event::nominal);  // the control: 1e303 J
+      const auto beyond = model.tick(0.09, ph::seconds{dt});
       CHECK(beyond.what == ph::event::rejected_sample);
       CHECK(beyond.force == 0.0);
       CHECK(ph::kernels::is_finite(model.energy()));
@@ -159,14 +159,14 @@ TEST_CASE("a late tick is reported, and costs what it cost, since its force was 
   const ph::loop_limits limits{.longest_tick = 1.2e-3, .top_speed = 100.0};
   auto bare = following_half_space<d1>(ph::spring{}, thesis_ledger(), ph::no_bound{}, limits);
   bare.update(wall<d1>(500));
-  (void)bare.tick(0.0, 1e-3);
-  const double before = bare.tick(1e-3, 1.2e-3).energy;
-  const auto late = bare.tick(1.5e-3, 3e-3);  // 0.5 N inwards, 0.5 mm, 3 ms
+  (void)bare.tick(0.0, 1ms);
+  const double before = bare.tick(1e-3, 1200us).energy;
+  const auto late = bare.tick(1.5e-3, 3ms);  // 0.5 N inwards, 0.5 mm, 3 ms
   CHECK(late.what == ph::event::late_tick);
   CHECK_THAT(late.energy - before, WithinAbs(0.03 * 0.25e-6 / 3e-3 + 0.5 * 0.5e-3, 1e-15));
   CHECK(late.energy > before);
   CHECK(late.force < 0.0);
-  CHECK(bare.tick(-0.019, 3e-3).energy < -5e-3);  // 0.75 N have worked for 20 mm: a debt
+  CHECK(bare.tick(-0.019, 3ms).energy < -5e-3);  // 0.75 N have worked for 20 mm: a debt
 }
 
 TEST_CASE("a late tick costs what it may have cost, if a watchdog may have dropped the force",
@@ -174,19 +174,19 @@ TEST_CASE("a late tick costs what it may have cost, if a watchdog may have dropp
   const ph::loop_limits limits{.longest_tick = 1.2e-3, .top_speed = 100.0, .watchdog = 1.2e-3};
   auto model = following_half_space<d1>(ph::spring{}, thesis_ledger(), ph::strict_bound{}, limits);
   model.update(wall<d1>(500));
-  (void)model.tick(0.0, 1e-3);
-  CHECK(model.tick(1e-3, 1.2e-3).what == ph::event::nominal);
+  (void)model.tick(0.0, 1ms);
+  CHECK(model.tick(1e-3, 1200us).what == ph::event::nominal);
   const double before = model.energy();
-  const auto late = model.tick(1.5e-3, 3e-3);
+  const auto late = model.tick(1.5e-3, 3ms);
   CHECK(late.what == ph::event::late_tick);
   CHECK(before > 0.0);
   CHECK_THAT(late.energy, WithinAbs(0.0, 1e-15));  // the bound had spent it all
 
   auto bare = following_half_space<d1>(ph::spring{}, thesis_ledger(), ph::no_bound{}, limits);
   bare.update(wall<d1>(500));
-  (void)bare.tick(0.0, 1e-3);
-  CHECK(bare.tick(1e-3, 1e-3).energy > 0.0);
-  CHECK(bare.tick(-0.019, 3e-3).energy < -5e-3);  // it did not bark: 0.5 N have worked for 20 mm
+  (void)bare.tick(0.0, 1ms);
+  CHECK(bare.tick(1e-3, 1ms).energy > 0.0);
+  CHECK(bare.tick(-0.019, 3ms).energy < -5e-3);  // it did not bark: 0.5 N have worked for 20 mm
 }
 
 TEST_CASE("a tick shorter than the watchdog waits is booked as it was, however late", "[fault]") {
@@ -195,9 +195,9 @@ TEST_CASE("a tick shorter than the watchdog waits is booked as it was, however l
         ph::spring{}, thesis_ledger(), ph::strict_bound{},
         ph::loop_limits{.longest_tick = 1.2e-3, .top_speed = 100.0, .watchdog = watchdog});
     model.update(wall<d1>(500));
-    (void)model.tick(0.0, 1e-3);
-    (void)model.tick(1e-3, 1e-3);
-    return model.tick(1.5e-3, 3e-3).energy;
+    (void)model.tick(0.0, 1ms);
+    (void)model.tick(1e-3, 1ms);
+    return model.tick(1.5e-3, 3ms).energy;
   };
   CHECK(after(4e-3) == after(ph::loop_limits::never));
   CHECK(after(2e-3) < after(4e-3));
@@ -216,13 +216,13 @@ TEST_CASE("a watchdog makes an encoder's ledger forget what only one of two stor
                         ph::quantised_energy{.damping = b, .quantum = q, .loan = loan},
                         ph::no_bound{}, ph::loop_limits{.longest_tick = T, .watchdog = T}};
   double position = 0.0, truth = loan;
-  (void)port.tick(position, T, F);
+  (void)port.tick(position, ph::seconds{T}, F);
   for (int n = 0; n < 200; ++n) {
     position += shown;
-    const auto late = port.tick(position, 5 * T, F);
+    const auto late = port.tick(position, ph::seconds{5 * T}, F);
     REQUIRE(late.what == ph::event::late_tick);
     truth += b * out * out / T - F * out + b * back * back / (4 * T);
-    const auto even = port.tick(position, T, F);
+    const auto even = port.tick(position, ph::seconds{T}, F);
     truth += b * q * q / T - F * q;
     if (even.energy > truth) FAIL("tick " << n << ": overstated by " << even.energy - truth);
   }
@@ -235,9 +235,9 @@ TEST_CASE("a sample that is lost in a late tick costs all the time that its forc
     ph::passive_port port{d1{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03, .loan = 1.0},
                           ph::no_bound{},
                           ph::loop_limits{.longest_tick = 1e-3, .watchdog = watchdog}};
-    (void)port.tick(0.0, 1e-3, 0.5);
+    (void)port.tick(0.0, 1ms, 0.5);
     const double before = port.energy();
-    (void)port.tick(std::nan(""), dt, 0.0);
+    (void)port.tick(std::nan(""), ph::seconds{dt}, 0.0);
     return before - port.energy();
   };
   const double worst = 1e-3 * 0.25 / (4 * 0.03);  // T f²/(4b)
@@ -254,18 +254,18 @@ TEST_CASE("a position outside the workspace is an event, as millimetres for metr
   auto model = following_half_space<d3>(ph::spring{}, thesis_ledger(), ph::strict_bound{},
                                         ph::loop_limits{.longest_tick = 1e-3});
   model.update({{0, 0, 0}, {0, 0, 1}, 1000});
-  const auto inside = model.tick({0, 0, -1.9}, 1e-3);
+  const auto inside = model.tick({0, 0, -1.9}, 1ms);
   CHECK(inside.what == ph::event::nominal);
   for (int n = 0; n < 1000; ++n) {  // 40 mm deep, and says 40 m
-    const auto out = model.tick({0, 0, -40.0}, 1e-3);
+    const auto out = model.tick({0, 0, -40.0}, 1ms);
     if (out.what < ph::event::outside_workspace || out.force.norm() != 0.0) FAIL("tick " << n);
   }
   model.reset();
-  CHECK(model.tick({0, 0, -40.0}, 1e-3).what == ph::event::outside_workspace);
+  CHECK(model.tick({0, 0, -40.0}, 1ms).what == ph::event::outside_workspace);
   model.reset();
   REQUIRE_FALSE(model.set(ph::loop_limits{.longest_tick = 1e-3, .workspace = 50.0}));
   model.update({{0, 0, 0}, {0, 0, 1}, 1000});
-  CHECK(model.tick({0, 0, -40.0}, 1e-3).what == ph::event::nominal);
+  CHECK(model.tick({0, 0, -40.0}, 1ms).what == ph::event::nominal);
 
   using arm = ph::joint_space<double, 3>;  // joints may turn as often as they like
   ph::passive_port turning{
@@ -273,15 +273,15 @@ TEST_CASE("a position outside the workspace is an event, as millimetres for metr
       ph::basic_reduced_energy<ph::diagonal_damping<3>>{.damping = {{0.03, 0.03, 0.03}}},
       ph::strict_bound{}, ph::loop_limits{.longest_tick = 1e-3}};
   const arm::effort none = arm::zero();
-  CHECK(turning.tick(arm::pose(60.0, 0.0, 0.0), 1e-3, none).what == ph::event::nominal);
+  CHECK(turning.tick(arm::pose(60.0, 0.0, 0.0), 1ms, none).what == ph::event::nominal);
 }
 
 TEST_CASE("a debt is an event, and events say what they are", "[fault]") {
   auto model = following_half_space<d1>(ph::spring{}, thesis_ledger(), ph::no_bound{});
   model.update(wall<d1>(1e4));
-  (void)model.tick(0.0, 1e-3);
-  CHECK(model.tick(1e-3, 1e-3).what == ph::event::nominal);
-  CHECK(model.tick(0.0, 1e-3).what == ph::event::debt);
+  (void)model.tick(0.0, 1ms);
+  CHECK(model.tick(1e-3, 1ms).what == ph::event::nominal);
+  CHECK(model.tick(0.0, 1ms).what == ph::event::debt);
   for (int e = 0; e <= static_cast<int>(ph::event::rejected_parameters); ++e) {
     CHECK(std::string(ph::to_string(static_cast<ph::event>(e))) != "unknown event");
   }

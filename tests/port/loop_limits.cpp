@@ -51,19 +51,19 @@ TEST_CASE("a loop that learns its longest tick says so in its type, and goes by 
   static_assert(decltype(states)::passivity == ph::guarantee::strict);
   for (auto tick : {0, 1}) {
     (void)tick;
-    CHECK(learns.tick(0.0, 1e-3, 0.0).what == ph::event::nominal);
-    CHECK(states.tick(0.0, 1e-3, 0.0).what == ph::event::nominal);
+    CHECK(learns.tick(0.0, 1ms, 0.0).what == ph::event::nominal);
+    CHECK(states.tick(0.0, 1ms, 0.0).what == ph::event::nominal);
   }
-  CHECK(learns.tick(0.0, 1.5e-3, 0.0).what == ph::event::late_tick);
-  CHECK(states.tick(0.0, 1.5e-3, 0.0).what == ph::event::late_tick);
-  CHECK(learns.tick(0.0, 1.5e-3, 0.0).what == ph::event::nominal);
-  CHECK(states.tick(0.0, 1.5e-3, 0.0).what == ph::event::late_tick);
-  CHECK(learns.tick(0.0, 1e-3, 0.0).what == ph::event::nominal);
-  CHECK(learns.tick(0.0, 1.4e-3, 0.0).what == ph::event::nominal);
+  CHECK(learns.tick(0.0, 1500us, 0.0).what == ph::event::late_tick);
+  CHECK(states.tick(0.0, 1500us, 0.0).what == ph::event::late_tick);
+  CHECK(learns.tick(0.0, 1500us, 0.0).what == ph::event::nominal);
+  CHECK(states.tick(0.0, 1500us, 0.0).what == ph::event::late_tick);
+  CHECK(learns.tick(0.0, 1ms, 0.0).what == ph::event::nominal);
+  CHECK(learns.tick(0.0, 1400us, 0.0).what == ph::event::nominal);
   // the same energy covers less force then
   const auto push = [](auto& port) {
-    (void)port.tick(1e-3, 1e-3, 0.0);
-    return port.tick(1e-3, 1e-3, 100.0).force;
+    (void)port.tick(1e-3, 1ms, 0.0);
+    return port.tick(1e-3, 1ms, 100.0).force;
   };
   const double less = push(learns), more = push(states);
   CHECK(less > 0.0);
@@ -86,7 +86,7 @@ seen watch(const Limits& limits, auto place_at, int ticks) {
   double last = 1e9;
   for (int n = 0; n < ticks; ++n) {
     const double x = place_at(n);
-    const auto out = guard.tick(x, 1e-3, 0.0);
+    const auto out = guard.tick(x, 1ms, 0.0);
     if (out.what == ph::event::repeated_sample) ++result.repeated;
     if (result.repeated == 0 && x != last) ++result.places_before;
     last = x;
@@ -148,13 +148,13 @@ TEST_CASE("a device at rest is not taken for a slow sensor", "[loop_limits][watc
 TEST_CASE("a repeated sample is news of the device, and the worst news wins",
           "[loop_limits][watch]") {
   ph::passive_port guard{d1{}, ph::given_force{}, thesis_ledger(), ph::strict_bound{}, watched};
-  for (int n = 0; n < 100; ++n) (void)guard.tick(1e-3 * (n - n % 2) * 0.5, 1e-3, 0.0);
-  CHECK(guard.tick(0.05, 1e-3, 0.0).what == ph::event::repeated_sample);
-  (void)guard.tick(0.05, 1e-3, 0.0);
-  CHECK(guard.tick(0.051, 1e-3, std::nan("")).what == ph::event::rejected_target);
-  CHECK(guard.tick(std::nan(""), 1e-3, 0.0).what == ph::event::rejected_sample);
+  for (int n = 0; n < 100; ++n) (void)guard.tick(1e-3 * (n - n % 2) * 0.5, 1ms, 0.0);
+  CHECK(guard.tick(0.05, 1ms, 0.0).what == ph::event::repeated_sample);
+  (void)guard.tick(0.05, 1ms, 0.0);
+  CHECK(guard.tick(0.051, 1ms, std::nan("")).what == ph::event::rejected_target);
+  CHECK(guard.tick(std::nan(""), 1ms, 0.0).what == ph::event::rejected_sample);
   guard.reset();
-  (void)guard.tick(0.0, 1e-3, 0.0);
-  (void)guard.tick(0.0, 1e-3, 0.0);
-  CHECK(guard.tick(0.001, 1e-3, 0.0).what == ph::event::nominal);
+  (void)guard.tick(0.0, 1ms, 0.0);
+  (void)guard.tick(0.0, 1ms, 0.0);
+  CHECK(guard.tick(0.001, 1ms, 0.0).what == ph::event::nominal);
 }

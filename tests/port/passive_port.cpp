@@ -28,14 +28,14 @@ struct lost_bound {
 
 TEST_CASE("what a bound returns is looked at: no number is no force", "[port][fault]") {
   ph::passive_port guard{d1{}, ph::given_force{}, thesis_ledger(), lost_bound{}, thesis_loop};
-  CHECK(guard.tick(0.0, 1e-3, 0.5).force == 0.5);  // the control
+  CHECK(guard.tick(0.0, 1ms, 0.5).force == 0.5);  // the control
   for (int n = 0; n < 3; ++n) {
-    const auto out = guard.tick(0.0, 1e-3, 2.0);
+    const auto out = guard.tick(0.0, 1ms, 2.0);
     CHECK(out.force == 0.0);
     CHECK(out.what == ph::event::rejected_sample);
     CHECK(out.limited);
   }
-  CHECK(guard.tick(-1e-4, 1e-3, 0.5).force == 0.5);  // and the ledger has kept its head
+  CHECK(guard.tick(-1e-4, 1ms, 0.5).force == 0.5);  // and the ledger has kept its head
   CHECK_THAT(guard.energy(), WithinRel(0.03 * 1e-8 / 1e-3, 1e-9));
 }
 
@@ -50,12 +50,12 @@ TEST_CASE("the ledger pairs a displacement with the force held while it happened
                         ph::strict_bound{},
                         ph::loop_limits{.longest_tick = 2e-3}};
   const double x0 = 1e-3, x1 = 1.5e-3, x2 = 1.2e-3;
-  const auto first = model.tick(x0, 1e-3);
+  const auto first = model.tick(x0, 1ms);
   CHECK_THAT(first.force, WithinRel(-1.0, 1e-12));
   CHECK(first.energy == 0.1);  // no displacement is known yet
-  const auto second = model.tick(x1, 1e-3);
+  const auto second = model.tick(x1, 1ms);
   CHECK_THAT(second.energy, WithinRel(0.1 + 30 * 0.25e-6 + 1.0 * 0.5e-3, 1e-12));
-  const auto third = model.tick(x2, 2e-3);
+  const auto third = model.tick(x2, 2ms);
   CHECK_THAT(third.energy, WithinRel(second.energy + 15 * 0.09e-6 - 1.5 * 0.3e-3, 1e-12));
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("a device that reports what it held is believed, not the command (A28)
     const double commanded = n == 0 ? 0.0 : told.law().force(x - 5e-4, 0);
     const double held = -std::min(commanded, 9.0);
     (void)told.tick({.position = x, .held = held, .dt = 1e-3, .valid = true});
-    (void)untold.tick(x, 1e-3);
+    (void)untold.tick(x, 1ms);
   }
   CHECK(told.energy() < untold.energy());  // the motors never gave the force the other one booked
   CHECK_THAT(told.tick({.position = x, .held = 0, .dt = 1e-3, .valid = false}).force,
@@ -95,7 +95,7 @@ TEST_CASE("forces in flight are paired with the tick that will hold them (latenc
   for (std::size_t n = 0; n < forces.size(); ++n) {
     const double dx = 1e-4 * std::sin(0.5 * static_cast<double>(n));
     x += dx;
-    const auto out = model.tick(x, 1e-3);
+    const auto out = model.tick(x, 1ms);
     forces[n] = out.force;
     if (n >= 1) expected += 30 * dx * dx - (n >= 3 ? forces[n - 3] : 0.0) * dx;
     CHECK_THAT(out.energy, WithinRel(expected, 1e-12));
@@ -124,7 +124,7 @@ TEST_CASE("a fault in any part of a port is told, and such a port ticks with for
                            const ph::actuator_limit& bound, const ph::loop_limits& limits,
                            const ph::mass_observer& estimator) {
     ph::passive_port guard{d1{}, rule, ledger, bound, limits, estimator};
-    const auto out = guard.tick(0.0, 1e-3, 1.0);
+    const auto out = guard.tick(0.0, 1ms, 1.0);
     const auto fault = guard.check();
     CHECK((out.what == ph::event::rejected_parameters) == bool(fault));
     CHECK(out.force == (fault ? 0.0 : 1.0));
@@ -143,11 +143,11 @@ TEST_CASE("a fault in any part of a port is told, and such a port ticks with for
 TEST_CASE("a port knows where its device is, once it has been told", "[port]") {
   ph::passive_port guard{d1{}, ph::given_force{}, thesis_ledger(), ph::strict_bound{}, thesis_loop};
   CHECK_FALSE(guard.has_position());
-  (void)guard.tick(std::nan(""), 1e-3, 1.0);
+  (void)guard.tick(std::nan(""), 1ms, 1.0);
   CHECK_FALSE(guard.has_position());
-  (void)guard.tick(0.125, 1e-3, 1.0);
+  (void)guard.tick(0.125, 1ms, 1.0);
   CHECK(guard.has_position());
-  (void)guard.tick(std::nan(""), 1e-3, 1.0);
+  (void)guard.tick(std::nan(""), 1ms, 1.0);
   CHECK(guard.position() == 0.125);
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("reset puts everything back but the parameters", "[port]") {
   const auto fresh = used;
   REQUIRE_FALSE(used.set(ph::freshness{.stale_after = 0.5}));
   used.update(wall<d1>(1000));
-  for (int n = 0; n < 50; ++n) (void)used.tick(1e-4 * n, 1e-3);
+  for (int n = 0; n < 50; ++n) (void)used.tick(1e-4 * n, 1ms);
   REQUIRE(used.energy() != 0.25);
   used.reset();
   CHECK(used.energy() == 0.25);
@@ -171,7 +171,7 @@ TEST_CASE("reset puts everything back but the parameters", "[port]") {
       as_new.update(wall<d1>(500));
     }
     const double x = 1e-3 * std::sin(0.1 * n);
-    const auto one = used.tick(x, 1e-3), other = as_new.tick(x, 1e-3);
+    const auto one = used.tick(x, 1ms), other = as_new.tick(x, 1ms);
     REQUIRE(one.force == other.force);
     REQUIRE(one.energy == other.energy);
     REQUIRE(one.what == other.what);

@@ -17,8 +17,8 @@ auto pressed() {
   auto touch = ph::make_touch<d3>(
       {.mass = 0.1, .damping = 0.03, .hand_force = 5.0, .force_limit = 9.0}, 1e-3);
   touch.update({d3::zero(), up, 1000});
-  for (int n = 0; n <= 200; ++n) (void)touch.tick({0, 0, -1e-5 * n}, 1e-3);
-  (void)touch.tick(here, 1e-3);
+  for (int n = 0; n <= 200; ++n) (void)touch.tick({0, 0, -1e-5 * n}, 1ms);
+  (void)touch.tick(here, 1ms);
   return touch;
 }
 
@@ -28,9 +28,9 @@ TEST_CASE("a stiffness that the environment changes is felt at once, and the led
           "[port][set]") {
   auto touch = pressed();
   const double banked = touch.energy();
-  CHECK_THAT(touch.tick(here, 1e-3).force(2), WithinRel(2.0, 1e-12));
+  CHECK_THAT(touch.tick(here, 1ms).force(2), WithinRel(2.0, 1e-12));
   touch.update({d3::zero(), up, 1500});
-  const auto out = touch.tick(here, 1e-3);
+  const auto out = touch.tick(here, 1ms);
   CHECK_THAT(out.force(2), WithinRel(3.0, 1e-12));
   CHECK(out.energy == banked);
 }
@@ -41,7 +41,7 @@ TEST_CASE("a force limit changes while it is pressed, and the ledger is kept", "
   for (const double most : {1.5, 0.0, 0.25, 9.0}) {
     REQUIRE_FALSE(touch.set(ph::actuator_limit{.most = most}));
     CHECK(touch.energy() == banked);
-    CHECK_THAT(touch.tick(here, 1e-3).force(2), WithinRel(std::min(most, 2.0), 1e-12));
+    CHECK_THAT(touch.tick(here, 1ms).force(2), WithinRel(std::min(most, 2.0), 1e-12));
   }
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("a hand that is said to be stronger is given less, and the ledger is k
     REQUIRE_FALSE(touch.set(ph::reachable_bound{.mass = 0.1, .hand_force = hand_force}));
     CHECK(touch.energy() == banked);
     auto twin = touch;
-    return twin.tick(here, 1e-3).force.norm();
+    return twin.tick(here, 1ms).force.norm();
   };
   const double weak = allowed(0.0), strong = allowed(1000.0);
   CHECK_THAT(weak, WithinRel(8.0, 1e-12));
@@ -69,7 +69,7 @@ TEST_CASE("a normal turns at the new rate from the next tick on", "[port][set]")
   for (const double rate : {2.0, 50.0, 0.5}) {
     REQUIRE_FALSE(touch.set(ph::turn_limited{.rate = rate}));
     const d3::vector before = touch.local().normal;
-    (void)touch.tick(here, 1e-3);
+    (void)touch.tick(here, 1ms);
     const d3::vector after = touch.local().normal;
     CHECK_THAT(std::acos(before.dot(after)), WithinAbs(rate * 1e-3, 2e-5));
   }
@@ -78,31 +78,31 @@ TEST_CASE("a normal turns at the new rate from the next tick on", "[port][set]")
 TEST_CASE("the stale-data rule changes while the environment is silent", "[port][set]") {
   auto touch = pressed();  // for ever, by default
   REQUIRE_FALSE(touch.set(ph::freshness{.stale_after = 0.05, .fade = 0.1}));
-  CHECK(touch.tick(here, 1e-3).what == ph::event::stale_target);  // it is 0.2 s old
+  CHECK(touch.tick(here, 1ms).what == ph::event::stale_target);  // it is 0.2 s old
   REQUIRE_FALSE(touch.set(ph::freshness{.stale_after = 0.5, .fade = 0.1}));
-  CHECK(touch.tick(here, 1e-3).what == ph::event::nominal);
+  CHECK(touch.tick(here, 1ms).what == ph::event::nominal);
   REQUIRE_FALSE(touch.set(ph::freshness{}));
-  for (int n = 0; n < 1000; ++n) CHECK(touch.tick(here, 1e-3).what == ph::event::nominal);
+  for (int n = 0; n < 1000; ++n) CHECK(touch.tick(here, 1ms).what == ph::event::nominal);
 }
 
 TEST_CASE("loop limits change with the ledger kept, and the law with them", "[port][set]") {
   auto touch = pressed();
   const double banked = touch.energy();
   touch.update({d3::zero(), up, 1e9});
-  (void)touch.tick(here, 1e-3);
+  (void)touch.tick(here, 1ms);
   CHECK_THAT(touch.law().stiffness(), WithinRel(1e4, 1e-12));  // κ m/T²
   auto control = touch;
-  CHECK(control.tick(here, 1.5e-3).what == ph::event::late_tick);
+  CHECK(control.tick(here, 1500us).what == ph::event::late_tick);
   REQUIRE_FALSE(touch.set(ph::loop_limits{.longest_tick = 2e-3}));
   CHECK(touch.energy() == banked);
   CHECK_THAT(touch.law().stiffness(), WithinRel(2500.0, 1e-12));
-  CHECK(touch.tick(here, 1.5e-3).what == ph::event::nominal);
+  CHECK(touch.tick(here, 1500us).what == ph::event::nominal);
 
   control = touch;
   const d3::vector farther(0.006, 0, -0.002);
-  CHECK(control.tick(farther, 1.5e-3).what == ph::event::nominal);
+  CHECK(control.tick(farther, 1500us).what == ph::event::nominal);
   REQUIRE_FALSE(touch.set(ph::loop_limits{.longest_tick = 2e-3, .top_speed = 3.0}));
-  CHECK(touch.tick(farther, 1.5e-3).what == ph::event::rejected_sample);  // 4 m/s
+  CHECK(touch.tick(farther, 1500us).what == ph::event::rejected_sample);  // 4 m/s
 }
 
 TEST_CASE("law, shaper, observer and given force take new parameters, too", "[port][set]") {
@@ -114,8 +114,8 @@ TEST_CASE("law, shaper, observer and given force take new parameters, too", "[po
                         ph::strict_bound{},
                         thesis_loop};
   const auto step = [&model] {
-    const double before = model.tick(1e-3, 1e-3).force;
-    return before - model.tick(1e-3, 1e-3).force;
+    const double before = model.tick(1e-3, 1ms).force;
+    return before - model.tick(1e-3, 1ms).force;
   };
   CHECK_THAT(step(), WithinRel(1e-3, 1e-6));  // 1 N/s
   REQUIRE_FALSE(model.set(ph::force_rate_limit{.rate = 1000}));
@@ -127,9 +127,9 @@ TEST_CASE("law, shaper, observer and given force take new parameters, too", "[po
   CHECK_THAT(model.observer().damping().along_axis(0), WithinRel(0.06, 1e-15));
 
   ph::passive_port guard{d1{}, ph::given_force{}, thesis_ledger(), ph::no_bound{}, thesis_loop};
-  (void)guard.tick(0.0, 1e-3, 1.0);
+  (void)guard.tick(0.0, 1ms, 1.0);
   REQUIRE_FALSE(guard.set(ph::given_force{.stale_after = 0.0, .fade = 0.01}));
-  CHECK_THAT(guard.tick(0.0, 1e-3).force, WithinRel(0.9, 1e-12));
+  CHECK_THAT(guard.tick(0.0, 1ms).force, WithinRel(0.9, 1e-12));
 }
 
 TEST_CASE("a motion estimator takes new parameters, too", "[port][set]") {
@@ -145,7 +145,7 @@ TEST_CASE("a motion estimator takes new parameters, too", "[port][set]") {
   };
   const auto pressed = [](auto model) {
     double sum = 0.0;
-    for (int n = 0; n < 200; ++n) sum += model.tick(6e-5 * std::floor(n / 7.0), 1e-3).force;
+    for (int n = 0; n < 200; ++n) sum += model.tick(6e-5 * std::floor(n / 7.0), 1ms).force;
     return sum;
   };
   const ph::mass_observer one{.mass = 0.1, .quantum = 6e-5}, other{.mass = 0.4, .quantum = 6e-5};
@@ -178,7 +178,7 @@ TEST_CASE("a fault in new parameters is returned, and changes nothing", "[port][
   CHECK_FALSE(touch.check());
   for (int n = 0; n < 50; ++n) {
     const d3::vector x(1e-5 * n, 0, -0.002 - 1e-5 * n);
-    const auto out = touch.tick(x, 1e-3), same = untouched.tick(x, 1e-3);
+    const auto out = touch.tick(x, 1ms), same = untouched.tick(x, 1ms);
     REQUIRE(out.force == same.force);
     REQUIRE(out.energy == same.energy);
     REQUIRE(out.what == same.what);
@@ -187,11 +187,11 @@ TEST_CASE("a fault in new parameters is returned, and changes nothing", "[port][
 
 TEST_CASE("a port of bad parameters works as soon as they are good", "[port][set]") {
   ph::force_guard<d1> guard;  // no damping, no longest tick
-  CHECK(guard.tick(0.0, 1e-3, 1.0).what == ph::event::rejected_parameters);
+  CHECK(guard.tick(0.0, 1ms, 1.0).what == ph::event::rejected_parameters);
   REQUIRE_FALSE(guard.set(ph::reduced_energy{.damping = 0.03, .loan = 1.0}));
-  CHECK(guard.tick(0.0, 1e-3, 1.0).what == ph::event::rejected_parameters);
+  CHECK(guard.tick(0.0, 1ms, 1.0).what == ph::event::rejected_parameters);
   REQUIRE_FALSE(guard.set(thesis_loop));
   CHECK_FALSE(guard.check());
   guard.reset();  // which makes the loan
-  CHECK(guard.tick(0.0, 1e-3, 1.0).force == 1.0);
+  CHECK(guard.tick(0.0, 1ms, 1.0).force == 1.0);
 }

@@ -51,8 +51,8 @@ int bounded_alike(auto one, auto other) {
     x = vector(scalar(0.7) * x + any(3e-3));
     const scalar dt = between(0.3e-3, 0.99e-3);
     const ph::device_sample<Space> weak{x, vector(scalar(0.9) * force), dt, true};
-    const auto a = n % 3 == 0 ? one.tick(weak) : one.tick(x, dt);
-    const auto b = n % 3 == 0 ? other.tick(weak) : other.tick(x, dt);
+    const auto a = n % 3 == 0 ? one.tick(weak) : one.tick(x, ph::seconds{dt});
+    const auto b = n % 3 == 0 ? other.tick(weak) : other.tick(x, ph::seconds{dt});
     if (!(a.force == b.force) || a.depth != b.depth || a.energy != b.energy || a.what != b.what ||
         a.limited != b.limited) {
       return -1;
@@ -92,19 +92,20 @@ TEST_CASE("a number that is none gives no force in a trusted loop, and is soon o
   for (const auto& [x, dt] : {std::pair{nan, T}, {HUGE_VAL, T}, {0.002, 0.0}, {0.002, nan}}) {
     CAPTURE(x, dt);
     auto model = still_wall(trusted<>);
-    for (int n = 0; n < 20; ++n) static_cast<void>(model.tick(1e-4 * n, T));
+    for (int n = 0; n < 20; ++n) static_cast<void>(model.tick(1e-4 * n, ph::seconds{T}));
     const double before = model.energy();
-    const auto bad = model.tick(x, dt);
+    const auto bad = model.tick(x, ph::seconds{dt});
     CHECK(bad.what == ph::event::rejected_sample);
     CHECK(bad.force == 0.0);
     CHECK(bad.energy == before);  // an ordinary loop writes off what the force may have cost
-    CHECK(model.tick(0.002, T).force != 0.0);
+    CHECK(model.tick(0.002, ph::seconds{T}).force != 0.0);
     CHECK(model.energy() == before);  // nobody knows the motion
   }
   auto fresh = still_wall(trusted<>);
-  CHECK(fresh.tick(nan, T).force == 0.0);
-  CHECK(fresh.tick(1e-4, T).what == ph::event::rejected_sample);  // no motion from nowhere
-  CHECK(fresh.tick(1e-4, T).what == ph::event::nominal);
+  CHECK(fresh.tick(nan, ph::seconds{T}).force == 0.0);
+  CHECK(fresh.tick(1e-4, ph::seconds{T}).what ==
+        ph::event::rejected_sample);  // no motion from nowhere
+  CHECK(fresh.tick(1e-4, ph::seconds{T}).what == ph::event::nominal);
 }
 
 TEST_CASE("a late tick is booked as it was in a trusted loop, and not reported",
@@ -112,10 +113,10 @@ TEST_CASE("a late tick is booked as it was in a trusted loop, and not reported",
   auto one = still_wall(ordinary<>);
   auto other = still_wall(trusted<>);
   for (int n = 0; n < 20; ++n) {
-    REQUIRE(one.tick(1e-4 * n, 1e-3).force == other.tick(1e-4 * n, 1e-3).force);
+    REQUIRE(one.tick(1e-4 * n, 1ms).force == other.tick(1e-4 * n, 1ms).force);
   }
-  const auto reported = one.tick(0.0018, 5e-3);
-  const auto unnoticed = other.tick(0.0018, 5e-3);
+  const auto reported = one.tick(0.0018, 5ms);
+  const auto unnoticed = other.tick(0.0018, 5ms);
   CHECK(reported.what == ph::event::late_tick);
   CHECK(unnoticed.what == ph::event::nominal);
   CHECK(reported.energy == unnoticed.energy);
@@ -133,8 +134,8 @@ TEST_CASE("a trusted loop has a longest tick and nothing else to state", "[trust
     REQUIRE(wrong.check());
     CHECK(std::string(wrong.check().parameter) == "longest_tick");
     auto model = still_wall(wrong);
-    CHECK(model.tick(0.001, 1e-3).what == ph::event::rejected_parameters);
-    CHECK(model.tick(0.002, 1e-3).force == 0.0);
+    CHECK(model.tick(0.001, 1ms).what == ph::event::rejected_parameters);
+    CHECK(model.tick(0.002, 1ms).force == 0.0);
   }
   CHECK(limits::on<d1>(trusted<3>).parameters().longest_tick == 1e-3);
 }

@@ -43,12 +43,12 @@ float touched(const scene::vector& position) {
   static auto touch = ph::make_touch<scene>(
       {.mass = 0.1, .damping = 0.03, .hand_force = 5.0, .force_limit = 9.0}, 0.0011);
   touch.update({.point = {0, 0, 0}, .normal = {0, 0, 1}, .stiffness = 500});
-  return touch.tick(position, 0.001F).force.norm();
+  return touch.tick(position, ph::seconds{1e-3}).force.norm();
 }
 
 float guarded(float position, float wanted) {
   static auto port = ph::make_force_guard<ph::space<float, 1>>({0.03}, 0.0011);
-  return port.tick(position, 0.001F, wanted).force;
+  return port.tick(position, ph::seconds{1e-3}, wanted).force;
 }
 #endif
 

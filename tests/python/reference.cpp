@@ -29,7 +29,8 @@ void run(Touch touch, Device device, double stiffness) {
   double end = 0.0;
   auto sample = device.exchange(0.0);
   for (int n = 0; n < 1000; ++n) {
-    const double force = touch.tick(scene::vector(0, 0, sample.position), sample.dt).force(2);
+    const double force =
+        touch.tick(scene::vector(0, 0, sample.position), ph::seconds{sample.dt}).force(2);
     least = std::min(least, device.meter().with_friction());
     sum += force;
     end = device.position();

@@ -20,7 +20,7 @@ TEST_CASE("a tick allocates nothing", "[local_model][realtime]") {
     if (n % 30 == 0) {
       model.update({{0, 0, 1e-6 * n}, d3::vector(0.0003 * n, 0.1, 1), 900.0 + n});
     }
-    (void)model.tick({0, 0, n % 97 == 0 ? std::nan("") : -1e-6 * n}, 1e-3);
+    (void)model.tick({0, 0, n % 97 == 0 ? std::nan("") : -1e-6 * n}, 1ms);
     if (n % 100 == 50) (void)model.set(ph::actuator_limit{.most = 0.01 * n});
     if (n % 300 == 299) model.release();
     if (n % 500 == 499) model.reset();

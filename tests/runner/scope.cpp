@@ -39,7 +39,7 @@ ph::tick_result<d1> result(double n, ph::event what = ph::event::nominal) {
 }
 template <std::size_t N>
 void record(ph::scope<d1, N>& seen, int from, int to) {
-  for (int n = from; n < to; ++n) seen.record(0.0, 1e-3, result(n));
+  for (int n = from; n < to; ++n) seen.record(0.0, 1ms, result(n));
 }
 template <std::size_t N>
 std::vector<double> kept(const ph::scope<d1, N>& seen) {
@@ -70,14 +70,14 @@ TEST_CASE("a trigger keeps half of the ticks before an event and half from it on
           "[runner][scope]") {
   ph::scope<d1, 8> seen{ph::event::late_tick};
   record(seen, 0, 20);
-  seen.record(0.0, 1e-3, result(20, ph::event::debt));  // less severe
+  seen.record(0.0, 1ms, result(20, ph::event::debt));  // less severe
   CHECK_FALSE(seen.triggered());
-  seen.record(0.0, 1e-3, result(21, ph::event::late_tick));
+  seen.record(0.0, 1ms, result(21, ph::event::late_tick));
   CHECK(seen.triggered());
   CHECK(seen.triggered_at() == 21);
   record(seen, 22, 24);
   CHECK_FALSE(seen.frozen());
-  seen.record(0.0, 1e-3, result(24, ph::event::rejected_sample));  // the first one counts
+  seen.record(0.0, 1ms, result(24, ph::event::rejected_sample));  // the first one counts
   CHECK(seen.frozen());
   record(seen, 25, 99);
   CHECK(kept(seen) == std::vector{17.0, 18.0, 19.0, 20.0, 21.0, 22.0, 23.0, 24.0});
@@ -85,15 +85,15 @@ TEST_CASE("a trigger keeps half of the ticks before an event and half from it on
   seen.clear();
   CHECK_FALSE(seen.frozen());
   record(seen, 0, 50);
-  CHECK_FALSE(seen.triggered());                             // armed again, and nothing happened
-  seen.record(0.0, 1e-3, result(50, ph::event::no_target));  // more severe does it, too
+  CHECK_FALSE(seen.triggered());                            // armed again, and nothing happened
+  seen.record(0.0, 1ms, result(50, ph::event::no_target));  // more severe does it, too
   CHECK(seen.triggered_at() == 50);
 }
 
 TEST_CASE("a scope is triggered by hand, early, or never", "[runner][scope]") {
   ph::scope<d1, 8> seen;
   record(seen, 0, 2);
-  seen.record(0.0, 1e-3, result(2, ph::event::rejected_parameters));
+  seen.record(0.0, 1ms, result(2, ph::event::rejected_parameters));
   CHECK_FALSE(seen.triggered());  // it was not told to look at events
   seen.trigger();
   record(seen, 3, 5);
@@ -103,7 +103,7 @@ TEST_CASE("a scope is triggered by hand, early, or never", "[runner][scope]") {
   CHECK(kept(seen) == std::vector{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0});
   ph::scope<d1, 3> odd{ph::event::debt};
   record(odd, 0, 5);
-  odd.record(0.0, 1e-3, result(5, ph::event::debt));
+  odd.record(0.0, 1ms, result(5, ph::event::debt));
   record(odd, 6, 9);
   CHECK(kept(odd) == std::vector{4.0, 5.0, 6.0});
 }
@@ -119,8 +119,8 @@ TEST_CASE("a scope says what a tick knew, in columns with units", "[runner][scop
                        thesis_loop};
   std::vector<ph::tick_result<d3>> out;
   for (const double z : {1e-3, -1e-3, -1.0 / 300.0}) {
-    out.push_back(wall.tick({0.1, -0.2, z}, 1e-3));
-    seen.record({0.1, -0.2, z}, 1e-3, out.back());
+    out.push_back(wall.tick({0.1, -0.2, z}, 1ms));
+    seen.record({0.1, -0.2, z}, 1ms, out.back());
   }
   seen.record({.position = d3::vector(1, 2, 3), .held = {}, .dt = 2e-3, .valid = false}, out[2],
               d3::vector(7, 8, 9));
@@ -155,8 +155,8 @@ TEST_CASE("a scope works at every port, with what a port of any source returns",
   SECTION("force in, force out, in one float: no depth") {
     auto port = ph::make_force_guard<f1>({0.03}, 1e-3);
     ph::scope<f1, 4> seen;
-    (void)port.tick(0.0F, 1e-3F, 1.0F);
-    seen.record(0.1F, 1e-3F, port.tick(0.1F, 1e-3F, 1.1F), 1.1F);
+    (void)port.tick(0.0F, 1ms, 1.0F);
+    seen.record(0.1F, 1ms, port.tick(0.1F, 1ms, 1.1F), 1.1F);
     const auto lines = saved(seen);
     CHECK(lines[0] ==
           "tick,time_s,dt_s,position_m,wanted_N,given_N,depth_m,energy_J,limited,valid,event,"
@@ -171,7 +171,7 @@ TEST_CASE("a scope works at every port, with what a port of any source returns",
   SECTION("joints") {
     using joints = ph::joint_space<double, 2>;
     ph::scope<joints, 2> seen;
-    seen.record({1.5, 2.5}, 1e-3, ph::port_result<joints>{.force = {3, 4}, .energy = 0});
+    seen.record({1.5, 2.5}, 1ms, ph::port_result<joints>{.force = {3, 4}, .energy = 0});
     const auto lines = saved(seen);
     CHECK(lines[0].find("position_1_rad,position_2_rad,wanted_1_Nm") != std::string::npos);
     CHECK(fields_of(lines[1])[4] == "2.5");
@@ -186,7 +186,7 @@ TEST_CASE("a scope works at every port, with what a port of any source returns",
     const handle::pose x{.position = d3::vector(1, 2, 3), .orientation = {0.6, 0.8, 0, 0}};
     handle::vector wrench;
     wrench << 1, 2, 3, 4, 5, 6;
-    seen.record(x, 1e-3, ph::port_result<handle>{.force = wrench, .energy = 0});
+    seen.record(x, 1ms, ph::port_result<handle>{.force = wrench, .energy = 0});
     const auto lines = saved(seen);
     const auto names = fields_of(lines[0]), row = fields_of(lines[1]);
     REQUIRE(names.size() == row.size());
@@ -199,7 +199,7 @@ TEST_CASE("a scope works at every port, with what a port of any source returns",
   SECTION("a stylus") {
     using pen = ph::stylus<float>;
     ph::scope<pen, 2> seen;
-    seen.record(pen::pose{}, 1e-3F, ph::port_result<pen>{.force = {1, 2, 3}, .energy = 0});
+    seen.record(pen::pose{}, 1ms, ph::port_result<pen>{.force = {1, 2, 3}, .energy = 0});
     const auto lines = saved(seen);
     CHECK(fields_of(lines[0]).size() == fields_of(lines[1]).size());
     CHECK(lines[0].find("given_z_N,depth_m") != std::string::npos);
@@ -209,7 +209,7 @@ TEST_CASE("a scope works at every port, with what a port of any source returns",
 TEST_CASE("a scope writes numbers that are none, and a point whatever the language",
           "[runner][scope]") {
   ph::scope<d1, 2> seen;
-  seen.record(std::nan(""), -1.0, result(0.5));
+  seen.record(std::nan(""), ph::seconds{-1.0}, result(0.5));
   const std::string before = std::setlocale(LC_NUMERIC, nullptr);
   std::setlocale(LC_NUMERIC, "de_DE.UTF-8");  // if it is installed
   const auto row = fields_of(saved(seen)[1]);

@@ -21,8 +21,8 @@ struct with_an_effect {
   int* debts = nullptr;
 
   double tick(const ph::device_sample<d1>& sample) {
-    const auto out =
-        reports_held ? port.tick(sample, 1.0) : port.tick(sample.position, sample.dt, 1.0);
+    const auto out = reports_held ? port.tick(sample, 1.0)
+                                  : port.tick(sample.position, ph::seconds{sample.dt}, 1.0);
     *debts += out.what == ph::event::debt ? 1 : 0;
     return out.force - spring * sample.position;
   }

@@ -60,7 +60,7 @@ struct guarded {
   auto tick(const ph::device_sample<space_type>& sample) {
     if (reports_held) return port.tick(sample, wall.force(sample.position));
     if (!sample.valid) return port.tick(sample);
-    return port.tick(sample.position, sample.dt, wall.force(sample.position));
+    return port.tick(sample.position, ph::seconds{sample.dt}, wall.force(sample.position));
   }
 };
 

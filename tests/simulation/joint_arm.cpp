@@ -43,7 +43,7 @@ template <class Port>
                     wanted)
               .force;
     } else {
-      force = port.tick(arm.tip(), T, wanted).force;
+      force = port.tick(arm.tip(), ph::seconds{T}, wanted).force;
     }
     torque = arm.torques(force);
   }

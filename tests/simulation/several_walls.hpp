@@ -73,7 +73,8 @@ struct model_each {
   typename Space::vector tick(const ph::device_sample<Space>& sample) {
     typename Space::vector sum = Space::zero();
     for (model& one : models) {  // each is told its own part of what was held
-      sum += (sample.valid ? one.tick(sample.position, sample.dt) : one.tick(sample)).force;
+      sum += (sample.valid ? one.tick(sample.position, ph::seconds{sample.dt}) : one.tick(sample))
+                 .force;
     }
     return sum;
   }

@@ -79,7 +79,7 @@ outcome told(double true_latency, bool old_samples = false) {
   // Without the held force: a device that does not know when it writes cannot report it.
   const auto blind = [&](const auto& sample) {
     const double newest = std::exchange(one_tick_ago, sample.position);
-    return model.tick(old_samples ? newest : sample.position, sample.dt);
+    return model.tick(old_samples ? newest : sample.position, ph::seconds{sample.dt});
   };
   const auto note = [&](const auto& now) { found.ledger = std::min(found.ledger, now.out.energy); };
   found.least = sim::run(device, blind, 20000, sim::idle, note).least_energy;

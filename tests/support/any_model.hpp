@@ -135,7 +135,9 @@ class any_model {
       return std::make_unique<of>(*this);
     }
     // One door to the tick, not inlined: it is large.
-    [[gnu::noinline]] reading tick(const vector& x, scalar dt) { return read(model.tick(x, dt)); }
+    [[gnu::noinline]] reading tick(const vector& x, scalar dt) {
+      return read(model.tick(x, ph::seconds{dt}));
+    }
 
     reading press(double depth, double dt) override {
       return tick(inside<space>(static_cast<scalar>(depth)), static_cast<scalar>(dt));

@@ -4,10 +4,12 @@
 // or a shaper by itself.
 #include <passive_haptics/passive_haptics.hpp>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 
 namespace ph = passive_haptics;
+using namespace std::chrono_literals;  // a tick of 1ms
 
 using d1 = ph::space<double, 1>;
 using d2 = ph::space<double, 2>;

@@ -14,7 +14,7 @@ TEST_CASE("both sides refuse parameters that are out of range, and then do nothi
     auto side = side_of(observer);
     side.receive({0.0, 1, 2.0});
     CHECK(side.check());
-    return side.tick(0.0, 1e-3);
+    return side.tick(0.0, 1ms);
   };
   CHECK(broken({.damping = 0.0}).what == ph::event::rejected_parameters);
   CHECK(broken({.damping = 1.0, .share = 1.1, .loan = 1.0}).force == 0.0);
@@ -30,7 +30,7 @@ TEST_CASE("both sides refuse parameters that are out of range, and then do nothi
     ph::admittance_side<d1> side(p);
     CHECK(side.check());
     side.receive({1.0, 1, 0.1});
-    const auto out = side.step(0.0, 1e-3);
+    const auto out = side.step(0.0, 1ms);
     CHECK(out.displacement == 0.0);
     CHECK(out.what == ph::event::rejected_parameters);
   }
@@ -48,7 +48,7 @@ constexpr auto step_of(const ph::admittance_parameters& p, const vector_of<Space
                        const vector_of<Space>& force) {
   ph::admittance_side<Space> side(p);
   side.receive({0.0, 1, wanted});
-  return side.step(force, 1e-3);
+  return side.step(force, 1ms);
 }
 static_assert(step_of<d1>({}, 1e-3, 0.0).displacement == 1e-3);             // free
 static_assert(step_of<d1>({}, 1e-3, 5.0).displacement == 1e-3);             // with the force
@@ -99,7 +99,7 @@ TEST_CASE("admittance_side told no stiffness leaks K Δp²/2 a step into a conti
     for (int n = 1; n <= steps; ++n) {  // a hand that pays f(n)·Δx(n) for each step it makes
       paid += world.force() * -step;
       side.receive({paid, static_cast<std::uint64_t>(n), step * n});
-      sum += world.move(side.step(world.force(), 1e-3).displacement, 1e-3, random);
+      sum += world.move(side.step(world.force(), 1ms).displacement, 1e-3, random);
     }
     return sum + paid;
   };
@@ -114,7 +114,7 @@ TEST_CASE("a stiffness makes free motion cost K Δp²/2, which settle() gives ba
     ph::admittance_side<d1> side({.stiffness = 1e3, .loan = 1e-3});
     for (std::uint64_t n = 1; n <= 1000; ++n) {
       side.receive({0.0, n, 1e-3 * static_cast<double>(n)});
-      (void)side.step(0.0, 1e-3);
+      (void)side.step(0.0, 1ms);
       if (settles) side.settle(0.0);
     }
     return std::array{side.position(), side.energy()};
@@ -128,13 +128,13 @@ TEST_CASE("a stiffness makes free motion cost K Δp²/2, which settle() gives ba
 TEST_CASE("a force that is no number, or no time, moves nothing, and the next step makes up for it",
           "[two_port]") {
   ph::admittance_side<d1> side;
-  CHECK(side.step(0.0, 1e-3).what == ph::event::no_target);
+  CHECK(side.step(0.0, 1ms).what == ph::event::no_target);
   side.receive({0.0, 1, 1e-3});
   side.receive({0.0, 2, std::nan("")});
   side.receive({0.0, 1, 5e-3});  // there already
-  CHECK(side.step(std::nan(""), 1e-3).what == ph::event::rejected_sample);
-  CHECK(side.step(0.0, 0.0).displacement == 0.0);
-  const auto out = side.step(0.0, 1e-3);
+  CHECK(side.step(std::nan(""), 1ms).what == ph::event::rejected_sample);
+  CHECK(side.step(0.0, 0s).displacement == 0.0);
+  const auto out = side.step(0.0, 1ms);
   CHECK(out.what == ph::event::nominal);
   CHECK(out.displacement == 1e-3);
   CHECK(side.packet(4.0).payload == 4.0);

@@ -73,7 +73,7 @@ outcome run(Master master, Remote remote, environment_of<Space> environment,
     if (now.time >= next_step) {
       const double dt = next_step > 0.0 ? now.time - last_step : 1e-3;
       while (const auto* packet = down.take(now.time)) remote.receive(*packet);
-      const auto step = remote.step(environment.force(), static_cast<scalar>(dt));
+      const auto step = remote.step(environment.force(), ph::seconds{dt});
       const double work = environment.move(step.displacement, dt, random);
       if (when.settles) remote.settle(static_cast<scalar>(work));
       at_environment += work;

@@ -39,7 +39,7 @@ contact press(Master master, Remote remote, double K, double damping, double del
   const auto environment = [&](const auto& now) {
     down.send(master.packet(), now.time);
     while (const auto* packet = down.take(now.time)) remote.receive(*packet);
-    const auto step = remote.step(wall.force(), 1e-3);
+    const auto step = remote.step(wall.force(), 1ms);
     const double work = wall.move(step.displacement, 1e-3, random);
     remote.settle(work);
     at_environment += work;
@@ -113,7 +113,7 @@ TEST_CASE("an environment that moves by itself cannot set a resting device in mo
     sim::random_source random(3);
     sim::run(device, master, 2000, sim::idle, [&](const auto&) {
       remote.receive(master.packet());
-      wall.move(remote.step(wall.force(), 1e-3).displacement, 1e-3, random);
+      wall.move(remote.step(wall.force(), 1ms).displacement, 1e-3, random);
       master.receive(remote.packet(wall.force()));
     });
     return device.meter().total().actuator;

@@ -77,7 +77,7 @@ TEST_CASE("pressed slowly, strict_bound over two_port_energy shows 2B(1 − shar
     master.receive({0.0, 1, 100.0});
     double x = 0.0, force = 0.0;
     for (int n = 0; n < 100000; ++n) {
-      force = master.tick(x, T).force;
+      force = master.tick(x, ph::seconds{T}).force;
       x -= step;
     }
     CHECK_THAT(force / -x, WithinAbs(2 * b / T * (1 - share), 0.7));

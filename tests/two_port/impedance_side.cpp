@@ -32,17 +32,17 @@ TEST_CASE("impedance_side displays the newest force, up to what the ledger cover
   static_assert(decltype(master)::passivity == ph::guarantee::strict);
   static_assert(std::is_trivially_copyable_v<decltype(master)>);
   CHECK(master.packet().number == 0);  // no position to send yet
-  CHECK(master.tick(0.0, 1e-3).what == ph::event::no_target);
+  CHECK(master.tick(0.0, 1ms).what == ph::event::no_target);
   master.receive({0.0, 7, 2.0});
   master.receive({0.0, 3, 5.0});           // late
   master.receive({0.0, 8, std::nan("")});  // broken
-  const auto free = master.tick(0.0, 1e-3);
+  const auto free = master.tick(0.0, 1ms);
   CHECK(free.force == 2.0);
   CHECK(!free.limited);
   CHECK(free.what == ph::event::rejected_target);
-  CHECK(master.tick(0.0, 1e-3).what == ph::event::nominal);
+  CHECK(master.tick(0.0, 1ms).what == ph::event::nominal);
   master.receive({0.0, 9, 200.0});
-  const auto limited = master.tick(0.0, 1e-3);
+  const auto limited = master.tick(0.0, 1ms);
   CHECK_THAT(limited.force, WithinRel(std::sqrt(4 * 30 * 1.0), 1e-12));
   CHECK(limited.limited);
   CHECK(master.packet().number == 1);
@@ -53,18 +53,18 @@ TEST_CASE("a tick that is late, lost or impossible promises nothing to the other
   auto master = side_of({.damping = 0.03, .loan = 1.0});
   master.receive({0.0, 1, 2.0});
   const double cost = 2.0 * 2.0 / (4 * 30);
-  (void)master.tick(0.0, 1e-3);
-  (void)master.tick(-1e-3, 1e-3);  // the control: a good one does
+  (void)master.tick(0.0, 1ms);
+  (void)master.tick(-1e-3, 1ms);  // the control: a good one does
   CHECK_THAT(master.packet().energy, WithinAbs(2e-3, 1e-15));
   const double before = master.energy();
 
-  CHECK(master.tick(-2e-3, 5e-3).what == ph::event::late_tick);
+  CHECK(master.tick(-2e-3, 5ms).what == ph::event::late_tick);
   CHECK_THAT(master.energy(), WithinAbs(before - cost, 1e-15));
-  CHECK(master.tick(std::nan(""), 1e-3).what == ph::event::rejected_sample);
+  CHECK(master.tick(std::nan(""), 1ms).what == ph::event::rejected_sample);
   CHECK_THAT(master.energy(), WithinAbs(before - 2 * cost, 1e-15));
-  CHECK(master.tick(-4e-3, 1e-3).what == ph::event::nominal);  // motion unknown, force was zero
+  CHECK(master.tick(-4e-3, 1ms).what == ph::event::nominal);  // motion unknown, force was zero
   CHECK_THAT(master.energy(), WithinAbs(before - 2 * cost, 1e-15));
-  CHECK(master.tick(1e3, 1e-3).what == ph::event::rejected_sample);
+  CHECK(master.tick(1e3, 1ms).what == ph::event::rejected_sample);
   CHECK_THAT(master.packet().energy, WithinAbs(2e-3, 1e-15));
 
   // With latency a command outlives the tick that was refused.
@@ -72,7 +72,7 @@ TEST_CASE("a tick that is late, lost or impossible promises nothing to the other
       side_of({.damping = 0.03, .loan = 1.0}, ph::strict_bound{},
               ph::late_loop_limits<1>{.longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3});
   slow.receive({0.0, 1, 2.0});
-  (void)slow.tick(0.0, 1e-3);                                             // commands 2 N
-  (void)slow.tick(std::nan(""), 1e-3);                                    // while 0 N were held
-  CHECK_THAT(slow.tick(0.0, 1e-3).energy, WithinAbs(1.0 - cost, 1e-14));  // while the 2 N were
+  (void)slow.tick(0.0, 1ms);                                             // commands 2 N
+  (void)slow.tick(std::nan(""), 1ms);                                    // while 0 N were held
+  CHECK_THAT(slow.tick(0.0, 1ms).energy, WithinAbs(1.0 - cost, 1e-14));  // while the 2 N were
 }

@@ -100,7 +100,7 @@ struct bare_remote {
     newest = p.number;
     target = p.payload;
   }
-  ph::admittance_result<Space> step(const vector_of<Space>& /*force*/, double /*dt*/) {
+  ph::admittance_result<Space> step(const vector_of<Space>& /*force*/, ph::seconds<double> /*dt*/) {
     const vector_of<Space> moved = target - tool;
     tool = target;
     return {moved, Space::zero(), 0, ph::event::nominal, false};

@@ -184,14 +184,15 @@ class passive_device final : public chai3d_types::decorated {
   }
 
   result_type tick(const vector3& force, const vector3& torque) {
-    const auto dt = static_cast<scalar>(timer_.lap(1e-3));
+    const seconds<scalar> dt = timer_.lap(1e-3);
     vector3 x;
     ::chai3d::cMatrix3d r;
     r.identity();
     bool read = device_->getPosition(x);
     if constexpr (turning_port<port_type>) read = device_->getRotation(r) && read;
     const auto pose = pose_of<port_type>(chai3d_types::vector(x), chai3d_types::matrix(r));
-    if (!read || !pose) return port_.tick(device_sample<port_type>{.dt = dt, .valid = false});
+    if (!read || !pose)
+      return port_.tick(device_sample<port_type>{.dt = dt.count(), .valid = false});
     return port_.tick(*pose, dt, join(force, torque));
   }
   [[nodiscard]] static effort join(const vector3& f, const vector3& t) noexcept {

@@ -141,7 +141,7 @@ requires hand_port<typename Port::port_type> &&(Port::port_type::dof == 3) class
     if (HD_DEVICE_ERROR(failed) || !pose) {
       last_ = port_.tick(device_sample<port_type>{.dt = dt, .valid = false});
     } else {
-      last_ = ask(*pose, dt);
+      last_ = ask(*pose, seconds{dt});
     }
     const Eigen::Vector3d force = last_.force.template cast<double>();
     hdSetDoublev(HD_CURRENT_FORCE, force.data());
@@ -168,7 +168,7 @@ requires hand_port<typename Port::port_type> &&(Port::port_type::dof == 3) class
     }
   }
 
-  result_type ask(const typename port_type::pose& pose, scalar dt) noexcept {
+  result_type ask(const typename port_type::pose& pose, seconds<scalar> dt) noexcept {
     if constexpr (std::is_void_v<decltype(feed_(port_, pose))>) {
       feed_(port_, pose);
       return port_.tick(pose, dt);

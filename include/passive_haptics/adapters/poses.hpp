@@ -2,6 +2,7 @@
 #pragma once
 // What adapters share: a pose and facts out of what an SDK gives, a length in metres, the time of a tick.
 
+#include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/design/device_facts.hpp>
 #include <passive_haptics/device/rotation.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -75,10 +76,10 @@ template <class Result, port P>
 template <class Clock = std::chrono::steady_clock>
 class tick_timer {
  public:
-  /// Since the last call [s]; `first` if this is the first, when nothing has been held yet.
-  [[nodiscard]] double lap(double first) noexcept {
+  /// Since the last call; `first` [s] if this is the first, when nothing has been held yet.
+  [[nodiscard]] seconds<double> lap(double first) noexcept {
     const auto now = Clock::now();
-    const double dt = began_ ? std::chrono::duration<double>(now - last_).count() : first;
+    const seconds<double> dt = began_ ? seconds<double>{now - last_} : seconds{first};
     last_ = now;
     began_ = true;
     return dt;

@@ -4,8 +4,8 @@
 //
 //     ph::passive_port device{scene{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03},
 //                             ph::strict_bound{}, ph::loop_limits{.longest_tick = 0.0011}};
-//     motors.command(device.tick(position, dt, wanted).force);     // a new force in every tick
-//     motors.command(device.tick(position, dt).force);             // none: the last one grows older
+//     motors.command(device.tick(position, ph::seconds{dt}, wanted).force);     // a new force in every tick
+//     motors.command(device.tick(position, ph::seconds{dt}).force);             // none: the last one grows older
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>

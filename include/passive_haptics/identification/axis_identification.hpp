@@ -3,7 +3,7 @@
 // Identifies one axis of a device, a tick at a time; docs/design/identification.md has the method.
 //
 //     axis_identification of({.force = 3.0, .stroke = 8e-3});
-//     while (!of.done()) sample = device.exchange(of.tick(sample.position, sample.dt));
+//     while (!of.done()) sample = device.exchange(of.tick(sample.position, ph::seconds{sample.dt}));
 //     const auto found = of.result();
 //
 //   settle, sweep   to and fro across the stroke: mass, damping, friction in motion, load, latency
@@ -14,6 +14,7 @@
 //     release       friction brakes
 //   cycle           below break-away, does it come back?
 
+#include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/identification/axis_found.hpp>
 #include <passive_haptics/identification/friction_ramp.hpp>
 #include <passive_haptics/identification/measure_latency.hpp>
@@ -43,7 +44,8 @@ class axis_identification {
 
   /// Takes the position [m] at the end of a tick of that length [s], and returns the force [N] for the
   /// next one: 0 once it is done(), and whenever a position or a length is no number.
-  double tick(double position, double dt) noexcept {
+  double tick(double position, seconds<double> length) noexcept {
+    const double dt = length.count();
     if (done()) return 0.0;
     if (!kernels::is_finite(position) || !passive_haptics::detail::positive(dt)) return missed();
     missing_ = 0;
@@ -72,6 +74,12 @@ class axis_identification {
     unchanged_ = force == last_force_ ? unchanged_ + 1 : 0;
     last_force_ = force;
     return force;
+  }
+  /// A number where the length belongs could be a position as well: this does not compile.
+  template <std::convertible_to<double> Number>
+  double tick(double /*position*/, const Number& /*length*/) noexcept {
+    passive_haptics::detail::refuse_bare_time<Number>();
+    return 0.0;
   }
 
   [[nodiscard]] bool done() const noexcept { return phase_ == phase::done; }

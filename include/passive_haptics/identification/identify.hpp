@@ -24,7 +24,8 @@ namespace detail {
 /// would ring.
 class soft_hold {
  public:
-  double tick(double position, double dt, double most) noexcept {
+  double tick(double position, seconds<double> length, double most) noexcept {
+    const double dt = length.count();
     if (!kernels::is_finite(position) || !passive_haptics::detail::positive(dt)) return 0.0;
     if (!begun_) home_ = last_ = position;
     begun_ = true;
@@ -68,7 +69,7 @@ template <port P, haptic_device_for<P> Device, class Stop>
     while (!of.done()) {
       const auto sample = device.exchange(force);
       const typename P::pose x = sample.position;
-      const auto dt = static_cast<double>(sample.dt);
+      const seconds<double> dt = seconds{sample.dt};
       if (stop()) of.stop();
       force = P::zero();
       for (int i = 0; i < P::dof && !of.done(); ++i) {

@@ -331,7 +331,7 @@ template <int Latency, class P, class Bound>
           device.tick({.position = x, .held = acting, .dt = T, .valid = true, .work = done}, wanted)
               .force;
     } else {
-      next = device.tick(x, T, wanted).force;
+      next = device.tick(x, seconds{T}, wanted).force;
     }
     for (std::size_t j = commanded.size() - 1; j > 0; --j) commanded[j] = commanded[j - 1];
     commanded[0] = next;

@@ -14,6 +14,7 @@
 // recursion.
 
 #include <passive_haptics/base/no_unique_address.hpp>
+#include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/port/composing.hpp>
 #include <passive_haptics/port/guard.hpp>
 #include <passive_haptics/port/last_difference.hpp>
@@ -25,7 +26,7 @@ inline namespace v0 {
 /// Compose by value; class template argument deduction finds the type. Force in, force out:
 ///     ph::passive_port device{scene{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03},
 ///                             ph::strict_bound{}, ph::loop_limits{.longest_tick = 0.0011}};
-///     motors.command(device.tick(position, dt, wanted).force);
+///     motors.command(device.tick(position, ph::seconds{dt}, wanted).force);
 /// After the limits comes, where the default does not fit, a motion estimator. One that is default
 /// constructed ticks with force zero until another is assigned to it.
 template <port P, class Source, class Observer, class Bound, class Limits = loop_limits,
@@ -147,13 +148,14 @@ class passive_port {
     begin();
   }
 
-  /// One tick: the device is at `position`, `dt` [s] after the last one. The effort of the last tick
-  /// is taken to have been held exactly.
-  [[nodiscard, gnu::flatten]] constexpr result_type tick(const pose& position, scalar dt) noexcept {
+  /// One tick: the device is at `position`, `dt` after the last one, a std::chrono::duration or
+  /// ph::seconds{…}. The effort of the last tick is taken to have been held exactly.
+  [[nodiscard, gnu::flatten]] constexpr result_type tick(const pose& position,
+                                                         seconds<scalar> dt) noexcept {
     static_assert(!detail::reports_work<P>(),
                   "passive_haptics: this port reports the work of its motors: tick with a "
                   "device_sample, which says it");
-    return advance(position, dt, guard_.commanded().back());
+    return advance(position, dt.count(), guard_.commanded().back());
   }
   /// The same for a device that reports the effort it really held.
   [[nodiscard, gnu::flatten]] constexpr result_type tick(const device_sample<P>& sample) noexcept {
@@ -171,7 +173,7 @@ class passive_port {
   /// The same two with an effort of your own making for this tick, from a source that takes one.
   template <class Own = source_type>
   requires requires(Own& s, effort f) { s.update(f); }
-  [[nodiscard, gnu::flatten]] constexpr result_type tick(const pose& position, scalar dt,
+  [[nodiscard, gnu::flatten]] constexpr result_type tick(const pose& position, seconds<scalar> dt,
                                                          const effort& wanted) noexcept {
     source_.update(wanted);
     return tick(position, dt);
@@ -182,6 +184,13 @@ class passive_port {
                                                          const effort& wanted) noexcept {
     source_.update(wanted);
     return tick(sample);
+  }
+  /// A number where dt belongs could be a position or a force as well: this does not compile.
+  template <std::convertible_to<scalar> Number, class Last = effort>
+  constexpr result_type tick(const pose& /*position*/, const Number& /*dt*/,
+                   const Last& /*wanted*/ = {}) noexcept {
+    detail::refuse_bare_time<Number>();
+    return tick(device_sample<P>{});
   }
 
   [[nodiscard]] constexpr scalar energy() const noexcept { return observer_.value(); }  ///< E1 [J]

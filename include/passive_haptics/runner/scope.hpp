@@ -11,6 +11,7 @@
 // thread of the loop, or anybody after its end, at any time. N rows of some 100 bytes each: make it static,
 // or a member of what is. Works at any port, with the result of a local_model or of a port of any source.
 
+#include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
 #include <array>
@@ -67,12 +68,19 @@ class scope {
     keep(sample.position, sample.dt, sample.valid, &wanted, out);
   }
   template <class Result>
-  void record(const pose& position, scalar dt, const Result& out) noexcept {
-    keep(position, dt, true, nullptr, out);
+  void record(const pose& position, seconds<scalar> dt, const Result& out) noexcept {
+    keep(position, dt.count(), true, nullptr, out);
   }
   template <class Result>
-  void record(const pose& position, scalar dt, const Result& out, const effort& wanted) noexcept {
-    keep(position, dt, true, &wanted, out);
+  void record(const pose& position, seconds<scalar> dt, const Result& out,
+              const effort& wanted) noexcept {
+    keep(position, dt.count(), true, &wanted, out);
+  }
+  /// A number where dt belongs could be a position as well: this does not compile.
+  template <std::convertible_to<scalar> Number, class Result>
+  void record(const pose& /*position*/, const Number& /*dt*/, const Result& /*out*/,
+              const effort& /*wanted*/ = {}) noexcept {
+    detail::refuse_bare_time<Number>();
   }
 
   /// What no event tells, a force that is too large, say: in the loop, before record().

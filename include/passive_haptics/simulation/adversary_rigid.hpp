@@ -109,7 +109,7 @@ template <class Port>
   rigid_hand hand(habit, seed + 2000);
   jumping_contact contact(seed);
   rigid_outcome out;
-  body::effort command = port.tick(device.at(), attack.device.period, body::zero()).force;
+  body::effort command = port.tick(device.at(), seconds{attack.device.period}, body::zero()).force;
   for (int n = 0; n < attack.ticks; ++n) {
     device.push(hand.push(device, command, contact.normal()));
     const auto sample = device.exchange(command);
@@ -153,7 +153,7 @@ template <class Port>
   rigid_device device(attack.device, {}, vector(unit() * (seed % 2 == 0 ? attack.spin : 0.0)));
   rigid_outcome out;
   const body::effort nothing = body::zero();
-  body::effort command = port.tick(device.at(), attack.device.period, nothing).force;
+  body::effort command = port.tick(device.at(), seconds{attack.device.period}, nothing).force;
   vector plan_f = unit(), plan_t = unit();
   vector last_v(0, 0, 0), last_rate = device.rate();
   const double most_force = 50.0 * std::pow(10.0, -2 * share());
@@ -323,7 +323,7 @@ template <class Port>
   path_source source(attack.linear, attack.angular, attack.loan);
   rigid_outcome out;
   body::effort held = body::zero();
-  body::effort next = port.tick(source.at(), attack.period, held).force;
+  body::effort next = port.tick(source.at(), seconds{attack.period}, held).force;
   body::effort later = next;
   for (int n = 0; n < attack.ticks; ++n) {
     held = attack.latency > 0 ? later : next;
@@ -381,7 +381,7 @@ template <class Port>
   path_source source(attack.linear, attack.angular, attack.loan);
   rigid_outcome out;
   const body::effort twist = body::join({0, 0, 0}, {0, 0, 4 * attack.angular / T});
-  body::effort held = port.tick(source.at(), T, twist).force;
+  body::effort held = port.tick(source.at(), seconds{T}, twist).force;
   for (int n = 0; n < presses + 100; ++n) {
     const bool pressing = n < presses && body::angular(held).norm() > 0;
     coning_path path;
@@ -396,7 +396,7 @@ template <class Port>
     source.move(held, travel, path, T);
     const vector force(n % 2 == 0 ? 30.0 : -30.0, 0, 0);
     const body::effort wanted = n + 1 < presses ? twist : body::join(force, {0, 0, 0});
-    const auto result = port.tick(source.at(), T, wanted);
+    const auto result = port.tick(source.at(), seconds{T}, wanted);
     held = result.force;
     out.least_energy = kernels::smaller(out.least_energy, source.energy());
     out.least_ledger = kernels::smaller(out.least_ledger, static_cast<double>(result.energy));

@@ -2,6 +2,7 @@
 #pragma once
 // The admittance side of a two-port: motion out to the tool in the environment, force back.
 
+#include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/two_port/packet.hpp>
 
@@ -101,9 +102,11 @@ class admittance_side {
     target_ = packet.payload;
   }
 
-  /// One step of the environment, of length dt [s], that begins under `force` [N] on the tool. A
-  /// force that is not finite, or dt ≤ 0, moves nothing and is made up for in the next step.
-  [[nodiscard]] constexpr admittance_result<Space> step(const vector& force, scalar dt) noexcept {
+  /// One step of the environment, of that length, that begins under `force` [N] on the tool. A
+  /// force that is not finite, or a length ≤ 0, moves nothing and is made up for in the next step.
+  [[nodiscard]] constexpr admittance_result<Space> step(const vector& force,
+                                                        seconds<scalar> length) noexcept {
+    const scalar dt = length.count();
     reserved_ = scalar(0);
     if (!sound_) return result(Space::zero(), event::rejected_parameters, false);
     if (!Space::is_finite(force) || !(dt > scalar(0)) || !kernels::is_finite(dt)) {
@@ -118,6 +121,12 @@ class admittance_side {
     event what = newest_ == 0 ? event::no_target : event::nominal;
     if (value() < scalar(0)) what = worse(what, event::debt);
     return result(moved, what, !(moved == wanted));
+  }
+  /// A number where the length belongs could be a force as well: this does not compile.
+  template <std::convertible_to<scalar> Number>
+  admittance_result<Space> step(const vector& /*force*/, const Number& /*length*/) noexcept {
+    detail::refuse_bare_time<Number>();
+    return result(Space::zero(), event::nominal, false);
   }
 
   /// After a step, the work [J] the environment did on the tool in it, ∫ f·dp', exact or a lower

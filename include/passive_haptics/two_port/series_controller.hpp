@@ -2,6 +2,7 @@
 #pragma once
 // The published passivity controller of the impedance side, for comparison.
 
+#include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/two_port/packet.hpp>
 
@@ -52,9 +53,10 @@ class two_port_series_controller {
   [[nodiscard]] constexpr scalar out() const noexcept { return out_; }  ///< E_out [J]
 
   /// The force to command [N] for the force received [N] and the displacement [m] of the tick of
-  /// length dt > 0 [s] that has just ended.
+  /// that length, > 0, that has just ended.
   [[nodiscard]] constexpr vector force(const vector& desired, const vector& displacement,
-                                       scalar dt) noexcept {
+                                       seconds<scalar> length) noexcept {
+    const scalar dt = length.count();
     const scalar min_speed = detail::number<scalar>(parameters_.min_speed);
     const scalar max_gain = detail::number<scalar>(parameters_.max_gain);
     const scalar gave = Space::dot(desired, displacement);
@@ -65,6 +67,13 @@ class two_port_series_controller {
     const scalar alpha = kernels::smaller(excess / (dt * square), max_gain);
     out_ += -alpha * square * dt;
     return desired - displacement * (alpha / dt);
+  }
+  /// A number where the length belongs could be a force as well: this does not compile.
+  template <std::convertible_to<scalar> Number>
+  vector force(const vector& desired, const vector& /*displacement*/,
+               const Number& /*length*/) noexcept {
+    detail::refuse_bare_time<Number>();
+    return desired;
   }
 
  private:

@@ -3,5 +3,5 @@
 
 [[gnu::flatten]] composed::ph::tick_result<composed::flat> composed::plane_strict_tick(
     plane_strict& model, const flat::vector& x, real dt) {
-  return model.tick(x, dt);
+  return model.tick(x, ph::seconds{dt});
 }

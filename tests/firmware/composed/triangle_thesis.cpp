@@ -3,5 +3,5 @@
 
 [[gnu::flatten]] composed::ph::tick_result<composed::solid> composed::triangle_thesis_tick(
     triangle_thesis& model, const solid::vector& x, real dt) {
-  return model.tick(x, dt);
+  return model.tick(x, ph::seconds{dt});
 }

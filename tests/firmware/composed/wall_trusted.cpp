@@ -3,5 +3,5 @@
 
 [[gnu::flatten]] composed::ph::tick_result<composed::line> composed::wall_trusted_tick(
     wall_trusted& model, real x, real dt) {
-  return model.tick(x, dt);
+  return model.tick(x, ph::seconds{dt});
 }

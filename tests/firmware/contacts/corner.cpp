@@ -6,5 +6,5 @@ using corner = with_source<ph::contact_set<ph::frictionless, ph::slots<plane, 2>
 
 [[gnu::flatten]] ph::tick_result<solid> corner_tick(corner& model, const solid::vector& x,
                                                     float dt) {
-  return model.tick(x, dt);
+  return model.tick(x, ph::seconds{dt});
 }

@@ -5,5 +5,5 @@
 using rough = with_source<ph::contact_set<ph::stick_slip, ph::slots<plane, 1>>>;
 
 [[gnu::flatten]] ph::tick_result<solid> rough_tick(rough& model, const solid::vector& x, float dt) {
-  return model.tick(x, dt);
+  return model.tick(x, ph::seconds{dt});
 }
