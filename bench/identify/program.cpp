@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program.hpp"
 
-#include <passive_haptics/environment/decimal.hpp>
+#include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/simulation/presets.hpp>
 
 namespace identify {
@@ -11,7 +11,7 @@ namespace {
 ex::option a_quantity(const std::string& name, const std::string& unit, const std::string& help,
                       double scale, double& where) {
   return {name + " " + unit, help, [&where, name, unit, scale](const std::string& text) {
-            const auto value = ph::environment::to_decimal(text);
+            const auto value = ph::to_decimal(text);
             if (!value || !(*value >= 0.0) || !ph::kernels::is_finite(*value)) {
               ex::complain(name + " " + text + ": give a number of " + unit + ", ≥ 0");
             }

@@ -5,7 +5,7 @@
 #include "ball.hpp"
 #include "strokes.hpp"
 #include "wall.hpp"
-#include <passive_haptics/environment/decimal.hpp>
+#include <passive_haptics/base/decimal.hpp>
 
 namespace experiments {
 
@@ -21,7 +21,7 @@ struct settings {
 settings parse(const std::vector<std::string>& arguments) {
   settings chosen;
   const auto take_unit = [&chosen](const std::string& text) {
-    const auto unit = env::to_decimal(text);
+    const auto unit = ph::to_decimal(text);
     if (!unit || !(*unit >= 1e-9 && *unit <= 1e3)) {
       complain("--unit " + text + ": give a length from 1e-9 to 1000 m, as 0.001 for millimetres");
     }

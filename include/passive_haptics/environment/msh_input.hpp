@@ -8,8 +8,8 @@
 // Reads through the stream buffer: no locale, no exception mask, no line longer than longest_line, so
 // that neither garbage nor an endless stream can do more than raise a fault.
 
+#include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/base/kernels.hpp>
-#include <passive_haptics/environment/decimal.hpp>
 #include <passive_haptics/environment/refuse.hpp>
 
 #include <bit>

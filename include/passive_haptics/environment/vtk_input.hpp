@@ -5,7 +5,7 @@
 // The file is held in memory. The first fault is kept and ends it: whoever reads asks good() before it
 // believes what it has read. What is said to be a count is never allocated ahead of what it counts.
 
-#include <passive_haptics/environment/decimal.hpp>
+#include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/environment/msh_input.hpp>
 #include <passive_haptics/environment/refuse.hpp>
 

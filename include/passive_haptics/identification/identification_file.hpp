@@ -15,7 +15,7 @@
 // version, a line that is missing, twice or out of place, another unit, a number that is none, NaN or
 // infinity, and a file without its end: with the line, what stands there and what is wanted.
 
-#include <passive_haptics/environment/decimal.hpp>
+#include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/identification/axis_found.hpp>
 
 #include <cstdint>
@@ -201,7 +201,7 @@ class identification_reader {
       refuse("the unit is " + std::string(entry.unit) + ": give it in that");
       return 0.0;
     }
-    const auto value = environment::to_decimal(digits);
+    const auto value = to_decimal(digits);
     if (!value || !kernels::is_finite(*value) || (!entry.signed_number && !(*value >= 0.0))) {
       refuse(std::string(entry.signed_number ? "a finite number" : "a finite number ≥ 0") +
              " is wanted: identify the device again");
@@ -212,7 +212,7 @@ class identification_reader {
   [[nodiscard]] int whole(const std::string& key, int least, int most) {
     const std::string text = word(key);
     if (!good()) return least;
-    const auto value = environment::to_decimal(text);
+    const auto value = to_decimal(text);
     if (!value || *value != std::floor(*value) || !(*value >= least && *value <= most)) {
       refuse("a whole number from " + std::to_string(least) + " to " + std::to_string(most) +
              " is wanted");

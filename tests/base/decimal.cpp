@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Decimal numbers: what is one, and both ways to read it, whatever the standard library has.
-#include "environment/shapes.hpp"
-#include <passive_haptics/environment/decimal.hpp>
+#include "support/catch.hpp"
+#include <passive_haptics/base/decimal.hpp>
 
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <locale>
+#include <random>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+namespace ph = passive_haptics;
 
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct comma : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
@@ -30,32 +41,33 @@ void check_both(const std::string& text, Real expected) {
     return std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(expected);
   };
   INFO(text);
-  REQUIRE(env::is_decimal(text));
-  REQUIRE(same(env::decimal_by_stream(text)));
-  if constexpr (env::read_by_charconv<Real>) REQUIRE(same(env::decimal_by_charconv<Real>(text)));
-  REQUIRE(same(*env::to_decimal(text)));
+  REQUIRE(ph::is_decimal(text));
+  REQUIRE(same(ph::detail::decimal_by_stream(text)));
+  if constexpr (ph::detail::read_by_charconv<Real>)
+    REQUIRE(same(ph::detail::decimal_by_charconv<Real>(text)));
+  REQUIRE(same(*ph::to_decimal(text)));
 }
 
 }  // namespace
 
-TEST_CASE("to_decimal reads decimal numbers and nothing else", "[environment][decimal]") {
+TEST_CASE("to_decimal reads decimal numbers and nothing else", "[decimal]") {
   for (const char* text : {"0", "-0", "+1", "1.5", "5.", ".5", "-.5e3", "1e5", "1E+5", "1e-05",
                            "007", "1.50000000000000000000000000000000000000000000000001"}) {
     INFO(text);
-    CHECK(env::is_decimal(text));
+    CHECK(ph::is_decimal(text));
   }
   for (const char* text :
        {"",    "+",    "-",     ".",   "+.",  "e5",   ".e5",   "1e",   "1e+", "1e5.", "1e5e5",
         "1,5", "1.5x", " 1",    "1 ",  "1f",  "0x10", "0x1p3", "nan",  "NaN", "inf",  "-inf",
         "--1", "+-1",  "1.2.3", "1d5", "1_0", "1'0",  "١",     "1e 5", "1\n"}) {
     INFO(text);
-    CHECK_FALSE(env::is_decimal(text));
-    CHECK_FALSE(env::to_decimal(text));
+    CHECK_FALSE(ph::is_decimal(text));
+    CHECK_FALSE(ph::to_decimal(text));
   }
-  CHECK_FALSE(env::is_decimal(std::string_view("1\0", 2)));
+  CHECK_FALSE(ph::is_decimal(std::string_view("1\0", 2)));
 }
 
-TEST_CASE("both ways to read a decimal number agree to the last bit", "[environment][decimal]") {
+TEST_CASE("both ways to read a decimal number agree to the last bit", "[decimal]") {
   constexpr unsigned seed = 20260202;
   INFO("seed " << seed);
   std::mt19937_64 random(seed);
@@ -72,8 +84,7 @@ TEST_CASE("both ways to read a decimal number agree to the last bit", "[environm
   CHECK(tiny > 9000);
 }
 
-TEST_CASE("a number too large to read is infinite, one too small is zero",
-          "[environment][decimal]") {
+TEST_CASE("a number too large to read is infinite, one too small is zero", "[decimal]") {
   const double largest = std::numeric_limits<double>::max();
   const double least = std::numeric_limits<double>::denorm_min();
   check_both("1e400", infinity);
@@ -94,14 +105,14 @@ TEST_CASE("a number too large to read is infinite, one too small is zero",
   check_both("0." + std::string(400, '0') + "1e401", 1.0);
 }
 
-TEST_CASE("to_decimal keeps its point in a locale that writes a comma", "[environment][decimal]") {
+TEST_CASE("to_decimal keeps its point in a locale that writes a comma", "[decimal]") {
   const std::locale before = std::locale::global(std::locale(std::locale(), new comma));
   std::istringstream control("1,5");
   double x = 0.0;
   control >> x;
-  const auto point = env::to_decimal("1234.5");
-  const double stream = env::decimal_by_stream("1234.5");
-  const auto no_comma = env::to_decimal("1,5");
+  const auto point = ph::to_decimal("1234.5");
+  const double stream = ph::detail::decimal_by_stream("1234.5");
+  const auto no_comma = ph::to_decimal("1,5");
   std::locale::global(before);
   CHECK(x == 1.5);  // the control: streams do follow it
   CHECK(point == 1234.5);

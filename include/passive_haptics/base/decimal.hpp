@@ -19,7 +19,6 @@
 
 namespace passive_haptics {
 inline namespace v0 {
-namespace environment {
 
 /// True for [+-]digits[.digits][e[+-]digits] where one side of the point may be empty: neither nan, inf
 /// and hexadecimal numbers, nor anything around the number.
@@ -44,6 +43,8 @@ namespace environment {
   }
   return text.empty();
 }
+
+namespace detail {
 
 /// The standard library's from_chars takes floating-point numbers.
 template <class Real>
@@ -75,18 +76,19 @@ template <read_by_charconv Real>
   return error == std::errc{} ? value : decimal_by_stream(decimal);
 }
 
+}  // namespace detail
+
 /// The double nearest to the text, ±infinity if it is beyond the largest; none if it is no decimal
 /// number.
 template <class Real = double>
 [[nodiscard]] std::optional<Real> to_decimal(std::string_view text) {
   if (!is_decimal(text)) return std::nullopt;
-  if constexpr (read_by_charconv<Real>) {
-    return decimal_by_charconv<Real>(text);
+  if constexpr (detail::read_by_charconv<Real>) {
+    return detail::decimal_by_charconv<Real>(text);
   } else {
-    return decimal_by_stream(text);
+    return detail::decimal_by_stream(text);
   }
 }
 
-}  // namespace environment
 }  // namespace v0
 }  // namespace passive_haptics
