@@ -15,7 +15,7 @@
 
 #include <passive_haptics/environment/surface.hpp>
 #include <passive_haptics/environment/surface_search.hpp>
-#include <passive_haptics/environment/triangle.hpp>
+#include <passive_haptics/environment/triangle_weights.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -23,7 +23,7 @@
 #include <passive_haptics/environment/surface.hpp>
 #include <passive_haptics/environment/surface_search.hpp>
 #include <passive_haptics/environment/tetrahedral_fem.hpp>
-#include <passive_haptics/environment/triangle.hpp>
+#include <passive_haptics/environment/triangle_weights.hpp>
 
 #include <Eigen/Core>
 

@@ -12,7 +12,7 @@
 // there is surface_search.hpp, with the same answers.
 
 #include <passive_haptics/environment/mesh.hpp>
-#include <passive_haptics/environment/triangle.hpp>
+#include <passive_haptics/environment/triangle_weights.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "environment/shapes.hpp"
-#include <passive_haptics/environment/triangle.hpp>
+#include <passive_haptics/environment/triangle_weights.hpp>
 
 TEST_CASE("closest_weights finds the closest point of a triangle", "[environment][surface]") {
   std::mt19937 random(1);
