@@ -3,7 +3,7 @@
 
 #include "published.hpp"
 #include <passive_haptics/environment/compliance_table.hpp>
-#include <passive_haptics/environment/vtk_writer.hpp>
+#include <passive_haptics/environment/vtu_writer.hpp>
 #include <passive_haptics/runner.hpp>
 #include <passive_haptics/runner/scope.hpp>
 #include <passive_haptics/simulation/device.hpp>
@@ -214,7 +214,7 @@ void draw_surface(ex::report& out, const held_mesh& body, const std::vector<vect
       "chain_surface",
       {"The upper side of the organ at the end",
        "Coloured by how far it has moved. The dent is where the tool stood when time was up; its "
-       "file for ParaView is chain_organ.vtk."},
+       "file for ParaView is chain_organ.vtu."},
       "set key noautotitle\nset pm3d depthorder\nset view 50,30,1.7\n"
       "set view equal xyz\nunset border\nunset xtics\nunset ytics\nunset ztics\n"
       "set palette defined (0 '#d8c9b4', 0.3 '#d88060', 1 '#901010')\n"
@@ -302,7 +302,7 @@ chain_row run_chain(ex::report& out, const chain_settings& chosen, const env::on
     now = touched.picture();
   }
   row.nodes = body.mesh.nodes.size();
-  env::write_vtk(out.path("chain_organ.vtk"), {body.mesh, now});
+  env::write_vtu(out.path("chain_organ.vtu"), body.mesh, now);
   out.section(
       "The whole chain",
       "Real threads: an organ of finite elements at its own rate, a loop of 1 kHz, a device "

@@ -34,7 +34,7 @@ settings parse(const std::vector<std::string>& arguments) {
                 "random schedules per controller in scene S1 (default: " +
                     std::to_string(chosen.seeds) + ")",
                 chosen.seeds),
-       a_text("--mesh FILE", "Gmsh MSH (1, 2.2 or 4.1), VTK or VTU: run the 3-DOF part on it alone",
+       a_text("--mesh FILE", "Gmsh MSH (1, 2.2 or 4.1): run the 3-DOF part on it alone",
               chosen.mesh),
        {"--unit METRES",
         "the mesh's unit of length (default: " + format("%g", chosen.unit) + ", millimetres)",

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../common/text.hpp"
 #include "organ.hpp"
-#include <passive_haptics/environment/mesh_file.hpp>
+#include <passive_haptics/environment/msh_reader.hpp>
 
 namespace experiments {
 
 organ read_organ(const std::string& file, double unit) {
-  auto loaded = env::load_mesh(std::filesystem::path(file));
+  auto loaded = env::load_msh(std::filesystem::path(file));
   if (loaded.fault) throw *loaded.fault;
   organ read{env::scaled(std::move(loaded.mesh), unit), file, unit, std::move(loaded.notes)};
   env::check(read.mesh, file + " with --unit " + format("%g", unit));

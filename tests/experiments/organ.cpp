@@ -60,7 +60,7 @@ TEST_CASE("a first look at an organ keeps what it promises", "[organ]") {
     const std::string json = content(out / "organ.json");
     CHECK(json.find('"' + std::string(part) + '"') != std::string::npos);
   }
-  for (const char* file : {"chain_organ.vtk", "chain_scope.csv", "chain_surface.csv"}) {
+  for (const char* file : {"chain_organ.vtu", "chain_scope.csv", "chain_surface.csv"}) {
     CAPTURE(file);
     CHECK(lines(content(out / file)).size() > 100);
   }
