@@ -400,6 +400,30 @@ TEST_CASE("read_msh opens files and says why it cannot", "[environment][reader]"
   CHECK(env::read_msh(path).nodes == read(version_2).nodes);
 }
 
+TEST_CASE("a surface, or a mesh of another format, is refused with the command that helps",
+          "[environment][reader]") {
+  const std::string fill =
+      "\\nVolume(1) = {1};\\n' > in.geo && gmsh -3 in.geo -o out.msh; one that has holes";
+  const std::string convert = "meshio convert -o gmsh22 in.vtu out.msh (Debian: meshio-tools)";
+  const std::string stl = "solid organ\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n";
+  const std::string binary_stl =
+      std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '\0');
+  const std::string vtu = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\">\n";
+  for (const auto& text : {stl, binary_stl, vtu, std::string("# vtk DataFile Version 3.0\n")}) {
+    const std::string said = complaint(text);
+    INFO(said);
+    CHECK(contains(said, "is not a Gmsh mesh"));
+    CHECK(contains(said, convert));
+    CHECK(contains(said, fill));
+  }
+  // What meshio makes of a surface is one of Gmsh's meshes, of triangles.
+  const std::string triangles =
+      replaced(replaced(version_2, "2 4 2 1 1 10 20 35 40", "2 2 2 1 1 10 20 40"),
+               "3 4 0 10 35 20 1000000", "3 2 0 10 35 40");
+  CHECK(contains(complaint(triangles), "has no tetrahedra among its 3 elements; mesh the volume"));
+  CHECK(contains(complaint(triangles), fill));
+}
+
 TEST_CASE("read_msh refuses a file cut off at any byte", "[environment][reader]") {
   for (const auto& text : {version_1, version_2, version_4}) {
     const std::size_t needed = text.size() - 1;  // the last line end is not
