@@ -28,9 +28,9 @@ struct rigid_row {
   attacked_by by{};
   bool control = false;
   int runs = 0;
-  sim::rigid_outcome outcome{};
+  rigid::rigid_outcome outcome{};
   /// Makes so many runs.
-  std::function<sim::rigid_outcome(int)> attack{};
+  std::function<rigid::rigid_outcome(int)> attack{};
 };
 ex::record record_of(const rigid_row& r) {
   return {{"port", r.port},
@@ -47,8 +47,8 @@ ex::record record_of(const rigid_row& r) {
 }
 
 /// The hand of 5 N and 0.2 N·m, or one of 0.2 N and 5 mN·m that lets the rest of the dynamics be seen.
-sim::rigid_attack hand_of(bool weak, double offset = 0.0, int latency = 0, int ticks = 400) {
-  sim::rigid_attack a;
+rigid::rigid_attack hand_of(bool weak, double offset = 0.0, int latency = 0, int ticks = 400) {
+  rigid::rigid_attack a;
   a.device.substeps = 4;
   a.device.centre = {offset, 0.0, 0.0};
   a.device.latency = latency;
@@ -59,7 +59,7 @@ sim::rigid_attack hand_of(bool weak, double offset = 0.0, int latency = 0, int t
   }
   return a;
 }
-ph::rigid_reachable_bound told(const sim::rigid_attack& a) {
+ph::rigid_reachable_bound told(const rigid::rigid_attack& a) {
   auto bound = rigid::reachable;
   bound.hand_force = a.hand.force;
   bound.hand_torque = a.hand.torque;
@@ -73,26 +73,26 @@ class cells {
   std::vector<rigid_row> rows;
 
   void paths(const std::string& name, bool control, const auto& port,
-             const sim::path_attack& attack) {
+             const rigid::path_attack& attack) {
     add(name, attacked_by::paths, control, runs_of(control),
-        [=](int runs) { return sim::run_all_paths(port, attack, runs); });
+        [=](int runs) { return rigid::run_all_paths(port, attack, runs); });
   }
   void hands(const std::string& name, bool control, const auto& port,
-             const sim::rigid_attack& attack) {
+             const rigid::rigid_attack& attack) {
     add(name, attacked_by::hands, control, runs_of(control),
-        [=](int runs) { return sim::run_hands(port, attack, runs); });
+        [=](int runs) { return rigid::run_hands(port, attack, runs); });
   }
   void schemers(const std::string& name, bool control, const auto& port,
-                const sim::rigid_attack& attack) {
+                const rigid::rigid_attack& attack) {
     add(name, attacked_by::schemers, control, runs_of(control),
-        [=](int runs) { return sim::run_schemers(port, attack, runs); });
+        [=](int runs) { return rigid::run_schemers(port, attack, runs); });
   }
   void arcs(const std::string& name, bool control, const auto& port) {
     add(name, attacked_by::arcs, control, 20, [=](int /*of each way to press, one*/) {
-      sim::rigid_outcome all;
+      rigid::rigid_outcome all;
       for (const double along : {-0.95, -0.75, -0.5, 0.0, 0.5}) {
         for (const double across : {0.1, 0.4, 0.78, 1.2}) {
-          all.add(sim::press_and_drain(port, {.loan = 0.5}, 200, along, across));
+          all.add(rigid::press_and_drain(port, {.loan = 0.5}, 200, along, across));
         }
       }
       return all;
@@ -141,7 +141,7 @@ std::vector<rigid_row> all_cells(int runs) {
   all.hands("reachable", false, bounded_by(told(moved)), moved);
   all.hands("strict", false, bounded_by(strict), moved);
 
-  const sim::path_attack empty{.ticks = 1000}, lent{.loan = 1.0};
+  const rigid::path_attack empty{.ticks = 1000}, lent{.loan = 1.0};
   const auto weak = hand_of(true, 0.0, 0, 1000), strong = hand_of(false);
   all.paths("no coning margin", true, bounded_by<body, 0, rigid::other_margin<0>>(strict), empty);
   all.arcs("no coning margin", true, bounded_by<body, 0, rigid::other_margin<0>>(strict, 0.5));

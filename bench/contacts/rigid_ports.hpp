@@ -2,23 +2,17 @@
 #pragma once
 // Ports of a rigid body, right ones and ones that leave out a term: the controls of every test in six degrees
 // of freedom.
+#include "rigid_attacks.hpp"
 #include <passive_haptics/contact/given_force.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/force_bound/rigid_reachable_bound.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/port/passive_port.hpp>
-#include <passive_haptics/simulation/adversary_rigid.hpp>
 
 #include <cmath>
 
 namespace rigid {
-
-namespace ph = passive_haptics;
-namespace sim = ph::simulation;
-using body = ph::rigid_body<double>;
-using vec3 = body::triple;
-using d3 = ph::space<double, 3>;
 
 /// The device of docs/design/six_dof.md: T = 1 ms, 0.15 kg, moments 1, 3 and 1.5e-4 kg·m², a hand of 5 N and
 /// 0.2 N·m.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../bench/contacts/rigid_attacks.hpp"
 #include "support/catch.hpp"
 #include <passive_haptics/device/rigid_damping.hpp>
 #include <passive_haptics/force_bound/energy_tank.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/laws.hpp>
 #include <passive_haptics/port/reported_work.hpp>
-#include <passive_haptics/simulation/adversary_rigid.hpp>
 
 #include <array>
 
@@ -44,7 +44,7 @@ TEST_CASE("a margin of dt|θ × τ|²/(36 b_ω) covers every arc of lemma C, and
     const vec3 torque(0, 0, phi * 4 * b.angular / T);
     for (double along = -3.0; along <= 3.0; along += 0.03) {
       for (double across = 0.02; across <= 3.0; across += 0.02) {
-        const auto path = sim::extremal(torque, b.angular, T, along, across, {1, 0, 0});
+        const auto path = rigid::extremal(torque, b.angular, T, along, across, {1, 0, 0});
         const vec3 turn = ph::rotation::log(path.end({}, T));
         if (turn.norm() > 1.0) continue;
         const body::motion motion = body::join(vec3(0, 0, 0), turn);

@@ -2,10 +2,10 @@
 // What it costs to believe a sample that is not true: an encoder that is wrong once, and a sensor that
 // is slower than the loop. loop_limits::top_speed and watched_loop_limits are there for it.
 #include "simulation/challenged.hpp"
+#include "support/scripted_device.hpp"
 #include <passive_haptics/simulation/adversary.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
-#include <passive_haptics/simulation/scripted_device.hpp>
 
 #include <algorithm>
 #include <array>
@@ -32,8 +32,8 @@ struct glitch {
 /// whatever pushes it.
 glitch believed(double jump, double top_speed) {
   auto model = wall_with(ph::loop_limits{.longest_tick = 1e-3, .top_speed = top_speed});
-  sim::scripted_device device(sim::prescribed_motion<d1>({.start = -1e-3}),
-                              std::array{sim::scripted_fault{1, sim::sample_fault::jump, -jump}});
+  scripted_device device(sim::prescribed_motion<d1>({.start = -1e-3}),
+                         std::array{scripted_fault{1, sample_fault::jump, -jump}});
   glitch found;
   const auto hand = [&](const auto& now) {
     if (now.tick < 3) {

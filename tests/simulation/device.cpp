@@ -2,10 +2,10 @@
 // The simulated device as a whole: no joule lost, no lemma broken.
 #include "simulation/reference.hpp"
 #include "support/catch.hpp"
+#include "support/scripted_device.hpp"
 #include <passive_haptics/simulation/adversary.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
-#include <passive_haptics/simulation/scripted_device.hpp>
 
 #include <array>
 #include <cmath>
@@ -20,15 +20,15 @@ namespace {
 
 template <class Space>
 constexpr bool is_modelled = ph::haptic_device_for<sim::device<Space>, Space>&&
-    ph::haptic_device_for<sim::device<Space, sim::impedance_hand<Space>>,
-                          Space>&& ph::haptic_device_for<sim::prescribed_motion<Space>, Space>&&
-        ph::haptic_device_for<sim::scripted_device<sim::device<Space>, 2>, Space>&& sim::hand_for<
-            sim::no_hand<Space>, Space>&& sim::hand_for<sim::constant_hand<Space>, Space>&&
-            sim::hand_for<sim::impedance_hand<Space>, Space>&&
-                sim::hand_for<sim::tapping_hand<Space>, Space>&&
-                    sim::adversary_for<sim::nyquist_motion<Space>, Space>&&
-                        sim::adversary_for<sim::random_walk<Space>, Space>&&
-                            sim::adversary_for<sim::greedy_motion<Space>, Space>;
+    ph::haptic_device_for<sim::device<Space, sim::impedance_hand<Space>>, Space>&&
+        ph::haptic_device_for<sim::prescribed_motion<Space>, Space>&&
+            ph::haptic_device_for<scripted_device<sim::device<Space>, 2>, Space>&& sim::hand_for<
+                sim::no_hand<Space>, Space>&& sim::hand_for<sim::constant_hand<Space>, Space>&&
+                sim::hand_for<sim::impedance_hand<Space>, Space>&&
+                    sim::hand_for<sim::tapping_hand<Space>, Space>&&
+                        sim::adversary_for<sim::nyquist_motion<Space>, Space>&&
+                            sim::adversary_for<sim::random_walk<Space>, Space>&&
+                                sim::adversary_for<sim::greedy_motion<Space>, Space>;
 static_assert(is_modelled<ph::space<float, 1>> && is_modelled<line>);
 static_assert(is_modelled<ph::space<float, 2>> && is_modelled<plane>);
 static_assert(is_modelled<ph::space<float, 3>> && is_modelled<room>);

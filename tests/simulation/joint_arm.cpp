@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lemma J: what the motors' work is, where they hold torques in joints (docs/design/six_dof.md).
+#include "support/joint_arm.hpp"
+
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/port/reported_work.hpp>
-#include <passive_haptics/simulation/joint_arm.hpp>
 
 #include <Eigen/LU>
 
 namespace {
 
-namespace sim = ph::simulation;
 using vec3 = d3::vector;
 constexpr double T = 1e-3, b = 0.03, loan = 0.3;
 
 /// What the tip's damping is, in any direction and pose that is visited: b_q/σ_max(J)², by 0.0475 m².
-constexpr sim::joint_arm_parameters tight{.damping = b * 0.0475};
+constexpr joint_arm_parameters tight{.damping = b * 0.0475};
 
 /// 2000 ticks to and fro by 1 mm across a force of 9 N that points outwards; then the tip goes with the force
 /// along the yaw until it is spent. What is left of the loan at the least [J].
 template <class Port>
 [[nodiscard]] double left_by_shaking(Port port) {
-  sim::joint_arm arm(tight);
+  joint_arm arm(tight);
   double least = loan, work = 0.0;
   vec3 force = vec3::Zero(), torque = vec3::Zero();
   for (int n = 0; n < 2200; ++n) {
@@ -66,12 +66,11 @@ TEST_CASE("a sample without reported work is as large as ever", "[lemma_j]") {
 
 TEST_CASE("an arm's tip and its Jacobian agree", "[lemma_j]") {
   const vec3 q(0.3, 0.9, -0.4);
-  const Eigen::Matrix3d j = sim::joint_arm({}, q).jacobian();
+  const Eigen::Matrix3d j = joint_arm({}, q).jacobian();
   for (int i = 0; i < 3; ++i) {
     vec3 step = vec3::Zero();
     step(i) = 1e-6;
-    const vec3 slope =
-        (sim::joint_arm({}, q + step).tip() - sim::joint_arm({}, q - step).tip()) / 2e-6;
+    const vec3 slope = (joint_arm({}, q + step).tip() - joint_arm({}, q - step).tip()) / 2e-6;
     CHECK((slope - j.col(i)).norm() < 1e-9);
   }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include "support/scripted_device.hpp"
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
-#include <passive_haptics/simulation/scripted_device.hpp>
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,7 @@ using strict_wall_type = decltype(strict_wall());
 
 static_assert(sim::simulated_device<sim::device<d3>>);
 static_assert(sim::simulated_device<sim::prescribed_motion<f2>>);
-static_assert(sim::simulated_device<sim::scripted_device<sim::device<d1>, 1>>);
+static_assert(sim::simulated_device<scripted_device<sim::device<d1>, 1>>);
 struct no_meter {
   using space_type = d1;
   ph::device_sample<d1> exchange(double force);
@@ -172,8 +172,8 @@ TEST_CASE("what dry friction takes counts for the port", "[simulation][loop]") {
 TEST_CASE("a device whose samples go wrong runs as any other, judged by the truth",
           "[simulation][loop]") {
   auto model = strict_wall();
-  sim::scripted_device device(sim::prescribed_motion<d1>{},
-                              std::array{sim::scripted_fault{3, sim::sample_fault::no_answer}});
+  scripted_device device(sim::prescribed_motion<d1>{},
+                         std::array{scripted_fault{3, sample_fault::no_answer}});
   int refused = 0;
   const auto seen = sim::run(device, model, 10, sim::idle, [&](const auto& now) {
     refused += now.out.what == ph::event::rejected_sample ? 1 : 0;

@@ -10,34 +10,33 @@ namespace {
 
 constexpr double rounding = 1e-12;
 /// Runs of a scheming world of so many ticks against a port.
-[[nodiscard]] sim::rigid_outcome schemed(const auto& port, const sim::rigid_attack& attack,
-                                         int runs) {
-  return sim::run_schemers(port, attack, runs);
+[[nodiscard]] rigid_outcome schemed(const auto& port, const rigid_attack& attack, int runs) {
+  return run_schemers(port, attack, runs);
 }
-[[nodiscard]] constexpr sim::rigid_attack strong_hand() {
-  sim::rigid_attack a;
+[[nodiscard]] constexpr rigid_attack strong_hand() {
+  rigid_attack a;
   a.device.substeps = 4;
   a.ticks = 400;
   return a;
 }
-[[nodiscard]] constexpr sim::rigid_attack weak_hand() {
+[[nodiscard]] constexpr rigid_attack weak_hand() {
   auto a = strong_hand();
   a.hand.force = 0.2;
   a.hand.torque = 5e-3;
   return a;
 }
-[[nodiscard]] constexpr ph::rigid_reachable_bound told(const sim::rigid_attack& a) {
+[[nodiscard]] constexpr ph::rigid_reachable_bound told(const rigid_attack& a) {
   auto bound = reachable;
   bound.hand_force = a.hand.force;
   bound.hand_torque = a.hand.torque;
   bound.inertia.offset = a.device.centre[0];
   return bound;
 }
-void keeps(const sim::rigid_outcome& outcome) {
+void keeps(const rigid_outcome& outcome) {
   CHECK(outcome.worst_residual < 1e-8);
   CHECK(outcome.least_energy >= -rounding - outcome.worst_residual);
 }
-void loses(const sim::rigid_outcome& outcome, double at_least) {
+void loses(const rigid_outcome& outcome, double at_least) {
   CHECK(outcome.worst_residual < 1e-8);
   CHECK(outcome.least_energy < -at_least);
 }
@@ -48,41 +47,39 @@ TEST_CASE(
     "strict_bound loses nothing to a velocity source that turns, on time, late or with jitter",
     "[rigid]") {
   for (const double loan : {0.0, 1.0}) {
-    sim::path_attack attack{.loan = loan, .ticks = 1000};
-    keeps(sim::run_all_paths(bounded_by(ph::strict_bound{}, loan), attack, 12));
-    keeps(sim::run_all_paths(bounded_by(ph::memoryless_bound{}, loan), attack, 12));
+    path_attack attack{.loan = loan, .ticks = 1000};
+    keeps(run_all_paths(bounded_by(ph::strict_bound{}, loan), attack, 12));
+    keeps(run_all_paths(bounded_by(ph::memoryless_bound{}, loan), attack, 12));
     attack.shortest = 0.3;
-    keeps(sim::run_all_paths(bounded_by(ph::strict_bound{}, loan), attack, 12));
+    keeps(run_all_paths(bounded_by(ph::strict_bound{}, loan), attack, 12));
     attack.latency = 1;
-    keeps(sim::run_all_paths(bounded_by<body, 1>(ph::strict_bound{}, loan), attack, 12));
-    keeps(sim::run_all_paths(bounded_by<body, 1>(ph::memoryless_bound{}, loan), attack, 12));
+    keeps(run_all_paths(bounded_by<body, 1>(ph::strict_bound{}, loan), attack, 12));
+    keeps(run_all_paths(bounded_by<body, 1>(ph::memoryless_bound{}, loan), attack, 12));
   }
 }
 
 TEST_CASE("a velocity source that turns draws joules where a term is left out", "[rigid]") {
-  const sim::path_attack empty{.ticks = 1000}, lent{.loan = 1.0};
+  const path_attack empty{.ticks = 1000}, lent{.loan = 1.0};
   const ph::strict_bound strict;
-  loses(sim::run_all_paths(bounded_by<body, 0, other_margin<0>>(strict), empty, 12), 0.01);
-  loses(sim::run_all_paths(bounded_by<sine_pairing>(strict, 1.0), lent, 30), 1e-3);
-  loses(sim::run_all_paths(bounded_by(bounded_apart{}), empty, 12), 1e-4);
+  loses(run_all_paths(bounded_by<body, 0, other_margin<0>>(strict), empty, 12), 0.01);
+  loses(run_all_paths(bounded_by<sine_pairing>(strict, 1.0), lent, 30), 1e-3);
+  loses(run_all_paths(bounded_by(bounded_apart{}), empty, 12), 1e-4);
   auto late = empty;
   late.latency = 1;
-  loses(sim::run_all_paths(bounded_by(strict), late, 12), 1e-3);
+  loses(run_all_paths(bounded_by(strict), late, 12), 1e-3);
 }
 
 TEST_CASE("a coning margin of 1/36 lasts while arcs press, and one of 1/40 does not", "[rigid]") {
-  const sim::path_attack lent{.loan = 0.5};
+  const path_attack lent{.loan = 0.5};
   const ph::strict_bound strict;
   for (const double along : {-0.95, -0.75, -0.5, 0.0, 0.5}) {
     for (const double across : {0.1, 0.4, 0.78, 1.2}) {
-      keeps(sim::press_and_drain(bounded_by(strict, 0.5), lent, 200, along, across));
+      keeps(press_and_drain(bounded_by(strict, 0.5), lent, 200, along, across));
     }
   }
-  loses(sim::press_and_drain(bounded_by<body, 0, other_margin<40>>(strict, 0.5), lent, 200, -0.75,
-                             0.78),
+  loses(press_and_drain(bounded_by<body, 0, other_margin<40>>(strict, 0.5), lent, 200, -0.75, 0.78),
         0.02);
-  loses(sim::press_and_drain(bounded_by<body, 0, other_margin<0>>(strict, 0.5), lent, 200, -0.75,
-                             0.78),
+  loses(press_and_drain(bounded_by<body, 0, other_margin<0>>(strict, 0.5), lent, 200, -0.75, 0.78),
         1.0);
 }
 
@@ -138,11 +135,11 @@ TEST_CASE("a world that schemes draws joules where a term of rigid_reachable_bou
 
 TEST_CASE("no hand that taps, swings or is greedy gets anything out of a bounded wrench",
           "[rigid]") {
-  sim::rigid_attack attack;
+  rigid_attack attack;
   attack.ticks = 1000;
   attack.device.centre = {0.02, 0, 0};
-  keeps(sim::run_hands(bounded_by(told(attack)), attack, 12));
-  keeps(sim::run_hands(bounded_by(ph::strict_bound{}), attack, 4));
-  const auto unbounded = sim::run_hands(bounded_by(ph::no_bound{}), attack, 4);
+  keeps(run_hands(bounded_by(told(attack)), attack, 12));
+  keeps(run_hands(bounded_by(ph::strict_bound{}), attack, 4));
+  const auto unbounded = run_hands(bounded_by(ph::no_bound{}), attack, 4);
   CHECK(unbounded.least_energy < -0.1);
 }

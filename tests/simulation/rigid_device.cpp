@@ -12,7 +12,7 @@ namespace {
 /// A second of a random hand's and motors' wrenches on a body whose centre is 30 mm off, spinning at first.
 [[nodiscard]] sim::rigid_device shaken(int substeps) {
   sim::rigid_device device({.centre = {0.03, 0, 0}, .substeps = substeps}, {}, vec3(20, 30, -15));
-  sim::rigid_hand hand({}, 7);
+  rigid_hand hand({}, 7);
   ph::laws::samples random(8);
   body::effort motors = body::zero();
   for (int n = 0; n < 1000; ++n) {

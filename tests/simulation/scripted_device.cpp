@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/scripted_device.hpp"
+
 #include "simulation/reference.hpp"
 #include "support/catch.hpp"
 #include <passive_haptics/simulation/device.hpp>
-#include <passive_haptics/simulation/scripted_device.hpp>
 
 #include <array>
 #include <cmath>
@@ -12,14 +13,14 @@ using namespace simulated;
 
 TEMPLATE_TEST_CASE("scripted_device spoils the chosen ticks and no other", "[simulation][fault]",
                    (ph::space<float, 1>), room) {
-  using kind = sim::sample_fault;
+  using kind = sample_fault;
   const std::array script{
-      sim::scripted_fault{1, kind::nan_position}, sim::scripted_fault{2, kind::infinite_position},
-      sim::scripted_fault{3, kind::zero_dt},      sim::scripted_fault{4, kind::negative_dt},
-      sim::scripted_fault{5, kind::jump, 0.25},   sim::scripted_fault{6, kind::no_answer},
-      sim::scripted_fault{7, kind::nan_held},     sim::scripted_fault{8, kind::nan_dt}};
+      scripted_fault{1, kind::nan_position}, scripted_fault{2, kind::infinite_position},
+      scripted_fault{3, kind::zero_dt},      scripted_fault{4, kind::negative_dt},
+      scripted_fault{5, kind::jump, 0.25},   scripted_fault{6, kind::no_answer},
+      scripted_fault{7, kind::nan_held},     scripted_fault{8, kind::nan_dt}};
   sim::device<TestType> sound;
-  sim::scripted_device broken{sound, script};
+  scripted_device broken{sound, script};
   for (int n = 0; n < 12; ++n) {
     const auto good = sound.exchange(TestType::zero());
     const auto bad = broken.exchange(TestType::zero());

@@ -2,8 +2,8 @@
 // What bad samples cost a loop that trusts them all, trusted_loop_limits, and that good ones cost it
 // nothing.
 #include "simulation/challenged.hpp"
+#include "support/scripted_device.hpp"
 #include <passive_haptics/simulation/prescribed_motion.hpp>
-#include <passive_haptics/simulation/scripted_device.hpp>
 
 #include <array>
 
@@ -16,16 +16,15 @@ constexpr ph::loop_limits ordinary{.longest_tick = 1e-3};
 
 /// What a greedy hand gets out of a wall while every 20th sample has this fault: the least true port
 /// energy [J].
-double least_energy(const auto& limits, sim::sample_fault kind) {
+double least_energy(const auto& limits, sample_fault kind) {
   ph::local_model model{d1{},         ph::fixed{wall<d1>(1e4)}, ph::turn_at_once{},
                         ph::spring{}, thesis_ledger(),          ph::strict_bound{},
                         limits};
-  std::array<sim::scripted_fault, 100> script{};
+  std::array<scripted_fault, 100> script{};
   for (std::size_t i = 0; i < script.size(); ++i) {
     script[i] = {20 * static_cast<std::int64_t>(i) + 10, kind, -0.1};
   }
-  sim::scripted_device device(sim::prescribed_motion<d1>({.damping = 0.03, .start = -1e-3}),
-                              script);
+  scripted_device device(sim::prescribed_motion<d1>({.damping = 0.03, .start = -1e-3}), script);
   sim::greedy_motion<d1> greedy;
   sim::random_source random(1);
   const auto hand = [&](const auto& now) {
@@ -50,14 +49,14 @@ TEST_CASE("no adversary draws a joule from a trusted loop but by samples that ar
 
 TEST_CASE("a jump of the sensor buys credit in a trusted loop; an ordinary one refuses it",
           "[trusted_loop_limits]") {
-  const auto jump = sim::sample_fault::jump;
+  const auto jump = sample_fault::jump;
   CHECK(least_energy(ordinary, jump) == 0.0);
   CHECK(least_energy(trusted, jump) < -0.05);
 }
 
 TEST_CASE("what the force did while a trusted loop was blind is lost", "[trusted_loop_limits]") {
-  for (const auto kind : {sim::sample_fault::nan_position, sim::sample_fault::nan_held,
-                          sim::sample_fault::zero_dt, sim::sample_fault::no_answer}) {
+  for (const auto kind : {sample_fault::nan_position, sample_fault::nan_held, sample_fault::zero_dt,
+                          sample_fault::no_answer}) {
     CAPTURE(static_cast<int>(kind));
     CHECK(least_energy(ordinary, kind) == 0.0);
     const double lost = least_energy(trusted, kind);

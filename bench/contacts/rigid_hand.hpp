@@ -14,9 +14,13 @@
 
 #include <cstdint>
 
-namespace passive_haptics {
-inline namespace v0 {
-namespace simulation {
+namespace rigid {
+
+namespace ph = passive_haptics;
+namespace sim = ph::simulation;
+using body = ph::rigid_body<double>;
+using vec3 = body::triple;
+using d3 = ph::space<double, 3>;
 
 enum class rigid_habit : std::uint8_t { random, tapping, swinging, greedy };
 
@@ -30,48 +34,43 @@ struct rigid_hand_parameters {
 
 class rigid_hand {
  public:
-  using body = rigid_body<double>;
-  using vector = body::triple;
-
   rigid_hand(const rigid_hand_parameters& parameters, std::uint64_t seed) noexcept
       : p_(parameters), random_(seed) {}
 
   /// The wrench of the hand in the coming tick; `across` is a direction of the contact.
-  [[nodiscard]] body::effort push(const rigid_device& device, const body::effort& motors,
-                                  const vector& across) noexcept {
+  [[nodiscard]] body::effort push(const sim::rigid_device& device, const body::effort& motors,
+                                  const vec3& across) noexcept {
     choose(device, motors, across);
-    vector force = force_, torque = torque_;
-    const vector p = device.at().position, rate = device.rate();
+    vec3 force = force_, torque = torque_;
+    const vec3 p = device.at().position, rate = device.rate();
     if (p.norm() > p_.room) force = p * (-p_.force / p.norm());
     if (rate.norm() > p_.fastest) torque = rate * (-p_.torque / rate.norm());
     return body::join(force, torque);
   }
 
  private:
-  using d3 = space<double, 3>;
-
   [[nodiscard]] double number() noexcept { return random_.number<double>(); }
-  [[nodiscard]] vector any() noexcept { return random_.direction<d3>(); }
+  [[nodiscard]] vec3 any() noexcept { return random_.direction<d3>(); }
   /// A length of one along v; along any direction where v is none.
-  [[nodiscard]] vector along(const vector& v) noexcept {
+  [[nodiscard]] vec3 along(const vec3& v) noexcept {
     const double length = v.norm();
-    return length > 1e-9 ? vector(v / length) : any();
+    return length > 1e-9 ? vec3(v / length) : any();
   }
   [[nodiscard]] int ticks(int most) noexcept {
     return 1 + static_cast<int>(random_.bits() % static_cast<std::uint64_t>(most));
   }
   /// Along `force` and `torque`, of length one. Drawn before it is called: the order of arguments is no order.
-  void push_along(const vector& force, const vector& torque, double share) noexcept {
+  void push_along(const vec3& force, const vec3& torque, double share) noexcept {
     force_ = force * (share * p_.force);
     torque_ = torque * (share * p_.torque);
   }
-  void choose(const rigid_device& device, const body::effort& motors,
-              const vector& across) noexcept {
-    const vector f = body::linear(motors), torque = body::angular(motors);
+  void choose(const sim::rigid_device& device, const body::effort& motors,
+              const vec3& across) noexcept {
+    const vec3 f = body::linear(motors), torque = body::angular(motors);
     ++tick_;
     const bool holds = p_.habit == rigid_habit::random || p_.habit == rigid_habit::tapping;
     if (holds && --left_ > 0) return;
-    const vector force_way = along(f), torque_way = along(torque), other = any(), another = any();
+    const vec3 force_way = along(f), torque_way = along(torque), other = any(), another = any();
     const double one = number(), two = number();
     switch (p_.habit) {
       case rigid_habit::random:
@@ -81,8 +80,7 @@ class rigid_hand {
         left_ = ticks(6);
         return push_along(force_way, torque_way, one < 0 ? 1.0 : -1.0);
       case rigid_habit::swinging:
-        return push_along(across, along(space<double, 3>::cross(across, other)),
-                          tick_ % 4 < 2 ? -1.0 : 1.0);
+        return push_along(across, along(d3::cross(across, other)), tick_ % 4 < 2 ? -1.0 : 1.0);
       case rigid_habit::greedy: {
         const bool out = f.dot(device.velocity()) + torque.dot(device.rate()) > 0;
         return push_along(force_way, torque_way, out || one > 0.6 ? 1.0 : -1.0);
@@ -91,11 +89,9 @@ class rigid_hand {
   }
 
   rigid_hand_parameters p_;
-  laws::samples random_;
-  vector force_ = vector(0, 0, 0), torque_ = vector(0, 0, 0);
+  ph::laws::samples random_;
+  vec3 force_ = vec3(0, 0, 0), torque_ = vec3(0, 0, 0);
   int left_ = 0, tick_ = 0;
 };
 
-}  // namespace simulation
-}  // namespace v0
-}  // namespace passive_haptics
+}  // namespace rigid

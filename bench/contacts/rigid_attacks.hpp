@@ -10,16 +10,12 @@
 //
 // Each run returns the least true energy and the least of the ledger; a bench may ask for more runs.
 
-#include <passive_haptics/base/samples.hpp>
-#include <passive_haptics/simulation/rigid_device.hpp>
-#include <passive_haptics/simulation/rigid_hand.hpp>
+#include "rigid_hand.hpp"
 
 #include <cmath>
 #include <cstdint>
 
-namespace passive_haptics {
-inline namespace v0 {
-namespace simulation {
+namespace rigid {
 
 /// What a run, or many, came to.
 struct rigid_outcome {
@@ -29,9 +25,9 @@ struct rigid_outcome {
   long asked = 0, cut = 0;      ///< ticks in which something was asked, and got less
 
   void add(const rigid_outcome& other) noexcept {
-    least_energy = kernels::smaller(least_energy, other.least_energy);
-    least_ledger = kernels::smaller(least_ledger, other.least_ledger);
-    worst_residual = kernels::larger(worst_residual, other.worst_residual);
+    least_energy = ph::kernels::smaller(least_energy, other.least_energy);
+    least_ledger = ph::kernels::smaller(least_ledger, other.least_ledger);
+    worst_residual = ph::kernels::larger(worst_residual, other.worst_residual);
     asked += other.asked;
     cut += other.cut;
   }
@@ -40,9 +36,6 @@ struct rigid_outcome {
 /// A point of the handle on a one-sided plane, stiff, that jumps, turns and is deep at once.
 class jumping_contact {
  public:
-  using body = rigid_body<double>;
-  using vector = body::triple;
-
   explicit jumping_contact(std::uint64_t seed) noexcept : random_(seed) {
     stiffness_ = 1000.0 * std::pow(10.0, 1.5 * (random_.number<double>() + 1) / 2);
     moment_ = seed % 4 == 3 ? 3.0 : 0.0;
@@ -52,64 +45,61 @@ class jumping_contact {
     if (tick_ % 200 == 0) place_anew(x);
     if (tick_ % 37 == 0) offset_ += random_.number<double>() * 1e-3;
     ++tick_;
-    const vector arm = rotation::rotate(x.orientation, arm_);
-    double depth = offset_ - (vector(x.position) + arm).dot(normal_);
+    const vec3 arm = ph::rotation::rotate(x.orientation, arm_);
+    double depth = offset_ - (vec3(x.position) + arm).dot(normal_);
     if (depth > 0.02) {
       offset_ -= depth - 0.001;
       depth = 0.001;
     }
     if (!(depth > 0)) return body::zero();
-    const double push = kernels::smaller(stiffness_ * depth, 50.0);
-    const vector f = normal_ * push;
-    return body::join(f, vector(space<double, 3>::cross(arm, f) + arm * (moment_ * push)));
+    const double push = ph::kernels::smaller(stiffness_ * depth, 50.0);
+    const vec3 f = normal_ * push;
+    return body::join(f, vec3(d3::cross(arm, f) + arm * (moment_ * push)));
   }
-  [[nodiscard]] const vector& normal() const noexcept { return normal_; }
+  [[nodiscard]] const vec3& normal() const noexcept { return normal_; }
 
  private:
   void place_anew(const body::pose& x) noexcept {
-    normal_ = random_.direction<space<double, 3>>();
-    arm_ = random_.direction<space<double, 3>>() * 0.06;
-    offset_ = (vector(x.position) + rotation::rotate(x.orientation, arm_)).dot(normal_) +
+    normal_ = random_.direction<d3>();
+    arm_ = random_.direction<d3>() * 0.06;
+    offset_ = (vec3(x.position) + ph::rotation::rotate(x.orientation, arm_)).dot(normal_) +
               random_.number<double>() * 1e-3;
   }
 
-  laws::samples random_;
-  vector normal_ = vector(0, 0, 1), arm_ = vector(0, 0, 0);
+  ph::laws::samples random_;
+  vec3 normal_ = vec3(0, 0, 1), arm_ = vec3(0, 0, 0);
   double stiffness_, moment_, offset_ = 0.0;
   int tick_ = 0;
 };
 
 /// A sample in the words of a port whose poses and efforts are a rigid_body's.
 template <class Port>
-[[nodiscard]] device_sample<typename Port::port_type> as_told(
-    const device_sample<rigid_body<double>>& sample) noexcept {
+[[nodiscard]] ph::device_sample<typename Port::port_type> as_told(
+    const ph::device_sample<body>& sample) noexcept {
   return {.position = sample.position, .held = sample.held, .dt = sample.dt, .valid = sample.valid};
 }
 
 /// Who runs against a port: a hand on a device. Every fifth spins at first, as fast as `spin` [rad/s].
 struct rigid_attack {
-  rigid_device_parameters device{};
+  sim::rigid_device_parameters device{};
   rigid_hand_parameters hand{};
   int ticks = 4000;
   double spin = 40.0;
 };
 
-/// One run. `port` takes wanted wrenches (given_force) of rigid_body<double> and is told the latency.
+/// One run. `port` takes wanted wrenches (given_force) of a rigid_body<double> and is told the latency.
 template <class Port>
 [[nodiscard]] rigid_outcome run_hand(Port port, const rigid_attack& attack, std::uint64_t seed) {
-  using body = rigid_body<double>;
-  using vector = body::triple;
-  laws::samples random(seed + 1000);
-  const vector spin = random.direction<space<double, 3>>() * (seed % 5 == 0 ? attack.spin : 0.0);
-  const body::pose start{{0, 0, 0},
-                         rotation::exp<double>(vector(random.direction<space<double, 3>>() * 2.0))};
-  rigid_device device(attack.device, start, spin);
+  ph::laws::samples random(seed + 1000);
+  const vec3 spin = random.direction<d3>() * (seed % 5 == 0 ? attack.spin : 0.0);
+  const body::pose start{{0, 0, 0}, ph::rotation::exp<double>(vec3(random.direction<d3>() * 2.0))};
+  sim::rigid_device device(attack.device, start, spin);
   auto habit = attack.hand;
   habit.habit = static_cast<rigid_habit>(seed % 4);
   rigid_hand hand(habit, seed + 2000);
   jumping_contact contact(seed);
   rigid_outcome out;
-  body::effort command = port.tick(device.at(), seconds{attack.device.period}, body::zero()).force;
+  body::effort command = port.tick(device.at(), ph::seconds{attack.device.period}, body::zero()).force;
   for (int n = 0; n < attack.ticks; ++n) {
     device.push(hand.push(device, command, contact.normal()));
     const auto sample = device.exchange(command);
@@ -119,8 +109,8 @@ template <class Port>
     const bool something = !(wanted == body::zero());
     out.asked += something;
     out.cut += something && result.limited;
-    out.least_energy = kernels::smaller(out.least_energy, device.energy());
-    out.least_ledger = kernels::smaller(out.least_ledger, static_cast<double>(result.energy));
+    out.least_energy = ph::kernels::smaller(out.least_energy, device.energy());
+    out.least_ledger = ph::kernels::smaller(out.least_ledger, static_cast<double>(result.energy));
   }
   out.worst_residual = std::fabs(device.residual());
   return out;
@@ -141,21 +131,19 @@ template <class Port>
 template <class Port>
 [[nodiscard]] rigid_outcome run_schemer(Port port, const rigid_attack& attack, std::uint64_t seed,
                                         int looks = 8) {
-  using body = rigid_body<double>;
-  using vector = body::triple;
-  laws::samples random(seed + 5000);
-  const auto unit = [&random] { return vector(random.direction<space<double, 3>>()); };
+  ph::laws::samples random(seed + 5000);
+  const auto unit = [&random] { return vec3(random.direction<d3>()); };
   const auto share = [&random] { return (random.number<double>() + 1) / 2; };
-  const auto length_one = [&](const vector& v) {
+  const auto length_one = [&](const vec3& v) {
     const double length = v.norm();
-    return length > 1e-9 ? vector(v / length) : unit();
+    return length > 1e-9 ? vec3(v / length) : unit();
   };
-  rigid_device device(attack.device, {}, vector(unit() * (seed % 2 == 0 ? attack.spin : 0.0)));
+  sim::rigid_device device(attack.device, {}, vec3(unit() * (seed % 2 == 0 ? attack.spin : 0.0)));
   rigid_outcome out;
   const body::effort nothing = body::zero();
-  body::effort command = port.tick(device.at(), seconds{attack.device.period}, nothing).force;
-  vector plan_f = unit(), plan_t = unit();
-  vector last_v(0, 0, 0), last_rate = device.rate();
+  body::effort command = port.tick(device.at(), ph::seconds{attack.device.period}, nothing).force;
+  vec3 plan_f = unit(), plan_t = unit();
+  vec3 last_v(0, 0, 0), last_rate = device.rate();
   const double most_force = 50.0 * std::pow(10.0, -2 * share());
   const double most_torque = 0.5 * std::pow(10.0, -1 * share());
   const int rest = static_cast<int>(seed % 3);  // ticks between two wrenches
@@ -167,9 +155,8 @@ template <class Port>
     }
     const bool waiting = command == nothing;
     const double way = waiting ? -1.0 : 1.0;
-    const vector p = device.at().position, rate = device.rate();
-    vector hand_f = plan_f * (way * attack.hand.force),
-           hand_t = plan_t * (way * attack.hand.torque);
+    const vec3 p = device.at().position, rate = device.rate();
+    vec3 hand_f = plan_f * (way * attack.hand.force), hand_t = plan_t * (way * attack.hand.torque);
     if (!waiting) {
       hand_f = length_one(body::linear(command)) * attack.hand.force;
       hand_t = length_one(body::angular(command)) * attack.hand.torque;
@@ -179,26 +166,26 @@ template <class Port>
     device.push(body::join(hand_f, hand_t));
     const auto sample = device.exchange(command);
 
-    const vector v = device.velocity(), turning = device.rate();
-    const vector change = v - last_v, turning_change = turning - last_rate;
+    const vec3 v = device.velocity(), turning = device.rate();
+    const vec3 change = v - last_v, turning_change = turning - last_rate;
     last_v = v;
     last_rate = turning;
     body::effort best = nothing;
-    double least = kernels::largest<double>();
+    double least = ph::kernels::largest<double>();
     const bool asks = waited >= rest;
     for (int i = 0; asks && i < looks; ++i) {
-      const auto choose = [&](const vector& gone, const vector& changed, const vector& planned) {
+      const auto choose = [&](const vec3& gone, const vec3& changed, const vec3& planned) {
         const double blend = share(), kind = share();
-        const vector base = kind < 0.3   ? length_one(gone)
-                            : kind < 0.6 ? length_one(changed)
-                                         : planned;
+        const vec3 base = kind < 0.3   ? length_one(gone)
+                          : kind < 0.6 ? length_one(changed)
+                                       : planned;
         const double sign = share() < 0.5 ? -1.0 : 1.0;
         return length_one(base * sign + unit() * (2 * blend));
       };
       const double size = share() < 0.5 ? 1.0 : std::pow(10.0, -2 * share());
       const double force = share() < 0.3 ? 0.0 : size * most_force;
-      const vector f = choose(v, change, plan_f) * force;
-      const vector torque = choose(turning, turning_change, plan_t) * (size * most_torque);
+      const vec3 f = choose(v, change, plan_f) * force;
+      const vec3 torque = choose(turning, turning_change, plan_t) * (size * most_torque);
       const body::effort wanted = body::join(f, torque);
       auto its_port = port;
       auto its_device = device;
@@ -218,8 +205,8 @@ template <class Port>
     command = result.force;
     out.asked += asks;
     out.cut += asks && result.limited;
-    out.least_energy = kernels::smaller(out.least_energy, device.energy());
-    out.least_ledger = kernels::smaller(out.least_ledger, static_cast<double>(result.energy));
+    out.least_energy = ph::kernels::smaller(out.least_energy, device.energy());
+    out.least_ledger = ph::kernels::smaller(out.least_ledger, static_cast<double>(result.energy));
   }
   out.worst_residual = std::fabs(device.residual());
   return out;
@@ -237,37 +224,36 @@ template <class Port>
 /// A tick's turn: ω(t) = ω₀ turning about the unit vector `axis` at `spin` [rad/s]. Straight where spin is 0.
 /// Everything of it is known in closed form.
 struct coning_path {
-  using vector = rigid_body<double>::triple;
-  vector start = vector(0, 0, 0);  ///< ω₀ [rad/s]
-  vector axis = vector(0, 0, 1);
+  vec3 start = vec3(0, 0, 0);  ///< ω₀ [rad/s]
+  vec3 axis = vec3(0, 0, 1);
   double spin = 0.0;
 
   /// ∫ω dt [rad], with which a torque held in the world frame works.
-  [[nodiscard]] vector integral(double T) const noexcept {
+  [[nodiscard]] vec3 integral(double T) const noexcept {
     const double angle = spin * T;
     if (std::fabs(angle) < 1e-9) return start * T;
-    const vector along = axis * axis.dot(start);
-    const vector across = start - along;
+    const vec3 along = axis * axis.dot(start);
+    const vec3 across = start - along;
     return along * T + across * (std::sin(angle) / spin) +
-           space<double, 3>::cross(axis, across) * ((1 - std::cos(angle)) / spin);
+           d3::cross(axis, across) * ((1 - std::cos(angle)) / spin);
   }
   /// Where it ends.
-  [[nodiscard]] quaternion<double> end(const quaternion<double>& q, double T) const noexcept {
+  [[nodiscard]] ph::quaternion<double> end(const ph::quaternion<double>& q,
+                                           double T) const noexcept {
     const auto inner =
-        rotation::product(rotation::exp<double>(vector((start - axis * spin) * T)), q);
-    return rotation::normalised(
-        rotation::product(rotation::exp<double>(vector(axis * (spin * T))), inner));
+        ph::rotation::product(ph::rotation::exp<double>(vec3((start - axis * spin) * T)), q);
+    return ph::rotation::normalised(
+        ph::rotation::product(ph::rotation::exp<double>(vec3(axis * (spin * T))), inner));
   }
 };
 
 /// The extremals of lemma C (Pontryagin): a part of ω along the torque, the rest turning about it by 2φ.
-[[nodiscard]] inline coning_path extremal(const coning_path::vector& torque, double b_angular,
-                                          double T, double along, double across,
-                                          const coning_path::vector& direction,
+[[nodiscard]] inline coning_path extremal(const vec3& torque, double b_angular, double T,
+                                          double along, double across, const vec3& direction,
                                           double share = 1.0) noexcept {
   const double size = torque.norm();
-  const coning_path::vector unit = torque / size;
-  coning_path::vector side = direction - unit * unit.dot(direction);
+  const vec3 unit = torque / size;
+  vec3 side = direction - unit * unit.dot(direction);
   side = side / side.norm();
   const double phi = share * size * T / (4 * b_angular);
   return {unit * (along / T) + side * (across / T), unit, 2 * phi / T};
@@ -276,16 +262,12 @@ struct coning_path {
 /// A source of motions on a device with that damping, and its meter.
 class path_source {
  public:
-  using body = rigid_body<double>;
-  using vector = body::triple;
-
   path_source(double b, double b_angular, double loan) noexcept
       : b_(b), b_angular_(b_angular), energy_(loan) {}
 
   /// A tick of length T in which w was held: a travel and a turn.
-  void move(const body::effort& w, const vector& travel, const coning_path& path,
-            double T) noexcept {
-    x_ = {vector(vector(x_.position) + travel), path.end(x_.orientation, T)};
+  void move(const body::effort& w, const vec3& travel, const coning_path& path, double T) noexcept {
+    x_ = {vec3(vec3(x_.position) + travel), path.end(x_.orientation, T)};
     energy_ += b_ * travel.dot(travel) / T + b_angular_ * path.start.dot(path.start) * T -
                body::linear(w).dot(travel) - body::angular(w).dot(path.integral(T));
   }
@@ -311,19 +293,17 @@ struct path_attack {
 /// Random wanted wrenches, and motions that are the worst of lemma L3, arcs about the torque, or random.
 template <class Port>
 [[nodiscard]] rigid_outcome run_paths(Port port, const path_attack& attack, std::uint64_t seed) {
-  using body = rigid_body<double>;
-  using vector = body::triple;
-  laws::samples random(seed + 3000);
-  const auto unit = [&random] { return vector(random.direction<space<double, 3>>()); };
+  ph::laws::samples random(seed + 3000);
+  const auto unit = [&random] { return vec3(random.direction<d3>()); };
   const auto share = [&random] { return (random.number<double>() + 1) / 2; };
   const auto at_most = [&](double size) {  // in any direction, as long as that
-    const vector direction = unit();
-    return vector(direction * (size * share()));
+    const vec3 direction = unit();
+    return vec3(direction * (size * share()));
   };
   path_source source(attack.linear, attack.angular, attack.loan);
   rigid_outcome out;
   body::effort held = body::zero();
-  body::effort next = port.tick(source.at(), seconds{attack.period}, held).force;
+  body::effort next = port.tick(source.at(), ph::seconds{attack.period}, held).force;
   body::effort later = next;
   for (int n = 0; n < attack.ticks; ++n) {
     held = attack.latency > 0 ? later : next;
@@ -331,15 +311,15 @@ template <class Port>
     const double T =
         attack.period * (share() < 0.3 ? 1.0 : attack.shortest + (1 - attack.shortest) * share());
     const bool saving = (n / 500) % 2 != 0;  // the other half presses with arcs
-    const vector f = body::linear(held), torque = body::angular(held);
-    vector travel = f * (T / (2 * attack.linear)) * (share() < 0.3 ? 1.0 : 1.3 * share());
+    const vec3 f = body::linear(held), torque = body::angular(held);
+    vec3 travel = f * (T / (2 * attack.linear)) * (share() < 0.3 ? 1.0 : 1.3 * share());
     if (share() < 0.5) travel += at_most(1e-3);
     coning_path path;
     const double kind = share();
     if (kind < 0.25 || !(torque.norm() > 0)) {
       path.start = at_most(0.2) / T;
     } else if (kind < (saving ? 0.9 : 0.4)) {
-      vector turn = torque * (T / (2 * attack.angular));
+      vec3 turn = torque * (T / (2 * attack.angular));
       if (turn.norm() > 1) turn = turn / turn.norm();
       path.start = turn * ((share() < 0.7 ? 1.0 : share()) / T);
     } else {
@@ -347,15 +327,15 @@ template <class Port>
       path = extremal(torque, attack.angular, T, 0.0, across, unit(), turning);
     }
     source.move(held, travel, path, T);
-    const vector wanted_force = at_most(saving ? 20.0 : 0.4), wanted_torque = at_most(1.0);
+    const vec3 wanted_force = at_most(saving ? 20.0 : 0.4), wanted_torque = at_most(1.0);
     const body::effort wanted = body::join(wanted_force, wanted_torque);
     const auto result =
         port.tick({.position = source.at(), .held = held, .dt = T, .valid = true}, wanted);
     next = result.force;
     out.asked += 1;
     out.cut += result.limited;
-    out.least_energy = kernels::smaller(out.least_energy, source.energy());
-    out.least_ledger = kernels::smaller(out.least_ledger, static_cast<double>(result.energy));
+    out.least_energy = ph::kernels::smaller(out.least_energy, source.energy());
+    out.least_ledger = ph::kernels::smaller(out.least_ledger, static_cast<double>(result.energy));
   }
   return out;
 }
@@ -375,17 +355,15 @@ template <class Port>
 template <class Port>
 [[nodiscard]] rigid_outcome press_and_drain(Port port, const path_attack& attack, int presses,
                                             double along, double across) {
-  using body = rigid_body<double>;
-  using vector = body::triple;
   const double T = attack.period;
   path_source source(attack.linear, attack.angular, attack.loan);
   rigid_outcome out;
   const body::effort twist = body::join({0, 0, 0}, {0, 0, 4 * attack.angular / T});
-  body::effort held = port.tick(source.at(), seconds{T}, twist).force;
+  body::effort held = port.tick(source.at(), ph::seconds{T}, twist).force;
   for (int n = 0; n < presses + 100; ++n) {
     const bool pressing = n < presses && body::angular(held).norm() > 0;
     coning_path path;
-    vector travel(0, 0, 0);
+    vec3 travel(0, 0, 0);
     if (pressing) {
       const double turned = 2.4 * n;  // so that it is no turn about one axis
       path = extremal(body::angular(held), attack.angular, T, along, across,
@@ -394,16 +372,14 @@ template <class Port>
       travel = body::linear(held) * (T / (2 * attack.linear));
     }
     source.move(held, travel, path, T);
-    const vector force(n % 2 == 0 ? 30.0 : -30.0, 0, 0);
+    const vec3 force(n % 2 == 0 ? 30.0 : -30.0, 0, 0);
     const body::effort wanted = n + 1 < presses ? twist : body::join(force, {0, 0, 0});
-    const auto result = port.tick(source.at(), seconds{T}, wanted);
+    const auto result = port.tick(source.at(), ph::seconds{T}, wanted);
     held = result.force;
-    out.least_energy = kernels::smaller(out.least_energy, source.energy());
-    out.least_ledger = kernels::smaller(out.least_ledger, static_cast<double>(result.energy));
+    out.least_energy = ph::kernels::smaller(out.least_energy, source.energy());
+    out.least_ledger = ph::kernels::smaller(out.least_ledger, static_cast<double>(result.energy));
   }
   return out;
 }
 
-}  // namespace simulation
-}  // namespace v0
-}  // namespace passive_haptics
+}  // namespace rigid

@@ -11,10 +11,6 @@
 #include <cstdint>
 #include <limits>
 
-namespace passive_haptics {
-inline namespace v0 {
-namespace simulation {
-
 enum class sample_fault : std::uint8_t {
   nan_position,
   infinite_position,
@@ -67,13 +63,14 @@ class scripted_device {
     constexpr scalar nan = std::numeric_limits<scalar>::quiet_NaN();
     switch (fault.kind) {
       case sample_fault::nan_position:
-        component(sample.position, 0) = nan;
+        passive_haptics::simulation::component(sample.position, 0) = nan;
         break;
       case sample_fault::infinite_position:
-        component(sample.position, 0) = std::numeric_limits<scalar>::infinity();
+        passive_haptics::simulation::component(sample.position, 0) =
+            std::numeric_limits<scalar>::infinity();
         break;
       case sample_fault::nan_held:
-        component(sample.held, 0) = nan;
+        passive_haptics::simulation::component(sample.held, 0) = nan;
         break;
       case sample_fault::zero_dt:
         sample.dt = scalar(0);
@@ -85,7 +82,8 @@ class scripted_device {
         sample.dt = nan;
         break;
       case sample_fault::jump:
-        component(sample.position, 0) += static_cast<scalar>(fault.jump);
+        passive_haptics::simulation::component(sample.position, 0) +=
+            static_cast<scalar>(fault.jump);
         break;
       case sample_fault::no_answer:
         sample = {};
@@ -97,7 +95,3 @@ class scripted_device {
   std::array<scripted_fault, Faults> script_;
   std::int64_t tick_ = 0;
 };
-
-}  // namespace simulation
-}  // namespace v0
-}  // namespace passive_haptics

@@ -9,10 +9,6 @@
 
 #include <cmath>
 
-namespace passive_haptics {
-inline namespace v0 {
-namespace simulation {
-
 struct joint_arm_parameters {
   double upper = 0.1335, fore = 0.1335;  ///< lengths of the links [m]
   double damping = 1.4e-3;               ///< b_q of each joint [N·m·s/rad]
@@ -21,7 +17,7 @@ struct joint_arm_parameters {
 
 class joint_arm {
  public:
-  using vector = space<double, 3>::vector;
+  using vector = passive_haptics::space<double, 3>::vector;
   using matrix = Eigen::Matrix<double, 3, 3>;
 
   explicit joint_arm(const joint_arm_parameters& parameters = {},
@@ -67,7 +63,3 @@ class joint_arm {
   vector q_;
   double energy_ = 0.0;
 };
-
-}  // namespace simulation
-}  // namespace v0
-}  // namespace passive_haptics
