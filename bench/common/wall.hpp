@@ -11,7 +11,7 @@
 // of the final mean, the last 2 s calmer than 1 mm; minimum of the TRUE port energy.
 
 #include "report.hpp"
-#include <passive_haptics/environment/spring_wall.hpp>
+#include "spring_wall.hpp"
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
@@ -84,7 +84,7 @@ inline sim::device_parameters<line> device_of(const wall_scene& scene) {
 template <class Model, class Device, class Watch>
 sim::run_result<line> run_on_wall(Model& model, Device& device, const wall_scene& scene,
                                   std::uint64_t seed, int ticks, Watch watch) {
-  const ph::environment::spring_wall springs({2 * scene.stiffness, 2 * scene.stiffness});
+  const spring_wall springs({2 * scene.stiffness, 2 * scene.stiffness});
   sim::update_schedule schedule(seed);
   sim::one_update_late<double> late(0.0);
   double surface = 0.0;

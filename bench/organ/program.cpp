@@ -6,9 +6,9 @@
 #include "organ_mesh.hpp"
 #include "precision.hpp"
 #include "remote.hpp"
+#include "sparse_ldlt.hpp"
 #include <passive_haptics/environment/compliance_table.hpp>
 #include <passive_haptics/environment/contact_surface.hpp>
-#include <passive_haptics/environment/sparse_ldlt.hpp>
 #ifdef PASSIVE_HAPTICS_CHOLMOD
 #include "by_cholmod.hpp"
 #endif
@@ -275,7 +275,7 @@ complaints run_solvers(ex::report& out, const settings& chosen, const env::on_pr
     const held_mesh body = make_cube(n);
     std::optional<Eigen::Matrix3d> first;
     solvers.push_back(judge<env::multifrontal>("multifrontal", body, first, tell));
-    if (n < 46) solvers.push_back(judge<env::sparse_ldlt>("sparse_ldlt", body, first, tell));
+    if (n < 46) solvers.push_back(judge<sparse_ldlt>("sparse_ldlt", body, first, tell));
 #ifdef PASSIVE_HAPTICS_CHOLMOD
     solvers.push_back(judge<by_cholmod>("CHOLMOD", body, first, tell));
 #endif

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A force that is spread over a fingertip: shared out rightly, and no softer for a finer mesh.
+#include "../bench/organ/sparse_ldlt.hpp"
 #include "environment/bodies.hpp"
 #include "support/scratch_folder.hpp"
 #include <passive_haptics/environment/compliance_cache.hpp>
 #include <passive_haptics/environment/compliance_table.hpp>
 #include <passive_haptics/environment/deformable_body.hpp>
-#include <passive_haptics/environment/sparse_ldlt.hpp>
 
 #include <numeric>
 
@@ -109,7 +109,7 @@ TEST_CASE("a fingertip feels the same by any solver, out of a table and out of a
   const env::tetrahedral_fem fem(made.mesh, soft, made.held, {.touched = patch});
   env::compute_table<double>(folder / "cube.table", fem, id, patch);
   env::deformable_body fronts(made.mesh, soft, made.held, spread);
-  env::basic_deformable_body<env::basic_tetrahedral_fem<env::sparse_ldlt>> columns(
+  env::basic_deformable_body<env::basic_tetrahedral_fem<organ::sparse_ldlt>> columns(
       made.mesh, soft, made.held, spread);
   env::basic_deformable_body<env::compliance_table<double>> table(
       made.mesh, env::read_table<double>(folder / "cube.table", id, made.mesh.nodes.size()),

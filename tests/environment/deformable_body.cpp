@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The body that is touched: equilibrium, relaxation, input that cannot be used.
+#include "../bench/organ/sparse_ldlt.hpp"
 #include "environment/bodies.hpp"
 #include <passive_haptics/environment/deformable_body.hpp>
 #include <passive_haptics/environment/msh_reader.hpp>
-#include <passive_haptics/environment/sparse_ldlt.hpp>
 
 #include <numeric>
 #include <span>
@@ -234,7 +234,7 @@ TEST_CASE("deformable_body says the same by any solver", "[environment][body]") 
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (mesh.nodes[i].z() < 1e-6) held.push_back(static_cast<int>(i));
   }
-  using by_columns = env::basic_tetrahedral_fem<env::sparse_ldlt>;
+  using by_columns = env::basic_tetrahedral_fem<organ::sparse_ldlt>;
   for (const auto split : {env::force_split::barycentric, env::force_split::by_distance}) {
     env::body_options options;
     options.split = split;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The solver of large bodies: equal to the sparse one, stopped, refused, and honest about a singular matrix.
+#include "../bench/organ/sparse_ldlt.hpp"
 #include "environment/bodies.hpp"
 #include <passive_haptics/environment/msh_reader.hpp>
 #include <passive_haptics/environment/patch_compliance.hpp>
-#include <passive_haptics/environment/sparse_ldlt.hpp>
 
 #include <numeric>
 
@@ -56,7 +56,7 @@ TEST_CASE("multifrontal solves what the sparse factorisation solves", "[environm
     const auto graph = env::graph_of(mesh, number);
     const auto K = env::stiffness_matrix(mesh, soft, fixed);
     env::multifrontal fronts;
-    env::sparse_ldlt columns;
+    organ::sparse_ldlt columns;
     CHECK(fronts.analyse(graph) > 0);
     CHECK(fronts.factorise(K).smallest_pivot > 1e-6);
     CHECK(columns.factorise(K).smallest_pivot > 1e-6);
@@ -77,7 +77,7 @@ TEST_CASE("multifrontal presses a point as full solutions do", "[environment][fe
   std::mt19937 random(13);
   for (const auto& [mesh, fixed] : scenes()) {
     env::tetrahedral_fem fronts(mesh, soft, fixed);
-    env::basic_tetrahedral_fem<env::sparse_ldlt> columns(mesh, soft, fixed);
+    env::basic_tetrahedral_fem<organ::sparse_ldlt> columns(mesh, soft, fixed);
     const auto surface = env::boundary(mesh);
     for (int run = 0; run < 6; ++run) {
       const auto& t = surface[random() % surface.size()].nodes;

@@ -2,7 +2,7 @@
 // The wall experiment through the mock Falcon: counts, words, saturation, packets one tick late.
 #include "falcon/wall.hpp"
 
-#include <passive_haptics/environment/spring_wall.hpp>
+#include "../bench/common/spring_wall.hpp"
 
 namespace {
 
@@ -68,7 +68,7 @@ outcome drop(auto model, double mass, double b, double friction, bool yields) {
   mock.body.load = {0.0, 0.0, -9.81 * mass};
   falcon_device<letting_go> device{3500.0, eager(), mock, letting_go{9.81 * mass}};
   REQUIRE(make_ready(device));
-  const ph::environment::spring_wall springs({2e4, 2e4});
+  const experiments::spring_wall springs({2e4, 2e4});
   sim::update_schedule schedule(3);
   sim::one_update_late<double> late(0.0);
   double now = 0.0;

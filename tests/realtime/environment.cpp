@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An update of a deformable body takes nothing from the heap, by operator new (which support/allocations.cpp
 // makes a malloc) or as Eigen does. The linker leads every malloc of this program through here.
+#include "../bench/organ/sparse_ldlt.hpp"
 #include "environment/bodies.hpp"
 #include "support/scratch_folder.hpp"
 #include <passive_haptics/environment/compliance_table.hpp>
 #include <passive_haptics/environment/deformable_body.hpp>
-#include <passive_haptics/environment/sparse_ldlt.hpp>
 
 #include <cstdlib>
 
@@ -54,7 +54,7 @@ TEST_CASE("an update of a deformable body takes nothing from the heap", "[enviro
       env::deformable_body touched(mesh, env::tetrahedral_fem(mesh, soft, held, {.touched = patch}),
                                    options);
       CHECK(asked_by(touched) == 0);
-      env::basic_deformable_body<env::basic_tetrahedral_fem<env::sparse_ldlt>> columns(
+      env::basic_deformable_body<env::basic_tetrahedral_fem<organ::sparse_ldlt>> columns(
           mesh, soft, held, options);
       CHECK(asked_by(columns) == 0);
       const scratch_folder folder;

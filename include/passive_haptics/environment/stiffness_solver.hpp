@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What solves K u = f for the finite elements: multifrontal (the default), sparse_ldlt, or your own.
+// What solves K u = f for the finite elements: multifrontal (the default), or your own.
 //
 //     struct by_cholmod {                                        // three functions are enough
 //       std::size_t analyse(const env::node_graph&);             // bytes that it will take; 0: unknown

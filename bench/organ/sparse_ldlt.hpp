@@ -11,18 +11,18 @@
 
 #include <cstddef>
 
-namespace passive_haptics {
-inline namespace v0 {
-namespace environment {
+namespace organ {
+
+namespace env = passive_haptics::environment;
 
 class sparse_ldlt {
  public:
   /// Eigen tells the size of a factor only when it has it.
-  [[nodiscard]] static std::size_t analyse(const node_graph& /*graph*/) noexcept { return 0; }
+  [[nodiscard]] static std::size_t analyse(const env::node_graph& /*graph*/) noexcept { return 0; }
 
   /// Cannot be stopped once it has begun.
-  [[nodiscard]] factor_result factorise(const Eigen::SparseMatrix<double>& stiffness,
-                                        const on_progress& tell = {}) {
+  [[nodiscard]] env::factor_result factorise(const Eigen::SparseMatrix<double>& stiffness,
+                                             const env::on_progress& tell = {}) {
     if (tell && !tell(0.0)) return {.stopped = true};
     factor_.compute(stiffness);
     if (factor_.info() != Eigen::Success) return {};
@@ -48,6 +48,4 @@ class sparse_ldlt {
   Eigen::VectorXd work_;
 };
 
-}  // namespace environment
-}  // namespace v0
-}  // namespace passive_haptics
+}  // namespace organ

@@ -9,7 +9,7 @@
 // Only node 1 is loaded, so all displacements are proportional to its force: factorised and solved
 // once.
 
-#include <passive_haptics/environment/mesh.hpp>
+#include <passive_haptics/environment/refuse.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -18,9 +18,7 @@
 #include <initializer_list>
 #include <span>
 
-namespace passive_haptics {
-inline namespace v0 {
-namespace environment {
+namespace experiments {
 
 class spring_wall {
  public:
@@ -34,11 +32,13 @@ class spring_wall {
 
   explicit spring_wall(std::span<const double> springs) {
     if (springs.empty()) {
-      refuse_argument("spring_wall: there is no spring; give at least one [N/m]");
+      passive_haptics::environment::refuse_argument(
+          "spring_wall: there is no spring; give at least one [N/m]");
     }
     for (const double k : springs) {
       if (!(k > 0.0) || !std::isfinite(k)) {
-        refuse_argument("spring_wall: spring ", k, " N/m is refused; give a finite one above zero");
+        passive_haptics::environment::refuse_argument(
+            "spring_wall: spring ", k, " N/m is refused; give a finite one above zero");
       }
     }
     const auto count = static_cast<Eigen::Index>(springs.size());
@@ -50,8 +50,9 @@ class spring_wall {
     const Eigen::LDLT<Eigen::MatrixXd> reduced(assembled.topLeftCorner(count, count));
     compliance_ = reduced.solve(Eigen::VectorXd::Unit(count, 0));
     if (!compliance_.allFinite() || !(compliance_[0] > 0.0)) {
-      refuse_argument("spring_wall: the stiffest spring is too far from the softest to be solved (",
-                      compliance_[0], " m/N); bring them within 1e12 of each other");
+      passive_haptics::environment::refuse_argument(
+          "spring_wall: the stiffest spring is too far from the softest to be solved (",
+          compliance_[0], " m/N); bring them within 1e12 of each other");
     }
   }
 
@@ -68,6 +69,4 @@ class spring_wall {
   Eigen::VectorXd compliance_;  ///< of every free node to a force at node 1 [m/N]
 };
 
-}  // namespace environment
-}  // namespace v0
-}  // namespace passive_haptics
+}  // namespace experiments
