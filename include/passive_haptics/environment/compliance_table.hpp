@@ -44,7 +44,6 @@ class columns_of_file {
   explicit columns_of_file(mapped_file file) : file_(std::move(file)) {
     std::memcpy(&header_, file_.bytes().data(), sizeof(header_));
   }
-  static void fetch(std::span<const int> /*indices*/) noexcept {}
   [[nodiscard]] const Scalar* column(std::size_t index) const {
     const std::size_t block = index / header_.block_nodes, in = index % header_.block_nodes;
     return reinterpret_cast<const Scalar*>(file_.bytes().data() + header_.begin_of(block)) +

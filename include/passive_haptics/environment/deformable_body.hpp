@@ -173,7 +173,7 @@ class basic_deformable_body {
   /// Away from the body the force is zero, the body comes to rest, and the contact names the
   /// nearest triangle with depth ≤ 0. Input that is not finite, or would move a node by 1000 times
   /// the size of the body, changes nothing: the last contact comes back with fresh = false. Never
-  /// throws, allocates or factorises, unless the solid does (compliance_cache.hpp).
+  /// throws, allocates or factorises, unless the solid does.
   surface_contact update(const Eigen::Vector3d& device, const Eigen::Vector3d& force_on_device) {
     contact_.fresh = false;
     if (!device.allFinite() || !force_on_device.allFinite()) return contact_;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What the nodes of a patch answer to forces on them, as an elastic_solid (deformable_body.hpp). Where the
-// columns come from: a file (compliance_table.hpp), or the finite elements when they are needed
-// (compliance_cache.hpp).
+// What the nodes of a patch answer to forces on them, as an elastic_solid (deformable_body.hpp): columns of
+// K⁻¹, which compliance_table.hpp keeps in a file.
 //
 // D. L. James, D. K. Pai, "ArtDefo: accurate real time deformable objects", SIGGRAPH 1999. Exact for the
 // nodes of the patch, whatever else the body does; nodes outside of it do not move, as fixed ones: make the
@@ -93,8 +92,7 @@ inline void check_patch(std::string_view who, std::span<const int> patch, std::s
   return all;
 }
 
-/// Columns has fetch(indices), which is told whose columns come next, and column(index): the first of the 9M
-/// scalars of a node of the patch, which stay until the next fetch.
+/// Columns has column(index): the first of the 9M scalars of a node of the patch.
 template <class Columns>
 class patch_compliance {
  public:
@@ -123,7 +121,6 @@ class patch_compliance {
                                         const Eigen::Vector3d& at_shares,
                                         const std::array<int, 3>& by,
                                         const Eigen::Vector3d& by_shares) const {
-    fetch(by);
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (Eigen::Index i = 0; i < 3; ++i) {
       for (Eigen::Index j = 0; j < 3; ++j) {
@@ -151,7 +148,6 @@ class patch_compliance {
       at_.push_back(index_[slot(nodes[k])]);
       shares_.push_back(shares[k]);
     }
-    columns_.fetch(at_);
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (std::size_t j = 0; j < at_.size(); ++j) {
       for (std::size_t i = 0; i < at_.size(); ++i) {
@@ -160,10 +156,7 @@ class patch_compliance {
     }
     return sum;
   }
-  void load(const Eigen::Vector3d& force) {
-    force_ = force;
-    columns_.fetch(at_);
-  }
+  void load(const Eigen::Vector3d& force) { force_ = force; }
   [[nodiscard]] Eigen::Vector3d displacement(int node) const {
     Eigen::Vector3d u = Eigen::Vector3d::Zero();
     const int row = index_[slot(node)];
@@ -175,14 +168,6 @@ class patch_compliance {
   }
 
  private:
-  void fetch(const std::array<int, 3>& nodes) const {
-    std::array<int, 3> wanted{};
-    std::size_t count = 0;
-    for (const int node : nodes) {
-      if (index_[slot(node)] >= 0) wanted[count++] = index_[slot(node)];
-    }
-    columns_.fetch(std::span<const int>(wanted).first(count));
-  }
   [[nodiscard]] Eigen::Matrix3d block(int row, int column) const {
     const std::size_t rows = 3 * nodes_.size();
     const auto* const first = columns_.column(slot(column)) + 3 * slot(row);
@@ -196,7 +181,7 @@ class patch_compliance {
     return result;
   }
 
-  mutable Columns columns_;
+  Columns columns_;
   std::vector<int> nodes_;  ///< of the patch, numbers in the mesh
   std::vector<int> index_;  ///< of a node of the mesh in nodes_, or −1
   std::vector<int> at_;     ///< what is pressed, by places in nodes_
