@@ -99,7 +99,8 @@ template <class Port>
   rigid_hand hand(habit, seed + 2000);
   jumping_contact contact(seed);
   rigid_outcome out;
-  body::effort command = port.tick(device.at(), ph::seconds{attack.device.period}, body::zero()).force;
+  body::effort command =
+      port.tick(device.at(), ph::seconds{attack.device.period}, body::zero()).force;
   for (int n = 0; n < attack.ticks; ++n) {
     device.push(hand.push(device, command, contact.normal()));
     const auto sample = device.exchange(command);

@@ -24,7 +24,8 @@ struct published_master : bare_master<Space> {
     this->position = sample.position;
     const vector_of<Space> moved = seen ? vector_of<Space>(now - last) : Space::zero();
     seen = true;
-    return {controller.force(this->desired, moved, ph::seconds{sample.dt}), 0, ph::event::nominal, false};
+    return {controller.force(this->desired, moved, ph::seconds{sample.dt}), 0, ph::event::nominal,
+            false};
   }
   packet_of<Space> packet() { return {controller.in(), ++this->number, this->position}; }
 };

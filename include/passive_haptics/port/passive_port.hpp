@@ -188,7 +188,7 @@ class passive_port {
   /// A number where dt belongs could be a position or a force as well: this does not compile.
   template <std::convertible_to<scalar> Number, class Last = effort>
   constexpr result_type tick(const pose& /*position*/, const Number& /*dt*/,
-                   const Last& /*wanted*/ = {}) noexcept {
+                             const Last& /*wanted*/ = {}) noexcept {
     detail::refuse_bare_time<Number>();
     return tick(device_sample<P>{});
   }
