@@ -12,16 +12,16 @@ inline namespace v0 {
 /// What happened in a tick, in order of rising severity; a tick reports the worst. The numbers are
 /// stable from 1.0 on.
 enum class event : std::uint8_t {
-  nominal,          ///< all is well
-  debt,             ///< the ledger is negative: the hand has been fed more than it paid
-  late_tick,        ///< dt is longer than loop_limits::longest_tick: the bound assumed less
-  repeated_sample,  ///< the sensor is slower than the loop: its motions are booked too short
-  no_target,        ///< the environment has published nothing yet: force zero
-  rejected_target,  ///< the published constraint is unusable: the last good one stays
-  stale_target,     ///< no good constraint for too long: the contact is fading out
-  outside_workspace,  ///< farther away than loop_limits::workspace; millimetres for metres? Force zero
-  rejected_sample,  ///< NaN, infinity, dt ≤ 0, an impossible jump: force zero, credit forfeited
-  rejected_parameters,  ///< check() names the fault: force zero for ever
+  nominal,            ///< all is well
+  debt,               ///< the ledger is negative: the hand has been fed more than it paid
+  late_tick,          ///< dt is longer than loop_limits::longest_tick, on which the bound relies
+  repeated_sample,    ///< the sensor is slower than the loop: its motions seem faster than they are
+  no_target,          ///< the environment has published nothing yet: force zero
+  rejected_target,    ///< the published constraint is unusable: the last good one stays
+  stale_target,       ///< no good constraint for too long: the contact is fading out
+  outside_workspace,  ///< beyond loop_limits::workspace, as of millimetres for metres: force zero
+  rejected_sample,  ///< NaN, infinity, dt ≤ 0, an impossible jump: force zero, its worst forfeited
+  rejected_parameters,  ///< check() names the fault: force zero until set() mends it
 };
 
 /// The text of an event, for logs.
@@ -56,7 +56,8 @@ enum class event : std::uint8_t {
 }
 
 namespace detail {
-/// A force that is no number, where it is rare enough not to be in the way of the others.
+/// The event of a force that is NaN or infinite. It is a cold function, so that this rare case costs the
+/// ordinary tick no instructions.
 [[nodiscard, gnu::cold, gnu::noinline]] constexpr event unusable(event so_far) noexcept {
   return worse(so_far, event::rejected_target);
 }

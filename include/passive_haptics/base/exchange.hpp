@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// exchange: the newest value from one thread to another, never a queue, never half of one.
+// exchange: hands the newest value from one thread to another, whole and without a queue.
 //
 //     ph::exchange<ph::half_space<scene>> inbox;         // shared
 //     inbox.publish(plane);                              // slow thread, 20-100 Hz
 //     if (const auto* plane = inbox.take()) touch.update(*plane);  // haptic thread, 1 kHz
 //
-// Wait-free for one writer and one reader, threads or an interrupt and main(): nobody waits, retries or
-// copies under the other's hands. It takes four slots and four words that are loaded and stored, never
-// swapped, so a core without atomic swaps (Cortex-M0, RISC-V without A) does it too, with no library.
-// What to do when nothing new comes is the supply's stale-data rule (port/freshness.hpp). Use a second
-// one for the way back.
+// It is wait-free for one writer and one reader, threads or an interrupt and main(): neither waits, retries
+// or touches a slot that the other is using. It takes four slots and four words that are loaded and stored,
+// never swapped, so a core without atomic swaps (Cortex-M0, RISC-V without A) needs no library for it.
+// What happens when nothing new comes, port/freshness.hpp decides. The way back needs a second exchange.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -34,7 +33,7 @@ namespace detail {
 template <class Word>
 class four_slots {
  public:
-  /// Writer: a slot that the reader does not hold, and cannot before filled() says so.
+  /// Writer: a slot that the reader does not hold and cannot get before filled() is called.
   [[nodiscard]] unsigned free() const noexcept {
     const unsigned pair = 1 - reading_.load();
     return 2 * pair + (1 - newest_[pair].load());
@@ -52,9 +51,9 @@ class four_slots {
   }
 
  private:
-  Word latest_{0};                    // the writer's: the pair of the newest value
-  std::array<Word, 2> newest_{0, 0};  // the writer's: the newer slot of each pair
-  Word reading_{0};                   // the reader's: the pair it is in
+  Word latest_{0};                    // the pair of the newest value; the writer stores it
+  std::array<Word, 2> newest_{0, 0};  // the newer slot of each pair; the writer stores it
+  Word reading_{0};                   // the pair that the reader uses; the reader stores it
 };
 
 }  // namespace detail
@@ -90,7 +89,7 @@ class exchange {
  private:
   std::array<Payload, 4> slots_{};
   detail::four_slots<std::atomic<unsigned>> order_;
-  unsigned held_ = 0;  // the reader's
+  unsigned held_ = 0;  // the slot that the reader has
 };
 
 }  // namespace v0

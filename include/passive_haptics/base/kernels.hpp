@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // The equations, one function each: plain scalars in, a plain scalar out, no state, no branch that
-// is not in the formula. Own your loop? Then this header is all you need.
+// is not in the formula. Whoever writes a loop of their own needs this header only.
 //
 //   2.5    damping_per_tick          B = b/T
 //   2.14   worst_outflow             f²/(4B)            most energy the next tick can take
@@ -11,9 +11,9 @@
 //   2(a′)  reachable_force_bound     largest force whose work over that reach the ledger covers
 //   2(a′)  reachable_outflow         most energy a force can hand over within that reach
 //   2(a′)  reachable_share, reachable_work             the same two in joules, for any port
-//   C      coning, coning_share      what a turn may hide from its ends, and the torque it is known for
+//   C      coning, coning_share      work that the end poses of a turn do not show, and the torque limit for it
 //   § 9    sampled_stiffness, sampled_damping          what a sampled mass can take
-//   -      spendable, sure_gain, sum_rounded_down     rounding costs force, never the promise
+//   -      spendable, sure_gain, sum_rounded_down     rounding lowers the force and never breaks the promise
 //   2.30   half_angle_turn           cos φ and sin φ of a small turn, without cos and sin
 //
 // Numbers with a dot are equations of McWilliam's 2017 thesis "Local Model Interpolation for Stable
@@ -35,7 +35,7 @@ rests on: compile without it
 #error passive_haptics: /fp:fast takes out the checks for NaN and infinity that every promise rests on: \
 compile with /fp:precise
 #endif
-#if defined(__ASSOCIATIVE_MATH__)  // clang++ does not tell
+#if defined(__ASSOCIATIVE_MATH__)  // g++ defines it, clang++ does not
 #error passive_haptics: -fassociative-math, a part of -ffast-math, sums in any order, so bounds are no \
 longer rounded towards zero force: compile without it
 #endif
@@ -76,8 +76,8 @@ template <real S>
   return a < S(0) ? S(-a) : a;
 }
 
-/// The largest finite number, and the smallest normal one. In brackets: some compilers' headers make
-/// macros of these two names.
+/// The largest finite number, and the smallest normal one. The brackets are there because headers of some
+/// systems make macros of min and max.
 template <class S>
 [[nodiscard]] constexpr S largest() noexcept {
   return (std::numeric_limits<S>::max)();
@@ -93,7 +93,7 @@ template <real S>
   return magnitude(x) <= largest<S>();
 }
 
-/// √x for x ≥ 0, also in a constant expression (where Newton's iteration descends until it stalls).
+/// √x for x ≥ 0. In a constant expression Newton's iteration descends until it stalls.
 template <real S>
 [[nodiscard]] constexpr S square_root(S x) noexcept {
   if (std::is_constant_evaluated()) {
@@ -123,7 +123,7 @@ template <real S>
   return f * f / (S(4) * B);
 }
 
-/// A margin for a dozen roundings in any direction.
+/// 16ε, a relative margin that covers a dozen roundings in any direction.
 template <real S>
 [[nodiscard]] constexpr S rounding() noexcept {
   return S(16) * std::numeric_limits<S>::epsilon();
@@ -131,17 +131,17 @@ template <real S>
 
 /// The part of a credit E1 [J] that may be spent although every step rounds, whichever way:
 ///     E1 (1 − 64ε) − min/ε,   ε and min the machine epsilon and the smallest normal number
-/// A force found from it has f²/(4B) ≤ E1 in exact arithmetic, in any direction, and what the
-/// worst motion against it books, less sure_gain's margin, still leaves no debt. The proof counts
-/// roundings (docs/design/stability.md). For b ≥ 1e-13 N·s/m.
+/// A force found from it has f²/(4B) ≤ E1 in exact arithmetic, in any direction, and after the worst motion
+/// against it, booked with sure_gain's margin, the ledger is not in debt. The proof counts roundings and
+/// holds for b ≥ 1e-13 N·s/m (docs/design/stability.md).
 template <real S>
 [[nodiscard]] constexpr S spendable(S E1) noexcept {
   using limits = std::numeric_limits<S>;
   return E1 * (S(1) - S(4) * rounding<S>()) - smallest<S>() / limits::epsilon();
 }
 
-/// f_max = √(4 B E1) [N], rounded towards zero; zero for a ledger in debt. The clamp stays inside
-/// the root (A6). (2.17)
+/// f_max = √(4 B E1) [N], rounded towards zero; zero for a ledger in debt, because E1 is clamped inside the
+/// root (A6). (2.17)
 template <real S>
 [[nodiscard]] constexpr S strict_force_bound(S E1, S B) noexcept {
   const S credit = spendable(E1);
@@ -159,20 +159,20 @@ template <real S>
   const S share = credit / outflow;
   if (!(share >= smallest<S>())) return S(0);
   const S scale = square_root(share);
-  if (!(scale > S(0))) __builtin_unreachable();  // the root of what is positive: for the compiler
+  if (!(scale > S(0))) __builtin_unreachable();  // the root of a positive number is positive
   return scale;
 }
 
-/// dissipated − work [J], less what rounding can have done to either: never more than in exact
-/// arithmetic. `passed` is Σ |fᵢ Δxᵢ|, at least |work|.
+/// dissipated − work [J], less the largest rounding error of both, so it is never more than in exact
+/// arithmetic. `passed` is Σ |fᵢ Δxᵢ| [J], which is at least |work|.
 template <real S>
 [[nodiscard]] constexpr S sure_gain(S dissipated, S work, S passed) noexcept {
   return dissipated - work - rounding<S>() * (dissipated + passed);
 }
 
-/// E + gain [J], rounded down, so that a ledger never grows by rounding: one of 1 J in float would
-/// not notice 1e-8 J going out, tick after tick. Exact to an ulp; where the gain is larger than E,
-/// to an ulp of the gain.
+/// E + gain [J], rounded down, so that a ledger never grows by rounding: a float of 1 J would not notice
+/// 1e-8 J going out, tick after tick. The sum is exact to an ulp, or to an ulp of the gain where that is
+/// larger than E.
 template <real S>
 [[nodiscard]] constexpr S sum_rounded_down(S E, S gain) noexcept {
   const S sum = E + gain;
@@ -180,7 +180,7 @@ template <real S>
   return sum - (sum - E > gain ? ulp : S(0));
 }
 
-/// d_max = f/K [m]; with no stiffness there is no force to place. (2.27, A10)
+/// d_max = f/K [m], the depth at which K displays f; 0 without stiffness. (2.27, A10)
 template <real S>
 [[nodiscard]] constexpr S depth_bound(S f, S K) noexcept {
   return K > S(0) ? f / K : S(0);
@@ -188,9 +188,9 @@ template <real S>
 
 /// δ [m]: the farthest that a mass m [kg] can travel outwards in the next tick, of length ≤ T [s].
 ///     x(n+1) − x(n) = Δx·T/T₀ + double integral of a(t),   |a| ≤ (|f| + F_other)/m
-/// `outward` is the travel along the force in the last tick [m], which lasted T₀ [s]; `held` and
-/// `next` are the force magnitudes over the last and the next tick; `other` bounds all else that
-/// pushes. Exact for the double integrator, rounded up but for `outward`. (L6)
+/// `outward` is the travel along the force in the last tick [m], which lasted T₀ [s]; `held` and `next`
+/// are the sizes of the force over the last and the next tick [N]; `other` bounds all else that pushes [N].
+/// Exact for the double integrator; the terms beside `outward` are rounded up. (L6)
 template <real S>
 [[nodiscard]] constexpr S outward_reach(S outward, S held, S next, S other, S m, S T0,
                                         S T) noexcept {
@@ -244,8 +244,9 @@ template <real S>
   return strict_scale(E1, W);
 }
 
-/// dt|θ × τ|²/(36 b_ω) [J], rounded up: the most by which a turn from one pose to another brings less than
-/// b_ω|θ|²/dt − τ·θ, if |θ| ≤ 1 rad and |τ| ≤ 4b_ω/dt. `across` is |θ × τ|². (lemma C)
+/// dt|θ × τ|²/(36 b_ω) [J], rounded up: the most by which the gain of a turn can fall short of
+/// b_ω|θ|²/dt − τ·θ, which its end poses show, if |θ| ≤ 1 rad and |τ| ≤ 4b_ω/dt. `across` is |θ × τ|².
+/// (lemma C, docs/design/six_dof.md)
 template <real S>
 [[nodiscard]] constexpr S coning(S across, S b, S dt) noexcept {
   return dt * across / (S(36) * b) * (S(1) + rounding<S>());
@@ -259,15 +260,17 @@ template <real S>
   return most / square_root(squared) * (S(1) - rounding<S>());
 }
 
-/// The most [rad] by which the path of a tick of length dt may have turned beside θ, its rate never changing by
-/// more than α [rad/s²]: |Ω| α dt²/12 to first order, |Ω| itself known but for the same.
+/// |Ω − θ| [rad], at most, of a tick of length dt whose rate of turn changes by at most α [rad/s²]: θ is the
+/// turn that its end poses show and Ω the integral of the rate. To first order it is |Ω| α dt²/12, and |Ω| is
+/// at most θ + α dt². (docs/design/six_dof.md)
 template <real S>
 [[nodiscard]] constexpr S unseen_turn(S theta, S alpha, S dt) noexcept {
   const S gained = alpha * dt * dt;
   return (theta + gained) * gained / S(12);
 }
-/// What an effort of that norm can reach in a tick [J] because of what was held the tick before and is held
-/// in it, ‖h‖ and ‖w‖, both of length T, beside the `pushed` of all else. (§ 3)
+/// By how much the work that an effort of this norm can do grows from one tick to the next [J]: `before` and
+/// `last` are the norms of what is held in the two, each of length T, and `pushed` is that of all else that
+/// pushes. (η(j + 1) − η(j) of § 2(a′))
 template <real S>
 [[nodiscard]] constexpr S later_reach(S norm, S before, S last, S pushed, S T) noexcept {
   return norm * (before + last + S(2) * pushed) * T * T / S(2) * (S(1) + rounding<S>());
@@ -285,7 +288,7 @@ template <real S>
   return smaller(S(2) * ratio * square_root(K * m), fraction * m / T);
 }
 
-/// The cap on the ledger [J] that still lets a wall push back with F [N]: F²/(4B) (A9).
+/// F²/(4B) [J]: the least cap on the ledger with which a wall can still push back with F [N]. (A9)
 template <real S>
 [[nodiscard]] constexpr S bank_for_hold(S F, S b, S T) noexcept {
   return worst_outflow(F, damping_per_tick(b, T));

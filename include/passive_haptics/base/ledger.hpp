@@ -2,10 +2,10 @@
 #pragma once
 // How a ledger is kept: no entry, and no sum, is ever rounded up (docs/design/stability.md).
 //
-//   sure_gain         what a tick has brought        less what rounding can have done to it
+//   sure_gain         what a tick has brought        less its largest rounding error
 //   book              E += gain                      rounded down
-//   written_off       what is left at least          when a force may have cost its worst
-//   compensated_sum   a number to keep a ledger in   that loses nothing of small entries
+//   written_off       the least that is left         if a force has done its worst
+//   compensated_sum   a number to keep a ledger in   that does not lose small entries
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -15,8 +15,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A sum that carries on what rounding cut off (Kahan's, with Knuth's exact error of a sum): in
-/// float, 1e-9 J still counts against 1 J.
+/// A sum that adds the rounding error of each addition to the next term (Kahan's, with Knuth's exact error
+/// of a sum): in float, 1e-9 J still counts against 1 J.
 template <real Scalar>
 class compensated_sum {
  public:
@@ -37,7 +37,7 @@ class compensated_sum {
   Scalar sum_{}, lost_{};
 };
 
-/// The number a ledger is kept in: the port's scalar, or a sum that carries on what rounding cuts off.
+/// The number that a ledger is kept in: the port's scalar, or a compensated_sum of it.
 enum class ledger_sum : std::uint8_t { plain, compensated };
 
 namespace detail {
@@ -45,7 +45,7 @@ namespace detail {
 template <class Scalar, ledger_sum Sum>
 using ledger_number = std::conditional_t<Sum == ledger_sum::plain, Scalar, compensated_sum<Scalar>>;
 
-/// What a tick has brought, `dissipated` − held·Δx [J], in exact arithmetic at least.
+/// `dissipated` − held·Δx [J], what a tick has brought, and never more than in exact arithmetic.
 template <class Port>
 [[nodiscard, gnu::always_inline]] constexpr typename Port::scalar sure_gain(
     typename Port::scalar dissipated, const typename Port::effort& held,
@@ -60,17 +60,18 @@ template <class Ledger, class Scalar>
   if constexpr (std::is_same_v<Ledger, Scalar>) {
     energy = kernels::sum_rounded_down(energy, gain);
   } else {
-    energy += gain;  // a sum that forgets nothing
+    energy += gain;  // the compensated sum keeps what rounding cuts off
   }
 }
 
-/// What is left at least when a force may have cost its worst, down to `floor` (an empty ledger) [J].
+/// The least [J] that is left of `energy` if a force has cost its `worst`. It is never below `floor`, an empty
+/// ledger, unless the ledger was below it already.
 template <class Scalar>
 [[nodiscard]] constexpr Scalar written_off(Scalar energy, Scalar worst,
                                            Scalar floor = Scalar(0)) noexcept {
   const Scalar margin = Scalar(1) + kernels::rounding<Scalar>();
   const Scalar left = kernels::sum_rounded_down(energy, Scalar(-worst * margin));
-  return kernels::larger(kernels::smaller(energy, floor), left);  // so ordered, NaN is nothing
+  return kernels::larger(kernels::smaller(energy, floor), left);  // a worst of NaN leaves no credit
 }
 
 }  // namespace detail

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS in front of a member: if its type holds nothing, it takes no room.
+// PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS in front of a member lets an empty type take no bytes.
 //
-// The library's one macro, because an attribute has no other name. Under Microsoft's ABI the standard
-// spelling is a word without effect, so an empty part would cost four bytes or eight; there the compiler
-// has a spelling of its own, and says so. No result depends on it, only sizeof does.
+// It is a macro, the library's only one, because an attribute cannot be named otherwise. Under Microsoft's ABI
+// the standard spelling has no effect, and an empty part would cost four bytes or eight; there the compiler
+// has a spelling of its own. No result depends on it, only sizeof does.
 
 #include <passive_haptics/base/language.hpp>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Parameters: stated in double, refused with a sentence, and computed with in the scalar of the port.
+// Parameters: a user states them in double, check() refuses them with a sentence, and a port computes with
+// them in its scalar.
 //
 // A part of a composition is a plain struct of numbers, its parameters, which knows no scene:
 //     ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}
@@ -32,8 +33,8 @@ namespace detail {
   return x >= 0.0 && kernels::is_finite(x);
 }
 
-/// A parameter in the scalar that computes with it. What is finite stays finite, and what is not
-/// zero stays not zero, so a value that check() has passed is still in its range.
+/// A parameter in the scalar that computes with it. A finite number stays finite and one that is not zero
+/// does not become zero, so a value that check() has passed is still in its range.
 template <real S>
 [[nodiscard]] constexpr S number(double x) noexcept {
   if constexpr (std::same_as<S, float>) {
@@ -46,7 +47,7 @@ template <real S>
   return static_cast<S>(x);
 }
 
-/// What computes at a port: the part itself, if it is written for that port alone.
+/// The type that computes at a port: Part::on<Port>, or the part itself where it is written for one port.
 template <class Part, class Port>
 struct at_port {
   using type = Part;
@@ -79,7 +80,7 @@ constexpr void restart(Part& part) noexcept {
 
 }  // namespace detail
 
-/// What computes at a port when `Part` is composed into it.
+/// The type that computes at a port when `Part` is composed into it.
 template <class Part, class Port>
 using part_at = typename detail::at_port<Part, Port>::type;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Where the random samples of laws and simulations come from.
+// The repeatable random numbers that laws and simulations draw their samples from.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -55,12 +55,12 @@ class samples {
   std::uint64_t state_;
 };
 
-/// How many samples to draw: a compiler's patience is shorter than a processor's.
+/// How many samples to draw: an eighth in a constant expression, which a compiler evaluates slowly.
 [[nodiscard]] constexpr int enough(int samples_at_run_time) noexcept {
   return std::is_constant_evaluated() ? samples_at_run_time / 8 + 1 : samples_at_run_time;
 }
 
-/// True if a policy obeys every law of its roles; else the name of the first that it breaks.
+/// Converts to true if a policy obeys the laws that it was tried by; else it names the first one broken.
 struct verdict {
   const char* broken = nullptr;
   constexpr explicit operator bool() const noexcept { return broken == nullptr; }
