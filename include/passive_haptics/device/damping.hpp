@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The physical damping of the device: what every guarantee is paid with. It speaks joules.
+// The physical damping of the device, which pays for every guarantee, counted in joules.
 //
 //   isotropic_damping      one b for all directions                       the usual case
 //   diagonal_damping       b per axis, in the frame it was identified in  unequal axes, joints
 //   damping_and_friction   b and a dry friction that is always there      dry_friction.hpp
 //
 // Not offered: a full matrix (rotate into its principal axes), a pose-dependent one (use its lower
-// bound). All guarantees scale with b, so use a LOWER bound of the identified value, say half.
+// bound). All guarantees scale with b, so state a LOWER bound of it, say half the identified value.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -55,7 +55,7 @@ struct isotropic_damping {
     [[nodiscard]] constexpr scalar worst_outflow(const effort& f, scalar T) const noexcept {
       return T * Space::dot(f, f) / (scalar(4) * b_);
     }
-    /// (b/T) Δx [N], what the damper holds against an even motion.
+    /// (b/T) Δx [N], the force of the damper against a motion of constant speed.
     [[nodiscard]] constexpr effort force(const motion& dx, scalar T) const noexcept {
       return dx * (b_ / T);
     }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Dampings with a dry friction that is always there, for the dual_ledger, which credits it.
+// Dampings with a dry friction that is always there. The dual_ledger credits it.
 //
 //   damping_and_friction                b, c, p           the same in all directions of a space
 //   diagonal_damping_and_friction<Dof>  b, c, p per axis  joints, or sliders along the axes
 //
 // Dry friction gives way like a spring over its first micrometres, the presliding displacement p, and
-// hands back what that spring has stored: a motion smaller than p pays next to nothing. So p is stated
-// along with c, or no friction is credited. A device is covered if what its friction takes is at least
-// c times the way slipped, and the way slipped is the way moved but for a deflection of at most p:
+// hands back what that spring has stored, so a motion smaller than p pays next to nothing. That is why p must
+// be stated along with c. A device is covered if its friction takes at least c joules per metre of slip, and
+// if slip and motion never differ by more than a deflection of p:
 //
 //   covered        sliders behind springs, one or many (Maxwell, Iwan): c = Σ cᵢ, p = Σ cᵢpᵢ/c;
 //                  elasto-plastic (Dupont): p the largest deflection of the bristle;
@@ -16,9 +16,9 @@
 //   not covered    Dahl, LuGre: they forget where they were reversed, so that "forward 2 µm, back 1"
 //                  moves on for less than c a metre, for ever, whatever p is stated
 //
-// State the least c, when warm and worn, and the largest p. Measure p as the way it takes from one sliding
-// direction to the other, halved; where each of n axes has a friction of its own, damping_and_friction is
-// told p √n, because n springs give way together. A p of zero is a claim, too: that of a rigid friction.
+// State the least c, when warm and worn, and the largest p. Measure p as half the way from sliding in one
+// direction to sliding in the other. Where each of n axes has a friction of its own, damping_and_friction
+// takes p √n, because n springs give way together. A p of zero claims that the friction is rigid.
 
 #include <passive_haptics/device/damping.hpp>
 
@@ -33,7 +33,7 @@ namespace detail {
   if (not_negative(p)) return {};
   return {"presliding", p, "finite and ≥ 0 m, stated: over how far the friction is elastic"};
 }
-/// Presliding displacements have no default.
+/// The default of a presliding displacement, which check() refuses: it has to be stated.
 inline constexpr double not_stated = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace detail
@@ -74,10 +74,11 @@ struct damping_and_friction {
               .presliding = static_cast<double>(p_)};
     }
 
-    /// As if the friction were rigid: the function whose conjugate worst_outflow() is.
+    /// Δxᵀ (b/dt) Δx + c|Δx| [J], with the friction taken as rigid; its conjugate is worst_outflow().
     [[nodiscard]] constexpr scalar dissipated(const motion& dx, scalar dt) const noexcept {
       return viscous(dx, dt) + c_ * Space::norm(dx);
     }
+    /// T (|f| − c)₊²/(4b) [J].
     [[nodiscard]] constexpr scalar worst_outflow(const effort& f, scalar T) const noexcept {
       const scalar beyond = kernels::larger(Space::norm(f) - c_, scalar(0));
       return T * beyond * beyond / (scalar(4) * this->along_axis(0));
@@ -95,15 +96,15 @@ struct damping_and_friction {
     [[nodiscard]] constexpr scalar viscous(const motion& dx, scalar dt) const noexcept {
       return damper::dissipated(dx, dt);
     }
-    /// c [N], which a force gets for nothing along any direction.
+    /// c [N], the part of a force along any direction that costs the ledger nothing.
     [[nodiscard]] constexpr scalar friction(const effort& /*along*/) const noexcept { return c_; }
-    /// The friction force nearest to f, |u| ≤ c [N]. What it has returned it returns unchanged.
+    /// The friction force u nearest to f, |u| ≤ c [N]. Given such a u, it returns it unchanged.
     [[nodiscard]] constexpr effort friction_near(const effort& f) const noexcept {
       const scalar square = Space::dot(f, f);
       if (square <= c_ * c_ * (scalar(1) - kernels::rounding<scalar>())) return f;
       return f * (sure() / kernels::square_root(square));
     }
-    /// The friction force of a slip along Δx, c Δx/|Δx|; none for no motion [N].
+    /// c Δx/|Δx| [N], the friction force of a slip along Δx; zero for no motion.
     [[nodiscard]] constexpr effort friction_along(const motion& dx) const noexcept {
       const scalar square = Space::dot(dx, dx);
       if (!(square > kernels::smallest<scalar>() / std::numeric_limits<scalar>::epsilon())) {
@@ -111,18 +112,18 @@ struct damping_and_friction {
       }
       return dx * (sure() / kernels::square_root(square));
     }
-    /// The most |u| [N].
+    /// The largest |u| [N].
     [[nodiscard]] constexpr scalar most_friction() const noexcept { return c_; }
-    /// p|Δu| [J]: what it costs a certificate to count on another friction force. Rounded up.
+    /// p|Δu| [J], rounded up: what a certificate pays for a change of the friction force it counts on.
     [[nodiscard]] constexpr scalar hysteresis(const effort& change) const noexcept {
       return p_ * Space::norm(change) * (scalar(1) + kernels::rounding<scalar>());
     }
-    /// |u|² p/(2c) [J]: what the springs hold at least when they push with u. Rounded up.
+    /// |u|² p/(2c) [J], rounded up: the energy stored in the springs of the friction that push with u.
     [[nodiscard]] constexpr scalar stored(const effort& u) const noexcept {
       if (!(c_ > scalar(0))) return scalar(0);
       return Space::dot(u, u) * (p_ / (scalar(2) * c_)) * (scalar(1) + kernels::rounding<scalar>());
     }
-    /// ½ c p [J]: the most that they can hold.
+    /// ½ c p [J]: the most that these springs can store.
     [[nodiscard]] constexpr scalar most_stored() const noexcept { return c_ * p_ / scalar(2); }
 
    private:
@@ -134,8 +135,8 @@ struct damping_and_friction {
 };
 
 /// diag(b₁ … b_Dof), and on each axis or joint a dry friction cᵢ that is elastic over pᵢ:
-/// Σ cᵢ|Δxᵢ| is credited, and worst_outflow is Σ T(|fᵢ| − cᵢ)₊²/(4bᵢ). What of a force E covers is
-///     s = s₀ + (1 − s₀) √(E/W),    s₀ = the least cᵢ/|fᵢ|, at most 1,    W of the whole force
+/// Σ cᵢ|Δxᵢ| is credited, and worst_outflow is Σ T(|fᵢ| − cᵢ)₊²/(4bᵢ). The share of a force that E covers is
+///     s = s₀ + (1 − s₀) √(E/W),    s₀ = the least cᵢ/|fᵢ|, at most 1,    W = worst_outflow of the whole force
 /// since W(s f) ≤ ((s − s₀)/(1 − s₀))² W axis by axis (ours).
 template <int Dof>
 struct diagonal_damping_and_friction {
@@ -220,7 +221,7 @@ class diagonal_damping_and_friction<Dof>::on : public diagonal_damping<Dof>::tem
   [[nodiscard]] constexpr scalar viscous(const motion& dx, scalar dt) const noexcept {
     return dampers::dissipated(dx, dt);
   }
-  /// The least Σ cᵢ|Δxᵢ| of a way of 1 m along f, whatever happens across it [N].
+  /// The least Σ cᵢ|Δxᵢ| per metre of motion along f, whatever the motion across f [N].
   [[nodiscard]] constexpr scalar friction(const effort& along) const noexcept {
     const scalar length = Port::norm(along);
     scalar least = kernels::largest<scalar>();

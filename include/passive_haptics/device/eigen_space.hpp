@@ -13,8 +13,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A vector at rest: trivially copyable (Eigen's are not), so it can cross threads and be
-/// snapshotted. Converts from any Eigen expression of that shape, and to space::vector.
+/// A vector to store and to send: it is trivially copyable, which Eigen's vectors are not. It converts from
+/// any Eigen expression of its shape, and to space::vector.
 template <real Scalar, int Dof>
 struct stored_vector {
   std::array<Scalar, static_cast<std::size_t>(Dof)> values{};
@@ -30,7 +30,7 @@ struct stored_vector {
 
   template <class Expression>
   stored_vector(const Eigen::MatrixBase<Expression>& v) noexcept {  // NOLINT: a view of the same
-    const auto& all = v.eval();  // no copy of what is a vector already
+    const auto& all = v.eval();  // copies nothing where v is a vector already
     for (int i = 0; i < Dof; ++i) values[static_cast<std::size_t>(i)] = all(i);
   }
 
@@ -66,7 +66,7 @@ requires(Dof >= 2) struct vectors<Scalar, Dof> {
   [[nodiscard, gnu::always_inline]] static Scalar norm(const vector& a) noexcept {
     return kernels::square_root(dot(a, a));
   }
-  /// a − b and a·s, number by number: Eigen takes two at a time and apart again.
+  /// a − b and a·s, number by number, because Eigen would pack two numbers at a time and unpack them again.
   [[nodiscard, gnu::always_inline]] static vector difference(const auto& a,
                                                              const auto& b) noexcept {
     return numbers([&](int i) { return component(a, i) - component(b, i); });
@@ -88,7 +88,7 @@ requires(Dof >= 2) struct vectors<Scalar, Dof> {
     return a.values[static_cast<std::size_t>(i)];
   }
 
-  /// of(0) … of(Dof − 1): no loop, however little is optimised.
+  /// The vector (of(0), …, of(Dof − 1)), written without a loop, so that even little optimisation leaves none.
   [[nodiscard, gnu::always_inline]] static vector numbers(const auto& of) noexcept {
     return [&]<int... I>(std::integer_sequence<int, I...>) {
       vector r;

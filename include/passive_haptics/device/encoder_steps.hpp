@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How well a position is known: each component shown is off by at most half a step q, whatever happens
-// within it. The steps of encoders (a constant shift aside), or any noise of at most ±q/2.
+// How well a position is known: each component shown is off by at most half a step q. That describes the
+// steps of encoders, but for a constant shift, and any noise of at most ±q/2.
 //
 //   encoder_step         one q for every axis                    converts from the number
 //   encoder_steps<Dof>   a q for each axis, or for each joint
@@ -20,13 +20,13 @@ namespace detail {
   return {"quantum", width, "finite and ≥ 0 m"};
 }
 
-/// What a ledger has to know of the steps. `Self` says how wide that of an axis is.
+/// What a ledger has to know of the steps. `Self::along_axis(i)` is the step qᵢ of axis i.
 template <class Self, class P>
 class known_to_a_step {
  public:
   using scalar = typename P::scalar;
 
-  /// ½ Σ qᵢ|fᵢ| [J]: the work of f over a way is off by at most that at each end of it. Rounded up.
+  /// ½ Σ qᵢ|fᵢ| [J], rounded up: each end of a motion adds at most that to the error of the work of f.
   [[nodiscard]] constexpr scalar doubt(const typename P::effort& f) const noexcept {
     const scalar up = (scalar(1) + kernels::rounding<scalar>()) / scalar(2);
     if constexpr (Self::alike) {
@@ -41,7 +41,7 @@ class known_to_a_step {
       return up * sum;
     }
   }
-  /// The way on each axis that has surely been made, of the one shown [m].
+  /// The motion shown, shortened by qᵢ on each axis i: the device has moved at least so far [m].
   [[nodiscard]] constexpr typename P::motion surely(
       const typename P::motion& shown) const noexcept {
     typename P::motion least = shown;

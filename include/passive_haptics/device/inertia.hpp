@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The inertia of the device, from below: what a device cannot do within a tick because it is heavy. It
-// measures an effort by how much it can accelerate.
+// The inertia of the device, from below: it limits how far a device can move within a tick. The norm of an
+// effort measures how much that effort can accelerate the device.
 //
 //   isotropic_inertia   one mass for all directions
-//   diagonal_inertia    one per axis or joint: a matrix that is nowhere above the device's own
+//   diagonal_inertia    one per axis or joint, the diagonal of a matrix that is nowhere above the device's own
 
 #include <passive_haptics/base/parameter.hpp>
 

@@ -2,11 +2,11 @@
 #pragma once
 // joint_space<Scalar, Joints>: the port of a device that is told by its joints, a gripper's included.
 //
-// Angles and torques, or travels and forces, joint by joint: what the motors hold between two samples
-// is the torque, so τ·Δq is their work exactly, whatever the mechanism (lemma J,
-// docs/design/mathematics.md). There is no geometry in it and no length of a vector either, because a
-// radian and a metre do not add up: constraints, directions and whatever measures a force in newtons
-// need a space. Take diagonal_damping, a damping for each joint.
+// Angles and torques, or travels and forces, joint by joint. Between two samples the motors hold their
+// torques, so τ·Δq is their work exactly, whatever the mechanism (lemma J, docs/design/mathematics.md).
+// A joint_space has neither geometry nor length of a vector, because a radian and a metre do not add up:
+// constraints, directions and whatever measures a force in newtons need a space. Take diagonal_damping,
+// which has a damping for each joint.
 
 #include <passive_haptics/device/eigen_space.hpp>
 
@@ -54,7 +54,7 @@ struct joint_space {
     Scalar most(0);
     for (int i = 0; i < dof; ++i) {
       const Scalar one = component(turned, i) * component(turned, i);
-      if (one > most || one != one) most = one;  // so written, NaN comes and stays
+      if (one > most || one != one) most = one;  // a NaN is taken and kept
     }
     return most;
   }

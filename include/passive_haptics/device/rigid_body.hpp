@@ -6,13 +6,13 @@
 //     motion   (Δp, θ) [m], [rad]   θ = Log(R₁R₀ᵀ), the shortest turn, in the WORLD frame
 //     effort   (f, τ) [N], [N·m]    at the handle point, in the world frame, held there over the tick
 //
-// A wrench is paired with (Δp, θ) and with nothing else: the logarithm of SE(3), 2 vec(q) and the travel of
-// a tip beside the handle all book another work than the wrench did (docs/design/six_dof.md). Still, a path
-// that is not straight may do other work than its ends show, so the damping must be one that knows by
-// how much: rigid_damping (lemma C). Where a driver reports what its motors did, use reported_work.hpp.
+// The work of a wrench is counted with (Δp, θ): the logarithm of SE(3), 2 vec(q) and the travel of a tip
+// beside the handle would all book another work than the wrench did (docs/design/six_dof.md). Where the path
+// of a tick is not straight, even f·Δp + τ·θ may differ from the true work. rigid_damping knows by how much
+// (lemma C), so this port needs it. Where a driver reports what its motors did, use reported_work.hpp.
 //
-// Metres and radians do not add up: there is no length of a motion or an effort here, and what measures
-// one refuses this port. loop_limits::top_speed counts a radian as 0.1 m: 5 m/s is 50 rad/s, too.
+// Metres and radians do not add up: a motion or an effort has no length here, and what would measure one
+// refuses this port. loop_limits::top_speed counts a radian as 0.1 m, so 5 m/s is 50 rad/s, too.
 
 #include <passive_haptics/device/rotation.hpp>
 
@@ -21,7 +21,7 @@ inline namespace v0 {
 
 struct rigid_damping;
 
-/// Where a handle is and how it is turned, at rest and to compute with. A plain value.
+/// Where a handle is and how it is turned. One plain value serves to store and to compute.
 template <real Scalar>
 struct rigid_pose {
   stored_vector<Scalar, 3> position{};  ///< p of the handle point [m]
@@ -42,7 +42,7 @@ struct rigid_poses {
   [[nodiscard]] static typename body_space::vector place(const pose& x) noexcept {
     return x.position;
   }
-  /// Finite, and turned by what is a rotation: the norm of its quaternion is within 1e-3 of 1.
+  /// True if the position is finite and the orientation a rotation, of a norm within 1e-3 of 1.
   [[nodiscard]] static bool is_finite(const pose& x) noexcept {
     return body_space::is_finite(place(x)) && rotation::is_unit(x.orientation);
   }
@@ -59,8 +59,8 @@ struct rigid_body : detail::rigid_poses<Scalar> {
 
  public:
   static constexpr int dof = 6;
-  static constexpr bool turns = true;      ///< the path of a tick is not known from its ends
-  using damping_of_turns = rigid_damping;  ///< one that knows what a turn may hide
+  static constexpr bool turns = true;      ///< the ends of a tick do not tell its path
+  using damping_of_turns = rigid_damping;  ///< it bounds the work that the ends do not show
   using vector = typename algebra::vector;
   using coordinates = typename algebra::coordinates;
   using triple = typename poses::body_space::vector;
@@ -90,7 +90,7 @@ struct rigid_body : detail::rigid_poses<Scalar> {
     return all;
   }
 
-  /// (Δp, θ). Not a number where a quaternion is none of a rotation, so that no ledger books it.
+  /// (Δp, θ). Where a quaternion is no rotation, θ is NaN, so that no ledger books the motion.
   [[nodiscard]] static motion between(const pose& from, const pose& to) noexcept {
     const triple travel = triple(to.position) - triple(from.position);
     if (!rotation::is_unit(from.orientation) || !rotation::is_unit(to.orientation)) {
@@ -113,7 +113,7 @@ struct rigid_body : detail::rigid_poses<Scalar> {
   [[nodiscard]] static Scalar squared(const motion& m) noexcept {
     const Scalar gone = m(0) * m(0) + m(1) * m(1) + m(2) * m(2);
     const Scalar turned = (m(3) * m(3) + m(4) * m(4) + m(5) * m(5)) / Scalar(100);
-    return turned > gone || turned != turned ? turned : gone;  // so written, NaN stays
+    return turned > gone || turned != turned ? turned : gone;  // a NaN stays
   }
 };
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The damping of a handle that moves and turns, from below, and what a turn may hide from its ends.
+// The damping of a handle that moves and turns, from below, and by how much the work of a turn may differ from
+// what its end poses show.
 //
 //   rigid_damping   b [N·s/m] for travel, b_ω [N·m·s/rad] for turns
 //
-// Both are the smallest over all directions and poses, seen at the handle point: the matrix of the damping
-// there may nowhere be below diag(b I, b_ω I).
+// Both are the smallest over all directions and poses, seen at the handle point: in no pose may the device's
+// damping matrix there be below diag(b I, b_ω I).
 
 #include <passive_haptics/device/damping.hpp>
 #include <passive_haptics/device/rigid_body.hpp>
@@ -62,10 +63,9 @@ class rigid_damping::on {
     const scalar share = kernels::strict_scale(E, worst_outflow(w, T));
     return kernels::coning_share(share, squared<3>(w), angular_, T);
   }
-  /// How much less than b_ω|θ|²/dt − τ·θ a turn may have brought [J], since a path that is not straight does
-  /// other work than its ends show. Lemma C: dt|θ × τ|²/(36 b_ω) while |θ| ≤ 1 rad and |τ| ≤ 4b_ω/dt. Beyond
-  /// them nothing of the path is known, and the turn counts as the worst, −dt|τ|²/(4b_ω).
-  /// (docs/design/six_dof.md)
+  /// By how much the gain of a turn may fall short of b_ω|θ|²/dt − τ·θ [J], because its path need not be
+  /// straight: dt|θ × τ|²/(36 b_ω) while |θ| ≤ 1 rad and |τ| ≤ 4b_ω/dt (lemma C, docs/design/six_dof.md).
+  /// Beyond these limits the path may be any, and the turn counts as the worst one, −dt|τ|²/(4b_ω).
   [[nodiscard]] constexpr scalar unsure(const motion& m, const effort& held,
                                         scalar dt) const noexcept {
     const scalar turn = squared<3>(m);
@@ -82,7 +82,7 @@ class rigid_damping::on {
     return booked - work.joules + worst +
            kernels::rounding<scalar>() * (booked + work.passed + worst);
   }
-  /// 1/(uᵀ(b/T)⁻¹u) for the direction u of `along`, by its components in N and N·m.
+  /// 1/(uᵀ(b/T)⁻¹u) for the direction u of `along`, made a unit vector by its numbers in N and N·m.
   [[nodiscard]] constexpr scalar per_tick(const effort& along, scalar T) const noexcept {
     return (squared<0>(along) + squared<3>(along)) / (scalar(4) * worst_outflow(along, T));
   }

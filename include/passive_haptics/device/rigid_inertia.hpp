@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The inertia of a handle that moves and turns, from below: what it cannot do within a tick.
+// The inertia of a handle that moves and turns, from below: it limits how far the handle gets within a tick.
 //
-//   rigid_inertia   its mass, its least moment, how unequal they are, how far off its centre is
+//   rigid_inertia   mass, least moment of inertia, spread of the moments, offset of the centre of mass
 
 #include <passive_haptics/base/parameter.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What a wrench at the handle point can do to a body of mass m whose centre is off by c, at most:
+/// A body of mass m whose centre of mass lies off the handle point by c. The norm of a wrench there is
 ///     ‖w‖² = |f|²/m + (|τ| + |c||f|)²/I ≥ wᵀM⁻¹w
-/// The body itself pushes as it turns, its centre outwards and its axes towards each other; both together
-/// have a norm of at most |ω|² √(m|c|² + (I_max − I_min)²/(4I)).
+/// As the body turns at ω, the centrifugal force m ω × (ω × c) and the gyroscopic torque ω × Iω act on it,
+/// too; together they have a norm of at most |ω|² √(m|c|² + (I_max − I_min)²/(4I)).
 ///
-/// The matrix of the device's own inertia at the handle may nowhere be below that of this body. Where `mass`
-/// is told below the true one, raise `offset` in the proportion of their square roots, at least.
+/// In no pose may the device's own inertia matrix at the handle be below that of this body. If the `mass`
+/// stated is below the true one, raise `offset` by the square root of their ratio, or more.
+/// (docs/design/six_dof.md § 4)
 struct rigid_inertia {
   double mass{};    ///< m [kg], > 0
   double least{};   ///< I, the smallest principal moment about the centre of mass [kg·m²], > 0
-  double spread{};  ///< I_max − I_min about it, an upper bound [kg·m²], ≥ 0
+  double spread{};  ///< I_max − I_min, of the principal moments, an upper bound [kg·m²], ≥ 0
   double offset{};  ///< |c|, centre of mass to handle point, an upper bound [m], ≥ 0
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -69,13 +70,13 @@ class rigid_inertia::on {
     }
     return norm(kernels::square_root(force), kernels::square_root(torque));
   }
-  /// Of what the body does to itself while it turns by at most `rate` [rad/s]: [√J/s].
+  /// The norm [√J/s] of centrifugal force and gyroscopic torque at a rate of turn up to `rate` [rad/s].
   [[nodiscard]] constexpr scalar of_turning(scalar rate) const noexcept {
     return rate * rate * turning_;
   }
-  /// The most that anything of this norm can do to the rate of turn [rad/s²].
+  /// The largest angular acceleration that a wrench of this norm can cause [rad/s²].
   [[nodiscard]] constexpr scalar turning_by(scalar norm) const noexcept { return norm * rate_; }
-  /// |f| or |τ|, |Δp| or |θ|: the length of three components from `First` on.
+  /// The length of the three components from `First` on: |f| or |Δp| from 0, |τ| or |θ| from 3.
   template <int First>
   [[nodiscard]] static constexpr scalar length(const typename Port::effort& w) noexcept {
     return kernels::square_root(squared<First>(w));
@@ -92,7 +93,7 @@ class rigid_inertia::on {
  private:
   scalar mass_, least_, spread_, offset_;
   scalar per_mass_, per_least_;
-  scalar rate_;     ///< 1/√I
+  scalar rate_;     ///< 1/√I [1/√(kg·m²)]
   scalar turning_;  ///< √(m|c|² + spread²/(4I))
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Rotations, as far as a port needs them: unit quaternions and rotation vectors, all in the WORLD frame.
+// The rotations that a port needs: unit quaternions and rotation vectors, all in the WORLD frame.
 //
 //   quaternion   w + xi + yj + zk; takes a vector of the handle to the world; q and −q are the same
 //   exp, log     rotation vector [rad] to quaternion and back, |log(q)| ≤ π
@@ -15,14 +15,14 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A rotation, while its norm is one. No turn by default.
+/// A rotation, if its norm is one. The default is no turn.
 template <real Scalar>
 struct quaternion {
   Scalar w{1}, x{}, y{}, z{};
 };
 
 namespace detail {
-/// Do four terms of a series say all that a number of this kind can, for arguments below 1e-4?
+/// True if four terms of a series are exact to rounding in this scalar, for arguments below 1e-4.
 template <class S>
 inline constexpr bool four_terms = std::floating_point<S>&& std::numeric_limits<S>::digits <= 53;
 }  // namespace detail
@@ -36,12 +36,13 @@ template <real S>
 [[nodiscard]] constexpr S squared_norm(const quaternion<S>& q) noexcept {
   return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
 }
-/// Is it a rotation that was rounded, or drifted a little: a norm within 1e-3 of 1? NaN is not.
+/// True if the norm is within 1e-3 of 1, as of a rotation that was rounded or has drifted; false for NaN.
 template <real S>
 [[nodiscard]] constexpr bool is_unit(const quaternion<S>& q) noexcept {
   return kernels::magnitude(S(squared_norm(q) - S(1))) <= S(2e-3);
 }
-/// Of norm one, for a q of any norm but zero. Next to one, (1 + e)^(−1/2) by its series: no root, no division.
+/// q/|q|, for any norm but zero. Next to norm one, (1 + e)^(−1/2) comes from its series, without a root or a
+/// division.
 template <real S>
 [[nodiscard]] constexpr quaternion<S> normalised(const quaternion<S>& q) noexcept {
   const S square = squared_norm(q);
@@ -58,7 +59,7 @@ template <real S>
 [[nodiscard]] constexpr quaternion<S> conjugate(const quaternion<S>& q) noexcept {
   return {q.w, -q.x, -q.y, -q.z};
 }
-/// First b, then a.
+/// The turn by b and then by a.
 template <real S>
 [[nodiscard]] constexpr quaternion<S> product(const quaternion<S>& a,
                                               const quaternion<S>& b) noexcept {
@@ -93,7 +94,7 @@ template <real S>
   }
   return sum;
 }
-/// The rotation vector of w + v, of norm one, w ≥ 0.
+/// The rotation vector [rad] of the unit quaternion w + v, w ≥ 0.
 template <real S>
 [[nodiscard]] vector<S> shortest(S w, const vector<S>& v) noexcept {
   const S squared = passive_haptics::detail::vectors<S, 3>::dot(v, v);
@@ -105,14 +106,14 @@ template <real S>
 
 }  // namespace detail
 
-/// The rotation vector of q, of norm one; its length is at most π.
+/// The rotation vector [rad] of the unit quaternion q; its length is at most π.
 template <real S>
 [[nodiscard]] vector<S> log(const quaternion<S>& q) noexcept {
   const vector<S> v(q.x, q.y, q.z);
   if (q.w < S(0)) return detail::shortest(S(-q.w), vector<S>(-v));
   return detail::shortest(q.w, v);
 }
-/// The turn by |turn| [rad] about it.
+/// The quaternion of a turn by |turn| [rad] about the direction of `turn`.
 template <real S>
 [[nodiscard]] quaternion<S> exp(const vector<S>& turn) noexcept {
   using std::cos, std::sin;

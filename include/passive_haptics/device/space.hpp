@@ -30,7 +30,7 @@ inline namespace v0 {
 template <class Scalar>
 struct work_done {
   Scalar joules;  ///< f·Δx [J]
-  Scalar passed;  ///< Σ |fᵢ Δxᵢ| [J]: what rounding can have done to it goes with this
+  Scalar passed;  ///< Σ |fᵢ Δxᵢ| [J], to which the rounding error of `joules` is proportional
 };
 
 namespace detail {
@@ -94,7 +94,7 @@ struct space : detail::vectors<Scalar, Dof> {
   using pose = vector;              ///< [m]
   using motion = vector;            ///< from one pose to another [m]
   using effort = vector;            ///< [N]
-  using stored_pose = coordinates;  ///< the same at rest: trivially copyable
+  using stored_pose = coordinates;  ///< a pose to store and to send: trivially copyable
   using stored_effort = coordinates;
 
   [[nodiscard]] static constexpr motion between(const pose& from, const pose& to) noexcept {

@@ -3,9 +3,9 @@
 // stylus<Scalar>: the port of a device that senses six and actuates three, as a Touch and its kin do.
 //
 // The motors push at the centre of the gimbal, so that is where energy is counted: a force (3) times its
-// travel (3), as in space<Scalar, 3>, with the same damping and the same bounds. How the stylus is turned is
-// part of the pose, for whoever asks what its tip touches, and no part of the work. A tip that is turned
-// into a wall has paid nothing for the push that follows, and an empty ledger does not allow it: see
+// travel (3), as in space<Scalar, 3>, with the same damping and the same bounds. The orientation is part of
+// the pose, because it decides what the tip touches, but the motors do no work on it. Turning the tip into a
+// wall therefore pays nothing for the push that follows, and an empty ledger does not allow that push: see
 // docs/design/six_dof.md for what to do then.
 
 #include <passive_haptics/device/rigid_body.hpp>
@@ -26,12 +26,12 @@ struct stylus : detail::vectors<Scalar, 3>, private detail::rigid_poses<Scalar> 
   using vector = typename geometry::vector;
   using coordinates = typename geometry::coordinates;
   using motion = vector;  ///< Δp of the gimbal [m]
-  using effort = vector;  ///< on it [N]
+  using effort = vector;  ///< force on the gimbal [N]
   using stored_effort = coordinates;
 
   using poses::is_finite, poses::place;
   [[nodiscard]] static bool is_finite(const vector& a) noexcept { return geometry::is_finite(a); }
-  /// Δp; not a number where a quaternion is none of a rotation, since nobody knows then what is touched.
+  /// Δp; NaN where a quaternion is no rotation, because then nobody knows what the tip touches.
   [[nodiscard]] static motion between(const pose& from, const pose& to) noexcept {
     if (!rotation::is_unit(from.orientation) || !rotation::is_unit(to.orientation)) {
       const Scalar nan = std::numeric_limits<Scalar>::quiet_NaN();
@@ -39,7 +39,7 @@ struct stylus : detail::vectors<Scalar, 3>, private detail::rigid_poses<Scalar> 
     }
     return geometry::between(place(from), place(to));
   }
-  /// The pose that a motion leads to, turned as it was.
+  /// The pose that a motion leads to; the orientation stays.
   [[nodiscard]] static pose moved(const pose& from, const motion& by) noexcept {
     return {motion(place(from) + by), from.orientation};
   }
