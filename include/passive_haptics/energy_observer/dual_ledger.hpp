@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The ledger for positions that are known to a step only, with dry friction or without.
+// The ledger for positions of which only the step is known, with dry friction or without.
 //
-//   dual_ledger         dry friction credited: stiff on real encoders    b, c, p and q are stated
+//   dual_ledger         credits dry friction: stiff on real encoders     b, c, p and q are stated
 //   basic_dual_ledger   any damping, a step for each axis, a compensated sum
 //   quantised_energy    no friction credited                             quantised_energy.hpp
 //
 //     ph::dual_ledger{.damping = {.coefficient = 0.05, .coulomb = 0.13, .presliding = 15e-6},
 //                     .quantum = 55e-6}
 //
-// Dry friction is what pays on encoders: a force may change by 2c at a position that does not, for
-// nothing, and each step on the way pays c q. So a wall lasts while K q is less than that (design/stiffness_budget.hpp).
+// On encoders it is dry friction that pays: while the position shown stays the same, the force may change by
+// 2c at no cost, and each step that the device moves pays c q. How stiff a wall may be for that to last is
+// said by design/stiffness_budget.hpp.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/device/dry_friction.hpp>
@@ -23,20 +24,20 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The least energy that has flowed in, whatever the true positions x = x̂ + e with each |eᵢ| ≤ qᵢ/2 (steps,
-/// a constant shift aside, or noise), and whatever an elastic friction holds back. With a friction u that
-/// is chosen anew in each tick, |u| ≤ c, and f the force held during it, keep
+/// The least energy [J] that can have flowed in, over all true positions x = x̂ + e with |eᵢ| ≤ qᵢ/2 (the
+/// steps of encoders, but for a constant shift, or noise) and over all that an elastic friction can hold
+/// back. For any friction u, |u| ≤ c, chosen anew in each tick, and f the force held during the tick, keep
 ///     A ← A + (u − f)·Δx̂ − ½ Σ qᵢ|σᵢ + fᵢ − uᵢ| − p|u − u_last|,     σ ← u − f
-/// Then  E ≥ A + σ·e − ½ Σ qᵢ|…|  for every choice: the value is A − ½ Σ qᵢ|σᵢ| − |u|²p/(2c), for the best of
-/// several choices kept at once (friction_certificates.hpp). Without friction u = 0, and this is summation by
-/// parts. Theorem and proof: docs/design/mathematics.md § 6.
+/// Then A − ½ Σ qᵢ|σᵢ| − |u|²p/(2c) is a lower bound of it, and value() is the best of several that are
+/// kept at once (friction_certificates.hpp). Without friction u = 0, and this is summation by parts.
+/// Theorem and proof: docs/design/mathematics.md § 6.
 ///
-/// The damper is credited beside it, with the larger of what the ticks of a window and the window as a whole
-/// are sure of: Σ Δᵀ(b/dt)Δ with Δ = Δx̂ shortened by qᵢ on each axis, and the same of the way and the time of
-/// all of it (lemma L1), which sees slow motions.
+/// The damper is credited besides, window by window, with the larger of two bounds: the sum of Δᵀ(b/dt)Δ over
+/// the ticks, with Δ the motion shown less qᵢ on each axis, and the same of the motion and the time of the
+/// whole window (lemma L1), which alone counts slow motions.
 ///
-/// Where friction is elastic the ledger begins at −5/2 c p, and counts that back in as the device slips: then
-/// E ≥ −½ c p − loan for ever, the first of them what the springs of the friction may have held at the start.
+/// Where friction is elastic the ledger begins 5/2 c p below its loan and books that back as the device
+/// slips. Then E ≥ −½ c p − loan for ever; ½ c p is what the springs of the friction may hold at the start.
 template <class Damping = isotropic_damping, class Steps = encoder_step,
           ledger_sum Sum = ledger_sum::plain>
 struct basic_dual_ledger {
@@ -44,11 +45,11 @@ struct basic_dual_ledger {
   static constexpr bool counts = true;
   static constexpr bool exact = false;
 
-  Damping damping{};                                     ///< lower bounds, but for presliding
-  Steps quantum{};                                       ///< q [m], an upper bound of one step
-  double loan{};                                         ///< [J]
+  Damping damping{};  ///< b and c are lower bounds, p is an upper bound
+  Steps quantum{};    ///< q [m], an upper bound of one step
+  double loan{};      ///< credit at the start [J]
   double cap = std::numeric_limits<double>::infinity();  ///< most credit to keep [J] (A9, L7)
-  double window = 0.032;                                 ///< length of a window [s]
+  double window = 0.032;  ///< length of a window of the damper's credit [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = damping.check()) return fault;
@@ -138,9 +139,9 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     return true;
   }
 
-  /// A tick passed and nobody saw the motion. The worst that `held` can have done is written off, and all
-  /// friction is let go, which costs what its elasticity may keep back: down to what a ledger without a
-  /// loan starts with. forfeit(0, T) lets go alone.
+  /// A tick passed and nobody saw the motion: the worst that `held` can have done is written off, and so is
+  /// what the friction counted on may hold back elastically. What is left is no less than a ledger without
+  /// a loan starts with, unless it was less before. forfeit(0, T) writes off the friction only.
   constexpr void forfeit(const effort& held, scalar T) noexcept {
     scalar lost = damping_.worst_outflow(held, T);
     if constexpr (rubs) {
@@ -169,7 +170,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
  private:
   using steps_type = part_at<Steps, P>;
   static constexpr bool rubs = damping_type::rubs;
-  /// So that it stays a number [J].
+  /// The most that the ledger keeps [J], so that sums of it stay finite.
   [[nodiscard]] static constexpr scalar most_kept() noexcept {
     return kernels::largest<scalar>() / scalar(8);
   }
@@ -177,13 +178,13 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   using certificates_type = std::conditional_t<rubs, detail::friction_certificates<P>, no_friction>;
 
   struct credit_window {
-    typename P::stored_effort travel{};  ///< Δx̂ since it began [m]
-    scalar elapsed{};                    ///< since it began [s]
+    typename P::stored_effort travel{};  ///< Δx̂ since the window began [m]
+    scalar elapsed{};                    ///< time since it began [s]
     scalar summed{};                     ///< credit of its ticks, one by one [J]
-    scalar booked{};                     ///< credit of it that is booked [J]
+    scalar booked{};                     ///< credit of the window that is booked already [J]
   };
 
-  /// 5/2 c p [J], which elastic friction may keep back for a while.
+  /// 5/2 c p [J], the most that elastic friction may hold back for a while.
   [[nodiscard]] constexpr scalar reserve() const noexcept {
     if constexpr (rubs) {
       return kernels::smaller(scalar(5) * damping_.most_stored(), most_kept());
@@ -191,7 +192,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
       return scalar(0);
     }
   }
-  /// What the damper has surely taken since this was asked last [J].
+  /// Adds a tick to the window; returns what the damper has surely taken beyond what is booked [J].
   [[nodiscard]] constexpr scalar damped(credit_window& now, const motion& shown,
                                         scalar dt) const noexcept {
     const motion travel = motion(now.travel) + shown;
@@ -230,10 +231,10 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS steps_type steps_;
   scalar loan_{}, cap_{}, window_{};
   detail::ledger_number<scalar, Sum> energy_{};      ///< A of the choice u = 0 [J]
-  scalar value_{};                                   ///< [J]
-  typename P::stored_effort last_held_ = P::zero();  ///< −σ of it [N]
+  scalar value_{};                                   ///< the best lower bound of the energy [J]
+  typename P::stored_effort last_held_ = P::zero();  ///< −σ of the choice u = 0 [N]
   credit_window window_now_{};
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS certificates_type certificates_{};  ///< of other choices
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS certificates_type certificates_{};  ///< the other choices
 };
 
 static_assert(energy_observer_for<dual_ledger, space<float, 1>>);

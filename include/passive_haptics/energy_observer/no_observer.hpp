@@ -2,7 +2,7 @@
 #pragma once
 // No ledger.
 //
-//   no_observer   counts nothing   with no_bound only, or a bound that needs no ledger
+//   no_observer   counts nothing   for no_bound, or for a bound that needs no ledger
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -10,7 +10,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Counts nothing, promises nothing. For comparison, and for worlds proved passive otherwise.
+/// It counts nothing and promises nothing: for comparison, and for worlds proved passive otherwise.
 struct no_observer {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bool counts = false;
@@ -26,7 +26,7 @@ struct no_observer {
     using motion = typename P::motion;
     using effort = typename P::effort;
 
-    /// Answers for the damping that nobody has stated.
+    /// Stands for the damping, of which nothing is stated here.
     struct unknown_damping {
       static constexpr bool rubs = false;
       [[nodiscard]] constexpr scalar worst_outflow(const effort& /*f*/,

@@ -11,8 +11,8 @@ inline namespace v0 {
 
 /// dual_ledger without friction, u = 0, which is summation by parts of Σ f·(e(k+1) − e(k)):
 ///     E1 ≥ Σ credit − Σ f_held·Δx̂ − q/2 (Σ ‖f(k) − f(k−1)‖₁ + ‖f_held‖₁)
-/// Every change of the force costs q/2 of it: a force that hunts empties this ledger, and a first touch finds
-/// it empty. A loan is for that (A8), and dual_ledger, where there is friction.
+/// Every newton of change of the force costs q/2, so a force that hunts empties this ledger, and a first touch
+/// finds it empty. A loan helps there (A8), or dual_ledger where there is friction.
 template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
 using basic_quantised_energy = basic_dual_ledger<Damping, encoder_step, Sum>;
 using quantised_energy = basic_quantised_energy<>;

@@ -18,10 +18,10 @@ inline namespace v0 {
 
 /// The reduced energy E1 [J] that has flowed from the hand into the device and is not yet spent:
 ///     E1(n) = E1(n−1) + Δxᵀ(b/dt)Δx − f_held·Δx                                    (2.9, 2.16)
-/// exact for a zero-order hold but for the damping, which it never overstates (lemma L1), and for
-/// rounding, which only lowers it (docs/design/stability.md). `dt` is the measured length of the
-/// tick. At a port that turns it is not exact either, and books what is sure (rigid_damping). A negative E1 is a debt: it is kept, it is visible, it is repaid. With a loan the guarantee
-/// becomes E ≥ −loan (A8).
+/// with dt the measured length of the tick. It is exact for a zero-order hold but for the damping, which it
+/// never overstates (lemma L1), for rounding, which only lowers it (docs/design/stability.md), and for turns,
+/// of which it books what is sure (rigid_damping). A negative E1 is a debt: it is kept and shown until it is
+/// repaid. With a loan the guarantee becomes E ≥ −loan (A8).
 template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
 struct basic_reduced_energy {
   static constexpr guarantee passivity = guarantee::strict;
@@ -92,13 +92,13 @@ class basic_reduced_energy<Damping, Sum>::on {
     return true;
   }
 
-  /// A tick passed and nobody saw the motion: write off the worst that `held` can have done, down
-  /// to an empty ledger. Any bound that kept its promise has covered exactly that.
+  /// A tick passed and nobody saw the motion: the worst that `held` can have done is written off, down to an
+  /// empty ledger. A bound that kept its promise has covered exactly that.
   constexpr void forfeit(const effort& held, scalar T) noexcept {
     energy_ = detail::written_off(value(), damping_.worst_outflow(held, T));
   }
 
-  /// To the loan, as at the start.
+  /// Sets E1 to the loan, as at the start.
   constexpr void reset() noexcept { energy_ = loan_; }
 
   [[nodiscard]] constexpr scalar value() const noexcept { return static_cast<scalar>(energy_); }
@@ -106,7 +106,7 @@ class basic_reduced_energy<Damping, Sum>::on {
 
  protected:
   constexpr void keep_at_most(scalar most) noexcept {
-    if (value() > most) energy_ = most;  // only ever lowers: a debt stays (L7)
+    if (value() > most) energy_ = most;  // this only lowers E1, and a debt stays (L7)
   }
 
  private:
@@ -115,7 +115,7 @@ class basic_reduced_energy<Damping, Sum>::on {
   detail::ledger_number<scalar, Sum> energy_;  ///< E1 [J]
 };
 
-/// reduced_energy with two ways of forgetting credit, which costs no proof (L7): it keeps at most
+/// reduced_energy that forgets credit in two ways, which leave every proof valid (L7): it keeps at most
 /// `cap`, and nothing once no force has been held for `reset_after`.
 template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
 struct basic_capped_energy {
@@ -175,7 +175,7 @@ class basic_capped_energy<Damping, Sum>::on
     this->keep_at_most(idle_ >= reset_after_ ? scalar(0) : cap_);
     return true;
   }
-  /// With the work that the device reports; what is forgotten, as after a tick without motion.
+  /// The same where the device reports the work. The second update books no motion and only forgets credit.
   [[gnu::always_inline]] constexpr bool update(const motion& dx,
                                                const detail::reported_effort<P>& held,
                                                scalar dt) noexcept {

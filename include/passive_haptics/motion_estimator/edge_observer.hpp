@@ -3,34 +3,35 @@
 // A motion estimator for encoders with steps on a device with dry friction (the menu is in
 // last_difference.hpp).
 //
-//   edge_observer   at an edge between two steps the device is surely known; between edges it goes on
+//   edge_observer   at an edge between two steps the position is known; between edges it is extrapolated
 
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// On each axis, of encoders that show only the step [x̂, x̂ + q] the device is in: when it crosses an edge
-/// it is AT that edge, and the time since the last one says how fast it is:
-///     an edge again     x = the edge,    v ← v + g (Δx̂/t − v)       t since the last, g = t/(4 dt) ≤ 1
-///     an edge back      x = the edge,    v ← −4/5 min(|v|, 4q/t)    it turned round within the step
-///     between edges     x ← x + v dt     up to 2/3 q past the edge, with |v| ≤ q/t
+/// Encoders show only the step [x̂, x̂ + q] that an axis is in. In the tick in which it crosses an edge its
+/// position is known, half a tick's motion beyond the edge on average, and the travel Δx̂ and the time t since
+/// the last edge tell its speed:
+///     an edge again     x = the edge + v dt/2    v ← v + g (Δx̂/t − v),   g = max(t/dt, |v| t/q)/4, at most 1
+///     an edge back      x = the edge + v dt/2    v ← −4/5 min(|v|, 4q/t), v at the last edge: it turned round
+///     between edges     x ← x + v dt             up to 2/3 q past the edge, with |v| ≤ q/t
 ///     none for 100 ms   x → the middle of the step, with a time constant of 200 ms: it rests
 ///
-/// So a device that chatters at one edge makes no change of force at all, one that rests costs nothing, and
-/// one that moves meets each edge with nearly the force that belongs there. That is what a sure ledger pays
-/// least for: a swing into a wall K costs it 5/6 K q for each metre of the way, where the middle of the step
-/// costs K q, and a position that lags by the step 3/2 K q. Speeds below q/(8 dt) do not count: damping them
-/// would change the force with every edge.
+/// So a device that chatters at one edge soon causes no change of force, one that rests costs nothing, and
+/// one that moves meets each edge with nearly the force that belongs there. Such a force costs a sure ledger
+/// least: a swing into a wall K costs 5/6 K q per metre of motion, where the middle of the step costs K q and
+/// a position that lags by a step 3/2 K q. Speeds below q/(8 dt) do not count, because a damper on them would
+/// change the force with every edge.
 ///
-/// It settles where dry friction holds the device within a step, K q ≤ 2c. Without friction the wall hunts,
-/// and mass_observer is the one. Measured: docs/design/encoders.md. With q = 0 it is last_difference.
+/// It settles where dry friction holds the device within a step, K q ≤ 2c. Without friction the wall hunts:
+/// take mass_observer there. Measured: docs/design/encoders.md. With q = 0 it is last_difference.
 ///
-/// Where friction is elastic over p, a device may swing for ever over q + 2p that friction pays nothing for;
-/// and where its spring c/p is stiffer than the wall, it needs no wall to be held there. So, for 2p > q:
-///     it turned twice within q + 2p     x → the middle of where it turned last, in 50 ms
+/// Friction that is elastic over p takes nothing from a swing over q + 2p, which may therefore last for ever;
+/// but where its spring c/p is stiffer than the wall, friction alone holds the device. So, for 2p > q:
+///     it turned twice within q + 2p     x → the middle of where it turned last, time constant 50 ms
 ///     a step beyond that, or no edge for 100 ms     as above
-/// and the force is even under a tremor, which then drains nothing, and which it does not feed.
+/// Under a tremor the force then stays even: the tremor drains nothing and is not fed.
 struct edge_observer {
   double quantum{};     ///< q, one step of the position shown [m]
   double presliding{};  ///< p of a friction that is stiffer than the wall, c > K p, else 0 [m]
@@ -54,7 +55,7 @@ class edge_observer::on {
   struct seen {
     vector position;  ///< [m]
     vector velocity;  ///< [m/s]
-    scalar slowest;   ///< that counts [m/s]
+    scalar slowest;   ///< speeds below this count as zero [m/s]
     [[nodiscard]] constexpr scalar along(const vector& n) const noexcept {
       const scalar v = P::dot(velocity, n);
       const scalar beyond = kernels::larger(kernels::magnitude(v) - slowest, scalar(0));
@@ -96,10 +97,10 @@ class edge_observer::on {
 
  private:
   using coordinates = typename P::coordinates;
-  /// What crosses no edge for so long rests [s].
+  /// A device that crosses no edge for so long is at rest [s].
   static constexpr scalar still = scalar(0.1);
 
-  /// Anywhere in the step, at rest.
+  /// Starts anew: at rest in the middle of the step.
   constexpr void start(int i, scalar step) noexcept {
     for (coordinates* zero : {&velocity_, &at_edge_, &travel_, &since_, &direction_, &turns_}) {
       P::component(*zero, i) = scalar(0);
@@ -144,7 +145,7 @@ class edge_observer::on {
     return kernels::smaller(kernels::larger(x, step), step + quantum_);
   }
 
-  /// Does it swing within what friction alone holds? low_ and high_ are where it turned last.
+  /// True while the device swings within q + 2p. low_ and high_ are the steps at which it turned last.
   [[nodiscard]] constexpr bool is_held_by_friction(int i, scalar step, bool crossed) noexcept {
     if (!(scalar(2) * presliding_ > quantum_)) return false;
     scalar& low = P::component(low_, i);
@@ -172,7 +173,7 @@ class edge_observer::on {
     return turns >= enough;
   }
 
-  /// What an edge says of the speed.
+  /// The speed that follows from crossing an edge.
   constexpr void cross(int i, scalar dt) noexcept {
     scalar& v = P::component(velocity_, i);
     scalar& before = P::component(at_edge_, i);
@@ -194,7 +195,7 @@ class edge_observer::on {
     travel = t = scalar(0);
     d = now;
   }
-  /// Where it came into the step, in that direction.
+  /// The edge by which a device moving in that direction came into the step [m].
   [[nodiscard]] constexpr scalar edge(scalar step, scalar direction) const noexcept {
     return direction < scalar(0) ? step + quantum_ : step;
   }
@@ -202,9 +203,9 @@ class edge_observer::on {
   scalar quantum_{}, presliding_{};
   coordinates position_{}, velocity_{};         ///< x [m], v [m/s]
   coordinates at_edge_{}, travel_{}, since_{};  ///< v at the last edge, Δx̂ [m] and t [s] since
-  coordinates direction_{};                     ///< d, ±1; 0: no edge was seen yet
+  coordinates direction_{};                     ///< d, ±1; 0 before the first edge
   coordinates low_{}, high_{};                  ///< steps at which it turned last [m]
-  coordinates turns_{};                         ///< how often, within what friction holds
+  coordinates turns_{};                         ///< how often it turned within q + 2p, up to 2
 };
 
 static_assert(motion_estimator_for<edge_observer, space<float, 1>>);

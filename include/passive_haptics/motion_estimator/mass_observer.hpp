@@ -15,14 +15,14 @@ inline namespace v0 {
 ///               v = v⁻ + c/(64 dt),   w += c/(8 · 64² dt²)
 ///     believe   when the c of one direction add up to S, |S| > 4/3 q, in t seconds:
 ///               v += S/t,   w += S/(2 t²)
-/// w [m/s²] is all that pushes besides the motors: hand, weight, friction. Inside a step the model
-/// runs free, so at rest the contact force does not hunt between two steps; a real motion, which
-/// quantisation cannot explain, is taken over at once. With q = 0 every correction is believed.
+/// w [m/s²] is what all else than the motors adds to the acceleration: hand, weight, friction. Inside a
+/// step the model runs free, so at rest the contact force does not hunt between two steps; a motion that
+/// quantisation cannot explain is taken over at once. With q = 0 every correction is believed.
 ///
 /// Why these numbers, and what else was tried: docs/design/settling.md. An encoder that rounds
 /// instead of cutting off moves every surface by q/2 and changes nothing else.
 struct mass_observer {
-  double mass{};     ///< m, apparent mass of the device [kg]; 30 % off still settles
+  double mass{};     ///< m, apparent mass of the device [kg]; it settles with an error of 30 %, too
   double quantum{};  ///< q, one step of the position shown [m]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -110,7 +110,8 @@ class mass_observer::on {
       w += S / (scalar(2) * t * t);
       S = t = scalar(0);
     }
-    if (!kernels::is_finite(x + v + w)) start(i, step + quantum_ / scalar(2));  // an absurd force
+    if (!kernels::is_finite(x + v + w))
+      start(i, step + quantum_ / scalar(2));  // after an absurd force
   }
 
   scalar mass_{}, quantum_{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What lies in a surface, taken along when the surface turns.
+// Carries a vector of a surface along when the normal of the surface turns.
 
 #include <passive_haptics/device/space.hpp>
 
@@ -9,8 +9,8 @@ inline namespace v0 {
 
 /// a, turned by the least rotation that takes the unit normal `from` to the unit normal `to`:
 ///     a − s (s·a)/(1 + from·to) + 2 to (from·a),   s = from + to
-/// (parallel transport along the shorter great circle). It keeps lengths, and what was across `from` is across `to`.
-/// Opposite normals have no such rotation: a is returned as it is.
+/// (parallel transport along the shorter great circle). It keeps lengths, and a vector across `from` becomes
+/// one across `to`. Opposite normals have no such rotation: then a is returned as it is.
 template <class Space>
 [[nodiscard]] constexpr typename Space::vector carry(const typename Space::vector& a,
                                                      const typename Space::vector& from,

@@ -13,8 +13,8 @@ inline namespace v0 {
 ///     |n_VE − n_LM| ≤ chord(φ):   n ← n_VE
 ///     otherwise:                  n ← n cos φ + t sin φ,   t ∝ (n_VE − n_LM) − ((n_VE − n_LM)·n) n
 /// This is Rodrigues' rotation about µ = n_LM × n_VE, without the cross product, so it holds in two
-/// dimensions as well; chords keep their digits where acos loses them. Antiparallel normals have no
-/// common plane: they turn about a fixed direction. The turn is φ − φ³/12, never above φ.
+/// dimensions as well; for small angles a chord keeps digits that acos loses. Opposite normals have no
+/// common plane: they turn towards a fixed direction. The turn is φ − φ³/12, never above φ.
 struct turn_limited {
   double rate{};  ///< [rad/s]
 
@@ -46,7 +46,7 @@ struct turn_limited {
         const vector across = chord - from * Space::dot(chord, from);
         const scalar length = Space::norm(across);
         const bool opposite =
-            length < scalar(1) / scalar(1024);  // within 1 mrad: no plane to trust
+            length < scalar(1) / scalar(1024);  // within 1 mrad rounding decides the plane
         const vector tangent = opposite ? Space::orthogonal(from) : vector(across / length);
         const vector turned = from * turn.cosine + tangent * turn.sine;
         return turned / Space::norm(turned);
