@@ -16,9 +16,9 @@ namespace passive_haptics {
 inline namespace v0 {
 
 /// φ(x) = Σ cᵢⱼₖ B(ξ − i) B(η − j) B(ζ − k), ξ, η, ζ the coordinates of x − origin in spacings, B the
-/// quadratic B-spline: the gradient is continuous, and that of the value. d = −φ, push() = ∇φ; the
-/// force K d push() is conservative, whatever the nodes are. It has an answer from half a spacing to two
-/// and a half along each axis, a cube of two spacings.
+/// quadratic B-spline. d = −φ, and push() = ∇φ is continuous and exactly the gradient of φ, so the force
+/// K d push() is conservative whatever the coefficients. It covers 0.5 to 2.5 spacings along each axis, a cube
+/// of two spacings.
 template <class Space>
 requires(Space::dof == 3) struct distance_brick {
   using space_type = Space;
@@ -33,8 +33,8 @@ requires(Space::dof == 3) struct distance_brick {
   scalar stiffness{};                    ///< K [N/m], > 0
   scalar thickness = kernels::largest<scalar>();  ///< deepest contact [m], > 0
 
-  /// The brick of a distance phi(x) [m] that can be asked everywhere near the grid. A coefficient that
-  /// is the sample itself would smooth: a ball of 50 mm on 5 mm grows by h²/(4r) = 0.125 mm. So
+  /// The brick of a distance phi(x) [m] that is known everywhere near the grid of spacing h. Samples taken as
+  /// coefficients would smooth: a ball of r = 50 mm on h = 5 mm shrinks by h²/(4r) = 0.125 mm. So
   ///     c = φ − (h²/8) ∇²φ      by second differences
   /// which returns every quadratic φ as it is (quasi-interpolation: de Boor and Fix, "Spline
   /// approximation by quasiinterpolants", J. Approx. Theory 8, 1973).
@@ -96,21 +96,21 @@ requires(Space::dof == 3) struct distance_brick {
             first.within && second.within && third.within && -value <= thickness};
   }
 
-  /// The ball around its cube.
+  /// The ball around the cube that is covered.
   [[nodiscard]] constexpr neighbourhood<Space> around() const noexcept {
     const scalar middle = spacing * scalar(1.5);
     return {vector(vector(origin) + vector(middle, middle, middle)), scalar(1.8) * spacing};
   }
 
  private:
-  /// The three B-splines along one axis that are not zero, and their slopes.
+  /// The values and slopes of the three B-splines along one axis that are not zero.
   struct basis {
     std::array<scalar, 3> weight;
     std::array<scalar, 3> slope;  ///< per spacing
     std::size_t node;             ///< the first of the three
     bool within;
 
-    /// Outside of the grid the last piece goes on. `at` counts spacings from the first node.
+    /// `at` counts spacings from the first node. Beyond the cube the outermost polynomial goes on.
     constexpr explicit basis(scalar at) noexcept
         : node(at < scalar(1.5) ? 0 : 1), within(at >= scalar(0.5) && at <= scalar(2.5)) {
       const scalar t = at - scalar(static_cast<int>(node + 1));  // from the middle one of the three

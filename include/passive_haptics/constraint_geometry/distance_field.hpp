@@ -2,7 +2,7 @@
 #pragma once
 // A surface given by its signed distance (the menu is in half_space.hpp).
 //
-//   distance_field   a function of yours                   any Dof
+//   distance_field   a function of your own                any Dof
 
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>
@@ -33,9 +33,9 @@ struct gradient_probe {
   [[nodiscard]] constexpr bool covered() const noexcept { return within; }
 };
 
-/// d = −φ, push() = ∇φ of a function of yours: field(x) returns a distance_and_gradient, does not throw,
-/// and is a plain value. The gradient must be that of the distance (laws.hpp tries it); where it is, a
-/// force K d push() is conservative, φ a true distance or not. Where φ has prepare(), it is asked, too.
+/// d = −φ, push() = ∇φ of a function of your own: `field` is a plain value, and field(x) returns a
+/// distance_and_gradient and does not throw. If the gradient is that of φ (laws.hpp tries it), the force
+/// K d push() is conservative, whether φ is a true distance or not. A prepare() of the field is asked, too.
 ///     struct wave {
 ///       ph::distance_and_gradient<scene> operator()(const scene::vector& x) const noexcept;
 ///     };
@@ -49,12 +49,12 @@ struct distance_field {
 
   Field field{};
   scalar stiffness{};                             ///< K [N/m], > 0
-  typename Space::coordinates centre{};           ///< of the ball where the field is good [m]
+  typename Space::coordinates centre{};           ///< of the ball where the field is valid [m]
   scalar radius = kernels::largest<scalar>();     ///< of that ball [m], > 0
   scalar thickness = kernels::largest<scalar>();  ///< deepest contact [m], > 0
 
-  /// False for a field whose own prepare() is, for a distance at the centre or a centre that is not
-  /// finite, and for a stiffness, a radius or a thickness ≤ 0.
+  /// False if the field's own prepare() is, for a centre or a distance there that is not finite, and for a
+  /// stiffness, a radius or a thickness ≤ 0.
   [[nodiscard]] constexpr bool prepare() noexcept {
     if constexpr (requires {
                     { field.prepare() } -> std::same_as<bool>;
@@ -73,7 +73,7 @@ struct distance_field {
     return {-found.distance, found.gradient, -found.distance <= thickness && away <= radius};
   }
 
-  /// The ball where the field is good; one metre about its centre where that is unlimited.
+  /// The ball where the field is valid, but of a radius of one metre at most.
   [[nodiscard]] constexpr neighbourhood<Space> around() const noexcept {
     return {centre, kernels::smaller(radius, scalar(1))};
   }

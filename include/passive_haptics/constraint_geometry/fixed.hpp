@@ -2,8 +2,8 @@
 #pragma once
 // Supplies: who owns the constraint and who moves it.
 //
-//   fixed      one constraint, known from the start, never moving: no second copy, no age
-//   followed   the environment publishes, the local model follows as fast as the bound allows
+//   fixed      one constraint, known from the start, that never moves: no second copy, no age
+//   followed   the environment publishes targets, and the local model follows as fast as the bound allows
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -11,7 +11,7 @@ namespace passive_haptics {
 inline namespace v0 {
 
 namespace detail {
-/// What prepare() refuses, in words.
+/// The fault for which prepare() refuses a constraint, in words.
 template <class Constraint>
 [[nodiscard]] constexpr parameter_fault constraint_fault(Constraint c) noexcept {
   if (!(c.stiffness > 0) || !kernels::is_finite(c.stiffness)) {

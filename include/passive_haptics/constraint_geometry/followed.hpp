@@ -2,7 +2,7 @@
 #pragma once
 // A supply whose constraint the environment moves (the menu is in fixed.hpp).
 //
-//   followed    the environment publishes, the local model follows as fast as the bound allows
+//   followed    the environment publishes targets, and the local model follows as fast as the bound allows
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -11,7 +11,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Two copies: the newest target from the environment (I) and the local model's own (i).
+/// Keeps two constraints: the newest target of the environment and the one that the local model is at.
 ///     ph::followed<ph::triangle<scene>>{{.stale_after = 0.2}}
 ///     ph::followed{ph::half_space<scene>{…}}          with a first target to start from
 template <class Constraint>
@@ -32,16 +32,16 @@ class followed {
 
   [[nodiscard]] constexpr const Constraint& local() const noexcept { return own_; }
   [[nodiscard]] constexpr const Constraint& target() const noexcept { return newest_; }
-  /// Has there ever been a target? Has one come, has one been refused since the last tick?
+  /// published(): there has been a target. changed(), refused(): since the last tick one came, was refused.
   [[nodiscard]] constexpr bool published() const noexcept { return news_.heard(); }
   [[nodiscard]] constexpr bool changed() const noexcept { return changed_; }
   [[nodiscard]] constexpr bool refused() const noexcept { return refused_; }
-  /// Does the newest target count in full, or has it been silent for too long?
+  /// current(): the newest target counts in full. stale(): no target came for longer than `stale_after`.
   [[nodiscard]] constexpr bool current() const noexcept { return news_.current(); }
   [[nodiscard]] constexpr bool stale() const noexcept { return news_.stale(); }
-  /// Is the local model where the environment wants it?
+  /// True if the local model has reached the target.
   [[nodiscard]] constexpr bool together() const noexcept { return together_; }
-  /// How far the contact counts now, and did in the last tick; 0 before the first target.
+  /// How far, in [0, 1], the contact counts now and did in the last tick; 0 before the first target.
   [[nodiscard]] constexpr scalar weight() const noexcept { return news_.weight(); }
   [[nodiscard]] constexpr scalar last_weight() const noexcept { return last_weight_; }
 
@@ -49,7 +49,7 @@ class followed {
     return news_.parameters().check();
   }
   constexpr void set(const freshness& rule) noexcept { news_.set(rule); }
-  /// As if nothing had ever been published.
+  /// Starts anew, as if nothing had ever been published: a first target is forgotten, too.
   constexpr void reset() noexcept { *this = followed(news_.parameters()); }
 
   /// Takes a new constraint, or refuses it and keeps the last good one.
@@ -65,25 +65,25 @@ class followed {
     news_.hear();
     return true;
   }
-  /// Nothing is there any more: the contact fades, as it does when data are stale, and ends.
+  /// Says that nothing is there any more: the contact fades, as it does when data are stale, and ends.
   constexpr void release() noexcept { news_.release(); }
-  /// Time goes by [s] since the last good target.
+  /// Adds dt [s] to the time since the last good target.
   constexpr void grow_older(scalar dt) noexcept { news_.grow_older(dt); }
 
-  /// The local model takes the environment's constraint as it is.
+  /// Moves the local model to the target.
   [[gnu::always_inline]] constexpr void sync() noexcept {
     if (together_) return;
     own_ = newest_;
     together_ = true;
   }
-  /// The local model goes only so far: x is to lie d deep under the normal n. Its nodes come from
-  /// its own if it was in contact (Fig. 2.5), from the environment's if not (2.33).
+  /// Moves the local model towards the target so that x lies d [m] deep under the normal n. Its nodes start
+  /// where they are if it was in contact (Fig. 2.5), else from those of the target (2.33).
   [[gnu::always_inline]] constexpr void approach(bool from_own, const vector& x, const vector& n,
                                                  scalar d) noexcept {
     own_ = (from_own ? own_ : newest_).toward(newest_, x, n, d);
     together_ = false;
   }
-  /// The tick has seen what was new, and let the contact count for that weight.
+  /// The tick has dealt with what was new, and the contact counted by `weight` in it.
   constexpr void seen(scalar weight) noexcept {
     changed_ = refused_ = false;
     last_weight_ = weight;
@@ -94,7 +94,7 @@ class followed {
   bool changed_ = false;
   bool refused_ = false;
   bool together_ = true;
-  scalar last_weight_{};  // of the last tick
+  scalar last_weight_{};  // weight() in the last tick
   Constraint newest_{}, own_{};
 };
 

@@ -8,7 +8,7 @@
 //   triangle     three nodes, with edge tests            Dof 3; the local model of the thesis
 //   sphere       a centre and a radius, solid or hollow  any Dof
 //   quadric      a point, a normal, two curvatures       Dof 3; what a smooth mesh publishes
-//   shell        all within r of a point, a segment, a box, a triangle: balls, capsules, round edges
+//   shell        all points within r of a point, segment, box or triangle: balls, capsules, round edges
 //   patch        up to M triangles, the closest feature  Dof 3; dents and ridges of a mesh
 //   distance_brick, distance_field     a signed distance, sampled (Dof 3) or a function (any Dof)
 //
@@ -51,7 +51,7 @@ struct half_space {
            detail::usable_stiffness(stiffness);
   }
 
-  /// The plane as seen from x; it refers to the constraint.
+  /// The plane as seen from x. It holds a reference to the constraint.
   struct probe {
     scalar depth;  ///< (p − x)·n [m]
     const half_space& plane;

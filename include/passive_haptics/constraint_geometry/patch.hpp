@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A piece of a mesh as it is, edges and all (the menu is in half_space.hpp).
+// A piece of a mesh with its edges and corners (the menu is in half_space.hpp).
 //
 //   patch        up to M triangles, the closest feature   Dof 3; dents and ridges of a mesh
 
@@ -19,8 +19,7 @@ namespace passive_haptics {
 inline namespace v0 {
 
 namespace detail {
-/// The angle between two vectors [rad]; for other scalars than the built-in ones by an atan2 that
-/// argument-dependent look-up finds.
+/// The angle between two vectors [rad]. Scalars that are not built in bring an atan2 of their own.
 template <class Space>
 [[nodiscard]] typename Space::scalar angle_between(const typename Space::vector& a,
                                                    const typename Space::vector& b) noexcept {
@@ -30,12 +29,12 @@ template <class Space>
 }  // namespace detail
 
 /// Triangles that hang together by whole edges, each counter-clockwise seen from outside. Depth is the
-/// distance to the closest point c of them, positive inside; outward() is along c − x there. Which side
-/// x is on, the pseudo-normal of c's feature tells: of its face, of the two at its edge, of all around
-/// its node weighted by their angles (Bærentzen and Aanæs, IEEE TVCG 11(3), 2005). A point whose c is
-/// on the rim of the patch is not covered: what lies beyond is not in it. Nothing is covered twice and,
-/// unlike under a `triangle`, nothing between two triangles is lost. Deeper inside, the force turns in
-/// one step where another feature becomes the closest.
+/// distance from x to their closest point c, positive inside, and outward() there is along c − x. Which
+/// side x is on is told by the pseudo-normal at c: the normal of its face, the mean of the two at its edge,
+/// or the mean of all at its node weighted by their angles (Bærentzen and Aanæs, IEEE TVCG 11(3), 2005). A
+/// point whose c is on the rim of the patch is not covered, because the patch does not know what lies
+/// beyond. No point is covered twice and, unlike under a `triangle`, none between two triangles is lost.
+/// Deeper inside, the force turns in one step where another feature becomes the closest.
 template <class Space, std::size_t M = 16>
 requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
   using space_type = Space;
@@ -43,7 +42,7 @@ requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
   using vector = typename Space::vector;
   static constexpr surface_kind kind = surface_kind::faceted;
   static constexpr std::size_t capacity = M;
-  static constexpr std::size_t node_capacity = M + 2;  ///< as many as M connected triangles have
+  static constexpr std::size_t node_capacity = M + 2;  ///< M connected triangles have no more nodes
   static constexpr std::uint8_t none = 255;
 
   std::array<typename Space::coordinates, node_capacity> nodes{};  ///< [m]
@@ -56,7 +55,7 @@ requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
   std::array<typename Space::coordinates, M> normals{};  ///< of the triangles; set by prepare()
   std::array<typename Space::coordinates, node_capacity> pseudo_normals{};  ///< by prepare()
   std::array<std::array<std::uint8_t, 3>, M> neighbours{};  ///< across edge k, k + 1; by prepare()
-  std::array<bool, node_capacity> on_rim{};                 ///< of the nodes; by prepare()
+  std::array<bool, node_capacity> on_rim{};                 ///< for each node; by prepare()
 
   /// False for no triangle or too many, a node that does not exist or is not finite, a triangle whose
   /// height is lost in rounding, an edge of three triangles or of two that face opposite sides,
@@ -148,7 +147,7 @@ requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
     const vector way = x - on.point;
     const bool has_first = on.weights[0] > scalar(0), has_second = on.weights[1] > scalar(0),
                has_third = on.weights[2] > scalar(0);
-    if (has_first && has_second && has_third) {  // the normal, and not `way`, which may be rounding
+    if (has_first && has_second && has_third) {  // the direction of `way` may be rounding only
       const vector n = normals[triangle];
       const scalar depth = -Space::dot(way, n);
       return {depth, n, depth <= thickness};

@@ -24,22 +24,22 @@ requires(Space::dof == 3) struct quadric {
   using vector = typename Space::vector;
   static constexpr surface_kind kind = surface_kind::smooth;
 
-  typename Space::coordinates point{};    ///< p [m]
-  typename Space::coordinates normal{};   ///< n, outward, any length but zero
-  typename Space::coordinates tangent{};  ///< t, along κ₁; need not be unit nor quite tangential
-  scalar curvature{};                     ///< κ₁, along t [1/m]
-  scalar cross_curvature{};               ///< κ₂, along n × t [1/m]
-  scalar stiffness{};                     ///< K [N/m], > 0
-  scalar thickness{};                     ///< deepest contact [m], > 0; |κ| thickness < 1
+  typename Space::coordinates point{};        ///< p [m]
+  typename Space::coordinates normal{};       ///< n, outward, any length but zero
+  typename Space::coordinates tangent{};      ///< t, along κ₁; of any length, roughly tangential
+  scalar curvature{};                         ///< κ₁, along t [1/m]
+  scalar cross_curvature{};                   ///< κ₂, along n × t [1/m]
+  scalar stiffness{};                         ///< K [N/m], > 0
+  scalar thickness{};                         ///< deepest contact [m], > 0; |κ| thickness < 1
   scalar reach = kernels::largest<scalar>();  ///< farthest from p along the tangent plane [m], > 0
 
   /// False for a normal without a direction, a tangent without one across the normal (unless the
-  /// curvatures are equal, when it does not matter), a curvature that folds within the thickness,
+  /// curvatures are equal, when it does not matter), a curvature with |κ| thickness ≥ 1,
   /// stiffness, thickness or reach ≤ 0, and for anything but `reach` that is not finite.
   [[nodiscard]] constexpr bool prepare() noexcept {
     if (!detail::make_unit<Space>(normal)) return false;
     if (curvature == cross_curvature && Space::is_finite(tangent)) {
-      tangent = Space::orthogonal(normal);  // whichever
+      tangent = Space::orthogonal(normal);  // any tangent will do
     } else {
       if (!detail::make_unit<Space>(tangent)) return false;
       const vector t = tangent, n = normal;
@@ -79,7 +79,7 @@ requires(Space::dof == 3) struct quadric {
             depth <= thickness && u * u + v * v <= reach * reach};
   }
 
-  /// Within reach, or ten times the thickness, about p.
+  /// The ball about p of radius `reach`, or of ten times the thickness if that is less.
   [[nodiscard]] constexpr neighbourhood<Space> around() const noexcept {
     return {point, kernels::smaller(reach, scalar(10) * thickness)};
   }

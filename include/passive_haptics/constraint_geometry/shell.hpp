@@ -8,12 +8,12 @@
 //   shell<triangle_core>   a triangular plate, 2r thick     Dof 3
 //
 // The closest point of a convex core is unique, so in the shell the force is continuous and
-// conservative, edges and corners included; a bare box turns it by 90° in one step. At depth d its slope
-// is K along the normal and at most K d/(r − d) across it. With
-//     r ≥ 2 F_max/K        F_max the force of the motors
-// they stop the device above d = r/2, where the slope is K at most: 1.8 mm for 9 N on 10 kN/m. A hand
-// stronger than the motors goes deeper. In the core the nearest face pushes, so that there still is a
-// depth and a unit normal; that normal jumps where another face becomes the nearest.
+// conservative, edges and corners included; a bare box turns it by 90° in one step. At depth d the slope of
+// the force is K along the normal and at most K d/(r − d) across it. With
+//     r ≥ 2 F_max/K        F_max the force of the motors: 1.8 mm for 9 N on 10 kN/m
+// the motors reach F_max at d ≤ r/2, and up to there the slope across is at most K, too. A hand that is
+// stronger than the motors goes deeper. In the core the nearest face pushes, so that there still is a depth
+// and a unit normal; that normal jumps where another face becomes the nearest.
 
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>
@@ -27,12 +27,12 @@ inline namespace v0 {
 template <class Space>
 struct core_point {
   typename Space::vector point;   ///< of the core's boundary, the closest to x [m]
-  typename Space::vector normal;  ///< unit; which way is out for an x in the core or on it
+  typename Space::vector normal;  ///< unit; the outward direction for an x in the core or on it
   bool inside;                    ///< x is in the core or on it
 };
 
-/// All within `radius` of a convex core. A core is a plain value with prepare(), around() as surfaces
-/// have them, and closest(x), a core_point.
+/// All points within `radius` of a convex core. A core is a plain value with prepare() and around(), as
+/// surfaces have them, and with closest(x), which returns a core_point.
 template <class Core>
 struct shell {
   using space_type = typename Core::space_type;
@@ -58,7 +58,7 @@ struct shell {
     return {radius - way.length, way.direction, true};
   }
 
-  /// Twice the solid's size.
+  /// The ball of twice the solid's size.
   [[nodiscard]] constexpr neighbourhood<space_type> around() const noexcept {
     const auto of_core = core.around();
     return {of_core.centre, scalar(2) * (of_core.radius + radius)};
@@ -80,7 +80,7 @@ struct point_core {
   [[nodiscard]] constexpr neighbourhood<Space> around() const noexcept { return {point, {}}; }
 };
 
-/// From a to b: its shell is a capsule. On a line it would have an inside: take a sphere there.
+/// The line from a to b: its shell is a capsule. In one dimension it would have an inside: take a sphere.
 template <class Space>
 requires(Space::dof >= 2) struct segment_core {
   using space_type = Space;
@@ -116,7 +116,7 @@ requires(Space::dof >= 2) struct segment_core {
   }
 };
 
-/// A box of any attitude: its shell is a box with rounded edges.
+/// A box of any orientation: its shell is a box with rounded edges.
 template <class Space>
 requires(Space::dof == 3) struct box_core {
   using space_type = Space;

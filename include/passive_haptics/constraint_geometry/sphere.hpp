@@ -11,8 +11,8 @@ namespace passive_haptics {
 inline namespace v0 {
 
 /// |x − c| = r. A solid ball has depth r − |x − c| and pushes away from its centre; a cavity has depth
-/// |x − c| − r and pushes towards it. At the centre itself, where neither has a normal, it is the last
-/// axis. In two dimensions this is a circle, in one an interval.
+/// |x − c| − r and pushes towards it. At the centre itself, where neither has a normal, the last axis stands
+/// in for the direction of x − c. In two dimensions this is a circle, in one an interval.
 template <class Space>
 struct sphere {
   using space_type = Space;
@@ -48,7 +48,7 @@ struct sphere {
     return {vector(x + n * way), target.radius, target.stiffness, target.felt};
   }
 
-  /// Twice its size about its centre.
+  /// The ball about its centre of twice its radius.
   [[nodiscard]] constexpr neighbourhood<Space> around() const noexcept {
     return {centre, scalar(2) * radius};
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What curved surfaces have in common: how they answer, where they are, and where a force on them
-// comes from (the menu is in half_space.hpp, the proofs are in docs/design/curved.md).
+// What curved surfaces have in common: what at(x) answers, where they lie, and along which direction they push
+// (the menu is in half_space.hpp, the proofs are in docs/design/curved.md).
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -10,10 +10,10 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// From which side is a closed surface touched? From outside it is a solid, from inside a cavity.
+/// The side from which a closed surface is touched: from outside it is a solid, from inside a cavity.
 enum class felt_from : std::uint8_t { outside, inside };
 
-/// A ball around the part of the world that a surface is meant for. laws.hpp looks for faults there.
+/// A ball around the region that a surface is meant for. laws.hpp looks for faults there.
 template <class Space>
 struct neighbourhood {
   typename Space::coordinates centre{};  ///< [m]
@@ -32,7 +32,7 @@ struct distance_probe {
 
 namespace detail {
 
-/// −∇depth, as the surface says: along it a spring must push.
+/// −∇depth as the probe tells it, along which a spring must push.
 template <class Space>
 [[nodiscard]] constexpr typename Space::vector steepest_push(const auto& probe) noexcept {
   if constexpr (requires { probe.push(); }) {
@@ -42,7 +42,7 @@ template <class Space>
   }
 }
 
-/// A direction for want of a better one: the last axis.
+/// The last axis, for where no direction is better than another.
 template <class Space>
 [[nodiscard]] constexpr typename Space::vector some_direction() noexcept {
   using scalar = typename Space::scalar;
@@ -58,8 +58,8 @@ struct polar {
   typename Space::vector direction;  ///< unit
 };
 
-/// v taken apart. One that is too short for its square to be a normal number, or is NaN, has the
-/// direction `otherwise`.
+/// The length and the direction of v. The direction is `otherwise` where v is NaN, or so short that its
+/// square is below the smallest normal number over ε.
 template <class Space>
 [[nodiscard, gnu::always_inline]] constexpr polar<Space> polar_form(
     const typename Space::vector& v, const typename Space::vector& otherwise) noexcept {
@@ -82,7 +82,7 @@ template <class Space>
     largest = kernels::larger(largest, kernels::magnitude(scalar(Space::component(given, i))));
   }
   if (!Space::is_finite(given) || !(largest > scalar(0))) return false;
-  const typename Space::vector scaled = given / largest;  // so that no square is lost
+  const typename Space::vector scaled = given / largest;  // so that no square underflows
   v = typename Space::vector(scaled / Space::norm(scaled));
   return Space::is_finite(v);
 }

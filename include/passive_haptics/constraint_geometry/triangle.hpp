@@ -34,7 +34,7 @@ requires(Space::dof == 3) struct triangle {
     return thickness > scalar(0) && detail::usable_stiffness(stiffness);
   }
 
-  /// The triangle as seen from x; it refers to both.
+  /// The triangle as seen from x. It holds references to both.
   struct probe {
     scalar depth;  ///< (a − x)·n [m]
     const triangle& piece;

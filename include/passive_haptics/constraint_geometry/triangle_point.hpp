@@ -11,7 +11,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// Which way a triangle faces.
+/// The direction that a triangle faces.
 template <class Space>
 struct facing {
   typename Space::vector normal;  ///< unit
@@ -36,17 +36,17 @@ template <class Space>
   return {normal, Space::is_finite(normal)};
 }
 
-/// A point of a triangle.
+/// A point of a triangle, and how it is made of the corners.
 template <class Space>
 struct triangle_point {
   typename Space::vector point;  ///< [m]
   std::array<typename Space::scalar, 3>
-      weights;  ///< barycentric; exactly zero for corners it is not of
+      weights;  ///< barycentric; exactly zero for corners that have no part in it
 };
 
-/// The point of the triangle a, b, c closest to x: the foot of x on its plane if that lies within the
-/// edges, else the closest point of those edges that x is beyond. Rounding may take one for another only
-/// where they meet. The triangle must have an area.
+/// The point of the triangle a, b, c closest to x: the foot of x on its plane if that lies within the edges,
+/// else the closest point of those edges that x is beyond. Rounding may take face, edge and corner for each
+/// other only where they meet. The triangle must have an area.
 template <class Space>
 [[nodiscard]] constexpr triangle_point<Space> closest_on_triangle(
     const typename Space::vector& a, const typename Space::vector& b,
