@@ -13,7 +13,7 @@
 //   stability::     the device alone comes to rest; a hand may still draw energy
 //     gil_hulin          K < (b + D)/(T/2 + t_d)     virtual damping helps here, and hurts above
 //
-// Never mix the two. All of them take the world as fixed: a surface that moves or a stiffness that
+// Never mix the two kinds. All of them take the world as fixed: a surface that moves or a stiffness that
 // changes breaks every one of them, and needs a bound.
 //
 // How stiff a wall behind a bound may be before its ledger runs dry: design/stiffness_budget.hpp. What is
@@ -28,9 +28,9 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace design {
 
-/// The constants of a loop: a device of mass m and damping b, sampled every T, its force held.
-/// A condition that does not cover sensor steps, delay or virtual damping answers, where there are
-/// some, as if nothing were safe. Dry friction only helps; most conditions do not count it.
+/// The constants of a loop: a device of damping b, sampled every T, its force held. A condition that does
+/// not cover sensor steps, delay or virtual damping answers that nothing is safe where there are some. Dry
+/// friction only helps; most conditions do not count it.
 struct loop {
   double damping = 0.0;          ///< b of the device [N·s/m], a lower bound
   double period = 1e-3;          ///< T [s], the longest
@@ -63,16 +63,16 @@ inline constexpr double nothing_is_safe = -std::numeric_limits<double>::infinity
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < grid.size(); ++i) {
     const double left = l.damping - needed(grid.at(i));
-    if (!(left >= least)) least = left;  // so written, NaN stays
+    if (!(left >= least)) least = left;  // a NaN is taken
     if (!(least == least)) return nothing_is_safe;
   }
   return least;
 }
 }  // namespace detail
 
-/// A largest stiffness [N/m] is the supremum of those that are passive; 0 says none is, or a
-/// constant is out of its range. A margin [N·s/m] is the damping that is left over: > 0 is passive,
-/// −∞ says that a constant is out of its range, or something is no number.
+/// A largest stiffness [N/m] is the supremum of those that are passive; 0 says that none is, or that a
+/// constant is out of its range. A margin [N·s/m] is the damping that is left over: > 0 is passive, −∞ says
+/// that a constant is out of its range or not covered, or that the transfer function gave NaN.
 namespace passivity {
 
 /// Largest K of a fixed wall H(z) = z⁻ᵏ (K + D (1 − z⁻¹)/T):   b > K (T/2 + t_d) + |D|
@@ -86,10 +86,10 @@ namespace passivity {
   return kernels::larger(left, 0.0) / l.half_period_and_delay();
 }
 
-/// Margin of any stable H(z) from position [m] to reaction [N], given as H(frequency), without the
-/// loop's delay, which is added, and with its own damping:
+/// Margin of any stable H(z) from position [m] to reaction [N], given as H(frequency). H contains its own
+/// damping, and not the delay of the loop, which is added here:
 ///     b > T/2 · Re{(1 − e⁻ʲᶿ) H}/(1 − cos θ) = T/2 · (Re H − cot(θ/2) Im H)      0 < θ ≤ π
-/// Same source and assumptions; necessary and sufficient for a linear H, on the grid.
+/// Same source and assumptions; necessary and sufficient for a linear H, at the frequencies of the grid.
 template <class H>
 [[nodiscard]] constexpr double colgate_schenkel(const loop& l, H transfer,
                                                 frequency_grid grid = {}) noexcept {
@@ -111,7 +111,7 @@ template <class H>
          l.virtual_damping * cos_sin((l.delay + 1) * w.angle).re;
 }
 
-/// Margin of a fixed wall of stiffness K [N/m] by that exact form: never less than what
+/// Margin of a fixed wall of stiffness K [N/m] by needed_damping, which is exact: never less than what
 /// colgate_schenkel(loop) leaves, and more where delay and virtual damping act together.
 [[nodiscard]] constexpr double delayed_wall(const loop& l, double stiffness,
                                             frequency_grid grid = {}) noexcept {
@@ -169,7 +169,7 @@ template <class Z>
 
 }  // namespace passivity
 
-/// Whether the device, left alone, comes to rest. Says nothing of the energy that a hand can draw.
+/// Whether the device, left alone, comes to rest. That says nothing about the energy that a hand can draw.
 namespace stability {
 
 /// Largest K of a linear spring and damper against a free mass: K < (b + D)/(T/2 + t_d)

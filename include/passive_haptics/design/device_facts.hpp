@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What is known of haptic devices that can be bought, each number with where it is from.
+// What is known of haptic devices that can be bought, each number with its source.
 //
 //     constexpr auto touch = design::devices::touch;
 //     static_assert(touch.friction && !touch.friction.verified());       // remembered, not looked up
@@ -12,9 +12,9 @@
 //   devices::      falcon, touch, omni, desktop, premium_1_5, premium_3_0, omega, delta_3, sigma_7,
 //                  lambda_7, inverse3, virtuose_6d, maglev_200, smart_knob; all of them in a list
 //
-// Viscous damping and presliding are published for none, mass and friction for few, and CHAI3D's
-// "maximum damping" is what it recommends to a controller, not what the device has. Whatever a promise
-// rests on is to be identified on the very device; a fact is a place to begin.
+// Viscous damping and presliding are published for none of them, mass and friction for few, and CHAI3D's
+// "maximum damping" is what it recommends to a controller, not what the device has. Identify whatever a
+// promise rests on on your own device; a fact is a place to begin.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -27,10 +27,10 @@ namespace design {
 
 enum class evidence : std::uint8_t {
   none,        ///< not known
-  measured,    ///< on the device, by who is named
-  datasheet,   ///< its maker's
+  measured,    ///< measured on the device by the source named
+  datasheet,   ///< a data sheet of its maker
   paper,       ///< published and reviewed
-  software,    ///< stands in the source of a program that drives it
+  software,    ///< in the source of a program that drives it
   unverified,  ///< a data sheet as we remember it: look it up before anything rests on it
 };
 
@@ -59,7 +59,7 @@ struct fact {
   const char* source = "";
 
   constexpr explicit operator bool() const noexcept { return from != evidence::none; }
-  /// Has anybody read it where it is said to stand?
+  /// True if somebody has read the number in its source.
   [[nodiscard]] constexpr bool verified() const noexcept {
     return from != evidence::none && from != evidence::unverified;
   }
@@ -71,15 +71,15 @@ struct device_facts {
   bool rotary = false;
   fact mass{};                    ///< apparent, smallest over all directions [kg]
   fact damping{};                 ///< b, physical [N·s/m]
-  fact friction{};                ///< dry, to be overcome when it is driven back [N]
+  fact friction{};                ///< dry friction that a hand overcomes in moving it [N]
   fact presliding{};              ///< p, over which that friction is elastic [m]
   std::array<fact, 3> quantum{};  ///< step of the position on each axis [m]
   fact peak_force{};              ///< for a short time [N]
-  fact continuous_force{};        ///< for ever [N]
+  fact continuous_force{};        ///< without time limit [N]
   fact stiffness{};               ///< largest that is recommended for a wall [N/m]
-  fact rate{};                    ///< of its loop, the highest [Hz]
-  fact latency{};                 ///< from a command to its holding [ticks]
-  fact workspace_radius{};        ///< of a sphere within its reach [m]
+  fact rate{};                    ///< highest rate of its loop [Hz]
+  fact latency{};                 ///< from a command until it is held [ticks]
+  fact workspace_radius{};        ///< radius of a sphere within its reach [m]
 };
 
 namespace detail {
@@ -184,7 +184,7 @@ inline constexpr device_facts virtuose_6d{.name = "Haption Virtuose 6D",
                                           .continuous_force = detail::unverified(8.5),
                                           .stiffness = detail::unverified(2000.0)};
 
-/// Levitates, so there is nothing to rub; what there is of damping is not known.
+/// It levitates, so nothing rubs; its damping is not known.
 inline constexpr device_facts maglev_200{.name = "Butterfly Haptics Maglev 200",
                                          .friction = detail::unverified(0.0),
                                          .quantum = detail::alike(detail::unverified(2e-6)),

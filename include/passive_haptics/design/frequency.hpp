@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The unit circle, in constant expressions: what a sampled transfer function is evaluated on.
+// The unit circle, on which a sampled transfer function is evaluated, also in constant expressions.
 //
 //   complex          + − * / of pairs of double
 //   frequency        z = e^{jθ}, θ = ωT in (0, π], and 1 − z⁻¹ without cancellation
-//   frequency_grid   where a condition over all θ is looked at
+//   frequency_grid   the θ at which a condition over all θ is evaluated
 //   cos_sin          e^{jα} by range reduction and Taylor's series
 
 #include <passive_haptics/base/language.hpp>
@@ -69,7 +69,7 @@ inline constexpr double pi = 3.141592653589793;
   }
 }
 
-/// One frequency: what H(z), given as a callable of this, is written with.
+/// One frequency. A transfer function H(z) is given as a callable of it:
 ///     [](design::frequency w) { return K + D * w.difference() / T; }
 struct frequency {
   double angle = pi;  ///< θ = ωT [rad], in (0, π]; π is the Nyquist frequency
@@ -84,9 +84,9 @@ struct frequency {
   }
 };
 
-/// θ = π i/points for i = 1 … points, and `octaves` more below them, each at half the one before:
-/// conditions are at their worst near 0 or π, or are smooth. A peak narrower than π/points can slip
-/// through. The least θ is 2.4e-5 by default: a limit at θ = 0 is met to a share of 3e-10.
+/// θ = π i/points for i = 1 … points, and `octaves` more below them, each at half the one before, because
+/// conditions are at their worst near 0 or π, or are smooth. A peak narrower than π/points can slip through.
+/// The least θ is 2.4e-5 by default, where a limit at θ = 0 is met to a relative error of 3e-10.
 struct frequency_grid {
   int points = 512;
   int octaves = 8;

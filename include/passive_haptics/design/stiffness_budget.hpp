@@ -8,31 +8,34 @@
 //     std::puts(budget.because());                                // what binds, and what raises it
 //     ph::capped law{ph::damped_spring{.mass = grip.mass}, budget.stiffness};
 //
-// A bound that spends only what a sure ledger holds is passive with any stiffness. What too much of it
-// costs is the wall: each step of a swing drains the ledger, and when it is empty the hand sinks in. The
-// largest stiffness that is paid for, per metre of the way, at a speed v, by a swing of S newtons:
+// A bound that spends only what a sure ledger holds is passive with any stiffness. If the wall is too stiff it
+// does not last: each step of a swing drains the ledger, and when it is empty the hand sinks in. A swing of S
+// newtons at the speed v is paid for, in joules per metre of motion, if
 //
-//     K (q/2 + max(r, v T/2)) ≤ c + b v − 2 c p/D,     D = S/K the depth of the swing
+//     K (q/2 + max(r, v T/2) + k v T) ≤ c + b v − 2 c p/D,     D = S/K the depth of the swing
 //
-// On the left, what is not known of the position costs: changes of the force q/2 each, and the force that
-// is held over a step r, by which an edge_observer lags, q/3 once it has seen four edges after a turn and
-// q/2 before, r = q/3 + q/6 min(1, 4 q/D); or what happens between two samples (lemma L2). On the right,
-// what dry friction and damping take, less what a presliding p gives back at every reversal (ours;
-// docs/design/mathematics.md § 6). Where v T is less than a step and D than four, and p = 0, this is
-// K ≤ (c + b v)/q; as q → 0 it is 2 b/T + 2 c/(v T), Colgate's 2 b/T for fast motions. Beside it
-// K ≤ 2 c/q, for the chatter of a hand that holds still at the edge of a step (Abbott and Okamura, 2005),
-// and K ≤ κ m/T², what a sampled mass can be held with (§ 9).
+// On the left is what a position costs of which only the step is known: changes of the force K q/2, and K r
+// for holding the force of an edge_observer, which lags by q/3 once it has seen four edges after a turn and
+// by q/2 before, r = q/3 + q/6 min(1, 4 q/D), or K v T/2 for motion between two samples (lemma L2), if that
+// is more. Each of k ticks of latency adds K v T. On the right is what dry friction and damping take, less
+// what the presliding p gives back at every reversal (ours; docs/design/mathematics.md § 6).
 //
-// How fast a hand kneads depends on the wall: f times a second with a force F it moves by F/K, no faster
-// than π f F/K. How deep, on the friction: of a swing H of the hand the wall gets H − 2 c, H − 4 c where the
-// device has twice the friction that is stated of it.
+// With no latency, v T < q, D < 4 q and p = 0 this is K ≤ (c + b v)/q; as q → 0 it is 2 b/T + 2 c/(v T),
+// Colgate's 2 b/T for fast motions. Two more limits: K ≤ 2 c/q, for the chatter of a hand that holds still at
+// the edge of a step (Abbott and Okamura, 2005), and K ≤ κ m/((2k + 1) T)², which a sampled mass can be held
+// with (§ 6 and § 9).
 //
-// A swing that stays within the presliding, to and fro over 2p and more than a step, is paid by nothing:
-// friction gives back all it takes. edge_observer rests there, where c > K p, and it drains nothing
-// (measured: docs/design/encoders.md); an estimator that does not drains `crossing` for each step of it.
+// A hand that kneads f times a second with a force F moves by F/K, so no faster than v = π f F/K. Of a
+// swing H of the hand the friction leaves the wall S = H − 2 c, or H − 4 c where the device has twice the
+// friction stated.
 //
-// Without dry friction all that is left at slow speeds is b v/q, some newtons per metre: nothing stiff
-// is guaranteed there, and the budget says 0.
+// Nothing pays for a swing within the presliding, to and fro over 2p and more than a step, because friction
+// gives back all that it takes. Where c > K p, edge_observer rests during such a swing, and the swing
+// drains nothing (measured: docs/design/encoders.md); with another estimator each step of it drains
+// `crossing`.
+//
+// Without dry friction only b v/q is left at slow speeds, some newtons per metre: nothing stiff is guaranteed
+// there, and the budget is 0.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -45,20 +48,20 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace design {
 
-/// A device as a promise may state it: mass, damping and friction from below, the rest from above.
+/// A device as a promise may state it: mass, damping and friction as lower bounds, the rest as upper bounds.
 struct stated_device {
   double mass{};               ///< m, smallest over all directions [kg]
   double damping{};            ///< b [N·s/m]
-  double friction{};           ///< c, dry; the least level, where it varies [N]
+  double friction{};           ///< c, dry friction; its least level where it varies [N]
   double presliding = none;    ///< p, over which friction is elastic [m]; stated where c > 0
   double quantum{};            ///< q, step of the position and noise from peak to peak, added [m]
-  double force_limit{};        ///< what the motors hold [N]
+  double force_limit{};        ///< the most that the motors hold [N]
   double longest_tick = 1e-3;  ///< T [s]
   int latency = 0;  ///< k, ticks by which the force is late, as late_loop_limits<k> has it
 
   double continuous_force =
-      std::numeric_limits<double>::infinity();  ///< what they hold for ever [N]
-  double winding_time = 0.0;  ///< time constant with which they warm, if that is less [s]
+      std::numeric_limits<double>::infinity();  ///< what they hold without time limit [N]
+  double winding_time = 0.0;  ///< time constant of their warming, if that is less [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     const auto not_negative = [](double x) { return passive_haptics::detail::not_negative(x); };
@@ -88,11 +91,11 @@ struct stated_device {
 /// What the wall is to be sustained for.
 struct intended_use {
   double slowest = 5e-3;            ///< speed of the slowest kneading [m/s]
-  double fastest = 12e-3;           ///< and of the fastest [m/s]
-  double frequency = 2.0;           ///< f, of the fastest kneading: v ≤ π f `force`/K [Hz]
+  double fastest = 12e-3;           ///< speed of the fastest kneading [m/s]
+  double frequency = 2.0;           ///< f of the fastest kneading: v ≤ π f `force`/K [Hz]
   double swing = 0.4;               ///< S, least swing of the wall's force, friction overcome [N]
-  double hand_swing = 0.9;          ///< H, least of the hand's: S is no less than H − 4 c [N]
-  double force = 3.0;               ///< F, held with; no more than the motors' [N]
+  double hand_swing = 0.9;          ///< H, least swing of the hand's force: S ≥ H − 4 c [N]
+  double force = 3.0;               ///< F, held; the motors' limit if that is less [N]
   double hand_force = 5.0;          ///< the most the hand pushes with [N]
   double stiffness_fraction = 0.1;  ///< κ, as in damped_spring
 
@@ -117,9 +120,9 @@ struct intended_use {
 };
 
 enum class stiffness_limit : std::uint8_t {
-  sampled_mass,   ///< κ m/((2k + 1) T)²: the force lags (k + 1/2) T
-  slow_kneading,  ///< what friction and damping pay at the slowest speed
-  fast_kneading,  ///< and at the fastest, where sampling costs more than the steps
+  sampled_mass,   ///< κ m/((2k + 1) T)²: the force lags by (k + 1/2) T
+  slow_kneading,  ///< what friction and damping pay for at the slowest speed
+  fast_kneading,  ///< the same at the fastest, where sampling costs more than the steps
   holding,        ///< 2 c/q
   not_stated,     ///< a parameter is out of its range
 };
@@ -146,15 +149,15 @@ struct budget {
   std::array<double, 4> limits{};  ///< each of them, in the order of stiffness_limit [N/m]
   double working_capital =
       0.0;            ///< F (q/2 + reach), what the force in use needs in the ledger [J];
-                      ///< reach: of the k + 1 ticks to come
+                      ///< reach: how far the device can get in the next k + 1 ticks [m]
   double loan = 0.0;  ///< F_max q: what lets a first touch from rest be stiff; E ≥ −loan then [J]
-  double crossing = 0.0;  ///< what a crossing of a step costs a hand that holds still, at K [J]
+  double crossing = 0.0;  ///< what crossing an edge costs the ledger at K, within presliding [J]
 
   [[nodiscard]] constexpr double limit(stiffness_limit which) const noexcept {
     const auto i = static_cast<std::size_t>(which);
     return i < limits.size() ? limits[i] : 0.0;
   }
-  /// What binds, and what would raise it.
+  /// The limit that binds, and what would raise it.
   [[nodiscard]] constexpr const char* because() const noexcept {
     switch (binding) {
       case stiffness_limit::sampled_mass:
@@ -181,8 +184,7 @@ struct budget {
 
 namespace detail {
 
-/// What is left of friction and damping for each metre of the way of swings of S newtons at a speed v,
-/// as above; a force that is k ticks late lags by k v T more [N].
+/// The right side less the left side of the inequality above, for swings of S newtons at a speed v [J/m].
 [[nodiscard]] constexpr double surplus(const stated_device& d, double K, double v,
                                        double swing) noexcept {
   const double q = d.quantum;
@@ -193,8 +195,8 @@ namespace detail {
   return d.friction + d.damping * v - K * (known + turned);
 }
 
-/// The largest K that leaves none of them less than 0, for speeds of `slowest` and above: no more than
-/// `most`, and than `push` a second of a force takes the hand through [N/s].
+/// The largest K [N/m] whose surplus is ≥ 0 at the speed v = min(most, push/K), but at least `slowest`;
+/// `push` is π f F [N/s].
 [[nodiscard]] constexpr double kneaded(const stated_device& d, double slowest, double most,
                                        double push, double swing) noexcept {
   const double least_known = d.quantum * 5.0 / 6.0;
@@ -212,8 +214,8 @@ namespace detail {
 
 }  // namespace detail
 
-/// The largest stiffness that the ledger of this device sustains in that use. What is left of a metre is
-/// concave in v, so the slowest and the fastest speed are the worst.
+/// The largest stiffness that the ledger of this device sustains in that use. The surplus is concave in v,
+/// so the slowest and the fastest speed are the worst.
 [[nodiscard]] constexpr budget stiffness_budget(const stated_device& device,
                                                 const intended_use& use = {}) noexcept {
   if (device.check() || use.check()) return {};
@@ -236,7 +238,7 @@ namespace detail {
       b.binding = static_cast<stiffness_limit>(i);
     }
   }
-  const double faster = (F + use.hand_force) * T * T / device.mass;  // a tick's way, tick by tick
+  const double faster = (F + use.hand_force) * T * T / device.mass;  // travel added per tick [m]
   const int ticks = device.latency + 1;
   const double reach = ticks * (q + (ticks + 1) / 2.0 * faster);
   b.working_capital = F * (q / 2.0 + reach);
