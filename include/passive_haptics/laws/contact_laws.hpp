@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The laws of what belongs to a contact (the menu is in laws.hpp).
+// The laws of the parts of a contact (the menu is in laws.hpp).
 
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>
@@ -11,7 +11,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// A power of two whose third power is an epsilon: the step at which a central difference is best.
+/// The largest power of two whose cube is at most ε: with such a step a central difference is best.
 template <class Scalar>
 [[nodiscard]] constexpr Scalar difference_step() noexcept {
   Scalar step(1);
@@ -19,7 +19,7 @@ template <class Scalar>
   return step;
 }
 
-/// How many roundings of the coordinates there are in a length of the neighbourhood's own.
+/// 1 + |centre|/radius: how much rounding of coordinates counts in a neighbourhood away from the origin.
 template <class Space>
 [[nodiscard]] constexpr typename Space::scalar off_centre(const neighbourhood<Space>& of) noexcept {
   return typename Space::scalar(1) + Space::norm(of.centre) / of.radius;
@@ -29,7 +29,7 @@ template <class Space>
 
 namespace laws {
 
-/// From any unit normal to any other: unit length, at most `rate`·dt a step, there in the end.
+/// Steps from any unit normal to any other keep unit length, turn by at most `rate`·dt each, and arrive.
 template <class Space, class Normals>
 [[nodiscard]] constexpr bool turns_at_most(const Normals& parameters, typename Space::scalar rate,
                                            int pairs = 20) noexcept {
@@ -57,7 +57,7 @@ template <class Space, class Normals>
   return true;
 }
 
-/// A step between unit normals is a unit normal, and from the target it stays there.
+/// A step between unit normals gives a unit normal, and a step from the target stays there.
 template <class Space, class Normals>
 [[nodiscard]] constexpr bool stays_a_normal(const Normals& parameters, int pairs = 100) noexcept {
   using scalar = typename Space::scalar;
@@ -75,8 +75,8 @@ template <class Space, class Normals>
   return true;
 }
 
-/// f* ≥ 0, zero outside, never falling with depth or rising with outward speed; depth() gives back
-/// the depth of any force that is not zero.
+/// f* ≥ 0, it is zero outside, never falls with depth and never rises with outward speed; depth() inverts
+/// every force that is not zero.
 template <class Space, class Law>
 [[nodiscard]] constexpr bool presses_outwards(const Law& parameters, int ticks = 200) noexcept {
   using scalar = typename Space::scalar;
@@ -96,9 +96,9 @@ template <class Space, class Law>
   return true;
 }
 
-/// After prepare(): a unit normal at every point, a depth that falls by s when x moves by s along it
-/// and by no more than |x − y| whichever way, and toward(..., x, n, d) gives a constraint with normal
-/// n in which x lies d deep.
+/// After prepare() there is a unit normal at every point; depth falls by s when x moves by s along it, and
+/// changes by at most |x − y| from x to y; and toward(..., x, n, d) gives a constraint with the normal n in
+/// which x lies d deep.
 template <class Space, class Constraint>
 [[nodiscard]] constexpr bool measures_depth(Constraint constraint, int ticks = 100) noexcept {
   using scalar = typename Space::scalar;
@@ -133,7 +133,7 @@ template <class Space, class Constraint>
   return true;
 }
 
-/// Where the laws look for faults of a surface: where it says, else about the origin.
+/// Where the laws look for faults of a surface: in its around(), else within 1 m of the origin.
 template <class Space, class Surface>
 [[nodiscard]] constexpr neighbourhood<Space> where_to_look(const Surface& surface) noexcept {
   if constexpr (requires { surface.around(); }) {
@@ -158,7 +158,7 @@ template <class Space, class Surface>
   return true;
 }
 
-/// After prepare() a unit normal everywhere, covered or not.
+/// After prepare() the surface has a unit normal everywhere, covered or not.
 template <class Space, class Surface>
 [[nodiscard]] constexpr bool has_a_unit_normal(Surface surface, int points = 200) noexcept {
   using scalar = typename Space::scalar;
@@ -176,8 +176,8 @@ template <class Space, class Surface>
 }
 
 /// After prepare() the surface pushes along −∇depth, by central differences: along push() where it has
-/// one, else along outward(). Where it turns too fast for a difference, as at an edge, nothing can be
-/// said; that may be so at a quarter of the covered points, and some point must be covered.
+/// one, else along outward(). Points where it turns too fast for a difference, as at an edge, are passed over;
+/// they may be a quarter of the covered points, and some point must be covered.
 template <class Space, class Surface>
 [[nodiscard]] constexpr bool pushes_along_its_gradient(Surface surface, int points = 400) noexcept {
   using scalar = typename Space::scalar;
@@ -214,8 +214,8 @@ template <class Space, class Surface>
 }
 
 /// After prepare() depth does not jump: between covered points not far apart it changes by no more than
-/// their distance times the largest push on the way, which is one where depth is the distance. Ways are up
-/// to a tenth of the neighbourhood: a jump that is small beside them is not found.
+/// their distance times the largest push on the way, which is one where depth is the distance. The points of a
+/// pair are up to a tenth of the neighbourhood apart: a jump that is small beside that is not found.
 template <class Space, class Surface>
 [[nodiscard]] constexpr bool changes_depth_steadily(Surface surface, int pairs = 400) noexcept {
   using scalar = typename Space::scalar;
@@ -229,7 +229,7 @@ template <class Space, class Surface>
   for (int i = 0; i < enough(pairs); ++i) {
     const vector x = vector(place.centre) + random.vector<Space>() * place.radius;
     const vector way = random.vector<Space>() * (place.radius / scalar(16));
-    const vector y = x + way;  // named, since a probe may refer to its point
+    const vector y = x + way;  // named, because a probe may hold a reference to it
     const auto here = surface.at(x), there = surface.at(y);
     scalar steepest(1);
     bool covered = here.covered() && there.covered();
@@ -248,8 +248,8 @@ template <class Space, class Surface>
   return true;
 }
 
-/// What is published is the target; what is unusable is refused and changes nothing; what is released
-/// fades to nothing and comes back with the next update.
+/// A constraint that is published is the target. One that is unusable is refused and changes nothing. After
+/// release() the contact fades to nothing, and it comes back with the next update.
 template <class Space, class Supply>
 [[nodiscard]] constexpr bool keeps_the_newest(Supply supply,
                                               typename Supply::constraint_type good) noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The laws of what belongs to a port (the menu is in laws.hpp).
+// The laws of the parts of a port (the menu is in laws.hpp).
 
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/contact/given_force.hpp>
@@ -11,7 +11,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace laws {
 
-/// worst_outflow(f, T) is at least f·Δx − dissipated(Δx, T), whatever Δx: the conjugate, never less.
+/// worst_outflow(f, T) is at least f·Δx − dissipated(Δx, T) for every Δx.
 template <class P, class Damping>
 [[nodiscard]] constexpr bool covers_the_worst_motion(const Damping& parameters,
                                                      int ticks = 400) noexcept {
@@ -72,8 +72,8 @@ template <class P, class Inertia>
   return true;
 }
 
-/// In a run of random motions and forces, E1 never exceeds its first value plus the sum of
-/// b|Δx|²/dt − f·Δx, and follows it down at once: a cap, a reset or a dead band may only take away.
+/// In a run of random motions and forces no tick raises E1 by more than b|Δx|²/dt − f·Δx, and a tick that
+/// loses lowers it by the loss at least: a cap, a reset or a dead band may only take away.
 template <class P, class Observer>
 [[nodiscard]] constexpr bool never_overstates(const Observer& parameters,
                                               int ticks = 200) noexcept {
@@ -97,8 +97,8 @@ template <class P, class Observer>
   return true;
 }
 
-/// forfeit() never raises the ledger, never deepens a debt, and covers the worst outflow if it can; but for
-/// what elastic friction holds back.
+/// forfeit() never raises the ledger, takes the worst outflow off a ledger that has so much, and never deepens
+/// a debt, except by what elastic friction may hold back.
 template <class P, class Observer>
 [[nodiscard]] constexpr bool forfeit_never_credits(const Observer& parameters,
                                                    int ticks = 200) noexcept {
@@ -124,8 +124,8 @@ template <class P, class Observer>
   return true;
 }
 
-/// An energy that is no number is not booked, and update() says so. Not tried in constant expressions,
-/// where nothing may overflow.
+/// A tick whose energy overflows is not booked, and update() returns false. Constant expressions do not
+/// allow an overflow, so it is not tried there.
 template <class P, class Observer>
 [[nodiscard]] constexpr bool books_numbers_only(const Observer& parameters) noexcept {
   using scalar = typename P::scalar;
@@ -152,7 +152,7 @@ template <class P, class Observer>
   return observer.value() == first;
 }
 
-/// A damping that a port may have, 0.03 in every direction.
+/// A damping for any port: 0.03 N·s/m, or N·m·s/rad, in every direction.
 template <class P>
 [[nodiscard]] constexpr auto a_damping() noexcept {
   if constexpr (detail::turns<P>()) {
@@ -164,7 +164,7 @@ template <class P>
   }
 }
 
-/// The port as a bound may find it.
+/// Random states of a port, as a bound may find it.
 template <class P>
 class random_port {
  public:
@@ -175,7 +175,7 @@ class random_port {
   constexpr explicit random_port(std::uint64_t seed) noexcept
       : random_(seed), damping_(a_damping<P>()) {}
 
-  /// Everything finite, the ledger anywhere from debt to plenty.
+  /// A state in which all is finite and the ledger anywhere from −0.1 to 0.1 J.
   [[nodiscard]] constexpr state_type next() noexcept {
     const scalar exponent = random_.number<scalar>();
     commanded_[0] = typename P::effort(random_.vector<P>() * scalar(5));
@@ -197,7 +197,7 @@ class random_port {
   typename state_type::commands commanded_{};
 };
 
-/// What a bound means: its factor as it is, although the tick reads one outside [0, 1] as 0 or 1.
+/// The force that a bound answers with. Its factor is taken as it is, while a tick clamps it to [0, 1].
 template <class P>
 [[nodiscard]] constexpr typename P::effort meant(auto& bound, const typename P::effort& desired,
                                                  const auto& state) noexcept {
@@ -226,7 +226,7 @@ template <class P, class Bound>
   return true;
 }
 
-/// Its answer is a number, in debt and in plenty.
+/// The bound answers with a finite force, in debt and in plenty.
 template <class P, class Bound>
 [[nodiscard]] constexpr bool answers_with_a_number(const Bound& bound, int ticks = 200) noexcept {
   return holds_in_random_states<P>(
@@ -268,7 +268,7 @@ template <class P, class Bound>
       ticks);
 }
 
-/// After reset() it answers as it did at first.
+/// After reset() the bound answers as a new one does.
 template <class P, class Bound>
 [[nodiscard]] constexpr bool reset_starts_anew(const Bound& parameters, int ticks = 50) noexcept {
   part_at<Bound, P> used(parameters);
@@ -301,8 +301,8 @@ template <class P>
   }
 }
 
-/// One run of random wanted forces and motions, the worst ones among them, through a port that is so
-/// many ticks late. The energy is booked here, from the forces really held.
+/// The least energy [J] of one run of random forces wanted and random motions, half of them the worst of L3,
+/// through a port that is `Latency` ticks late. It is booked here, from the forces that were held.
 template <int Latency, class P, class Bound>
 [[nodiscard]] constexpr typename P::scalar least_energy(const Bound& bound, std::uint64_t seed,
                                                         int ticks) noexcept {
@@ -318,7 +318,7 @@ template <int Latency, class P, class Bound>
   std::array<effort, static_cast<std::size_t>(Latency) + 1> commanded{};
   commanded.fill(P::zero());
   effort acting = P::zero();
-  scalar done(0);  // by it, over the last tick [J]
+  scalar done(0);  // work of `acting` over the last tick [J]
   typename P::pose x = typename P::stored_pose{};
   scalar energy(0), least(0), passed(0);
   const scalar T = scalar(0.001);
@@ -337,13 +337,13 @@ template <int Latency, class P, class Bound>
     commanded[0] = next;
     acting = commanded.back();  // until the next tick
     motion dx = random.vector<P>() * scalar(2e-4);
-    if (random.number<scalar>() > scalar(0)) {  // the worst of L3, now and then a multiple
+    if (random.number<scalar>() > scalar(0)) {  // every other time the worst motion of L3
       for (int k = 0; k < P::dof; ++k) {
         P::component(dx, k) = P::component(acting, k) * T / (scalar(2) * damping.along_axis(k));
       }
     }
     const typename P::pose moved = after<P>(x, dx);
-    dx = P::between(x, moved);  // as it comes out in this scalar
+    dx = P::between(x, moved);  // the motion after rounding
     x = moved;
     const auto work = P::work(acting, dx);
     done = work.joules;
@@ -355,8 +355,8 @@ template <int Latency, class P, class Bound>
   return least;
 }
 
-/// No motion draws energy out of a port that it bounds, on time and late. For bounds that promise
-/// `strict`.
+/// No motion draws energy out of a port under the bound, on time or, if it holds there, two ticks late. For
+/// bounds that promise `strict`.
 template <class P, class Bound>
 [[nodiscard]] constexpr bool loses_to_no_motion(const Bound& bound, int runs = 5,
                                                 int ticks = 200) noexcept {
