@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The haptic loop itself, for whoever has none: a thread, its pace, its newest state for everybody else.
+// The haptic loop for whoever has none: a thread, its pace, and its newest state for another thread.
 //
 //   haptic thread, 1 kHz    wait ─▶ controller ─▶ force ─▶ device.exchange ─▶ sample ─┐
 //                             ▲        what is due       zero if it is no number       ├─▶ news, wait-free
@@ -15,9 +15,9 @@
 //     …  touch.stop();
 //
 // In a tick of the loop nothing is allocated or locked. Its force goes out in the next exchange() and its
-// sample came from the last one, so where an exchange does not wait for the force to be held, the loop is a
-// tick late: late_loop_limits<1>; measure_latency.hpp finds out. How long the ticks were, and which
-// longest_tick to state, is in lateness.hpp; what is asked of the computer, in realtime.hpp.
+// sample came from the last one. So where an exchange does not wait for the force to be held, the loop is a
+// tick late, late_loop_limits<1>; identification/measure_latency.hpp finds out. lateness.hpp tells how long
+// the ticks were and which longest_tick to state, realtime.hpp what is asked of the computer.
 
 #include <passive_haptics/base/exchange.hpp>
 #include <passive_haptics/base/no_unique_address.hpp>
@@ -34,7 +34,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Called with each sample, or with the sample and how its tick began, a `wake`; returns the next force.
+/// A controller is called with each sample, or with the sample and the `wake` that began its tick, and returns
+/// the next force.
 template <class C, class P>
 concept controller_for = std::is_invocable_r_v < typename P::effort,
         C&, const device_sample<P>
@@ -43,17 +44,17 @@ concept controller_for = std::is_invocable_r_v < typename P::effort,
 /// Why a loop has ended.
 enum class loop_end : std::uint8_t {
   not_yet,           ///< it runs, or has never run
-  stopped,           ///< somebody asked for it, or the ticks asked for are over
+  stopped,           ///< stop() was called, or the ticks asked for are over
   unplugged,         ///< the device is gone
-  controller_threw,  ///< error() has what
+  controller_threw,  ///< error() has the exception
 };
 
 /// How a start went. Converts to true when the loop runs.
 struct [[nodiscard]] loop_start {
   enum class code : std::uint8_t { ok, unplugged, no_thread, bad_period };
   code what = code::ok;
-  int error = 0;              ///< the system's number for why it gave no thread
-  realtime_report granted{};  ///< and refused, of what was asked for
+  int error = 0;              ///< the system's error number, if it gave no thread
+  realtime_report granted{};  ///< which realtime requests were granted and which refused
 
   constexpr explicit operator bool() const noexcept { return what == code::ok; }
 };
@@ -74,8 +75,8 @@ struct [[nodiscard]] loop_start {
 }
 
 /// While it runs, the device belongs to its thread: touch it again after stop(). Whatever ends the loop,
-/// stop(), an unplug or an exception of the controller, the last thing that the device is sent is zero force;
-/// if no valid sample answers, three times.
+/// stop(), an unplug or an exception of the controller, the last that the device is sent is zero force, up to
+/// three times until a valid sample answers.
 template <haptic_device Device, class Controller, pace Pace = steady_pace>
 requires controller_for<Controller, port_of_device<Device>>
 class runner {
@@ -102,8 +103,8 @@ class runner {
   runner& operator=(const runner&) = delete;
   ~runner() { stop(); }
 
-  /// Returns once the thread has asked the system for what it is to ask. What is refused stops nothing.
-  /// Does nothing while it runs. After an unplug: unplugged, until the device is open again.
+  /// Starts the thread and returns once it has made its requests to the system; the loop runs even if some are
+  /// refused. While it runs, start() does nothing. After an unplug it fails until the device is open again.
   loop_start start(const realtime_request& wanted = {}) noexcept {
     if (thread_.joinable()) {
       if (running_) return {.granted = granted_};
@@ -132,7 +133,7 @@ class runner {
     request_stop();
     if (thread_.joinable()) thread_.join();
   }
-  /// The tick that is being worked on is the last. Any thread, so the controller, too.
+  /// Ends the loop after the present tick. Any thread may call it, the controller too.
   void request_stop() noexcept { stop_ = true; }
 
   /// False before start(), after stop(), and once it has ended by itself.
@@ -141,11 +142,11 @@ class runner {
   /// The newest state since the last take(), or null. One thread only.
   [[nodiscard]] const news* take() noexcept { return box_.take(); }
 
-  // While it does not run:
+  // The rest is for while it does not run.
   [[nodiscard]] loop_end ended() const noexcept { return end_; }
   /// What the controller threw, or null.
   [[nodiscard]] std::exception_ptr error() const noexcept { return error_; }
-  /// Of the last run.
+  /// The tick lengths and the counts of the last run.
   [[nodiscard]] const loop_timing& timing() const noexcept { return timing_; }
   [[nodiscard]] const loop_counts& counts() const noexcept { return counts_; }
 
@@ -165,7 +166,7 @@ class runner {
     return {};
   }
 
-  /// Zero, or the system's number for why it grants no thread. Where there are no exceptions the
+  /// Starts the thread: zero, or the system's error number where it gives none. Without exceptions the
   /// standard library can only end the program then.
   int begin(const realtime_request& wanted) noexcept {
     const auto work = [this, wanted] {
@@ -215,8 +216,8 @@ class runner {
     }
     return loop_end::stopped;
   }
-  /// What the first exchange tells is as old as the last run, or as the device. So the first sample to be
-  /// looked at is that of the second, which is a tick long.
+  /// The sample of the first exchange spans the time since the last run, so it is dropped. That of the second,
+  /// which is a tick long, is the first that the controller gets.
   [[nodiscard]] sample_type first(wake& now) noexcept {
     (void)device_.exchange(port_type::zero());
     pace_.begin();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Any haptic device: a force in, a sample out. The port that it belongs to is read off its exchange().
+// Any haptic device: a force goes in, a sample comes out. The type of exchange() tells the port.
 //
 //     struct my_device {
 //       ph::device_sample<scene> exchange(const scene::vector& force) noexcept {
@@ -31,7 +31,7 @@ struct exchanged<device_sample<P> (D::*)(Effort) noexcept> {
 
 struct no_reading {};
 
-/// What a device says of itself beside its samples, if it says anything.
+/// latest() of a device that has it: what it tells beside its samples.
 template <class D>
 [[nodiscard]] constexpr auto reading_of(const D& device) noexcept {
   if constexpr (requires { device.latest(); }) {
@@ -56,8 +56,8 @@ template <class D>
 template <class D>
 using port_of_device = typename detail::exchanged<decltype(&D::exchange)>::port;
 
-/// haptic_device_for the port that its exchange() names. unplugged(), which says that it is gone for good,
-/// and latest(), which says more than a sample, are optional.
+/// haptic_device_for the port that its exchange() names. Optional are unplugged(), true once the device is
+/// gone until it is opened again, and latest(), which tells more than a sample.
 template <class D>
 concept haptic_device = requires {
   typename port_of_device<D>;

@@ -6,12 +6,12 @@
 //     std::puts(ph::describe(offer, text));   // longest_tick 1.114 ms: 6 of 60000 ticks were longer; …
 //     ph::loop_limits{.longest_tick = offer.longest_tick}
 //
-// A longest_tick that every tick keeps is honest and may be soft: stiffness falls with T, as 2 b/T or
-// faster. One that some ticks exceed is stiffer, and those are an event::late_tick, which books what the
-// force did in them: a debt at worst. Which share of the ticks that may be is yours to choose.
+// A longest_tick T that every tick keeps is honest, but the wall may be soft: stiffness falls as 2 b/T or
+// faster. A T that some ticks exceed allows a stiffer wall. Each of those is an event::late_tick, and the
+// ledger books what the force did in it: at worst a debt. You choose the share of ticks that may be late.
 //
-// The histogram counts in buckets of 1/64 of the length, and answers with the upper end of a bucket: it
-// never says less than what was measured, nor more than 1.6 % above. It is 16 kB, without heap.
+// The histogram counts in buckets of 1/64 of the length and answers with the upper end of a bucket: never less
+// than what was measured, and at most 1.6 % more. It takes 16 kB and no heap.
 
 #include <passive_haptics/design/stiffness_budget.hpp>
 #include <passive_haptics/runner/text.hpp>
@@ -28,12 +28,12 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// How often a length of time came, from 1 ns to 68 s; a longer one counts as longer than that.
+/// Counts lengths of time from 1 ns to 68 s; a longer one falls into the last bucket.
 class duration_histogram {
  public:
   using nanoseconds = std::chrono::nanoseconds;
 
-  /// One below zero counts as zero.
+  /// Counts a length; one below zero counts as zero.
   constexpr void book(nanoseconds length) noexcept {
     const auto n = static_cast<std::uint64_t>((std::max)(length, nanoseconds(0)).count());
     ++buckets_[bucket_of(n)];
@@ -44,7 +44,7 @@ class duration_histogram {
   [[nodiscard]] constexpr std::uint64_t count() const noexcept { return count_; }
   [[nodiscard]] constexpr nanoseconds longest() const noexcept { return longest_; }  ///< exact
 
-  /// The least bound found that at least so many percent of the lengths keep; 0 before any.
+  /// A length that at least `percent` of all lengths do not exceed, to a bucket; 0 before the first.
   [[nodiscard]] nanoseconds percentile(double percent) const noexcept {
     const double rank = std::ceil(percent / 100.0 * static_cast<double>(count_));
     if (!(rank > 1.0)) return of_rank(1).length;
@@ -53,10 +53,10 @@ class duration_histogram {
   }
 
   struct bound {
-    nanoseconds length{};      ///< that
-    std::uint64_t longer = 0;  ///< so many exceeded
+    nanoseconds length{};
+    std::uint64_t longer = 0;  ///< how many lengths exceeded it
   };
-  /// The least bound found that no more than this share of the lengths, in [0, 1], exceed.
+  /// The least bound, to a bucket, that at most this share of the lengths, in [0, 1], exceeds.
   [[nodiscard]] constexpr bound all_but(double share) const noexcept {
     const double spared = kernels::smaller(kernels::larger(share, 0.0), 1.0);
     const auto longer = static_cast<std::uint64_t>(spared * static_cast<double>(count_));
@@ -64,12 +64,12 @@ class duration_histogram {
   }
 
  private:
-  static constexpr unsigned fine = 6;   ///< bits of a length that are kept
-  static constexpr unsigned wide = 36;  ///< bits of the longest one
+  static constexpr unsigned fine = 6;   ///< bits kept after the leading one
+  static constexpr unsigned wide = 36;  ///< bits of the longest length counted
   static constexpr std::size_t per_octave = std::size_t(1) << fine;
   static constexpr std::size_t size = (wide - fine + 1) * per_octave;
 
-  /// Below 2·64 ns a bucket is a nanosecond, above it is what 7 leading bits have in common.
+  /// Below 2·64 ns a bucket is a nanosecond wide; above, it holds the lengths with the same 7 leading bits.
   [[nodiscard]] static constexpr std::size_t bucket_of(std::uint64_t n) noexcept {
     const auto bits = static_cast<unsigned>(std::bit_width(n));
     if (bits > wide) return size - 1;
@@ -82,7 +82,7 @@ class duration_histogram {
     return nanoseconds(static_cast<std::int64_t>(((lead + 1) << dropped) - 1));
   }
 
-  /// A bound for the k-th shortest, from 1.
+  /// The upper end of the bucket of the k-th shortest length, k from 1.
   [[nodiscard]] constexpr bound of_rank(std::uint64_t k) const noexcept {
     std::uint64_t kept = 0;
     for (std::size_t i = 0; i + 1 < size; ++i) {
@@ -99,22 +99,22 @@ class duration_histogram {
 
 /// A longest_tick for a loop that was measured, and the stiffest wall that it leaves a device.
 struct tick_offer {
-  double share = 0.0;          ///< of the ticks, that were allowed to be longer
+  double share = 0.0;          ///< share of the ticks that was allowed to be longer
   double longest_tick = 0.0;   ///< [s]; 0 if nothing was measured
-  std::uint64_t longer = 0;    ///< that were
-  std::uint64_t measured = 0;  ///< ticks in all
-  design::budget wall{};       ///< with this longest_tick [N/m]
+  std::uint64_t longer = 0;    ///< number of ticks that were longer
+  std::uint64_t measured = 0;  ///< number of ticks in all
+  design::budget wall{};       ///< the stiffest wall with this longest_tick
 
-  /// Of n ticks that keep a bound, one says with 95 % confidence that a share of 3/n exceeds it at most,
-  /// if ticks are late independently of each other. So a smaller share than that is not known yet.
+  /// The number of ticks that a share takes: if n ticks keep a bound, at most a share of 3/n of all ticks
+  /// exceeds it with 95 % confidence, provided that ticks are late independently of each other.
   [[nodiscard]] constexpr std::uint64_t needed() const noexcept {
     return share > 3e-18 ? static_cast<std::uint64_t>(3.0 / share) : ~std::uint64_t(0);
   }
   [[nodiscard]] constexpr bool enough() const noexcept { return measured >= needed(); }
 };
 
-/// `share` of the ticks may be longer, 0 to 1; `device` is told the longest tick by this. A wall on which
-/// nothing but viscous damping is known may be asked with friction and quantum 0: it is 2 b/T then.
+/// `share`, 0 to 1, of the ticks may be longer; the longest_tick of `device` is set by this. For a device of
+/// which only the viscous damping is known, state friction and quantum 0: the wall is 2 b/T then.
 [[nodiscard]] constexpr tick_offer offer_longest_tick(
     const duration_histogram& lengths, double share, design::stated_device device,
     const design::intended_use& use = {}) noexcept {
@@ -127,7 +127,7 @@ struct tick_offer {
           .wall = design::stiffness_budget(device, use)};
 }
 
-/// The whole sentence, into `text`; cut off where it is too long.
+/// Writes the offer as a sentence into `text`, cut off where it is too long.
 inline const char* describe(const tick_offer& offer, std::span<char> text) noexcept {
   const auto whole = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
   detail::cut_text said(text);
@@ -144,19 +144,19 @@ inline const char* describe(const tick_offer& offer, std::span<char> text) noexc
 /// The ticks of a loop.
 struct loop_counts {
   std::uint64_t ticks = 0;
-  std::uint64_t late = 0;              ///< began more than half a period late: dt > 1.5 periods
+  std::uint64_t late = 0;              ///< ticks with dt > 1.5 periods
   std::uint64_t lost = 0;              ///< periods in which there was no tick
-  std::uint64_t refused = 0;           ///< forces that were no number, and zero was commanded
-  std::chrono::nanoseconds longest{};  ///< from one to the next
+  std::uint64_t refused = 0;           ///< forces with NaN or infinity: zero was commanded
+  std::chrono::nanoseconds longest{};  ///< the longest dt
 };
 
-/// How its ticks were spread over time.
+/// How the ticks of a loop were spread over time.
 struct loop_timing {
   duration_histogram lengths;   ///< dt, from wake to wake
   duration_histogram lateness;  ///< from due to wake
 };
 
-/// Both as a table of percentiles, in milliseconds, into `text`; cut off where it is too long.
+/// Writes both as a table of percentiles [ms] into `text`, cut off where it is too long.
 inline const char* describe(const loop_timing& timing, std::span<char> text) noexcept {
   detail::cut_text said(text);
   const auto ms = [](std::chrono::nanoseconds t) { return 1e-6 * static_cast<double>(t.count()); };

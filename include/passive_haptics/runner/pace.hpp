@@ -6,9 +6,9 @@
 //   wake     │        │·       │··       │        ········│        │
 //   dt               T+late …  from wake to wake           lost    T after the late wake
 //
-// The sleep is absolute, so what a tick takes, and a wake that is a little late, do not add up to a drift.
-// A wake that is a whole period late or more begins the grid anew: the periods that are lost are given up,
-// since a force for an instant that has passed is of no use to anybody. Linux sleeps with clock_nanosleep;
+// The sleep is absolute, so neither the work of a tick nor a wake that is a little late adds up to a drift.
+// A wake that is a whole period late or more begins the grid anew: the lost periods are given up, because a
+// force for an instant that has passed is of no use. Linux sleeps with clock_nanosleep;
 // elsewhere std::this_thread::sleep_until does.
 
 #include <passive_haptics/base/language.hpp>
@@ -28,7 +28,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A clock that is never set, and a sleep until one of its instants.
+/// A clock that nobody sets, and a sleep until one of its instants.
 template <class C>
 concept pacing_clock = requires(C c, std::chrono::nanoseconds t) {
   { c.now() } -> std::same_as<std::chrono::nanoseconds>;
@@ -36,7 +36,7 @@ concept pacing_clock = requires(C c, std::chrono::nanoseconds t) {
   requires noexcept(c.now())&& noexcept(c.sleep_until(t));
 };
 
-/// That of the computer.
+/// The monotonic clock of the computer.
 struct monotonic_clock {
 #if defined(__linux__)
   [[nodiscard]] static std::chrono::nanoseconds now() noexcept {
@@ -66,8 +66,8 @@ struct monotonic_clock {
 
 /// How a tick began.
 struct wake {
-  std::chrono::nanoseconds dt{};    ///< since the one before
-  std::chrono::nanoseconds late{};  ///< after it was due
+  std::chrono::nanoseconds dt{};    ///< since the wake before
+  std::chrono::nanoseconds late{};  ///< since it was due
   std::uint64_t lost = 0;           ///< whole periods that were given up
 
   [[nodiscard]] constexpr double seconds() const noexcept {  ///< dt [s]
@@ -75,7 +75,7 @@ struct wake {
   }
 };
 
-/// begin() is now; next() waits until the next tick is due. Both are called in the loop's thread.
+/// begin() starts the grid of ticks, next() waits until a tick is due. The loop's thread calls both.
 template <class P>
 concept pace = requires(P p) {
   p.begin();

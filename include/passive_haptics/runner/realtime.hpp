@@ -2,13 +2,13 @@
 #pragma once
 // What a haptic thread asks of the computer, so that nothing else takes its turn:
 //
-//   priority       SCHED_FIFO: before everything that has none
-//   memory         mlockall, and the stack touched: no page has to be fetched in a tick
-//   core           one of its own; boot with isolcpus=N to have it alone
+//   priority       SCHED_FIFO: the thread runs before all threads that have none
+//   memory         mlockall and a touched stack: no page has to be fetched in a tick
+//   core           the thread stays on one core; boot with isolcpus=N to keep others off it
 //
-// Each may be refused, and the loop then runs all the same, only later: the report says what was refused,
-// why, and what to do. Linux only; elsewhere the report says that nobody was asked. A kernel that is not
-// built for it (PREEMPT_RT) is late by milliseconds now and then, whatever the priority.
+// Each may be refused. The loop then runs all the same, with later ticks, and the report says what was
+// refused, why, and what to do. This is for Linux only; elsewhere the report says that nobody was asked. A
+// kernel without PREEMPT_RT is late by milliseconds now and then, whatever the priority.
 
 #include <passive_haptics/runner/text.hpp>
 
@@ -27,24 +27,24 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What is asked for; nothing, by default.
+/// What is asked for. The default asks for nothing.
 struct realtime_request {
-  int priority = 0;          ///< of SCHED_FIFO, 1 to 99; 0 asks for none
-  bool lock_memory = false;  ///< of the whole process, for as long as it lives
-  int core = -1;             ///< to run on, from 0; −1 asks for none
+  int priority = 0;          ///< priority of SCHED_FIFO, 1 to 99; 0 asks for none
+  bool lock_memory = false;  ///< lock the memory of the process, for as long as it lives
+  int core = -1;             ///< core to run on, from 0; −1 asks for none
 };
 
 enum class grant : std::uint8_t { not_asked, granted, refused, unsupported };
 
-/// What became of it.
+/// What became of a request.
 struct realtime_report {
   struct answer {
     grant what = grant::not_asked;
-    int error = 0;  ///< the system's number for why it was refused
+    int error = 0;  ///< errno of a refusal
   };
   answer scheduler{}, memory{}, core{};
 
-  /// Everything that was asked for.
+  /// True if everything that was asked for was granted.
   [[nodiscard]] constexpr bool complete() const noexcept {
     const auto well = [](const answer& a) {
       return a.what == grant::not_asked || a.what == grant::granted;
@@ -53,7 +53,7 @@ struct realtime_report {
   }
 };
 
-/// The calls of the system for the thread that makes them: 0, or the number of an error.
+/// The system's calls, for the thread that makes them. Each returns 0 or errno.
 struct realtime_system {
 #if defined(__linux__)
   static constexpr bool supported = true;
@@ -88,7 +88,7 @@ struct realtime_system {
 
 namespace detail {
 
-/// So deep a loop may call; each page of it is written once.
+/// Writes once to each page of the stack that a loop may need, 64 kB.
 #if defined(__GNUC__)
 [[gnu::noinline]]
 #endif
@@ -102,7 +102,7 @@ touch_stack() noexcept {
 
 }  // namespace detail
 
-/// For the thread that calls it, before its loop.
+/// Makes the requests for the thread that calls it, before its loop.
 template <class System = realtime_system>
 realtime_report become_realtime(const realtime_request& request, System&& system = {}) noexcept {
   realtime_report report;
@@ -119,8 +119,8 @@ realtime_report become_realtime(const realtime_request& request, System&& system
   return report;
 }
 
-/// What was refused, why, and the remedy, a line each, into `text`; cut off where it is too long. Empty
-/// if nothing was.
+/// Writes a line for each refusal, with its reason and the remedy, into `text`, cut off where it is too long.
+/// The text is empty if nothing was refused.
 inline const char* describe(const realtime_report& report, std::span<char> text) noexcept {
   detail::cut_text said(text);
   const auto why = [](int error) {

@@ -2,14 +2,14 @@
 #pragma once
 // A scope: the last N ticks, kept in the loop and looked at afterwards.
 //
-//     static ph::scope<scene, 4096> seen{ph::event::late_tick};   // stands still half of N after that
+//     static ph::scope<scene, 4096> seen{ph::event::late_tick};   // freezes N/2 ticks after that event
 //     …  const auto out = wall.tick(sample);  seen.record(sample, out);        // in the loop
 //     …  if (seen.frozen()) ph::save(seen, "scope.csv");                       // elsewhere, afterwards
 //     gnuplot -e "file='scope.csv'" examples/scope.gp
 //
-// record() copies a row: no heap, lock, clock or file. Another thread may look once frozen() says so; the
-// thread of the loop, or anybody after its end, at any time. N rows of some 100 bytes each: make it static,
-// or a member of what is. Works at any port, with the result of a local_model or of a port of any source.
+// record() copies a row and needs no heap, lock, clock or file. Another thread may read the rows once
+// frozen() is true; the loop's own thread, or any thread after the loop, may read them at any time. A scope
+// holds N rows of some 100 bytes each, so make it static. It works at any port, with any source.
 
 #include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -28,23 +28,23 @@ inline namespace v0 {
 /// One tick.
 template <class Port>
 struct scope_row {
-  std::uint64_t tick = 0;  ///< of the recording, from 0
+  std::uint64_t tick = 0;  ///< number of the row in the recording, from 0
   double time = 0.0;       ///< sum of dt up to here [s]
   typename Port::scalar dt{};
   typename Port::stored_pose position{};
-  typename Port::stored_effort wanted{};  ///< before the bound, if it was told
-  typename Port::stored_effort given{};   ///< after it
-  typename Port::scalar depth{};          ///< if the result has one
-  typename Port::scalar energy{};         ///< of the ledger [J]
+  typename Port::stored_effort wanted{};  ///< effort before the bound, if record() was given it
+  typename Port::stored_effort given{};   ///< effort after the bound
+  typename Port::scalar depth{};          ///< depth, if the result has one [m]
+  typename Port::scalar energy{};         ///< E1 [J]
   event what = event::nominal;
   bool limited = false;
-  bool valid = false;       ///< of the sample
-  bool has_wanted = false;  ///< wanted was told
+  bool valid = false;  ///< the sample was valid
+  bool has_wanted = false;
   bool has_depth = false;
 };
 
-/// Keeps the last N rows. With a trigger it stands still once it has N/2 rows from the first event on that is
-/// as severe, and so shows the N/2 before it and what came of it.
+/// Keeps the last N rows. With a trigger it freezes N/2 rows after the first event that is at least as
+/// severe, so it shows N/2 rows before the event and N/2 from it on.
 template <port Port, std::size_t N>
 class scope {
   static_assert(N >= 2, "passive_haptics: a scope keeps two ticks or more");
@@ -83,11 +83,11 @@ class scope {
     detail::refuse_bare_time<Number>();
   }
 
-  /// What no event tells, a force that is too large, say: in the loop, before record().
+  /// Triggers on anything that no event tells, such as a large force: in the loop, before record().
   void trigger() noexcept {
     if (!triggered_) pull(written_);
   }
-  /// Clears it for the next time. In the loop, or while it does not run.
+  /// Clears the rows and the trigger. In the loop, or while it does not run.
   void clear() noexcept {
     written_ = 0;
     time_ = 0.0;
@@ -95,9 +95,9 @@ class scope {
     frozen_ = false;
   }
 
-  /// It stands still: nothing is recorded any more. Any thread.
+  /// True once nothing is recorded any more. Any thread may ask.
   [[nodiscard]] bool frozen() const noexcept { return frozen_; }
-  /// Rows there are, N at most.
+  /// The number of rows, at most N.
   [[nodiscard]] std::size_t size() const noexcept {
     return written_ < N ? static_cast<std::size_t>(written_) : N;
   }
@@ -105,7 +105,7 @@ class scope {
   [[nodiscard]] const row& operator[](std::size_t i) const noexcept {
     return rows_[static_cast<std::size_t>((written_ - size() + i) % N)];
   }
-  /// It was triggered, in this tick of the recording.
+  /// Whether it was triggered, and in which tick of the recording.
   [[nodiscard]] bool triggered() const noexcept { return triggered_; }
   [[nodiscard]] std::uint64_t triggered_at() const noexcept { return at_; }
 
@@ -161,7 +161,7 @@ inline constexpr bool is_turned = requires(const Pose& x) {
   x.orientation;
 };
 
-/// Metres and newtons in a space, radians and newton metres in joints; where joints slide, say so.
+/// Metres and newtons in a space, radians and newton metres in joints. Name others for joints that slide.
 template <class Port>
 [[nodiscard]] constexpr scope_units usual_units() noexcept {
   if constexpr (requires { typename Port::geometry; } || is_turned<typename Port::stored_pose>) {
@@ -171,7 +171,7 @@ template <class Port>
   }
 }
 
-/// Fields of a line, numbers in no locale and with all the digits that bring them back.
+/// A line of fields. Numbers are written without a locale, with all digits that reading them back needs.
 class csv_line {
  public:
   void text(const char* s) { (text_ += comma()) += s; }
@@ -210,7 +210,7 @@ class csv_line {
   bool first_ = true;
 };
 
-/// x, y, z in a space, 1, 2, … in joints; nothing where there is only one.
+/// _x, _y, _z in a space, _1, _2, … in joints, and nothing where there is only one axis.
 template <class Port>
 [[nodiscard]] inline std::string axis_name(int i, int count) {
   if (count == 1) return "";
@@ -281,8 +281,8 @@ void write_row(csv_line& line, const scope_row<Port>& r) {
 
 }  // namespace detail
 
-/// A heading with units, then a line for each row, the oldest first; an empty field is what was not told.
-/// False if the file cannot be written. Not in the loop.
+/// Writes a heading with units and a line for each row, the oldest first, with empty fields for what was not
+/// recorded. False if the file cannot be written. Not for the loop.
 template <class Port, std::size_t N>
 bool save(const scope<Port, N>& seen, const char* path,
           const scope_units& units = detail::usual_units<Port>()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Sentences into room that the caller gives, cut off where it is too small.
+// Writes sentences into memory that the caller gives, cut off where it is too small.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -14,7 +14,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// Always ends with a zero, if there is room for one.
+/// The text always ends with a zero, unless the room is empty.
 class cut_text {
  public:
   explicit cut_text(std::span<char> room) noexcept : room_(room) {
@@ -31,7 +31,7 @@ class cut_text {
     room_[length_] = '\0';
     return *this;
   }
-  /// As printf would write it: numbers, and names of one word.
+  /// Adds what printf would write, up to 255 characters.
   template <class... Values>
   cut_text& print(const char* format, const Values&... values) noexcept {
     std::array<char, 256> line{};
