@@ -31,9 +31,9 @@
 // Published form: Ryu, Artigas, Preusche (2010) and Artigas, Ryu, Preusche, Hirzinger (IROS 2011),
 // from memory. The ledgers, the bound before the hold and the share are derived here.
 //
-// Assumes what the bound of the device assumes (b a lower bound, exact positions, ticks up to
-// longest_tick or a watchdog that drops the force then) and what admittance_side names.
-// Both sides start together. One that restarts alone could spend again what it has spent before.
+// It assumes what the bound of the device assumes (b is a lower bound, positions are exact, ticks last up to
+// longest_tick or a watchdog drops the force then) and what admittance_side names. Both sides start together:
+// one that restarts alone could spend again what it has spent before.
 
 #include <passive_haptics/two_port/admittance_side.hpp>
 #include <passive_haptics/two_port/energy.hpp>

@@ -14,9 +14,9 @@ inline namespace v0 {
 /// Parameters of the admittance side.
 struct admittance_parameters {
   double stiffness{};  ///< K [N/m]: f changes by at most K ‖Δp‖ on a step; 0: f is held over it
-  double drift_rate{};  ///< share of the position drift to make up for [1/s]; 0: none
-  double top_speed = std::numeric_limits<double>::infinity();  ///< of the tool [m/s]
-  double loan{};                                               ///< to start with [J]
+  double drift_rate{};  ///< share of the position drift that is made up for in a second [1/s]
+  double top_speed = std::numeric_limits<double>::infinity();  ///< top speed of the tool [m/s]
+  double loan{};                                               ///< E1 at the start [J]
   double cap = std::numeric_limits<double>::infinity();        ///< most credit to keep [J] (L7)
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -29,11 +29,11 @@ struct admittance_parameters {
   }
 };
 
-/// What a step of the admittance side knows.
+/// What a step of the admittance side returns.
 template <class Space>
 struct admittance_result {
-  typename Space::vector displacement;  ///< Δp', what the environment is to move the tool by [m]
-  typename Space::vector drift;         ///< where the hand is less where the tool is [m]
+  typename Space::vector displacement;  ///< Δp', by which the environment is to move the tool [m]
+  typename Space::vector drift;         ///< position of the hand less that of the tool [m]
   typename Space::scalar energy;        ///< E1 = E_in_rx − E_out [J]
   event what = event::nominal;
   bool limited = false;  ///< the controller changed the desired motion
@@ -44,23 +44,23 @@ struct admittance_result {
 /// tool by Δp'(k). The energy that goes into the environment is then no prediction but a number:
 ///     w = −f(k)·Δp'(k) + K ‖Δp'‖²/2  ≤  E1 = E_in_rx − E_out                    at every step
 ///     w > 0: E_out += w      w < 0: E_in += −w
-/// Of the motion Δp wanted, only the part along f is cut:  Δp' = Δp + β f,  β ≥ 0 the least that
-/// does it (v' = v − β f of § 2(d), where f is the force INTO the environment). So E_out ≤ E_in_rx
-/// exactly, with nothing carried over and no threshold on f.
+/// Of the motion Δp wanted, only the part along f is cut:  Δp' = Δp + β f  with the least β ≥ 0 that suffices
+/// (v' = v − β f of § 2(d), where f is the force INTO the environment). So E_out ≤ E_in_rx exactly: no energy
+/// is carried over, and f needs no threshold.
 ///
 /// Strict, K = 0: for every environment that consumes (Δp', f) in discrete time, i.e. whose port
 /// energy is Σ f(k)·Δp'(k), however active it is.
 /// Strict, K > 0: for every environment in continuous time whose force on the straight way changes
 /// by at most K per metre, and that moves by itself between steps only. The price is Colgate's: a
-/// motion costs K ‖Δp‖²/2 a step, in free space too, and someone must have paid it in: the loan, or
-/// a hand that works against a force. settle() gives back what was not used.
-/// An environment with K > 0 that is told K = 0 receives up to K ‖Δp'‖²/2 a step unseen.
+/// motion costs K ‖Δp‖²/2 a step, in free space too, which the loan or a hand that works against a force must
+/// have paid in. settle() gives back what was not used. If K = 0 is stated for an environment with K > 0, it
+/// receives up to K ‖Δp'‖²/2 a step unseen.
 ///
-/// Drift: motion that was cut, or lost to top_speed, is missing for good, unless drift_rate > 0
-/// adds drift_rate·dt of it to each step. It is part of Δp, so it spends only surplus. (Purpose as
-/// in Chawda and O'Malley's drift compensators, from memory; the law is derived here.)
+/// Drift: motion that was cut, or lost to top_speed, is missing for good, unless drift_rate > 0 adds the share
+/// drift_rate·dt of it to each step. That is part of Δp, so it spends only surplus. (The purpose is that of
+/// Chawda and O'Malley's drift compensators, from memory; the law is derived here.)
 ///
-/// Assumes: the tool moves as told, and f is the force of that step.
+/// It assumes that the tool moves as told, and that f is the force of that step.
 template <class Space, class Ledger = typename Space::scalar>
 class admittance_side {
  public:
@@ -81,8 +81,7 @@ class admittance_side {
         sound_(!parameters.check()) {}
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return parameters_.check(); }
-  /// New parameters; ledger and position are kept, and a loan is not lent again. A fault changes
-  /// nothing.
+  /// Sets new parameters, unless they have a fault. The ledger and the position stay; no new loan is lent.
   constexpr parameter_fault set(const admittance_parameters& p) noexcept {
     const auto fault = p.check();
     if (fault) return fault;
@@ -92,8 +91,7 @@ class admittance_side {
     return fault;
   }
 
-  /// A packet {E_in, position} from the other side. A position that is not finite is not taken
-  /// over.
+  /// Takes a packet {E_in, position} from the other side. A position that is not finite is left out.
   constexpr void receive(const packet_type& packet) noexcept {
     energy_ += received_.gain(packet.energy);
     cut();
@@ -129,8 +127,8 @@ class admittance_side {
     return result(Space::zero(), event::nominal, false);
   }
 
-  /// After a step, the work [J] the environment did on the tool in it, ∫ f·dp', exact or a lower
-  /// bound: what the step had set aside and did not need is credit again. For K > 0.
+  /// Takes, after a step with K > 0, the work [J] that the environment did on the tool in it, ∫ f·dp',
+  /// exact or a lower bound: what the step had set aside and did not need is credit again.
   constexpr void settle(scalar work) noexcept {
     if (!kernels::is_finite(work)) return;
     energy_ += work - reserved_;
@@ -152,7 +150,7 @@ class admittance_side {
     if (value() > cap) energy_ = cap;
   }
 
-  /// What the hand did since the last step, and some of the drift.
+  /// The motion of the hand since the last step, and drift_rate·dt of the drift, at most at top_speed.
   [[nodiscard]] constexpr vector desired_motion(scalar dt) const noexcept {
     const vector goal = target_;
     const vector followed = followed_;
@@ -165,13 +163,13 @@ class admittance_side {
     return length > most ? vector(wanted * (most / length)) : wanted;
   }
 
-  /// K ‖Δp‖²/2 [J], the most that a force of that slope can add to −f·Δp on the way.
+  /// K ‖Δp‖²/2 [J], the most that a force which changes by K per metre can add to −f·Δp.
   [[nodiscard]] constexpr scalar leak(const vector& motion) const noexcept {
     return detail::number<scalar>(parameters_.stiffness) * Space::dot(motion, motion) / scalar(2);
   }
 
-  /// The motion nearest to `wanted` with −f·Δp ≤ E1; if there is a leak, then shortened to what
-  /// E1 covers. Rounding errors are on the safe side.
+  /// The motion nearest to `wanted` with −f·Δp ≤ E1; with a leak it is then shortened until E1 covers that,
+  /// too. Rounding errors are on the safe side.
   [[nodiscard]] constexpr vector affordable(const vector& wanted,
                                             const vector& force) const noexcept {
     const scalar rounding = scalar(8) * std::numeric_limits<scalar>::epsilon();
@@ -194,7 +192,7 @@ class admittance_side {
     return moved * (s * (scalar(1) - rounding));
   }
 
-  /// Work of the environment on the tool [J]: > 0 is promised to the other side, < 0 is spent.
+  /// Books the work of the environment on the tool [J]: > 0 is promised to the other side, < 0 is spent.
   constexpr void book(scalar work) noexcept {
     reserved_ = work;
     (work > scalar(0) ? promised_ : energy_) += work;

@@ -20,9 +20,9 @@ inline namespace v0 {
 /// Drops into any passive_port and impedance_side; with strict_bound E1 ≥ 0 by lemma L3, because a tick
 /// changes E1 by ΔxᵀBΔx − f·Δx when f·Δx > 0 and never lowers it otherwise.
 ///
-/// The price: what the hand puts in comes back over the channel or not at all. Pressed slowly from
-/// an empty ledger, strict_bound shows at most 2B (1 − share) N/m, B = b/T (lemma L4 with the
-/// promised part gone): for share = 1 nothing but what the damping and the other side have paid.
+/// The price is that what the hand puts in comes back over the channel or not at all. Pressed slowly from an
+/// empty ledger, strict_bound shows at most 2B (1 − share) N/m, B = b/T (lemma L4 without the promised part).
+/// With share = 1 it shows only what the damping and the other side have paid for.
 template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
 struct basic_two_port_energy {
   static constexpr guarantee passivity = guarantee::strict;
@@ -30,7 +30,7 @@ struct basic_two_port_energy {
   static constexpr bool exact = true;
 
   Damping damping{};   ///< b [N·s/m], a lower bound
-  double share = 1.0;  ///< promised of what the hand puts in, 0 to 1
+  double share = 1.0;  ///< share of what the hand puts in that is promised, 0 to 1
   double loan{};       ///< E1 at the start [J]
   double cap = std::numeric_limits<double>::infinity();  ///< most credit to keep [J] (L7)
 
@@ -72,7 +72,7 @@ class basic_two_port_energy<Damping, Sum>::on {
             .loan = static_cast<double>(loan_),
             .cap = static_cast<double>(cap_)};
   }
-  /// Both sides together, or not at all: a side that starts anew alone spends again what it has spent.
+  /// Reset both sides together: a side that starts anew alone spends again what it has spent already.
   constexpr void reset() noexcept {
     energy_ = loan_;
     promised_ = scalar(0);

@@ -9,16 +9,16 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The device's end of the channel, a passive port that asks for the newest force that has arrived.
-/// What it promises, `passivity`, is the sum of both ports ≥ 0 with any other side that keeps E1 ≥ 0,
-/// under the assumptions of its bound.
+/// The device's end of the channel: a passive port that asks for the newest force that has arrived. Its
+/// `passivity` means that the energies of both ports together stay ≥ 0, but for the loans, with any other side
+/// that keeps E1 ≥ 0, under the assumptions of its bound.
 ///     ph::impedance_side master{scene{}, ph::two_port_energy{.damping = 2.0}, ph::strict_bound{},
 ///                               ph::loop_limits{.longest_tick = 0.0011}};
 ///     master.receive(packet);                                // as many as have come, in any order
 ///     device.command(master.tick(sample).force);
 ///     channel.send(master.packet());                         // {E_in, position}
-/// A channel that falls silent holds the last force until the ledger is spent, or, with a given_force
-/// that is told so, until it is stale.
+/// If the channel falls silent, the last force is held until the ledger is spent, or until it is stale
+/// where the given_force states `stale_after`.
 template <class Space, class Observer, class Bound, class Limits = loop_limits>
 class impedance_side : public passive_port<Space, given_force, Observer, Bound, Limits> {
   using side = passive_port<Space, given_force, Observer, Bound, Limits>;
@@ -33,8 +33,8 @@ class impedance_side : public passive_port<Space, given_force, Observer, Bound, 
                            const given_force& rule = {.stale_after = infinity}) noexcept
       : side(where, rule, observer, bound, limits) {}
 
-  /// A packet {E_in, force} from the other side. A force that is no number is refused, and the next
-  /// tick says so.
+  /// Takes a packet {E_in, force} from the other side. A force with NaN or infinity is refused, and the
+  /// next tick says so.
   constexpr void receive(const packet_type& packet) noexcept {
     this->observer().receive(packet.energy);
     if (packet.number <= newest_) return;
@@ -49,7 +49,7 @@ class impedance_side : public passive_port<Space, given_force, Observer, Bound, 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   std::uint64_t newest_ = 0;  ///< number of the newest force, 0 before the first
-  std::uint64_t number_ = 0;  ///< of the last packet made
+  std::uint64_t number_ = 0;  ///< number of the last packet made
 };
 
 }  // namespace v0

@@ -17,13 +17,13 @@ struct port_packet {
   Payload payload{};       ///< towards the environment a position [m], towards the hand a force [N]
 };
 
-/// The largest promise that has arrived. A packet that is lost, late or there twice needs no
-/// treatment: the next one carries the whole sum.
+/// The largest promise that has arrived. A packet that is lost, late or doubled needs no treatment, because
+/// the next one carries the whole sum.
 template <class Scalar>
 struct received_energy {
   Scalar newest{};  ///< E_in_rx [J]
 
-  /// What a packet adds to it [J], ≥ 0. One that is not finite adds nothing.
+  /// Takes the sum that a packet promises; returns what it adds [J], ≥ 0, and 0 if it is not finite.
   constexpr Scalar gain(Scalar promised) noexcept {
     if (!kernels::is_finite(promised) || !(promised > newest)) return Scalar(0);
     const Scalar gained = promised - newest;

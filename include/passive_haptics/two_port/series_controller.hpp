@@ -15,15 +15,15 @@ inline namespace v0 {
 ///     E_out += max(f·v dt, 0)      E_in += max(−f·v dt, 0)
 ///     E_out > E_in_rx and ‖v‖ > v_min:   α = (E_out − E_in_rx)/(dt v²) ≤ max_gain
 ///                                        f' = f − α v,   E_out −= α v² dt
-/// § 2(d), from memory; thresholds as seen in public code. What the cap leaves is carried on.
+/// (§ 2(d), from memory; thresholds as seen in public code.) What max_gain leaves of E_out is carried on.
 ///
-/// Passive if f and v were constant over the sample together. They are not: f' is held during the
+/// This would be passive if f and v were constant over one and the same sample. But f' is held during the
 /// NEXT displacement, and on a sampled stiff wall this bookkeeping sees no leak at all (lemma L2).
-/// impedance_side is the form that holds.
+/// impedance_side is the form that keeps the promise.
 struct two_port_series_parameters {
-  double min_speed = 1e-3;  ///< no action below [m/s]
+  double min_speed = 1e-3;  ///< v_min; nothing is done below it [m/s]
   double max_gain =
-      std::numeric_limits<double>::infinity();  ///< most α [N·s/m]; ≤ 0.5 m/T is stable
+      std::numeric_limits<double>::infinity();  ///< largest α [N·s/m]; stable up to 0.5 m/T
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::not_negative(min_speed)) return {"min_speed", min_speed, "finite and ≥ 0 m/s"};
