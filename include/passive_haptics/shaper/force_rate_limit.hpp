@@ -2,17 +2,17 @@
 #pragma once
 // A limit on the jumps that the environment causes.
 //
-//   force_rate_limit  f within f_LM ± rate·dt         no jumps at updates
+//   force_rate_limit  f within f_LM ± rate·dt         an update causes no jump
 
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// f within f_LM ± `rate`·dt, along the normal: what the hand's own motion does to the force passes
-/// at once, what the environment does (an update, a lost contact) passes at `rate` N/s. That is the
-/// local surface moving at no more than rate/K m/s (A23). It may hold a force above the desired one
-/// while the surface retreats, so it stands before the energy bound, as every shaper does.
+/// f within f_LM ± `rate`·dt along the normal, f_LM the force at the depth in the local model: a change of
+/// the force by the hand's own motion passes at once, one by the environment (an update, a lost contact) at
+/// `rate`. The local surface then moves at rate/K m/s at most (A23). While the surface retreats the force
+/// may be above the desired one, so this stands before the energy bound, as every shaper does.
 struct force_rate_limit {
   static constexpr bool needs_local_model = true;
   static constexpr bool needs_ledger = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// PO/PC that repays during the whole release instead of in one late burst.
+// PO/PC that takes energy out during the whole release instead of in one late burst.
 //
 //   reference_energy                α = (E_thr + r K d²/2 − E) dt/‖Δx‖²     NOT passive
 //   reference_energy_with_damping   the same, the device's damping credited
@@ -10,16 +10,16 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// series_passivity_controller that keeps a share r of the contact spring's energy, r K d²/2, so what a
-/// release will lose is taken out all the way. Inspired by the reference energy of Ryu, Preusche,
-/// Hannaford and Hirzinger 2005. As that controller, NOT passive.
+/// A series_passivity_controller that acts as soon as E is below E_thr + r K d²/2, the share r of the energy
+/// of the contact spring, so it takes out all along what a release will lose. Inspired by the reference
+/// energy of Ryu, Preusche, Hannaford and Hirzinger 2005. NOT passive, as that controller is not.
 template <damping_credit Credit = damping_credit::none>
 struct basic_reference_energy {
   static constexpr bool needs_local_model = false;
   static constexpr bool needs_ledger = Credit == damping_credit::counted;
 
   basic_series_controller<Credit> controller{};
-  double part = 1.0;  ///< r, of the spring's energy, 0 to 1
+  double part = 1.0;  ///< r, the share of the spring's energy, 0 to 1
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(part >= 0.0 && part <= 1.0)) return {"part", part, "in [0, 1]"};

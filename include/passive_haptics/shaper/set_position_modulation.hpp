@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Passive set-position modulation (PSPM): gates the energy that an update of the surface puts into
-// the contact spring, and nothing else.
+// Passive set-position modulation (PSPM): limits the energy that an update of the surface puts into the
+// contact spring, and nothing else.
 //
-//   set_position_modulation   ½ K d_new² ≤ ½ K d_old² + E      excellent against jumps of the
-//                                                              environment; does not see the hold
+//   set_position_modulation   ½ K d_new² ≤ ½ K d_old² + E      good against jumps of the environment;
+//                                                              blind to the leak of the hold
 //
 // For walls stiffer than 2b/T take strict_bound for the port.
 
@@ -18,27 +18,27 @@ inline namespace v0 {
 
 /// Who pays for the leak of the zero-order hold, K Δx²/2 per tick (lemma L2).
 enum class hold_leak : std::uint8_t {
-  paid,     ///< it is taken out of the damping first: passive for K ≤ 2b/T
-  ignored,  ///< the spring counts as one of continuous time, as published
+  paid,     ///< the damping pays for it first: passive for K ≤ 2b/T
+  ignored,  ///< the spring counts as one in continuous time, as published
 };
 
 /// The contact spring is moved away from the device no farther than a tank covers. Between updates
 /// the spring is left alone. At an update:
 ///     E ← min(E + D_min + ½ K d_old² − ½ K d_new², cap),     d_new the deepest ≤ d* with E ≥ 0
 ///     D_min = (b − K T/2) (max x − min x)²/(t_k − t_{k−1})      b alone where the leak is ignored
-/// x is the travel along the normal since the last update. The gap between d* and d_new stays until
-/// the next update, or until the device leaves: then the surface follows it out, which costs
-/// nothing. What the spring asked for and the motors did not hold is booked too.
+/// x is the travel along the normal since the last update. The gap between d* and d_new stays until the
+/// next update, or until the device leaves: then the surface follows it out, which costs nothing. If the
+/// motors held less than the spring asked for, the tank books that difference, too.
 ///
 /// Source: Lee and Huang 2010, form from memory; proofs: docs/design/mathematics.md § 2(e) for
 /// continuous time. With the leak paid, for a hold of T, with S = ½ K d²:
 ///     K ≤ 2b/T  ⇒  ΔE1 ≥ ΔS + (b/T − K/2) Δx² within an update, so  E1 ≥ S + E ≥ 0 throughout,
 /// and a tick cannot take more than it leaves, (K d)²/(4B) ≤ S.
 ///
-/// Assumes, where the leak is paid: every K the environment sends is ≤ 2b/T; b is a lower bound;
-/// every tick ≤ longest_tick; positions exact; no latency; the contact law asks at most K d; the
-/// force held is known and at most the one asked for. Stiffer, or with the leak ignored, it promises
-/// nothing: with a static wall it is the same as no bound at all. E at the start is a loan.
+/// Where the leak is paid it assumes: every K that the environment sends is ≤ 2b/T; b is a lower bound;
+/// every tick ≤ longest_tick; positions are exact; there is no latency; the contact law asks for K d at
+/// most; the force held is known and at most the one asked for. With a larger K, or the leak ignored, it
+/// promises nothing: on a static wall it is the same as no bound at all.
 template <hold_leak Leak = hold_leak::paid>
 struct basic_set_position_modulation {
   static constexpr bool needs_local_model = true;
@@ -110,7 +110,7 @@ class basic_set_position_modulation<Leak>::on {
   }
 
  private:
-  /// The spring that is there now, K [N/m], d [m] (< 0 outside), and its unit normal.
+  /// The present spring: K [N/m], d [m] (< 0 outside), and its unit normal.
   struct contact_spring {
     scalar stiffness{};
     scalar depth{};
@@ -121,17 +121,17 @@ class basic_set_position_modulation<Leak>::on {
   struct interval {
     scalar inward{}, least{}, most{};             ///< travel along the normal, and its range [m]
     scalar time{};                                ///< [s]
-    scalar damping = kernels::largest<scalar>();  ///< least that is free to spend [N·s/m]
+    scalar damping = kernels::largest<scalar>();  ///< least b − K T/2 so far, or b [N·s/m]
   };
 
   [[nodiscard]] static constexpr scalar stored(scalar stiffness, scalar depth) noexcept {
     return depth > scalar(0) ? stiffness * depth * depth / scalar(2) : scalar(0);
   }
 
-  /// One tick of the spring as it was; what it stores at the end of it [J]. A tick that was not
-  /// seen, or was too long, leaves neither spring nor credit.
+  /// Books one tick of the spring as it was, and returns the energy that it stores at the end [J]. A tick
+  /// that was not seen, or was too long, leaves neither that energy nor credit.
   constexpr scalar book(const auto& port) noexcept {
-    if (!(spring_.stiffness > scalar(0))) return scalar(0);  // never a target, never a force
+    if (!(spring_.stiffness > scalar(0))) return scalar(0);  // there was no target yet, so no force
     if (!port.motion_known || port.dt > port.longest_tick) {
       energy_ = kernels::smaller(energy_, scalar(0));
       since_ = {};
@@ -152,7 +152,7 @@ class basic_set_position_modulation<Leak>::on {
     return stored(spring_.stiffness, spring_.depth + inward);
   }
 
-  /// D_min into the tank. (lemma L1)
+  /// Puts D_min into the tank. (lemma L1)
   constexpr void collect() noexcept {
     const scalar range = since_.most - since_.least;
     if (since_.time > scalar(0) && since_.damping > scalar(0)) {
@@ -163,7 +163,7 @@ class basic_set_position_modulation<Leak>::on {
 
   scalar loan_{}, cap_{}, ask_again_{};
   scalar energy_{};          ///< E [J]
-  contact_spring spring_{};  ///< none at first
+  contact_spring spring_{};  ///< stiffness 0 before the first target
   interval since_{};
 };
 

@@ -10,10 +10,10 @@
 // guard decides what may grow. U(d) [J] is what the shaped spring gives back on a release from depth
 // d, and growth at d may raise it by no more than
 //     E_free = E1 − max(U(d), ¼ fᵀB⁻¹f)
-// U is a reservation: pressing raises it as it fills the ledger, releasing empties both alike, and
-// each increment is charged to it in full. So nothing is promised twice, and nothing has to be
-// remembered through a lost sample or a late tick. What it buys: from E1 ≥ U, a spring up to 2b/T
-// on a surface that stays put keeps E1 ≥ U in every motion, and the strict law never cuts it.
+// U is a reservation in the ledger: pressing raises both, releasing lowers both, and each increment is
+// charged to U in full. So no energy is promised twice, and nothing has to be remembered through a lost
+// sample or a late tick. From E1 ≥ U, a spring up to 2b/T on a surface that stays put keeps E1 ≥ U in every
+// motion, so the strict law never cuts it.
 //
 // Each is INSPIRED BY the work it names; the published control laws are not confirmed. Formulas and
 // proofs: docs/design/mathematics.md § 2(f).
@@ -24,20 +24,20 @@ namespace passive_haptics {
 inline namespace v0 {
 
 namespace detail {
-/// Is there anything to shape, and is it known how the device came here?
+/// True if there is a force to shape in contact, and the motion of the last tick is known.
 template <class Scalar, class Contact>
 [[nodiscard]] constexpr bool shapes(Scalar asked, const Contact& contact,
                                     bool motion_known) noexcept {
   return asked > Scalar(0) && contact.target_depth > Scalar(0) && motion_known;
 }
 
-/// The share of a force that has `asked` [N] along the normal when it may have `most` [N].
+/// The share of a force of `asked` [N] along the normal that leaves `most` [N], at most 1.
 template <class Scalar>
 [[nodiscard]] constexpr Scalar at_most(Scalar asked, Scalar most) noexcept {
   return most < asked ? most / asked : Scalar(1);
 }
 
-/// E_free [J], ≥ 0: what the ledger has beyond the release U and the worst next tick of the force.
+/// E_free [J], ≥ 0: what the ledger has beyond the larger of U and the worst next tick of the force.
 template <class Space>
 [[nodiscard]] constexpr typename Space::scalar spare(const typename Space::vector& desired,
                                                      typename Space::scalar left,
@@ -50,7 +50,7 @@ template <class Space>
   return kernels::larger(port.credit() - kernels::larger(release, outflow), scalar(0));
 }
 
-/// `wanted`, or as much of it as `spare` [J] pays for at `price` [J] each.
+/// `wanted` units, or as many as `spare` [J] pays for at `price` [J] a unit.
 template <class Scalar>
 [[nodiscard]] constexpr Scalar paid_for(Scalar wanted, Scalar price, Scalar spare) noexcept {
   return wanted * price <= spare ? wanted : spare / price;
@@ -59,9 +59,9 @@ template <class Scalar>
 
 /// f = min(f*, K_f d), 1/K_f = 1/K_c + 1/K, and K_c grows in contact, each tick of length dt by
 ///     ΔK_c = min(rate·dt, most − K_c, 2 E_free/d²)       charged: ΔK_f d²/2 ≤ ΔK_c d²/2 [J]
-/// It is back at `initial` when contact, or a sample, is lost. U = K_f d²/2. Inspired by the
-/// nonlinear virtual coupling of the thesis (Fig. 1.7), of which only the idea is known. The price:
-/// strict_bound's, and a press starts soft.
+/// It is back at `initial` when contact, or a sample, is lost. U = K_f d²/2. Inspired by the nonlinear virtual
+/// coupling of the thesis (Fig. 1.7), of which only the idea is known. It costs what strict_bound costs, and a
+/// press starts soft.
 struct nonlinear_coupling {
   static constexpr bool needs_local_model = false;
   static constexpr bool needs_ledger = true;
@@ -128,16 +128,16 @@ struct nonlinear_coupling {
 /// f = min(f*, K_i d), and K_i grows when a press follows a release, after a bounce too, by
 ///     ΔK = min(step, K − K_i, 2 E_free/d²)               charged: ΔK d²/2 [J]
 /// It is back at `initial` after `reset_after` out of contact, or a lost sample. U = K_i d²/2.
-/// Inspired by the successive stiffness increment (SSI) of Singh, Jafari and Ryu. A tick that moves
-/// the other way counts as a turn, so quantised or noisy positions make it grow sooner: the guard
-/// holds all the same. The price: strict_bound's, and the first presses are soft.
+/// Inspired by the successive stiffness increment (SSI) of Singh, Jafari and Ryu. A single tick that moves the
+/// other way counts as a turn, so quantised or noisy positions make it grow sooner; the guard holds all the
+/// same. It costs what strict_bound costs, and the first presses are soft.
 struct stiffness_increment {
   static constexpr bool needs_local_model = false;
   static constexpr bool needs_ledger = true;
 
   double initial{};          ///< K_0 [N/m], ≤ 2b/T
   double step{};             ///< most ΔK per press and release [N/m]
-  double reset_after = 1.0;  ///< time out of contact that forgets [s]
+  double reset_after = 1.0;  ///< time out of contact after which K_i is forgotten [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(initial)) return {"initial", initial, "finite and > 0 N/m"};
@@ -201,18 +201,17 @@ struct stiffness_increment {
     scalar initial_{}, step_{}, reset_after_{};
     scalar stiffness_{};     ///< K_i now [N/m]; 0 before the first touch
     scalar away_{};          ///< time out of contact so far [s]
-    bool released_ = false;  ///< it has moved out, or left, since it last moved in
+    bool released_ = false;  ///< the device has moved out, or left, since it last moved in
   };
 };
 
 /// f = min(f*, K_L d + F), K_L = min(low, K), and where the motion turns, in or out, the offset F
 /// goes towards what is missing there, (K − K_L) d, by
 ///     ΔF = min(step, (K − K_L) d − F, E_free/d)          charged: ΔF d [J]
-/// or down by at most `step`. It is zero again when contact, or a sample, is lost.
-/// U = K_L d²/2 + F d, which min(f*, ·) can only make smaller. Inspired by the successive force
-/// augmentation (SFA) of Singh, Jafari and Ryu, of which the abstract is known and this update is
-/// not. Turns as in stiffness_increment. The price: strict_bound's, and the force steps by up to
-/// `step` at a turn.
+/// or down by at most `step`. It is zero again when contact, or a sample, is lost. U = K_L d²/2 + F d,
+/// which min(f*, ·) can only make smaller. Inspired by the successive force augmentation (SFA) of Singh,
+/// Jafari and Ryu, of which only the abstract is known, so this update is ours. Turns are those of
+/// stiffness_increment. It costs what strict_bound costs, and the force steps by up to `step` at a turn.
 struct force_augmentation {
   static constexpr bool needs_local_model = false;
   static constexpr bool needs_ledger = true;
@@ -272,7 +271,7 @@ struct force_augmentation {
    private:
     scalar low_{}, step_{};
     scalar offset_{};       ///< F now [N]
-    bool leaving_ = false;  ///< the way of the last motion in contact
+    bool leaving_ = false;  ///< the last motion in contact was outward
   };
 };
 
