@@ -5,10 +5,10 @@
 //
 //   remote/wire.hpp         the datagram: 152 bytes, little-endian, versioned, checked; encode, decode
 //   remote/content.hpp      plane, quadric and probe to numbers and back
-//   remote/session.hpp      who talks to whom: two random numbers, order, counts
+//   remote/session.hpp      what both ends share: two random numbers, order, counts
 //   remote/client.hpp       the device's end: asks, keeps the last good answer
 //   remote/server.hpp       the environment's end: hears, answers, one client at a time
-//   remote/udp_socket.hpp   what carries the bytes on POSIX systems
+//   remote/udp_socket.hpp   carries the bytes on POSIX systems
 //
 //   device ─▶ local model ─▶ force      1 kHz, here: passive whatever the network does
 //      │           ▲
@@ -16,10 +16,10 @@
 //      ▼           │
 //   client ◀──── UDP ────▶ server ◀──▶ environment      50 to 200 Hz
 //
-// The hand is protected, and the far side is not: what the environment makes of a position that comes late,
-// or never, is its own affair. Where it must be protected, too (a robot, a second hand), a port is what has
-// to cross the network, and both ends count: two_port.hpp, in sessions of this room. docs/remote.md has
-// the format, what is guaranteed and what is not, and what each of the two costs.
+// The hand is protected and the far side is not: nothing limits what the environment does with a position that
+// comes late or never. Where it must be protected, too (a robot, a second hand), a two-port has to cross the
+// network, and both ends count energy: two_port.hpp, in sessions of this room. docs/remote.md has the format,
+// what is guaranteed and what is not, and what each of the two costs.
 
 #include <passive_haptics/remote/client.hpp>
 #include <passive_haptics/remote/content.hpp>

@@ -9,8 +9,8 @@
 //       if (const auto* news = client.take())
 //         inbox.publish(half_space_of<scene>(news->content));
 //
-// Nothing that is received is credited to a ledger: the local model's ledger books the force that it held
-// over the motion that it measured, and what crosses the network only says which force it wishes for.
+// Nothing that is received is credited to a ledger: the ledger of the local model books the force that was
+// held over the motion that was measured. What crosses the network only decides which force is wanted.
 
 #include <passive_haptics/remote/content.hpp>
 #include <passive_haptics/remote/session.hpp>
@@ -20,8 +20,8 @@ inline namespace v0 {
 namespace remote {
 
 struct client_settings {
-  double silence = 1.0;   ///< without an answer for so long, it says hello again [s]
-  double most_age = 0.5;  ///< an answer to what was asked longer ago is refused [s]
+  double silence = 1.0;   ///< after so long without an answer the client says hello again [s]
+  double most_age = 0.5;  ///< an answer to an older question is refused [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(silence > 0.0)) return {"silence", silence, "> 0 s; longer than a round trip"};
@@ -30,42 +30,42 @@ struct client_settings {
   }
 };
 
-/// An answer, and how old it is for sure: it was made after the question that it echoes was asked, and both
-/// times are the client's, so no clocks need to agree.
+/// An answer and its greatest age: it was made after the question that it echoes, and both times are of the
+/// client's clock, so the two clocks need not agree.
 struct news {
   remote::content content{};
-  nanoseconds asked{0};        ///< by the client's clock
-  std::uint32_t sequence = 0;  ///< of the server
-  std::uint32_t session = 0;   ///< 1, 2, 3 …, as the client has had them
+  nanoseconds asked{0};        ///< when its question was asked, by the client's clock
+  std::uint32_t sequence = 0;  ///< the server's number of the answer
+  std::uint32_t session = 0;   ///< 1, 2, 3 …, the client's number of the session
 
-  /// At most [s].
+  /// The answer is no older than this [s].
   [[nodiscard]] constexpr double age(nanoseconds now) const noexcept {
     return std::chrono::duration<double>(now - asked).count();
   }
 };
 
-/// Accepts an answer that has its key, is of its session, is newer than the last one, echoes a stamp that
-/// was sent and none older than one that is answered, is young enough and can be used. Everything else
-/// is counted by its verdict and changes nothing.
+/// The client accepts an answer that has its key, is of its session, is newer than the last one, echoes a
+/// stamp that was sent and is no older than the last that was answered, is young enough and can be used.
+/// Everything else is counted by its verdict, and no surface comes of it.
 ///
-/// The stale rule is the local model's (port/freshness.hpp), and begins anew with every update: a surface
-/// fades when it was asked for `most_age` + `stale_after` ago, at the latest.
+/// The stale rule is that of the local model (port/freshness.hpp) and begins anew with every update, so a
+/// surface fades at the latest when its question is `most_age` + `stale_after` old.
 class client {
  public:
   enum class state : std::uint8_t {
-    greeting,  ///< no session, or none that answers: it says hello
+    greeting,  ///< no session, or none that answers: the client says hello
     talking,   ///< in a session
-    waiting,   ///< greeting, and the server says that it has another client
+    waiting,   ///< greeting, while the server says that it has another client
   };
 
-  /// One whose check() names a fault sends hello and accepts nothing.
+  /// A client whose check() names a fault sends hello and accepts nothing.
   explicit client(const client_settings& settings = {}, std::uint64_t key = draw_number()) noexcept
       : settings_(settings), key_(key), sound_(!settings.check()) {}
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return settings_.check(); }
 
-  /// What to send now: a question, or a hello as long as nobody answers. Call it at the rate that you want
-  /// answers at, 50 to 200 Hz.
+  /// What to send now: a question, or a hello as long as nobody answers. Call it as often as you want answers,
+  /// 50 to 200 Hz.
   [[nodiscard]] datagram ask(const probe& where, nanoseconds now) noexcept {
     if (state_ == state::talking && now - heard_ > detail::span_of(settings_.silence)) {
       state_ = state::greeting;
@@ -82,7 +82,7 @@ class client {
     return encode(m);
   }
 
-  /// Takes what has come, whatever it is.
+  /// Takes any bytes that have come, and says what became of them.
   verdict receive(received_bytes bytes, nanoseconds now) noexcept {
     return tally_.book(judged(bytes, now));
   }
@@ -123,7 +123,7 @@ class client {
     return answered(m, now);
   }
 
-  /// The same session once more goes on where it was: what it has sent before stays old.
+  /// A welcome to the same session goes on where that was, so what it has sent before stays old.
   verdict welcomed(const message& m, nanoseconds now) noexcept {
     if (m.session == 0) return verdict::malformed;
     if (state_ == state::talking) return verdict::repeated;
@@ -156,12 +156,12 @@ class client {
   std::uint64_t key_, session_ = 0;  // 0: none
   bool sound_;
   state state_ = state::greeting;
-  std::uint32_t number_ = 0;    // of the last question
-  std::uint32_t sessions_ = 0;  // so far
+  std::uint32_t number_ = 0;    // number of the last question
+  std::uint32_t sessions_ = 0;  // number of sessions so far
   detail::in_order order_;
-  nanoseconds heard_{0};              // when the server last said something good
+  nanoseconds heard_{0};              // when the last good datagram of the server came
   std::optional<nanoseconds> asked_;  // the newest stamp that was sent
-  nanoseconds oldest_{0};             // the oldest that may still be echoed
+  nanoseconds oldest_{0};             // the oldest stamp that may still be echoed
   std::optional<news> news_;
   bool fresh_ = false;
   tally tally_;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a datagram is about, as this library knows it: planes and quadrics, and where a probe is.
+// The content of a datagram in the types of this library: planes, quadrics, and where a probe is.
 //
-//   content_of(x)          what crosses the network
-//   half_space_of<Space>   of a plane, or of a quadric: its tangent plane
-//   quadric_of<Space>      of a quadric; of anything else, one that every local model refuses
-//   probe_of                of a question, and of an answer that is a force
+//   content_of(x)          x as it crosses the network
+//   half_space_of<Space>   the plane, or the tangent plane of a quadric
+//   quadric_of<Space>      the quadric; of anything else, one that every local model refuses
+//   probe_of               the probe of a question, or of an answer that is a force
 //
-// Both ends compute in the scalar that they like; on the way a number is a double.
+// Each end computes in a scalar of its own; on the way a number is a double.
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
@@ -71,7 +71,7 @@ template <class Scalar>
   return c;
 }
 
-/// Stiffness zero, which is refused, where there is neither a plane nor a quadric.
+/// Content that is neither a plane nor a quadric gives stiffness zero, which every local model refuses.
 template <class Space>
 requires(Space::dof == 3)
     [[nodiscard]] constexpr half_space<Space> half_space_of(const content& c) noexcept {
@@ -103,7 +103,7 @@ requires(Space::dof == 3)
           .energy = c.numbers[6]};
 }
 
-/// Would a local model in double take it? A probe and nothing at all always are.
+/// True if a local model in double would take the surface, and for a probe and for nothing at all.
 [[nodiscard]] inline bool usable(const content& c) noexcept {
   using scene = space<double, 3>;
   if (c.form == form::plane) return half_space_of<scene>(c).prepare();

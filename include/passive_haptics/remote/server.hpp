@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The environment's end of a session: it hears where the device is, and tells what it touches. It knows no
-// socket; bytes go in and out, and the clock is yours.
+// The environment's end of a session: it hears where the device is and tells what the device touches. It knows
+// no socket; bytes go in and out, and the clock is yours.
 //
 //     const auto heard = server.receive(bytes, now);
 //     if (heard.reply) socket.send(*heard.reply, from);         // welcome, lost, busy
@@ -19,7 +19,7 @@ inline namespace v0 {
 namespace remote {
 
 struct server_settings {
-  double silence = 1.0;  ///< a client that has not asked for so long may be followed by another [s]
+  double silence = 1.0;  ///< after so long without a question another client may come [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(silence > 0.0)) return {"silence", silence, "> 0 s"};
@@ -27,22 +27,22 @@ struct server_settings {
   }
 };
 
-/// Where the device was, and by what an answer will say so.
+/// Where the device was, and what an answer needs to name this question.
 struct question {
   remote::probe probe{};
-  nanoseconds stamp{0};       ///< the client's clock: echoed, and of no meaning here
-  std::uint64_t session = 0;  ///< its number: another one for each that has ever been
+  nanoseconds stamp{0};       ///< of the client's clock; an answer echoes it
+  std::uint64_t session = 0;  ///< the random number of the session
 };
 
-/// One client at a time, and one server object for each socket. A hello takes nobody's place: a session
-/// begins with the first question that carries its number, so whoever says hello under a false address
-/// gets no further, and while one client asks, others are told that it is busy.
+/// A server has one client at a time; take one server object for each socket. A hello does not replace the
+/// client: a session begins with the first question that carries its number, so whoever says hello under a
+/// false address gets no further. While one client asks, others are told that the server is busy.
 class server {
  public:
   using source = std::uint64_t (*)();
 
-  /// One whose check() names a fault accepts nothing. `draw` gives the numbers of sessions: other ones for
-  /// each server that has ever run.
+  /// A server whose check() names a fault accepts nothing. `draw` gives the numbers of sessions, which must
+  /// differ from those of any server that ran before, and from 0.
   explicit server(const server_settings& settings = {}, source draw = draw_number) noexcept
       : settings_(settings), draw_(draw), sound_(!settings.check()) {}
 
@@ -50,11 +50,11 @@ class server {
 
   struct heard {
     verdict what = verdict::accepted;
-    bool asked = false;               ///< it was a question: answers go to whom it came from
-    std::optional<datagram> reply{};  ///< to be sent there at once
+    bool asked = false;               ///< it was a question: send answers to its sender
+    std::optional<datagram> reply{};  ///< to be sent to the sender at once
   };
 
-  /// Takes what has come, whatever it is. Throws only what `draw` throws.
+  /// Takes any bytes that have come, and says what became of them. Throws only what `draw` throws.
   heard receive(received_bytes bytes, nanoseconds now) {
     const heard found = judged(bytes, now);
     tally_.book(found.what);
@@ -68,8 +68,8 @@ class server {
     return &question_;
   }
 
-  /// What to send to the client: what there is to be touched, and of which question that was computed. As
-  /// often as there is news, more than once for a question or never.
+  /// What to send to the client: what there is to be touched, and for which question that was computed.
+  /// Call it as often as there is news, any number of times for a question.
   [[nodiscard]] datagram answer(const content& what, const question& of) noexcept {
     return encode({.kind = kind::answer,
                    .key = client_.key,
@@ -79,7 +79,7 @@ class server {
                    .content = what});
   }
 
-  /// Has a client asked lately?
+  /// True if a client has asked within `silence`.
   [[nodiscard]] bool has_client(nanoseconds now) const noexcept {
     return client_.session != 0 && !(now - asked_ > detail::span_of(settings_.silence));
   }
@@ -105,7 +105,7 @@ class server {
     return m.kind == kind::hello ? greeted(m, now) : asked(m, now);
   }
 
-  /// Of another client than the one that asks.
+  /// True if the key is of another client than the one that asks.
   [[nodiscard]] bool is_rival(std::uint64_t key, nanoseconds now) const noexcept {
     return key != client_.key && has_client(now);
   }
@@ -116,7 +116,7 @@ class server {
     return {verdict::accepted, false, said(kind::welcome, guest.key, guest.session)};
   }
 
-  /// With the session that it was offered before, or with a new one in the place of the oldest.
+  /// A guest with the session that it was offered before, or with a new one in place of the oldest offer.
   const partner& invited(std::uint64_t key) {
     for (const partner& p : guests_) {
       if (p.key == key) return p;
@@ -153,13 +153,13 @@ class server {
   server_settings settings_;
   source draw_;
   bool sound_;
-  partner client_;                   // who asks
-  std::array<partner, 8> guests_{};  // who was welcomed and has not asked yet
-  std::uint32_t invitations_ = 0;    // so far
+  partner client_;                   // the client that asks
+  std::array<partner, 8> guests_{};  // those who were welcomed and have not asked yet
+  std::uint32_t invitations_ = 0;    // number of sessions offered so far
   detail::in_order order_;
-  std::uint32_t number_ = 0;    // of the last answer
-  std::uint32_t sessions_ = 0;  // so far
-  nanoseconds asked_{0};        // when the client last did, by the server's clock
+  std::uint32_t number_ = 0;    // number of the last answer
+  std::uint32_t sessions_ = 0;  // number of sessions begun so far
+  nanoseconds asked_{0};        // time of the client's last question, by the server's clock
   question question_;
   bool fresh_ = false;
   tally tally_;

@@ -2,10 +2,10 @@
 #pragma once
 // Who talks to whom: what both ends of a session have in common.
 //
-// Each end draws 64 bits at random, and every datagram carries both numbers, so whoever sees none of them
-// has to guess them: strays, and datagrams sent blindly, are refused. Whoever can READ the traffic can forge
-// it, and whoever can stop it can stop the session. This is no cryptography: where the network is not yours,
-// put both machines into a tunnel that is (WireGuard, IPsec).
+// Each end draws 64 bits at random, and questions and answers carry both numbers, so strays are refused, and
+// datagrams of a sender who cannot see the numbers, too. But whoever can READ the traffic can forge it, and
+// whoever can stop it can stop the session. This is no cryptography: where the network is not yours, put both
+// machines into an encrypted tunnel (WireGuard, IPsec).
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/remote/wire.hpp>
@@ -28,7 +28,7 @@ namespace remote {
   return drawn;
 }
 
-/// How many datagrams came to which end.
+/// Counts the datagrams by their verdict.
 class tally {
  public:
   [[nodiscard]] constexpr std::uint64_t of(verdict v) const noexcept {
@@ -64,7 +64,7 @@ class in_order {
 };
 
 [[nodiscard]] constexpr nanoseconds span_of(double seconds) noexcept {
-  constexpr double most = 9.0e9;  // [s]; what is longer is for ever
+  constexpr double most = 9.0e9;  // [s]; a longer time does not fit into 63 bits of ns
   const double kept = seconds < most ? seconds : most;
   return nanoseconds(static_cast<std::int64_t>(kept * 1e9));
 }

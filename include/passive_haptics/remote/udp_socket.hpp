@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A UDP socket that never waits, unless it is told to: POSIX only. Elsewhere every call says so, and client
-// and server go over whatever else carries bytes.
+// A UDP socket that waits in wait() only. It is for POSIX systems; elsewhere every call fails with ENOTSUP,
+// and client and server need another carrier of bytes.
 //
 //     remote::udp_socket line;
 //     const auto here = remote::endpoint::of("0.0.0.0:47600");
 //     if (const auto done = line.open(here); !done) puts(describe(done, here).c_str());
 //     line.for_each_received([&](remote::received_bytes bytes, const remote::endpoint& from) { … });
 //
-// After open() nothing allocates but describe(). Addresses are numbers: no name server is asked.
+// After open() only describe() and text() allocate. Addresses are numbers: no name server is asked.
 
 #include <passive_haptics/remote/wire.hpp>
 
@@ -38,11 +38,11 @@ namespace remote {
 /// An address and a port.
 class endpoint {
  public:
-  /// Of no address at all.
+  /// No address.
   endpoint() noexcept = default;
 
-  /// Of an address in numbers, IPv4 or IPv6: "192.168.1.20", "::1"; "0.0.0.0" and "::" are all of this
-  /// machine. Port 0 lets the system choose. Of any other text, no address at all.
+  /// An address in numbers, IPv4 or IPv6: "192.168.1.20", "::1"; "0.0.0.0" and "::" are all addresses of this
+  /// machine. Port 0 lets the system choose. Any other text gives no address.
   [[nodiscard]] static endpoint of(const char* address, std::uint16_t port) noexcept {
     endpoint made;
 #ifdef PASSIVE_HAPTICS_HAS_SOCKETS
@@ -60,7 +60,7 @@ class endpoint {
     return made;
   }
 
-  /// Of what text() writes: "192.168.1.20:47600", "[::1]:47600".
+  /// The endpoint of which text() writes this: "192.168.1.20:47600", "[::1]:47600".
   [[nodiscard]] static endpoint of(std::string_view text) noexcept {
     const std::size_t colon = text.rfind(':');
     if (colon == std::string_view::npos) return {};
@@ -82,7 +82,7 @@ class endpoint {
     return of(terminated.data(), port);
   }
 
-  /// Any port of this machine from which this one can be reached.
+  /// An address of this machine from which this endpoint can be reached, with a port that the system chooses.
   [[nodiscard]] endpoint from_here() const noexcept {
 #ifdef PASSIVE_HAPTICS_HAS_SOCKETS
     if (*this) return of(family() == AF_INET6 ? "::" : "0.0.0.0", 0);
@@ -136,7 +136,7 @@ class endpoint {
     return made;
   }
 
-  sockaddr_in four_{};  // one of the two has a family
+  sockaddr_in four_{};  // at most one of the two has a family
   sockaddr_in6 six_{};
 #else
   [[nodiscard]] static int family() noexcept {
@@ -201,7 +201,7 @@ struct [[nodiscard]] udp_result {
   return text;
 }
 
-/// One socket, closed with the object. Any thread, one at a time.
+/// One socket, closed with the object. Any thread may use it, one at a time.
 class udp_socket {
  public:
   udp_socket() noexcept = default;
@@ -215,7 +215,7 @@ class udp_socket {
   [[nodiscard]] bool is_open() const noexcept { return file_ >= 0; }
 
 #ifdef PASSIVE_HAPTICS_HAS_SOCKETS
-  /// Listens at an address of this machine. One that is open is closed first.
+  /// Listens at an address of this machine. A socket that is open is closed first.
   udp_result open(const endpoint& here) noexcept {
     close();
     if (!here) return {udp_result::call::open, EDESTADDRREQ};
@@ -244,8 +244,8 @@ class udp_socket {
     return endpoint::of(mine);
   }
 
-  /// Hands a datagram to the system, which may lose it like the network does: where its queue is full
-  /// (EAGAIN, ENOBUFS) nothing is said.
+  /// Hands a datagram to the system, which may lose it as the network may: a full queue (EAGAIN, ENOBUFS)
+  /// is no failure.
   udp_result send(received_bytes bytes, const endpoint& to) noexcept {
     if (!to) return {udp_result::call::send, EDESTADDRREQ};
     if (::sendto(file_, bytes.data(), bytes.size(), 0, to.address(), to.length()) >= 0) return {};
@@ -253,8 +253,8 @@ class udp_socket {
     return failed(udp_result::call::send);
   }
 
-  /// act(bytes, from) for each datagram that has come, but for 256 at most: the rest may wait for the next
-  /// call, so that a flood does not keep the thread. One that is longer than ours has one byte too many.
+  /// Calls act(bytes, from) for each datagram that has come, up to 256: the rest wait for the next call, so
+  /// that a flood does not keep the thread. A datagram that is too long is cut to 153 bytes, one too many.
   template <class Act>
   udp_result for_each_received(Act act) {
     for (int n = 0; n < 256; ++n) {
@@ -267,14 +267,14 @@ class udp_socket {
         act(received_bytes(room.data(), static_cast<std::size_t>(size)), endpoint::of(there));
       } else if (would_wait()) {
         return {};
-      } else if (errno != EINTR && errno != ECONNREFUSED) {  // of a datagram sent long ago
+      } else if (errno != EINTR && errno != ECONNREFUSED) {  // of an earlier send
         return failed(udp_result::call::receive);
       }
     }
     return {};
   }
 
-  /// Returns when something has come, a signal has, or the time is over.
+  /// Waits until a datagram or a signal comes, or the time is over.
   udp_result wait(std::chrono::milliseconds most) noexcept {
     pollfd one{.fd = file_, .events = POLLIN, .revents = 0};
     if (file_ < 0) return {udp_result::call::wait, EBADF};

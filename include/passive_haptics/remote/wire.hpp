@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // What crosses the network between a device and its environment on another machine: datagrams of 152 bytes,
-// the same size for every kind and both ways, so that a server never sends more than it was sent.
+// the same size for every kind and both ways, so that no reply is larger than what it replies to.
 //
 //   offset  bytes
 //        0      4   'P' 'H' 'R' 'C'
@@ -11,10 +11,10 @@
 //        7      1   0
 //        8      8   key       drawn by the client, in every datagram
 //       16      8   session   drawn by the server, in every datagram but a hello and its busy
-//       24      4   sequence  of whoever sends it, from 1; 0 in what is no question and no answer
+//       24      4   sequence  counted by the sender from 1; 0 in what is neither question nor answer
 //       28      4   CRC-32 of the other 148 bytes (IEEE 802.3)
-//       32      8   stamp     the client's clock when it asked [ns], in an answer echoed
-//       40    112   content   14 numbers of binary64; what a form does not use is 0
+//       32      8   stamp     the client's clock when it asked [ns]; an answer echoes it
+//       40    112   content   14 numbers of binary64; those that a form does not use are 0
 //
 //   content       0-2        3-5          6             7-9      10   11   12         13
 //   nothing
@@ -22,8 +22,8 @@
 //   quadric       point p    normal n     stiffness K   tangent  κ₁   κ₂   thickness  reach
 //   probe         position   force        energy
 //
-// Whole numbers are little-endian, and so are the bits of a binary64: the bytes are made by shifts, so they
-// are the same on every machine. Nothing here allocates, throws or reads beyond what it is given.
+// Integers and the bits of a binary64 are little-endian. The bytes are made by shifts, so they are the same on
+// every machine. Nothing here allocates, throws or reads beyond what it is given.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -46,15 +46,15 @@ using datagram = std::array<std::byte, datagram_size>;
 using received_bytes = std::span<const std::byte>;
 
 enum class kind : std::uint8_t {
-  hello = 1,  ///< client: I have this key; who are you?
-  welcome,    ///< server: take this session
-  question,   ///< client: the device is here
-  answer,     ///< server: this is what it touches
-  lost,       ///< server: I know no such session, say hello again
-  busy,       ///< server: another client is here
+  hello = 1,  ///< client: asks for a session under its key
+  welcome,    ///< server: offers a session
+  question,   ///< client: says where the device is
+  answer,     ///< server: says what the device touches
+  lost,       ///< server: knows no such session; the client has to say hello again
+  busy,       ///< server: has another client
 };
 
-/// What an answer, or a question, is about.
+/// What the content of an answer or a question is.
 enum class form : std::uint8_t {
   nothing,  ///< there is nothing to be touched
   plane,    ///< half_space
@@ -62,7 +62,7 @@ enum class form : std::uint8_t {
   probe,    ///< a position [m], a force [N], and the energy promised to the receiver [J]
 };
 
-/// What a datagram is about: up to 14 numbers, which content.hpp takes apart.
+/// The content of a datagram: up to 14 numbers, which content.hpp takes apart.
 struct content {
   remote::form form = form::nothing;
   std::array<double, 14> numbers{};
@@ -81,24 +81,24 @@ struct message {
   bool operator==(const message&) const = default;
 };
 
-/// What became of some bytes, in the order in which they are looked at. The first six are decode()'s, the
-/// rest a client's or a server's.
+/// What became of some bytes, in the order of the checks. decode() makes those up to not_finite, a client or a
+/// server the rest.
 enum class verdict : std::uint8_t {
   accepted,
-  wrong_length,   ///< cut off, or no datagram of ours
-  foreign,        ///< it does not begin as ours do
-  other_version,  ///< of this format
-  damaged,        ///< the checksum is another
+  wrong_length,   ///< not 152 bytes
+  foreign,        ///< it does not begin with PHRC
+  other_version,  ///< another version of this format
+  damaged,        ///< the checksum differs
   malformed,      ///< no such kind or form, or not zero where it has to be
   not_finite,     ///< a number is NaN or infinite
-  misdirected,    ///< what this end sends itself
+  misdirected,    ///< of a kind that this end sends itself
   stranger,       ///< without the key, or not of this session
-  repeated,       ///< the same once more
-  overtaken,      ///< older than one that is here already
-  untrue_stamp,   ///< echoes what was never asked, or what was asked before one that is answered
-  too_old,        ///< answers what was asked too long ago
+  repeated,       ///< it has come before
+  overtaken,      ///< older than one that has come
+  untrue_stamp,   ///< echoes a stamp never sent, or one older than the last that was answered
+  too_old,        ///< answers a question of too long ago
   unusable,       ///< a surface that no local model takes
-  turned_away,    ///< of another client, while the one that there is still asks
+  turned_away,    ///< from another client, while the present one still asks
 };
 inline constexpr std::size_t verdicts = 15;
 
@@ -140,7 +140,7 @@ inline constexpr std::size_t verdicts = 15;
 
 namespace detail {
 
-/// The CRC of each byte by itself, of the reflected polynomial EDB88320h.
+/// The CRC of each single byte, with the reflected polynomial EDB88320h.
 inline constexpr std::array<std::uint32_t, 256> crc_of_byte = [] {
   std::array<std::uint32_t, 256> all{};
   for (std::uint32_t n = 0; n < 256; ++n) {
@@ -180,7 +180,7 @@ inline constexpr std::size_t magic_at = 0, version_at = 4, kind_at = 5, form_at 
                              key_at = 8, session_at = 16, sequence_at = 24, crc_at = 28,
                              stamp_at = 32, content_at = 40;
 
-/// Of all bytes but its own four.
+/// The CRC-32 of all bytes but its own four.
 [[nodiscard]] constexpr std::uint32_t checksum(received_bytes bytes) noexcept {
   const std::uint32_t before = crc_on(~0U, bytes.first(crc_at));
   return ~crc_on(before, bytes.subspan(crc_at + 4));
@@ -192,7 +192,7 @@ inline constexpr std::size_t magic_at = 0, version_at = 4, kind_at = 5, form_at 
   return count[static_cast<std::size_t>(f)];
 }
 
-// A double is a binary64, bit for bit what is sent.
+// A double has the bits of the binary64 that is sent.
 static_assert(std::numeric_limits<double>::is_iec559 && sizeof(double) == 8);
 static_assert(content_at + 8 * std::tuple_size_v<decltype(content::numbers)> == datagram_size);
 
@@ -225,8 +225,8 @@ struct [[nodiscard]] decoded {
   constexpr explicit operator bool() const noexcept { return what == verdict::accepted; }
 };
 
-/// Reads any bytes there are. Whatever they are, the answer is a message that encode() makes the same bytes
-/// of, or the reason why they are none.
+/// Reads any bytes. The result is a message from which encode() makes the same bytes, or the reason why there
+/// is none.
 [[nodiscard]] constexpr decoded decode(received_bytes bytes) noexcept {
   using namespace detail;
   if (bytes.size() != datagram_size) return {verdict::wrong_length};
@@ -259,8 +259,8 @@ struct [[nodiscard]] decoded {
   return {verdict::accepted, m};
 }
 
-/// Is a later than b, both counted modulo 2³²? So it is if it is up to 2³¹ − 1 ahead (serial numbers of
-/// RFC 1982): a counter may wrap round, which at 1 kHz it does after 50 days.
+/// True if a is later than b, both counted modulo 2³²: it is up to 2³¹ − 1 ahead (serial numbers of RFC 1982).
+/// So a counter may wrap round, which takes 50 days at 1 kHz.
 [[nodiscard]] constexpr bool later(std::uint32_t a, std::uint32_t b) noexcept {
   return a != b && a - b < 0x80000000U;
 }
