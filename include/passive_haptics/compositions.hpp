@@ -2,11 +2,11 @@
 #pragma once
 // Compositions with a name, for the first hour and for class members:
 //
-//   touch<Space>   make_touch(device, longest_tick)   a surface that the environment publishes: settles,
-//                                                     stiff, passive for the device and hand stated
+//   touch<Space>   make_touch(device, longest_tick)   a surface that the environment publishes: it settles and
+//                                                     is stiff, passive for the device and hand stated
 //   encoder_touch<Space>  make_encoder_touch(device, hand)   the same on encoders whose steps are felt: as
-//                                                     stiff as dry friction can pay for, and not lost
-//   force_guard<Port>  make_force_guard(damping, T)  force in, force out: strictly passive
+//                                                     stiff as dry friction can pay for, so that it lasts
+//   force_guard<Port>  make_force_guard(damping, T)   force in, force out: strictly passive
 //
 //     class hand_loop {
 //       ph::touch<scene> touch_ = ph::make_touch<scene>({.mass = 0.1, .damping = 0.03,
@@ -32,15 +32,15 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What a promise is made of: the device and the hand on it.
+/// What a promise rests on: the device and the hand on it.
 struct known_device {
   double mass{};         ///< smallest apparent mass, over all directions and poses [kg]
   double damping{};      ///< b, a lower bound: half of what you identified [N·s/m]
   double hand_force{};   ///< the most that hand, load and dry friction push with [N]
-  double force_limit{};  ///< what the motors hold [N]
+  double force_limit{};  ///< the most that the motors hold [N]
 };
 
-/// What we recommend for a device of known mass: conditional, like reachable_bound.
+/// What we recommend for a device of known mass. It is conditional, like reachable_bound.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
 using touch = local_model<Space, followed<Constraint>, turn_limited, damped_spring, reduced_energy,
                           bound_chain<reachable_bound, actuator_limit>, Limits>;
@@ -60,18 +60,18 @@ template <class Space, class Constraint = half_space<Space>>
           loop_limits{.longest_tick = longest_tick}};
 }
 
-/// What we recommend where the encoders' steps are felt and dry friction is sure: conditional, like
-/// reachable_bound, with E ≥ −½ c p for ever. A surface is no stiffer than what the device can pay
-/// for; law().is_capped() says so.
+/// What we recommend where the steps of the encoders are felt and dry friction is sure. It is conditional,
+/// like reachable_bound, with E ≥ −½ c p for ever. A surface stiffer than the device can pay for is
+/// displayed softer; law().is_capped() is true then.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
 using encoder_touch =
     local_model<Space, followed<Constraint>, turn_limited, capped<damped_spring>, dual_ledger,
                 bound_chain<reachable_bound, thermal_limit>, Limits, edge_observer>;
 
-/// Of a device as it is stated, and of the most that hand, load and friction push with [N]. The stiffness is
-/// that of `latency` as the device states it, which may be less than that of Limits: as passive then, and
-/// stiffer than what is sure to be sustained. One without dry friction has no budget: check() then refuses
-/// `most`, and what is left is quantised_energy with a mass_observer, soft at first.
+/// `hand_force` is the most that hand, load and dry friction push with [N]. The stiffness is the budget for
+/// the `latency` that the device states. If that is less than the latency of Limits, the contact is as
+/// passive, but stiffer than what is sure to last. A device without dry friction has no budget, and check()
+/// refuses `most`: take quantised_energy with a mass_observer there, which is soft at first.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
 [[nodiscard]] constexpr encoder_touch<Space, Constraint, Limits> make_encoder_touch(
     const design::stated_device& device, double hand_force, const design::intended_use& use = {},
@@ -95,7 +95,7 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
                         .presliding = friction_is_stiffer ? device.presliding : 0.0}};
 }
 
-/// For a force that you have already: strict, so soft where the ledger is empty.
+/// For a force that you compute yourself. It is strict, so it is soft while the ledger is empty.
 template <port P, class Damping = isotropic_damping, class Limits = loop_limits>
 using force_guard =
     passive_port<P, given_force, basic_reduced_energy<Damping>, strict_bound, Limits>;

@@ -46,9 +46,9 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What the compiler says about the FPU of the machine it compiles for: bit 2 single, bit 3 double
-/// precision, so that the bit of a scalar is its size. 32-bit ARM says it (ACLE, __ARM_FP), and RISC-V
-/// (__riscv_flen); every other target is taken to have an FPU for every scalar.
+/// What the compiler tells of the FPU of its target: bit 2 is set for single and bit 3 for double
+/// precision, so the mask of a scalar is its size in bytes. 32-bit ARM tells it (ACLE, __ARM_FP), and so
+/// does RISC-V (__riscv_flen); every other target is taken to have an FPU for every scalar.
 namespace target {
 
 #if defined(__ARM_FP)
@@ -61,7 +61,7 @@ inline constexpr unsigned fpu = 0;
 inline constexpr unsigned fpu = ~0U;
 #endif
 
-/// Asserts, sentence by sentence, where it is asked for a type; who asks for none may have no FPU.
+/// Its sentences are asserted only where `type` is asked for, so other builds may be without an FPU.
 template <real Scalar, int Dof, unsigned Fpu = fpu>
 struct checked {
   static_assert(Fpu != 0,

@@ -3,7 +3,7 @@
 // The core, whole: everything a haptic loop needs, nothing of devices, environments or simulation. A
 // loop with one degree of freedom that wants no Eigen includes local_model.hpp and its parts instead.
 //
-//   compositions.hpp        start here: touch, force_guard
+//   compositions.hpp        start here: touch, encoder_touch, force_guard
 //   local_model.hpp         one contact on one device
 //   port/passive_port.hpp   one device, whatever pushes on it
 //   energy_observer/        counts the energy that the hand and the device exchange
@@ -11,8 +11,8 @@
 //   normal_interpolation/   limits how fast the contact normal turns
 //   constraint_geometry/    pieces of the world, and who moves them
 //   contact/                depth to force; several contacts; a force of your own
-//   shaper/                 what looks at the contact before the bound does
-//   base/exchange.hpp       news from another thread
+//   shaper/                 shapes the wanted force by the contact, before the bound
+//   base/exchange.hpp       the newest value from another thread
 //   laws.hpp                what a part of your own must obey; not in here
 //   six_dof.hpp             devices that turn, or sense that they do; not in here
 
