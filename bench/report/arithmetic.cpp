@@ -3,6 +3,7 @@
 
 #include "quad.hpp"
 
+#include <algorithm>
 #include <tuple>
 
 namespace experiments {
@@ -73,16 +74,16 @@ struct triangle_thesis {
 
 /// What is compared, of any scalar, as 113 bits.
 struct observed {
-  quad force[3], normal[3], energy, depth;
+  quad at[3], force[3], normal[3], energy, depth;
 };
-template <class Model, class Result>
-observed observe(const Model& model, const Result& out, const std::array<float, 3>& at) {
+template <class Model, class Result, class Vector>
+observed observe(const Model& model, const Result& out, const Vector& x) {
   using space = typename Model::port_type;
-  const typename space::vector x = position_in<space>(at);
   const auto local = model.local().at(x);
   const typename space::vector normal = local.outward();
   observed seen{};
   for (int i = 0; i < space::dof; ++i) {
+    seen.at[i] = quad(space::component(x, i));
     seen.force[i] = quad(space::component(out.force, i));
     seen.normal[i] = quad(space::component(normal, i));
   }
@@ -126,14 +127,13 @@ class contender {
     if (n % ticks_per_update == 0) {
       model_.update(constraint_from<typename Model::constraint_type>(surface_at(n)));
     }
-    const auto at = stroke_at(n);
-    const auto out =
-        model_.tick(position_in<space>(at), ph::seconds{typename space::scalar(tick_length)});
-    return observe(model_, out, at);
+    const typename space::vector x = position_in<space>(stroke_at(n));
+    return observe(model_, model_.tick(x, ph::seconds{typename space::scalar(tick_length)}), x);
   }
   void compare(const observed& mine, const observed& reference) {
     off_.take(length(mine.force, reference.force), distance(mine.energy, reference.energy),
               distance(mine.depth, reference.depth), length(mine.normal, reference.normal));
+    same_motion_ = same_motion_ && std::equal(mine.at, mine.at + 3, reference.at);
   }
   [[nodiscard]] arithmetic_row row(const std::string& composition, long ticks,
                                    const extremes& largest) const {
@@ -142,7 +142,8 @@ class contender {
             epsilon_,
             ticks,
             {off_.force / largest.force, off_.energy / largest.energy, off_.depth / largest.depth,
-             off_.normal}};
+             off_.normal},
+            same_motion_};
   }
 
  private:
@@ -150,6 +151,7 @@ class contender {
   double epsilon_;
   Model model_;
   extremes off_;
+  bool same_motion_ = true;
 };
 
 /// Every scalar but the reference, beside each other.

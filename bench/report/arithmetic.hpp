@@ -23,6 +23,7 @@ struct arithmetic_row {
   double epsilon = 0;  ///< one unit in the last place of 1
   long ticks = 0;
   arithmetic_error error;
+  bool same_motion = true;  ///< was it at the same positions, to the last bit?
 };
 
 struct arithmetic_composition {

@@ -6,7 +6,8 @@
 //   stroke_at(n)    where the device is at tick n: pressing, sliding, leaving, and coming back
 //   surface_at(n)   what the environment publishes then, every 33 ticks: it heaves and tilts
 //
-// One second repeats with a slow drift, so a long run sees no tick twice.
+// One second repeats with a slow drift, so a long run sees no tick twice. Both stay calls: inlined
+// where double takes the numbers, g++ 12 leaves the rounding to float out (docs/portability.md).
 
 #include <passive_haptics/passive_haptics.hpp>
 
@@ -22,7 +23,7 @@ inline constexpr int ticks_per_update = 33;
 inline constexpr float tick_length = 0x1p-10F;  ///< [s], near enough to a millisecond and exact
 
 /// Position [m]: 4 mm up and down through z = 0 at 1.3 Hz with a tremor of 0.1 mm, ±10 mm sideways.
-[[nodiscard]] inline std::array<float, 3> stroke_at(long n) {
+[[nodiscard, gnu::noinline]] inline std::array<float, 3> stroke_at(long n) {
   const double t = static_cast<double>(n) * static_cast<double>(tick_length);
   const double z = 4e-3 * std::sin(8.168 * t) + 1e-4 * std::sin(77.0 * t + 0.3);
   return {static_cast<float>(1e-2 * std::sin(2.9 * t)),
@@ -34,7 +35,7 @@ struct surface_sample {
   std::array<std::array<float, 3>, 3> nodes;
   float stiffness;
 };
-[[nodiscard]] inline surface_sample surface_at(long n) {
+[[nodiscard, gnu::noinline]] inline surface_sample surface_at(long n) {
   const double t = static_cast<double>(n) * static_cast<double>(tick_length);
   const double tilt_x = 0.2 * std::sin(1.7 * t), tilt_y = 0.2 * std::sin(2.3 * t + 0.5);
   const auto node = [&](float x, float y) {

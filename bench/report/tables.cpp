@@ -111,6 +111,11 @@ bool report_arithmetic(report& out, const settings& chosen, figures& all) {
       all.add({"arithmetic", r.composition, r.scalar, r.error.force, cost.time.median, cost,
                bytes[name]});
     }
+    // Without this the next would judge the motion.
+    if (!r.same_motion) {
+      std::cout << "BROKEN: " << name << ": was not where the 113 bits were\n";
+      sound = false;
+    }
     // Rounding alone: a ledger that is never rounded up may give away an epsilon of itself a tick.
     if (!(r.error.force < (1e4 + static_cast<double>(r.ticks)) * r.epsilon)) {
       std::cout << "BROKEN: " << name << ": force off by " << r.error.force << " after " << r.ticks
