@@ -4,6 +4,7 @@
 // run and in turns, the least of many blocks each, so their ratios hold on a busy machine, too. Fails where a
 // tick allocates, the guard takes more than 25 ns or the touch more than 100 ns.
 
+#include "../common/failures.hpp"
 #include "../common/options.hpp"
 #include "../common/text.hpp"
 #include "support/allocations.hpp"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -110,7 +112,7 @@ int run(const std::vector<std::string>& arguments) {
   touch.update({.point = {radius, 0.0, 0.0}, .normal = {1.0, 0.0, 0.0}, .stiffness = 1000.0});
   const auto bare = std::make_shared<still>();
   const auto decorated = ad::make_passive_device(bare, ph::make_force_guard<scene>({0.1}, 1.1 * T));
-  if (!decorated->open()) return 1;
+  if (!decorated->open()) throw std::runtime_error("the device in between does not open");
   const vec wanted(0.5, 0.0, 0.0);
   const auto send = [&bare](chai3d::cGenericHapticDevice& device, const vec& x) {
     bare->place = ad::chai3d_types::vector(x);
@@ -144,10 +146,16 @@ int run(const std::vector<std::string>& arguments) {
   std::cout << "passive_device adds "
             << format("%.1f", watch.least(sides::decorated) - watch.least(sides::bare))
             << " ns, a reading of the clock among them\n";
-  return allocated > 0 || !(watch.least(sides::guard) <= 25.0) ||
-                 !(watch.least(sides::touch) <= 100.0)
-             ? 1
-             : 0;
+  experiments::failures found;
+  experiments::expect(found, allocated == 0, std::to_string(allocated) + " allocations");
+  const auto within = [&](std::size_t side, double most) {
+    experiments::expect(found, watch.least(side) <= most,
+                        sides::names[side] + format(": %.1f ns a tick, ", watch.least(side)) +
+                            format("more than %.0f", most));
+  };
+  within(sides::guard, 25.0);
+  within(sides::touch, 100.0);
+  return experiments::ended("adapter_cost", found);
 }
 
 }  // namespace

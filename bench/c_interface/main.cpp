@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a tick through the C interface costs beside the same composition called directly, in turns on the
 // same motion; fails above 20 ns more.
+#include "../common/failures.hpp"
 #include "../common/median.hpp"
 #include "../common/options.hpp"
 #include "../common/report.hpp"
@@ -159,19 +160,19 @@ int run(const std::vector<std::string>& arguments) {
           "--rounds", "of 1000 ticks each way (default: " + std::to_string(rounds) + ")", rounds)},
       arguments);
   experiments::table table({"composition", "direct / ns", "through C / ns", "more / ns", "ratio"});
-  bool good = true;
+  experiments::failures found;
   const auto row = [&](const char* name, const cost& c) {
     table.add({name, format("%.1f", c.direct), format("%.1f", c.through_c), format("%.1f", c.more),
                format("%.2f", c.ratio)});
-    good = good && c.more <= allowed;
+    experiments::expect(found, c.more <= allowed,
+                        name + format(": %.1f ns more, ", c.more) + format("over %.0f", allowed));
   };
   row("touch", of_touch(rounds, ph::make_touch<scene>(device, T), "touch", 0.0));
   row("encoder_touch", of_touch(rounds, ph::make_encoder_touch<scene>(stated, device.hand_force),
                                 "encoder_touch", stated.friction));
   row("force_guard", of_guard(rounds));
   table.print(std::cout);
-  if (!good) std::cerr << "c_interface_cost: more than " << allowed << " ns\n";
-  return good ? 0 : 1;
+  return experiments::ended("c_interface_cost", found);
 }
 
 }  // namespace

@@ -87,6 +87,11 @@ class report {
     }
   }
   [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+  /// Where to look, for people.
+  [[nodiscard]] std::string results() const {
+    const std::string& first = names_.markdown.empty() ? "index.html" : names_.markdown;
+    return path(first).string() + ", " + path(names_.json).string();
+  }
 
   void section(const std::string& title, const std::string& text) {
     std::cout << title << "\n\n" << paragraph(text) << "\n\n";

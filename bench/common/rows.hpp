@@ -2,6 +2,7 @@
 #pragma once
 // A list of jobs, worked through on all cores, whose results are rows of a CSV file.
 
+#include "failures.hpp"
 #include "options.hpp"
 #include "record.hpp"
 #include "report.hpp"
@@ -11,15 +12,15 @@
 
 namespace experiments {
 
-/// Finishes the report of a program and says where it is; the program's exit code.
-inline int conclude(report& out, const std::string& program, const std::string& title,
-                    const std::string& lead, bool well) {
+/// Finishes the report of a program, says where it is and, last, what has failed; the program's exit code.
+[[nodiscard]] inline int conclude(report& out, const std::string& program, const std::string& title,
+                                  const std::string& lead, const failures& found) {
+  out.member("failures", json_of(found));
   if (!out.finish(title, lead)) {
     std::cout << "gnuplot did not draw every plot: is it installed? The rest is complete.\n";
   }
-  std::cout << "results: " << out.path(program + ".md").string() << ", "
-            << out.path(program + ".json").string() << '\n';
-  return well ? 0 : 1;
+  std::cout << "results: " << out.results() << '\n';
+  return ended(program, found);
 }
 
 /// Rows that have a record_of(), as a CSV file.

@@ -12,6 +12,7 @@
 namespace contacts {
 
 namespace ex = experiments;
+using ex::expect;
 
 struct settings {
   std::string out = "contacts";
@@ -47,10 +48,5 @@ struct section {
 /// 0: all is well. 1: a promise was broken, or something could not be written. 2: an argument is
 /// wrong. 130: stopped; what is on disk has been said.
 [[nodiscard]] int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop);
-
-/// Adds a sentence to `found` unless it holds.
-inline void expect(std::vector<std::string>& found, bool holds, const std::string& sentence) {
-  if (!holds) found.push_back(sentence);
-}
 
 }  // namespace contacts

@@ -52,18 +52,17 @@ int run(const std::vector<std::string>& arguments, const std::vector<controller>
     const settings chosen = parse(arguments);
     ex::report report(chosen.out, {.json = "controllers.json", .markdown = "controllers.md"});
     const session s{{report, ex::threads_of(chosen.threads), stop}, chosen, judged};
-    std::vector<std::string> found;
+    ex::failures found;
     if (chosen.merge.empty()) {
       found = judge(s);
     } else {
       merge_z_width(s, chosen.merge);
     }
     if (chosen.part.of > 1) return 0;  // a part is no report
-    for (const auto& sentence : found) std::cerr << "controllers: " << sentence << '\n';
     return ex::conclude(report, "controllers", "passive_haptics: all controllers side by side",
                         "Every composition on the same walls, against the same hands and "
                         "adversaries: what it promises, what it keeps, and how it feels.",
-                        found.empty());
+                        found);
   });
 }
 

@@ -7,9 +7,7 @@
 // Instructions are counted by callgrind and exact; growth of more than 1 % over the committed baseline
 // fails, by name. Times are paired and interleaved, and worth their ratios only.
 
-#include "../common/options.hpp"
-#include "../common/record.hpp"
-#include "../common/report.hpp"
+#include "../common/rows.hpp"
 #include "counts.hpp"
 #include "paired.hpp"
 #include "parts.hpp"
@@ -226,7 +224,7 @@ void show_times(ex::report& out) {
 
 int run(const settings& chosen) {
   ex::report out(chosen.out, {.json = "cost.json", .markdown = "cost.md"});
-  std::vector<std::string> found;
+  ex::failures found;
   if (chosen.programs.empty() || !cost::valgrind_works()) {
     std::cout << "skipped: instructions are not counted, "
               << (chosen.programs.empty() ? "no --count program"
@@ -255,13 +253,11 @@ int run(const settings& chosen) {
     show_times(out);
     show_contacts(out);
   }
-  out.finish(
-      "passive_haptics: what a tick costs",
+  return ex::conclude(
+      out, "cost", "passive_haptics: what a tick costs",
       "Instructions, nanoseconds and bytes of a tick: composed from parts of this library, and "
-      "written by hand without it.");
-  std::cout << "results: " << out.path("cost.md").string() << '\n';
-  for (const auto& sentence : found) std::cerr << "cost: " << sentence << '\n';
-  return found.empty() ? 0 : 1;
+      "written by hand without it.",
+      found);
 }
 
 }  // namespace

@@ -74,18 +74,16 @@ int run(const std::vector<std::string>& arguments, const std::vector<composition
     ex::report report(chosen.out, {.json = "encoders.json", .markdown = "encoders.md"});
     const session s{{report, ex::threads_of(chosen.threads), stop}, chosen, judged};
     show_budgets(s);
-    std::vector<std::string> found;
+    ex::failures found;
     for (const auto& part : sections()) {
       const auto& only = chosen.only;
       if (!only.empty() && std::find(only.begin(), only.end(), part.name) == only.end()) continue;
       for (auto& sentence : part.run(s)) found.push_back(std::move(sentence));
     }
-    for (const auto& sentence : found) std::cerr << "encoders: " << sentence << '\n';
-    report.member("failures", ex::json_of(found));
     return ex::conclude(report, "encoders", "passive_haptics: walls on encoders",
                         "What a hand feels of a guaranteed wall where positions come in steps and "
                         "friction is elastic, and how stiff a wall may be to last.",
-                        found.empty());
+                        found);
   });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What one exchange with a Falcon costs the host, the cable left out: parts and whole, p50 and
 // p99.9 over blocks of 20, on replies recorded from a moving mock.
+#include "../common/failures.hpp"
 #include "../common/options.hpp"
 #include "../common/text.hpp"
 #include <passive_haptics/falcon/device.hpp>
@@ -174,9 +175,8 @@ int run(const std::vector<std::string>& arguments) {
   (void)device.open();
   (void)device.boot({}, {.policy = falcon::firmware_policy::assume_running});
   if (!device.home(std::chrono::seconds(10))) {
-    std::cerr << "falcon_cost: the recording does not home: " << to_string(device.latest().what)
-              << '\n';
-    return 1;
+    return experiments::ended("falcon_cost", {std::string("the recording does not home: ") +
+                                              to_string(device.latest().what)});
   }
   const room::vector force(1.0, 2.0, -3.0);
   long lost = 0;
@@ -185,8 +185,11 @@ int run(const std::vector<std::string>& arguments) {
   table.add({"device::exchange, cable left out", "double", format("%.0f", whole.p50),
              format("%.0f", whole.p999)});
   table.print(std::cout);
-  if (lost > 0) std::cerr << "falcon_cost: " << lost << " samples were not valid\n";
-  return lost > 0 || !(whole.p50 <= 2000.0) ? 1 : 0;
+  experiments::failures found;
+  experiments::expect(found, lost == 0, std::to_string(lost) + " samples were not valid");
+  experiments::expect(found, whole.p50 <= 2000.0,
+                      format("an exchange takes %.0f ns, more than 2000", whole.p50));
+  return experiments::ended("falcon_cost", found);
 }
 
 }  // namespace

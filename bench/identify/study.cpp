@@ -149,17 +149,16 @@ int run_study(const settings& chosen, const std::atomic<bool>& stop) {
           ex::format("%.0f s at most.", *std::max_element(times.begin(), times.end())));
   report.show(ex::table_of(lines));
   report.member("bounds", ex::json_of(lines));
-  bool well = true;
+  ex::failures found;
   for (const auto& l : lines) {
-    if (l.must && l.share() < 0.99) {
-      std::cerr << "identify: " << l.bound << ": holds for " << l.hold << " of " << l.asked << '\n';
-      well = false;
-    }
+    ex::expect(
+        found, !l.must || l.share() >= 0.99,
+        l.bound + ": holds for " + std::to_string(l.hold) + " of " + std::to_string(l.asked));
   }
   return ex::conclude(report, "identify", "passive_haptics: identification",
                       "Devices drawn at random, measured by their own encoder and motor: how "
                       "often the bounds that come out of it hold.",
-                      well);
+                      found);
 }
 
 }  // namespace identify

@@ -258,12 +258,9 @@ settings parse(const std::vector<std::string>& arguments) {
 
 namespace {
 
-using complaints = std::vector<std::string>;
-void expect(complaints& found, bool holds, const std::string& sentence) {
-  if (!holds) found.push_back(sentence);
-}
+using ex::expect, ex::failures;
 
-complaints run_solvers(ex::report& out, const settings& chosen, const env::on_progress& tell) {
+failures run_solvers(ex::report& out, const settings& chosen, const env::on_progress& tell) {
   std::vector<int> sizes{10};
   if (!chosen.quick) sizes.push_back(22);
   if (chosen.large) sizes.push_back(46);
@@ -338,7 +335,7 @@ complaints run_solvers(ex::report& out, const settings& chosen, const env::on_pr
   out.section("Updates", "Contact and quadric of a device that wanders 1 mm below the top.");
   publish(out, "updates", updates);
 
-  complaints found;  // times by what else was measured in this run, as machines differ
+  failures found;  // times by what else was measured in this run, as machines differ
   for (const auto& r : solvers) {
     expect(found, r.apart < 1e-10, r.solver + ": the contact is another");
     if (r.nodes < 10000 || r.solver == "multifrontal") continue;
@@ -365,13 +362,13 @@ complaints run_solvers(ex::report& out, const settings& chosen, const env::on_pr
   return found;
 }
 
-complaints judge_precision(ex::report& out, const settings& chosen, const env::on_progress& tell) {
+failures judge_precision(ex::report& out, const settings& chosen, const env::on_progress& tell) {
   precision_settings asked{.sides = {10, 16, 22, 32},
                            .rates = {10, 20, 50, 100, 200, 500, 1000},
                            .threads = chosen.threads};
   if (chosen.large) asked.sides.push_back(46);
   if (chosen.quick) asked = {.sides = {6, 8}, .rates = {20, 500}, .seconds = 1.2};
-  complaints found;
+  failures found;
   for (const auto& r : run_precision(out, asked, tell).rows) {
     // The faster the environment, the closer the model comes to it.
     expect(found, r.rate < 500.0 || r.own < 0.1 * r.force,
@@ -381,7 +378,7 @@ complaints judge_precision(ex::report& out, const settings& chosen, const env::o
   return found;
 }
 
-complaints judge_chain(ex::report& out, const settings& chosen, const env::on_progress& tell) {
+failures judge_chain(ex::report& out, const settings& chosen, const env::on_progress& tell) {
   chain_settings asked{.side = chosen.chain.side,
                        .seconds = double(chosen.chain.seconds),
                        .rate = double(chosen.chain.rate),
@@ -390,7 +387,7 @@ complaints judge_chain(ex::report& out, const settings& chosen, const env::on_pr
                        .threads = chosen.threads};
   if (chosen.quick) asked.side = 8, asked.seconds = 2.0;
   const chain_row row = run_chain(out, asked, tell);
-  complaints found;
+  failures found;
   expect(found, row.least_energy >= -1e-9, "the chain has lost energy at the true port");
   expect(found, row.missing < 1e-9, "the simulated device's books do not close");
   expect(found, row.contact == 100.0, "the chain has lost contact");
@@ -398,16 +395,15 @@ complaints judge_chain(ex::report& out, const settings& chosen, const env::on_pr
   return found;
 }
 
-complaints judge_remote(ex::report& out, const settings& /*chosen*/,
-                        const env::on_progress& /*tell*/) {
-  complaints found;
+failures judge_remote(ex::report& out, const settings& /*chosen*/,
+                      const env::on_progress& /*tell*/) {
+  failures found;
   add_remote(out, found);
   return found;
 }
 
 /// Why small strains stay (docs/design/large_deflections.md), and that rotated elements are right where they are.
-complaints judge_deflections(ex::report& out, const settings& chosen,
-                             const env::on_progress& tell) {
+failures judge_deflections(ex::report& out, const settings& chosen, const env::on_progress& tell) {
   const auto rows =
       large_deflections(chosen.quick ? std::vector{5.0} : std::vector{5.0, 10.0, 20.0}, tell);
   out.section("Large deflections",
@@ -415,7 +411,7 @@ complaints judge_deflections(ex::report& out, const settings& chosen,
   publish(out, "deflections", rows);
   publish(out, "rotation_costs",
           rotation_costs(chosen.quick ? std::vector{10} : std::vector{10, 22}));
-  complaints found;
+  failures found;
   for (const auto& r : rows) {
     const bool pressed = r.scene == "block, pressed";
     expect(found, !pressed || !(r.rotated < 0.5 * r.linear),
@@ -433,10 +429,10 @@ int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop
     const settings chosen = parse(arguments);
     ex::report out(chosen.out, {.json = "organ.json", .markdown = "organ.md"});
     const env::on_progress tell = [&stop](double) { return !stop; };
-    complaints all;
+    failures all;
     const auto part = [&](const std::string& name, const auto& judge_it) {
       if (!chosen.only.empty() && chosen.only != name) return;
-      const complaints found = judge_it(out, chosen, tell);
+      const failures found = judge_it(out, chosen, tell);
       all.insert(all.end(), found.begin(), found.end());
     };
     try {
@@ -448,13 +444,11 @@ int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop
     } catch (const env::stopped_by_caller& e) {
       throw ex::interrupted(e.what());
     }
-    for (const auto& sentence : all) std::cerr << "organ: " << sentence << '\n';
-    out.member("failures", ex::json_of(all));
     return ex::conclude(
         out, "organ", "passive_haptics: large finite elements",
         "An organ that is computed slowly, touched a thousand times a second: solvers, "
         "error against run time, the whole chain in real threads, another machine.",
-        all.empty());
+        all);
   });
 }
 

@@ -56,21 +56,20 @@ int run(const std::vector<std::string>& arguments) {
   }
   report out(chosen.out, {"error_vs_runtime.json", "error_vs_runtime.md"});
   figures all(out);
-  const bool arithmetic = report_arithmetic(out, chosen, all);
-  const bool models = report_models(out, chosen, all);
+  failures found = report_arithmetic(out, chosen, all);
+  const auto add = [&found](const failures& more) {
+    found.insert(found.end(), more.begin(), more.end());
+  };
+  add(report_models(out, chosen, all));
   all.close();
   report_by_hand(out, chosen);
-  const auto lost = stability::try_all(
+  add(stability::try_all(
       out, stability::parse(stiff ? std::vector<std::string>{} : std::vector{"--quick"s}),
-      controllers::catalogue());
-  if (!out.finish("passive_haptics: error against run time",
+      controllers::catalogue()));
+  return conclude(out, "report", "passive_haptics: error against run time",
                   "How exact a scalar and how true a local model is, for what it costs; then the "
-                  "stiff and extreme cases.")) {
-    std::cout << "gnuplot did not draw every plot: is it installed? The rest is complete.\n";
-  }
-  std::cout << "results: " << out.path("error_vs_runtime.md").string() << ", "
-            << out.path("index.html").string() << '\n';
-  return arithmetic && models && lost.empty() ? EXIT_SUCCESS : EXIT_FAILURE;
+                  "stiff and extreme cases.",
+                  found);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ measured_cost measure(const candidate& c, const settings& chosen) {
   return cost;
 }
 
-bool report_arithmetic(report& out, const settings& chosen, figures& all) {
+failures report_arithmetic(report& out, const settings& chosen, figures& all) {
   const auto& compositions = arithmetic_compositions();
   const int count = static_cast<int>(compositions.size());
   std::vector<arithmetic_row> rows;
@@ -89,7 +89,7 @@ bool report_arithmetic(report& out, const settings& chosen, figures& all) {
       "on a busy machine the worst is the machine's. Instructions: callgrind, the loop of "
       "the replay included.");
   std::vector<record> shown;
-  bool sound = true;
+  failures found;
   for (const auto& r : rows) {
     const std::string name = r.composition + ", " + r.scalar;
     const measured_cost& cost = costs[name];
@@ -112,16 +112,11 @@ bool report_arithmetic(report& out, const settings& chosen, figures& all) {
                bytes[name]});
     }
     // Without this the next would judge the motion.
-    if (!r.same_motion) {
-      std::cout << "BROKEN: " << name << ": was not where the 113 bits were\n";
-      sound = false;
-    }
+    expect(found, r.same_motion, name + ": was not where the 113 bits were");
     // Rounding alone: a ledger that is never rounded up may give away an epsilon of itself a tick.
-    if (!(r.error.force < (1e4 + static_cast<double>(r.ticks)) * r.epsilon)) {
-      std::cout << "BROKEN: " << name << ": force off by " << r.error.force << " after " << r.ticks
-                << " ticks, more than rounding can do\n";
-      sound = false;
-    }
+    expect(found, r.error.force < (1e4 + static_cast<double>(r.ticks)) * r.epsilon,
+           name + format(": force off by %.1e after ", r.error.force) + std::to_string(r.ticks) +
+               " ticks, more than rounding can do");
   }
   out.show(table_of(shown, std::identity{}));
   out.member("arithmetic", json_of(shown, std::identity{}));
@@ -141,10 +136,10 @@ bool report_arithmetic(report& out, const settings& chosen, figures& all) {
             "below, and hardly any slope between: exactness is not bought with time, and the "
             "cheapest on the grey line is the one to take."},
            plot + front_of("arithmetic"));
-  return sound;
+  return found;
 }
 
-bool report_models(report& out, const settings& chosen, figures& figured) {
+failures report_models(report& out, const settings& chosen, figures& figured) {
   const std::vector<touch_scene> scenes{yielding_wall(), soft_ball(), stroked_organ()};
   const std::vector<double> rates = chosen.quick
                                         ? std::vector<double>{30, 1000}
@@ -174,7 +169,7 @@ bool report_models(report& out, const settings& chosen, figures& figured) {
   out.member("ticks", json_of(parts, std::identity{}));
 
   std::vector<record> models;
-  bool sound = true;
+  failures found;
   for (const auto& scene : scenes) {
     const felt truth = truth_of(scene);
     const model_error smooth = error_of(scene, truth, truth);
@@ -215,10 +210,8 @@ bool report_models(report& out, const settings& chosen, figures& figured) {
                            {"rms depth mm", e.rms_depth * 1e3, "%.3f"},
                            {"largest step N", e.largest_step, "%.4f"},
                            {"ns a tick", ns, "%.1f"}});
-          if (!std::isfinite(e.rms_force)) {
-            std::cout << "BROKEN: " << scene.name << ", " << c.cost.name << ": no number\n";
-            sound = false;
-          }
+          expect(found, std::isfinite(e.rms_force),
+                 scene.name + ", " + c.cost.name + ", " + format("%g Hz: no number", rate));
           bar.step();
         });
     out.show(table_of(shown, std::identity{}));
@@ -242,7 +235,7 @@ bool report_models(report& out, const settings& chosen, figures& figured) {
              plot + front_of(scene.name));
   }
   out.member("models", json_of(models, std::identity{}));
-  return sound;
+  return found;
 }
 
 }  // namespace experiments

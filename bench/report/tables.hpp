@@ -2,6 +2,7 @@
 #pragma once
 // The parts of the report, as tables, CSV, JSON and plots.
 
+#include "../common/failures.hpp"
 #include "../common/record.hpp"
 #include "../common/report.hpp"
 #include "arithmetic.hpp"
@@ -49,9 +50,9 @@ class figures {
   std::map<std::string, std::vector<std::pair<double, double>>> points_;
 };
 
-/// False: an error is far beyond what rounding can do, so something is broken.
-bool report_arithmetic(report& out, const settings& chosen, figures& all);
-bool report_models(report& out, const settings& chosen, figures& figured);
+/// Each says what is broken: an error far beyond what rounding can do; what is no number.
+failures report_arithmetic(report& out, const settings& chosen, figures& all);
+failures report_models(report& out, const settings& chosen, figures& figured);
 /// The scenes that are also written by hand.
 void report_by_hand(report& out, const settings& chosen);
 [[nodiscard]] std::vector<candidate> by_hand_candidates();

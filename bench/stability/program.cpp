@@ -16,16 +16,14 @@ settings parse(const std::vector<std::string>& arguments) {
   return chosen;
 }
 
-std::vector<std::string> try_all(ex::report& out, const settings& chosen,
-                                 const std::vector<controllers::controller>& judged) {
+ex::failures try_all(ex::report& out, const settings& chosen,
+                     const std::vector<controllers::controller>& judged) {
   const std::atomic<bool> never = false;
   const session s{{out, ex::threads_of(chosen.threads), never}, chosen, judged};
-  std::vector<std::string> found;
+  ex::failures found;
   for (auto* part : {run_sweep, run_shapes, run_numbers, run_soak}) {
     for (auto& sentence : part(s)) found.push_back(std::move(sentence));
   }
-  for (const auto& sentence : found) std::cerr << "stability: " << sentence << '\n';
-  out.member("failures", ex::json_of(found));
   return found;
 }
 
@@ -39,7 +37,7 @@ int run(const std::vector<std::string>& arguments,
         report, "stability", "passive_haptics: stiff and extreme cases",
         "Every controller where it is stiff, slow, far away, tiny, late or no number "
         "at all: what it keeps, what it refuses, and what it says.",
-        found.empty());
+        found);
   });
 }
 

@@ -26,9 +26,9 @@ struct session : ex::workshop {
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);
 
 /// Every part, into `out`. Returns a sentence for each guarantee that was lost, each number that
-/// came out and is none, and writes them there, too.
-[[nodiscard]] std::vector<std::string> try_all(ex::report& out, const settings& chosen,
-                                               const std::vector<controllers::controller>& judged);
+/// came out and is none.
+[[nodiscard]] ex::failures try_all(ex::report& out, const settings& chosen,
+                                   const std::vector<controllers::controller>& judged);
 
 /// 0: all is well. 1: a guarantee was lost or a number that is none came out, or something could
 /// not be written. 2: an argument is wrong.

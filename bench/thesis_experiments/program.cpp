@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program.hpp"
 
-#include "../common/options.hpp"
+#include "../common/rows.hpp"
 #include "ball.hpp"
 #include "strokes.hpp"
 #include "wall.hpp"
@@ -65,15 +65,11 @@ int run_thesis_experiments(const std::vector<std::string>& arguments) {
       run_ball(out);
     }
     show_strokes(out, scene, stroked);
-    if (!out.finish(
-            "passive_haptics: the thesis experiments",
-            "A simulated device falls onto a wall, presses into a ball and strokes an organ, "
-            "with and without a passivity controller.")) {
-      std::cout << "gnuplot did not draw every plot: is it installed? The rest is complete.\n";
-    }
-    std::cout << "results: " << out.path("results.json").string() << ", "
-              << out.path("index.html").string() << '\n';
-    return 0;
+    return conclude(
+        out, "thesis_experiments", "passive_haptics: the thesis experiments",
+        "A simulated device falls onto a wall, presses into a ball and strokes an organ, "
+        "with and without a passivity controller.",
+        {});
   });
 }
 

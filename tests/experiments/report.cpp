@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the programs of bench/ show: tables that fit a terminal, help, and pages without gnuplot.
-#include "../bench/common/report.hpp"
-
-#include "../bench/common/options.hpp"
+#include "../bench/common/rows.hpp"
+#include "programs.hpp"
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -237,4 +236,26 @@ TEST_CASE("text and curves stand out from the page, light and dark", "[report]")
     }
   }
   CHECK(contrast("#fff", "#777777") < 4.5);  // the control
+}
+
+TEST_CASE("a program says last what has failed, a line each, and leaves it in its file",
+          "[report]") {
+  const scratch_folder folder;
+  ex::failures found;
+  ex::expect(found, true, "holds");
+  ex::expect(found, false, "one, of two");
+  ex::expect(found, false, "the other");
+  const auto end = [&folder](const ex::failures& what) {
+    ex::report out(folder / "", {.json = "all.json", .markdown = "all.md"});
+    return programs::quietly([&] { return ex::conclude(out, "judge", "Title", "", what); });
+  };
+  const auto failed = end(found);
+  CHECK(failed.code == 1);
+  CHECK(failed.complaint == "judge: FAILED, 2 in all:\n  one, of two\n  the other\n");
+  CHECK(mentions(programs::content(folder / "all.json"), "\"one, of two\""));
+  const auto well = end({});
+  CHECK(well.code == 0);
+  CHECK(well.complaint.empty());
+  CHECK(mentions(programs::content(folder / "all.json"), "\"failures\": ["));
+  CHECK_FALSE(mentions(programs::content(folder / "all.json"), "of two"));
 }
