@@ -61,14 +61,13 @@ void report_by_hand(report& out, const settings& chosen) {
               "The scenes of bench/cost, composed and written by hand without templates: the same "
               "bits, so no error between them. Times: blocks of 100 ticks, both sides in turns; "
               "the ratio is the median over the pairs.");
+  std::vector<std::string> names;
+  for (const auto& c : by_hand_candidates()) names.push_back(c.name);
+  const auto counts = instructions_of("by hand", names, chosen);
   std::vector<record> rows;
   for (const pair& p : pairs()) {
     const cost::timing time = p.time(chosen.quick ? 10 : 200);
-    double ours = std::nan(""), theirs = ours;
-    if (chosen.counts) {
-      ours = instructions_per_tick(chosen.program, p.composed.name);
-      theirs = instructions_per_tick(chosen.program, p.by_hand.name);
-    }
+    const double ours = counts[2 * rows.size()], theirs = counts[2 * rows.size() + 1];
     rows.push_back({{"configuration", p.scene},
                     {"scalar", p.scalar},
                     {"ns p50", time.p50, "%.1f"},

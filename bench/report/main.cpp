@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // report: error against run time.
 //
-//     report --out DIR            everything: ten million ticks in 113 bits take minutes
+//     report --out DIR            everything
+//     report --long --out DIR     the same with ten times as many ticks, stiff and extreme cases in full
 //     report --quick --out DIR    the same, shorter, without counts
 //     report --help               all options
 
@@ -32,19 +33,21 @@ candidate named(const std::string& name) {
 int run(const std::vector<std::string>& arguments) {
   settings chosen;
   std::string replayed;
-  bool stiff = false, uncounted = false;
+  bool longer = false, uncounted = false;
   int ticks = 0;
   chosen.program = std::filesystem::read_symlink("/proc/self/exe").string();
   read_options(
       "report",
       {a_text("--out DIR", "where the results go (default: " + chosen.out + ")", chosen.out),
        a_switch("--quick", "fewer ticks and rates; no counts", chosen.quick),
-       a_number("--ticks", "of the arithmetic (default: 10000000, quick 10000) or a replay", ticks),
+       a_switch("--long", "ten million ticks; stiff and extreme cases in full", longer),
+       a_number("--ticks", "of the arithmetic (default: 1000000, quick 10000) or a replay", ticks),
        a_switch("--no-counts", "no instructions, which need valgrind", uncounted),
-       a_switch("--stiff", "stiff and extreme cases in full, not their quick form", stiff),
        a_text("--replay NAME", "one composition alone, for callgrind", replayed)},
-      arguments);
-  chosen.ticks = ticks > 0 ? ticks : chosen.quick ? 10'000 : 10'000'000;
+      arguments, [&] {
+        if (longer && chosen.quick) complain("--long is not --quick: give one");
+      });
+  chosen.ticks = ticks > 0 ? ticks : chosen.quick ? 10'000 : longer ? 10'000'000 : 1'000'000;
   chosen.counts = !chosen.quick && !uncounted;
   if (!replayed.empty()) {
     std::cout << named(replayed).replay(chosen.ticks) << '\n';
@@ -64,7 +67,7 @@ int run(const std::vector<std::string>& arguments) {
   all.close();
   report_by_hand(out, chosen);
   add(stability::try_all(
-      out, stability::parse(stiff ? std::vector<std::string>{} : std::vector{"--quick"s}),
+      out, stability::parse(longer ? std::vector<std::string>{} : std::vector{"--quick"s}),
       controllers::catalogue()));
   return conclude(out, "report", "passive_haptics: error against run time",
                   "How exact a scalar and how true a local model is, for what it costs; then the "

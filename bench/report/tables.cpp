@@ -50,10 +50,37 @@ void figures::write_front(const report& out, const std::string& part) const {
   csv.close();
 }
 
-measured_cost measure(const candidate& c, const settings& chosen) {
-  measured_cost cost{c.time(), std::nan("")};
-  if (chosen.counts) cost.instructions = instructions_per_tick(chosen.program, c.name);
-  return cost;
+std::vector<double> instructions_of(const std::string& what, const std::vector<std::string>& names,
+                                    const settings& chosen) {
+  std::vector<double> counts(names.size(), std::nan(""));
+  if (!chosen.counts) return counts;
+  const int all = static_cast<int>(names.size());
+  progress bar(what + ", instructions", all);
+  work_through(
+      all, threads_of(0), never,
+      [&](int i) {
+        return instructions_per_tick(chosen.program, names[static_cast<std::size_t>(i)]);
+      },
+      [&](int i, double found) {
+        counts[static_cast<std::size_t>(i)] = found;
+        bar.step();
+      });
+  return counts;
+}
+
+std::vector<measured_cost> measure(const std::string& what, const std::vector<candidate>& all,
+                                   const settings& chosen) {
+  std::vector<measured_cost> costs;
+  std::vector<std::string> names;
+  progress bar(what + ", times", static_cast<int>(all.size()));
+  for (const auto& c : all) {
+    costs.push_back({c.time()});
+    names.push_back(c.name);
+    bar.step();
+  }
+  const auto counts = instructions_of(what, names, chosen);
+  for (std::size_t i = 0; i < costs.size(); ++i) costs[i].instructions = counts[i];
+  return costs;
 }
 
 failures report_arithmetic(report& out, const settings& chosen, figures& all) {
@@ -62,22 +89,21 @@ failures report_arithmetic(report& out, const settings& chosen, figures& all) {
   std::vector<arithmetic_row> rows;
   progress bar("arithmetic", count);
   work_through(
-      count, 2, never,
+      count, threads_of(0), never,
       [&](int i) { return compositions[static_cast<std::size_t>(i)].compare(chosen.ticks); },
       [&](int, const std::vector<arithmetic_row>& some) {
         rows.insert(rows.end(), some.begin(), some.end());
         bar.step();
       });
 
+  std::vector<candidate> timed;
+  for (const auto& c : compositions) timed.insert(timed.end(), c.timed.begin(), c.timed.end());
+  const auto measured = measure("arithmetic", timed, chosen);
   std::map<std::string, measured_cost> costs;
   std::map<std::string, std::size_t> bytes;
-  progress timing("arithmetic, cost", count);
-  for (const auto& composition : compositions) {
-    for (const auto& c : composition.timed) {
-      costs[c.name] = measure(c, chosen);
-      bytes[c.name] = c.bytes;
-    }
-    timing.step();
+  for (std::size_t i = 0; i < timed.size(); ++i) {
+    costs[timed[i].name] = measured[i];
+    bytes[timed[i].name] = timed[i].bytes;
   }
 
   out.section(
@@ -145,12 +171,9 @@ failures report_models(report& out, const settings& chosen, figures& figured) {
                                         ? std::vector<double>{30, 1000}
                                         : std::vector<double>{1, 3, 10, 30, 100, 300, 1000};
   const auto& all = all_compositions();
-  std::vector<measured_cost> costs;
-  progress timing("models, cost", static_cast<int>(all.size()));
-  for (const auto& c : all) {
-    costs.push_back(measure(c.cost, chosen));
-    timing.step();
-  }
+  std::vector<candidate> timed;
+  for (const auto& c : all) timed.push_back(c.cost);
+  const auto costs = measure("models", timed, chosen);
 
   std::vector<record> parts;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -189,7 +212,7 @@ failures report_models(report& out, const settings& chosen, figures& figured) {
     const int cells = static_cast<int>(fitting.size() * rates.size());
     progress bar(scene.name, cells);
     work_through(
-        cells, 2, never,
+        cells, threads_of(0), never,
         [&](int cell) {
           const auto& c = all[fitting[static_cast<std::size_t>(cell) / rates.size()]];
           return c.touch(scene, rates[static_cast<std::size_t>(cell) % rates.size()]);

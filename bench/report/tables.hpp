@@ -27,7 +27,12 @@ struct measured_cost {
   tick_time time;
   double instructions = std::nan("");
 };
-measured_cost measure(const candidate& c, const settings& chosen);
+/// Of all: times one after the other, for each has the machine to itself; then counts on all cores.
+std::vector<measured_cost> measure(const std::string& what, const std::vector<candidate>& all,
+                                   const settings& chosen);
+/// Instructions a tick, on all cores; NaN if they are not asked for.
+std::vector<double> instructions_of(const std::string& what, const std::vector<std::string>& names,
+                                    const settings& chosen);
 
 /// One point of a work-precision plot.
 struct figure {
