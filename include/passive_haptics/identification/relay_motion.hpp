@@ -7,6 +7,7 @@
 // latency, none of which has to be known.
 
 #include <passive_haptics/base/kernels.hpp>
+#include <passive_haptics/identification/axis_record.hpp>
 
 #include <algorithm>
 #include <array>
@@ -68,34 +69,42 @@ class relay_motion {
   int ticks_ = 0, last_ = 0, sweeps_ = 0;
 };
 
-/// For how long nothing has moved, and where that was, once it had come to rest.
-class rest_watch {
+/// The relay of an axis that is recorded, whose force is eased to another by little and little: at most a
+/// fifth less at each turn, and each time the change-over is moved by what that costs.
+class eased_relay {
  public:
-  static constexpr double quiet = 0.08;  ///< [s] before positions count for the mean
+  /// Begins with that force [N]; `stroke` is to either side of where the axis began [m].
+  eased_relay(double force, double stroke) noexcept : force_(force), stroke_(stroke) {}
 
-  void restart() noexcept { time_ = -1.0; }
-  /// [s] for which x [m] has stayed within `tolerance` [m] of where it was.
-  double still(double x, double dt, double tolerance) noexcept {
-    if (time_ < 0.0 || x - least_ > tolerance || most_ - x > tolerance) {
-      count_ = 0;
-      time_ = sum_ = 0.0;
-      least_ = most_ = x;
-    }
-    least_ = kernels::smaller(least_, x);
-    most_ = kernels::larger(most_, x);
-    time_ += dt;
-    last_ = x;
-    if (time_ > quiet) {
-      ++count_;
-      sum_ += x;
-    }
-    return time_;
+  /// The force of the next tick [N], for a swing of that amplitude [m].
+  double tick(const axis_record& seen, double amplitude) noexcept {
+    return relay_.tick(seen.x(), seen.velocity(6), force_, amplitude, 1.5 * seen.step() + 20e-6);
   }
-  [[nodiscard]] double mean() const noexcept { return count_ > 0 ? sum_ / count_ : last_; }
+  /// The same, on the way to a force that is `wanted` [N].
+  double tick(const axis_record& seen, double amplitude, double wanted) noexcept {
+    if (relay_.sweeps() != eased_at_) {
+      eased_at_ = relay_.sweeps();
+      const double force = kernels::larger(wanted, 0.8 * force_);
+      if (force != force_) relay_.change(force_, force, friction_, load_, stroke_);
+      force_ = force;
+    }
+    return tick(seen, amplitude);
+  }
+  /// What is known of the device by now, roughly [N].
+  void expect(double friction, double load) noexcept {
+    friction_ = friction;
+    load_ = load;
+  }
+  /// Begins anew from here [m]; what it has learned stays.
+  void restart(double x) noexcept { relay_.restart(x); }
+
+  [[nodiscard]] const relay_motion& motion() const noexcept { return relay_; }
+  [[nodiscard]] int sweeps() const noexcept { return relay_.sweeps(); }  ///< so far
 
  private:
-  double time_ = -1.0, least_ = 0.0, most_ = 0.0, sum_ = 0.0, last_ = 0.0;
-  int count_ = 0;
+  relay_motion relay_;
+  double force_, stroke_, friction_ = 0.0, load_ = 0.0;
+  int eased_at_ = 0;  // sweep
 };
 
 }  // namespace identification

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Third experiment: a force that comes and goes below break-away. A spring and a slider come back to where
+// they were; friction that creeps does not, and no ledger covers it (Dahl's and LuGre's drift: Dupont,
+// Hayward, Armstrong, Altpeter, 2002).
+//
+//     g(t) = s G (1 − cos 2πνt)/2 on friction,        G = the least of
+//         0.95 (1 − 1.25 r) c         friction in motion, r the share by which it varies      [N]
+//         the least break-away        of any ramp                                             [N]
+//
+// for s of 1 and down to 0.25, until the means over some cycles at the beginning and at the end agree to
+// within a step. ν is a quarter of what a mass m on a spring of friction's compliance C would ring at,
+// 1/(2π √(m C)), and 50 Hz at most.
+//
+// Dupont's friction creeps from 0.6 of the force at which it slips on, by about 3.2 (s − 0.6)³ p in a cycle.
+// Where all cycles of that would have been less than 1.6 steps, nothing was seen and 0.6 G is stated,
+// unasked; where a lower level had to be tried, 0.7 of the one that came back.
+
+#include <passive_haptics/identification/break_away_experiment.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace identification {
+
+class creep_experiment {
+ public:
+  /// After the two others, with what they have found.
+  creep_experiment(const identification_parameters& p, const motion_found& motion,
+                   const friction_ramp& ramps, const parking& parked, double step) noexcept
+      : p_(p),
+        mass_(motion.mass.value),
+        kinetic_(kinetic_friction(motion)),
+        ramp_(ramps),
+        parking_(parked) {
+    cap_ = 0.95 * kinetic_ * kernels::larger(1.0 - 1.25 * ramp_.unevenness(), 0.0);
+    cap_ = (std::min)(cap_, ramp_.least());
+    if (cap_ > 0.0 && kernels::is_finite(ramp_.compliance_at_most(step))) {
+      next_level(step);
+    } else {
+      give_up("dry friction: not found, it breaks away too differently from place to place");
+    }
+  }
+
+  /// The force of the next tick [N], after a sample that has been recorded; 0 once it is done().
+  double tick(const axis_record& seen) noexcept {
+    phase_.lasts(seen.dt());
+    if (phase_ == phase::cycle) return cycle(seen);
+    if (phase_ == phase::park) return park(seen);
+    return 0.0;
+  }
+
+  [[nodiscard]] bool done() const noexcept { return phase_ == phase::done; }
+  /// Why nothing can be concluded; null if something can, or may yet.
+  [[nodiscard]] const char* problem() const noexcept { return problem_; }
+
+  /// States friction and up to which share of it nothing creeps, of positions known to `step` [m].
+  void state(axis_found& found, double step) const noexcept {
+    if (passed_ < 0) {
+      found.remark = "dry friction: none to rely on, it creeps under a force that comes and goes";
+      return;
+    }
+    const double beyond = kernels::larger(cap_ / kinetic_ - untold, 0.0);
+    const double surely = found.likely_presliding - 0.2 * step;
+    const bool telling = 3.2 * beyond * beyond * beyond * surely * cycles_ > 1.6 * step;
+    double share = levels[static_cast<std::size_t>(passed_)];
+    if (passed_ > 0) share *= 0.7;
+    if (passed_ == 0 && !telling) share = untold;
+    found.creep = share;
+    found.friction = share * cap_;
+  }
+
+ private:
+  enum class phase : std::uint8_t { cycle, park, done };
+  struct mean_of {
+    double sum = 0.0;
+    int count = 0;
+    void book(double x) noexcept {
+      sum += x;
+      ++count;
+    }
+    [[nodiscard]] double mean() const noexcept { return count > 0 ? sum / count : 0.0; }
+  };
+  static constexpr double pi = 3.14159265358979323846;
+  static constexpr double untold = 0.6;  // share of friction that is taken not to creep, unasked
+  static constexpr std::array levels{1.0, 0.85, 0.72, 0.61, 0.52, 0.4, 0.25};
+
+  double give_up(const char* why) noexcept {
+    problem_ = why;
+    phase_.enter(phase::done);
+    return 0.0;
+  }
+  void next_level(double step) noexcept {
+    const double softest = ramp_.compliance_at_most(step);  // [m/N]
+    const double omega = 1.0 / std::sqrt(mass_ * softest);
+    frequency_ = (std::min)(50.0, omega / (4.0 * 2.0 * pi));
+    begun_at_ = parking_.place();
+    first_ = last_ = {};
+    phase_.enter(phase::cycle);
+  }
+  double cycle(const axis_record& seen) noexcept {
+    const double peak = levels[static_cast<std::size_t>(level_)] * cap_;
+    const double t = phase_.lasted();
+    const double edge = (std::max)(0.3, std::ceil(0.3 * frequency_) / frequency_);
+    const double end = std::clamp(p_.creep_cycles / frequency_, 6.0 * edge, 12.0);
+    cycles_ = static_cast<int>((end - 2.0 * edge) * frequency_);
+    const double g = peak * (0.5 - 0.5 * std::cos(2.0 * pi * frequency_ * t));
+    if (t > edge && t <= 2.0 * edge) first_.book(seen.x());
+    if (t > end - edge) last_.book(seen.x());
+    const bool gone = kernels::magnitude(seen.x() - begun_at_) > 0.3e-3 + 3.0 * seen.step();
+    if (gone || t > end) conclude_level(seen, gone);
+    return parking_.balanced(g);
+  }
+  void conclude_level(const axis_record& seen, bool gone) noexcept {
+    const double crept = kernels::magnitude(last_.mean() - first_.mean());
+    const bool creeps = gone || crept > 1.05 * seen.step() + 1e-7;
+    if (!creeps) {
+      passed_ = level_;
+      phase_.enter(phase::done);
+    } else if (++level_ >= static_cast<int>(levels.size())) {
+      phase_.enter(phase::done);
+    } else if (gone) {
+      parking_.begin_here(seen);
+      phase_.enter(phase::park);
+    } else {
+      next_level(seen.step());
+    }
+  }
+  double park(const axis_record& seen) noexcept {
+    const double force = parking_.tick(seen);
+    if (parking_.problem() != nullptr) return give_up(parking_.problem());
+    if (parking_.parked()) next_level(seen.step());
+    return force;
+  }
+
+  identification_parameters p_;
+  double mass_, kinetic_;
+  double cap_ = 0.0;  // G [N]
+  friction_ramp ramp_;
+  parking parking_;
+  timed_phase<phase> phase_{phase::cycle};
+  const char* problem_ = nullptr;
+  double frequency_ = 0.0, begun_at_ = 0.0;
+  int level_ = 0, passed_ = -1, cycles_ = 0;
+  mean_of first_, last_;
+};
+
+}  // namespace identification
+}  // namespace v0
+}  // namespace passive_haptics

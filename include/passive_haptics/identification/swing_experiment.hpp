@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// First experiment: to and fro across the stroke, for what the device does in motion. Mass m [kg], damping
+// b± [N·s/m], kinetic friction c [N], load w [N] and latency d [ticks] are those of
+//
+//     m ẍ = f(t − d) − b± ẋ − c sgn ẋ + w − k (x − x₀)            motion_regression.hpp
+//
+//   settle   1 to 4 s of all the force there may be, until the swing has come to the stroke
+//   sweep    sweep_time of a force of that on which the equation is well told, at least the largest of
+//                3 |w| + 2.5 c             what pulls and rubs does not stop it
+//                2 m stroke/(40 ms)²       it gets across in some tens of milliseconds
+//                a fifth of all the force
+//            and half as much again in every other six sweeps, 0.6 of the stroke in every other twelve:
+//            one force, or one stroke, would not tell damping from friction
+//
+// What moves it is a relay (relay_motion.hpp; Åström and Hägglund, 1984). A bound is three deviations of the
+// jackknife (Miller, 1974) and 5 % away from the estimate.
+
+#include <passive_haptics/identification/measure_latency.hpp>
+#include <passive_haptics/identification/motion_regression.hpp>
+#include <passive_haptics/identification/parameters.hpp>
+#include <passive_haptics/identification/relay_motion.hpp>
+#include <passive_haptics/identification/timed_phase.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace identification {
+
+class swing_experiment {
+ public:
+  explicit swing_experiment(const identification_parameters& p) noexcept
+      : p_(p), relay_(p.force, p.stroke) {}
+
+  /// The force of the next tick [N], after a sample that has been recorded; 0 once it is done().
+  double tick(const axis_record& seen) noexcept {
+    if (done()) return 0.0;
+    phase_.lasts(seen.dt());
+    regression_.sample(seen.x(), seen.dt());
+    clock_.book(seen.samples(), seen.position());
+    const double force = phase_ == phase::settle ? settle(seen) : sweep(seen);
+    regression_.commanded(force);
+    return force;
+  }
+  /// A sample is missing.
+  void interrupt() noexcept { regression_.interrupt(); }
+
+  [[nodiscard]] bool done() const noexcept { return phase_ == phase::done; }
+  /// Why nothing can be concluded; null if something can, or may yet.
+  [[nodiscard]] const char* problem() const noexcept { return problem_; }
+  /// What was found, once it is done().
+  [[nodiscard]] const motion_found& found() const noexcept { return motion_; }
+  /// What swings it, and the force that does so well [N].
+  [[nodiscard]] const eased_relay& relay() const noexcept { return relay_; }
+  [[nodiscard]] double force() const noexcept { return force_; }
+
+  /// States the bounds of what was found.
+  void state(axis_found& found) const noexcept {
+    const motion_found& m = motion_;
+    found.mass = kernels::larger(margin * m.mass.at_least(3.0), 0.0);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const estimate& b = m.damping[1 - i];
+      found.damping_ways[i] = kernels::larger(margin * b.at_least(3.0), 0.0);
+      found.damping_max = kernels::larger(found.damping_max, b.at_most(3.0) / margin);
+    }
+    found.damping = kernels::smaller(found.damping_ways[0], found.damping_ways[1]);
+    found.latency = m.latency;
+    found.likely_mass = m.mass.value;
+    found.likely_damping = (m.damping[0].value + m.damping[1].value) / 2.0;
+    found.likely_friction = m.friction.value;
+    found.load = m.load.value;
+    found.explained = m.explained;
+  }
+
+ private:
+  enum class phase : std::uint8_t { settle, sweep, done };
+  static constexpr double margin = 0.95;   // of what no statistics sees
+  static constexpr double slowest = 0.03;  // of the windows that count [m/s]
+
+  double fail(const char* why) noexcept {
+    problem_ = why;
+    phase_.enter(phase::done);
+    return 0.0;
+  }
+  /// It has turned round since the last time; a window is about half of the sweep from then on.
+  bool turned() noexcept {
+    if (relay_.sweeps() == window_since_) return false;
+    window_since_ = relay_.sweeps();
+    window_ = std::clamp(relay_.motion().ticks_of_last() / 2, 8, 64);
+    return true;
+  }
+  void book(const axis_record& seen, int group) noexcept {
+    regression_.book(window_, group, slowest, seen.step(), relay_.motion().turned_at());
+  }
+
+  /// Finds out how fast it goes to and fro with all the force there may be.
+  double settle(const axis_record& seen) noexcept {
+    const double force = relay_.tick(seen, p_.stroke);
+    const int sweeps = relay_.sweeps();
+    const double reached = relay_.motion().reached();
+    turned();
+    if (seen.samples() % 2 == 0) book(seen, sweeps);
+    if (phase_.lasted() > 4.0 && sweeps < 4) {
+      return fail(reached < 1e-3 ? "it hardly moves: let go of the device, or allow more force"
+                                 : "it does not swing: let go of the device, or allow more force");
+    }
+    if (phase_.lasted() < 1.0 || sweeps < 12) return force;
+    if (reached < 0.5 * p_.stroke) {
+      if (phase_.lasted() > 4.0) {
+        return fail("it does not get across the stroke: let go of the device, or allow more force");
+      }
+      return force;
+    }
+    const motion_found first = regression_.conclude();
+    force_ = p_.force;
+    if (first.windows > 50 && first.explained > 0.5) {
+      const double against =
+          3.0 * std::abs(first.load.value) + 2.5 * std::abs(first.friction.value);
+      const double calm = 2.0 * first.mass.value * p_.stroke / (0.04 * 0.04);
+      force_ = (std::min)(p_.force, (std::max)({against, calm, 0.2 * p_.force}));
+    }
+    relay_.expect(first.friction.value, first.load.value);
+    regression_.clear();
+    phase_.enter(phase::sweep);
+    return force;
+  }
+  double sweep(const axis_record& seen) noexcept {
+    const int sweeps = relay_.sweeps();
+    const bool hard = (sweeps / 6) % 2 == 1;
+    const bool narrow = (sweeps / 12) % 2 == 1;
+    const double force = relay_.tick(seen, narrow ? 0.6 * p_.stroke : p_.stroke,
+                                     hard ? (std::min)(p_.force, 1.5 * force_) : force_);
+    if (turned() && phase_.lasted() >= p_.sweep_time) return conclude(force);
+    if (phase_.lasted() > p_.sweep_time + 5.0) {
+      return fail("it stopped to swing: let go of the device, or allow more force");
+    }
+    if (seen.samples() % 3 == 0) {
+      const int group = static_cast<int>(phase_.lasted() / p_.sweep_time * regression_.groups);
+      book(seen, (std::min)(group, regression_.groups - 1));
+    }
+    return force;
+  }
+  double conclude(double force) noexcept {
+    motion_ = regression_.conclude();
+    if (const char* wrong = motion_problem()) return fail(wrong);
+    phase_.enter(phase::done);
+    return force;
+  }
+  [[nodiscard]] const char* motion_problem() const noexcept {
+    if (clock_.period() > 1) {
+      return "the sensor is slower than the loop: tick when it has something new";
+    }
+    if (motion_.windows < 100) {
+      return "it moves too slowly or too little: allow more force, or a longer stroke";
+    }
+    if (!(motion_.explained > 0.9)) {
+      return "the force explains too little of the motion: let go of the device, or allow more "
+             "force";
+    }
+    const double spring = motion_.stiffness.value;
+    if (kernels::magnitude(spring) > 4.0 * motion_.stiffness.deviation &&
+        kernels::magnitude(spring) * p_.stroke > 0.05 * p_.force) {
+      return "something holds it like a spring: let go of the device, and keep off its stops";
+    }
+    if (kernels::magnitude(motion_.exactly.value - motion_.latency) >
+        0.15 + 3.0 * motion_.exactly.deviation) {
+      return "the force changes in mid-tick: hold it from sample to sample";
+    }
+    return nullptr;
+  }
+
+  identification_parameters p_;
+  eased_relay relay_;
+  motion_regression regression_;
+  passive_haptics::detail::sensor_clock clock_;
+  timed_phase<phase> phase_{phase::settle};
+  motion_found motion_{};
+  const char* problem_ = nullptr;
+  double force_ = 0.0;  // of the sweeps [N]
+  int window_ = 16, window_since_ = 0;
+};
+
+}  // namespace identification
+}  // namespace v0
+}  // namespace passive_haptics

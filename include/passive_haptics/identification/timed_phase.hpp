@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// In which phase an experiment is, and for how long.
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace identification {
+
+template <class Phase>
+class timed_phase {
+ public:
+  explicit timed_phase(Phase first) noexcept : now_(first) {}
+
+  void enter(Phase next) noexcept {
+    now_ = next;
+    lasted_ = 0.0;
+  }
+  /// A tick of that length [s] has passed in it.
+  void lasts(double dt) noexcept { lasted_ += dt; }
+  /// Since it was entered [s].
+  [[nodiscard]] double lasted() const noexcept { return lasted_; }
+  [[nodiscard]] operator Phase() const noexcept { return now_; }
+
+ private:
+  Phase now_;
+  double lasted_ = 0.0;
+};
+
+}  // namespace identification
+}  // namespace v0
+}  // namespace passive_haptics
