@@ -10,7 +10,6 @@
 #include <passive_haptics/simulation/presets.hpp>
 
 #include <atomic>
-#include <optional>
 #include <thread>
 
 namespace organ {
@@ -49,18 +48,15 @@ class living_device {
                .watchdog = watchdog}) {}
 
   ph::device_sample<volume> exchange(const vector& force) noexcept {
-    if (!watch_) {  // its time begins with the loop, however long that took to start
-      watch_.emplace();
-      return {};
-    }
-    if (!body_.set_period(watch_->lap())) return {};
+    // Its time begins with the loop, however long that took to start.
+    if (!body_.set_period(watch_.lap(0.0))) return {};
     return body_.exchange(std::exchange(held_, force));
   }
   [[nodiscard]] const auto& body() const noexcept { return body_; }
 
  private:
   sim::device<volume, stroking_hand> body_;
-  std::optional<ph::stopwatch> watch_;
+  ph::stopwatch watch_;
   vector held_ = vector::Zero();
 };
 

@@ -6,7 +6,7 @@
 // it. Neither the vendor's library nor a device was there. The damping that the firmware can be told to
 // simulate is no damping of the device: leave it out of `damping`.
 
-#include <passive_haptics/adapters/poses.hpp>
+#include <passive_haptics/base/stopwatch.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 
 #include <HardwareAPI.h>
@@ -41,14 +41,14 @@ int main(int argc, char** argv) {
       late{.longest_tick = 0.002}};
   wall.update({.point = {0.0, 0.0, 0.0}, .normal = {0.0, 0.0, 1.0}, .stiffness = 1000.0});
 
-  ph::adapters::tick_timer<> timer;
+  ph::stopwatch watch;
   inverse3::EndEffectorForceRequest request;
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (std::chrono::steady_clock::now() < end) {
     const inverse3::EndEffectorStateResponse state = device.EndEffectorForce(request);
     if (!cable.good()) return 1;  // the firmware keeps the last force: unplug it
     const scene::vector x(state.position[0], state.position[1], state.position[2]);
-    const auto force = wall.tick(x, timer.lap(1e-3)).force;
+    const auto force = wall.tick(x, ph::seconds{watch.lap(1e-3)}).force;
     for (int i = 0; i < 3; ++i) request.force[i] = static_cast<float>(force[i]);
   }
   (void)device.EndEffectorForce({});

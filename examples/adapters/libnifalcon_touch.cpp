@@ -5,7 +5,7 @@
 // Tried: compiled against libnifalcon's headers (master of 2019), and run on its core, with a simulated
 // Falcon in the place of its firmware and kinematics. No Falcon was there.
 
-#include <passive_haptics/adapters/poses.hpp>
+#include <passive_haptics/base/stopwatch.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 
 #include <array>
@@ -40,12 +40,12 @@ int main() {
                                                                     5.0);
   wall.update({.point = {0.0, 0.0, 0.12}, .normal = {0.0, 0.0, 1.0}, .stiffness = 800.0});
 
-  ph::adapters::tick_timer<> timer;
+  ph::stopwatch watch;
   double since_packet = 0.0;
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (std::chrono::steady_clock::now() < end) {
     const bool fresh = falcon.runIOLoop();  // sends the last force, reads the encoders
-    since_packet += timer.lap(1e-3).count();
+    since_packet += watch.lap(1e-3);
     if (!fresh) continue;  // no new packet came, and the position is the old one
     const std::array<double, 3> p = falcon.getPosition();
     const auto f = wall.tick(scene::vector(p[0], p[1], p[2]), ph::seconds{since_packet}).force;

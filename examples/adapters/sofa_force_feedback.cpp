@@ -2,7 +2,7 @@
 // SOFA: the answer of an LCPForceFeedback, through a port, in the thread of the haptic driver. Compiled by
 // hand only: docs/adapters.md says against what.
 
-#include <passive_haptics/adapters/poses.hpp>
+#include <passive_haptics/base/stopwatch.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 
 #include <sofa/component/haptics/LCPForceFeedback.h>
@@ -22,8 +22,9 @@ class passive_feedback
     feedback::doComputeForce(state, forces);
     if (state.empty()) return;
     const auto x = state[0].getCenter(), asked = forces[0].getLinear();
-    const auto out = port_.tick(metres * scene::vector(x[0], x[1], x[2]), timer_.lap(1e-3),
-                                newtons * scene::vector(asked[0], asked[1], asked[2]));
+    const auto out =
+        port_.tick(metres * scene::vector(x[0], x[1], x[2]), ph::seconds{watch_.lap(1e-3)},
+                   newtons * scene::vector(asked[0], asked[1], asked[2]));
     for (int i = 0; i < 3; ++i) forces[0].getLinear()[i] = out.force[i] / newtons;
     forces[0].getAngular().clear();  // no ledger counts a torque here
   }
@@ -32,5 +33,5 @@ class passive_feedback
   static constexpr double metres = 0.01;  ///< of a unit of the scene, over the driver's scale
   static constexpr double newtons = 1.0;  ///< of a unit of force: the driver's forceScale
   ph::force_guard<scene> port_ = ph::make_force_guard<scene>({0.05}, 0.002);
-  ph::adapters::tick_timer<> timer_;
+  ph::stopwatch watch_;
 };

@@ -26,12 +26,11 @@ constexpr double T = 1e-3, mass = 0.1, damping = 0.1;
 
 /// Time that the tests make.
 struct made_clock {
-  using duration = std::chrono::duration<double>;
-  using rep = duration::rep;
-  using period = duration::period;
-  using time_point = std::chrono::time_point<made_clock>;
-  static inline double seconds = 0.0;
-  static time_point now() noexcept { return time_point(duration(seconds)); }
+  static inline std::chrono::nanoseconds time{0};
+  static std::chrono::nanoseconds now() noexcept { return time; }
+  static void pass(double seconds) noexcept {
+    time += std::chrono::nanoseconds(std::llround(1e9 * seconds));
+  }
 };
 
 /// What CHAI3D would call a driver: each force is held for a millisecond. The hand presses with a newton.
@@ -74,7 +73,7 @@ class simulated : public c3d::cGenericHapticDevice {
     ++forces;
     if (!takes) force.setZero();
     static_cast<void>(device_.exchange(force));
-    made_clock::seconds += T;
+    made_clock::pass(T);
     return takes;
   }
 
@@ -330,12 +329,12 @@ TEST_CASE("passive_device measures its ticks, and opening it begins anew", "[ada
   for (int k = 0; k < 100; ++k) device->setForce({0.0, 0.0, 0.1});
   CHECK(device->last().what == ph::event::nominal);
   CHECK(device->last().energy > 0.0);
-  made_clock::seconds += 5.0 * T;
+  made_clock::pass(5.0 * T);
   device->setForce({});
   CHECK(device->last().what == ph::event::late_tick);
 
   CHECK(device->close());
-  made_clock::seconds += 60.0;
+  made_clock::pass(60.0);
   REQUIRE(device->open());
   device->setForce({});
   CHECK(device->last().what == ph::event::nominal);

@@ -84,13 +84,3 @@ TEST_CASE("the computer's own clock goes on, and a sleep ends no earlier than it
   clock.sleep_until(before - milliseconds(5000));  // what is over is not waited for
   CHECK(clock.now() - before < milliseconds(4500));
 }
-
-TEST_CASE("a stopwatch measures from lap to lap", "[runner]") {
-  virtual_time time{.now = milliseconds(7)};
-  ph::basic_stopwatch watch{virtual_clock{&time}};
-  time.now += microseconds(1500);
-  CHECK(watch.lap() == 1.5e-3);
-  CHECK(watch.lap() == 0.0);
-  time.now += microseconds(500);
-  CHECK(watch.lap() == 0.5e-3);
-}

@@ -20,6 +20,7 @@
 //   facts_of        what CHAI3D knows of a device
 
 #include <passive_haptics/adapters/poses.hpp>
+#include <passive_haptics/base/stopwatch.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/contact/given_force.hpp>
 #include <passive_haptics/port/passive_port.hpp>
@@ -73,7 +74,7 @@ class decorated : public ::chai3d::cGenericHapticDevice {};
 ///
 /// The position is read again when the force is about to be sent, so that the motion between two sends is
 /// paired with the force that was held in between. `Clock` tells how long that was.
-template <class Port, class Clock = std::chrono::steady_clock>
+template <class Port, measuring_clock Clock = steady_time>
 requires hand_port<typename Port::port_type>
 class passive_device final : public chai3d_types::decorated {
  public:
@@ -103,7 +104,7 @@ class passive_device final : public chai3d_types::decorated {
     if (check() || !device_->open()) return false;
     copy_state();  // a device knows what it is only now
     port_.reset();
-    timer_.reset();
+    watch_.reset();
     if (vector3 x; device_->getPosition(x)) {
       unit_fault_ =
           check_metres(chai3d_types::vector(x).norm(), m_specifications.m_workspaceRadius);
@@ -184,7 +185,7 @@ class passive_device final : public chai3d_types::decorated {
   }
 
   result_type tick(const vector3& force, const vector3& torque) {
-    const seconds<scalar> dt = timer_.lap(1e-3);
+    const seconds<scalar> dt = seconds{watch_.lap(1e-3)};
     vector3 x;
     ::chai3d::cMatrix3d r;
     r.identity();
@@ -217,7 +218,7 @@ class passive_device final : public chai3d_types::decorated {
   parameter_fault fault_;                     ///< of the device, found when it was given
   ::chai3d::cGenericHapticDevicePtr device_;  ///< never null
   Port port_;
-  tick_timer<Clock> timer_{};
+  basic_stopwatch<Clock> watch_{};
   result_type last_ = nothing_yet<result_type, port_type>();
   parameter_fault unit_fault_{};  ///< of where it is, found when it is opened
   bool refused_ = false;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What adapters share: a pose and facts out of what an SDK gives, a length in metres, the time of a tick.
+// What adapters share: a pose and facts out of what an SDK gives, a length in metres.
 
-#include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/design/device_facts.hpp>
 #include <passive_haptics/device/rotation.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
 #include <Eigen/Geometry>
 
-#include <chrono>
 #include <optional>
 
 namespace passive_haptics {
@@ -71,25 +69,6 @@ template <class Result, port P>
           "within ten times the workspace's radius, in metres: are these millimetres, or "
           "positions of the scene instead of the device's?"};
 }
-
-/// The time from one tick to the next, measured.
-template <class Clock = std::chrono::steady_clock>
-class tick_timer {
- public:
-  /// Since the last call; `first` [s] if this is the first, when nothing has been held yet.
-  [[nodiscard]] seconds<double> lap(double first) noexcept {
-    const auto now = Clock::now();
-    const seconds<double> dt = began_ ? seconds<double>{now - last_} : seconds{first};
-    last_ = now;
-    began_ = true;
-    return dt;
-  }
-  void reset() noexcept { began_ = false; }
-
- private:
-  typename Clock::time_point last_{};
-  bool began_ = false;
-};
 
 }  // namespace adapters
 }  // namespace v0

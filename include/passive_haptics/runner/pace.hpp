@@ -11,7 +11,7 @@
 // force for an instant that has passed is of no use. Linux sleeps with clock_nanosleep;
 // elsewhere std::this_thread::sleep_until does.
 
-#include <passive_haptics/base/language.hpp>
+#include <passive_haptics/base/stopwatch.hpp>
 
 #include <chrono>
 #include <concepts>
@@ -30,20 +30,14 @@ inline namespace v0 {
 
 /// A clock that nobody sets, and a sleep until one of its instants.
 template <class C>
-concept pacing_clock = requires(C c, std::chrono::nanoseconds t) {
-  { c.now() } -> std::same_as<std::chrono::nanoseconds>;
+concept pacing_clock = measuring_clock<C> && requires(C c, std::chrono::nanoseconds t) {
   c.sleep_until(t);
-  requires noexcept(c.now())&& noexcept(c.sleep_until(t));
+  requires noexcept(c.sleep_until(t));
 };
 
-/// The monotonic clock of the computer.
-struct monotonic_clock {
+/// The monotonic clock of the computer: on Linux std::chrono::steady_clock is CLOCK_MONOTONIC.
+struct monotonic_clock : steady_time {
 #if defined(__linux__)
-  [[nodiscard]] static std::chrono::nanoseconds now() noexcept {
-    timespec t{};
-    ::clock_gettime(CLOCK_MONOTONIC, &t);
-    return std::chrono::seconds(t.tv_sec) + std::chrono::nanoseconds(t.tv_nsec);
-  }
   static void sleep_until(std::chrono::nanoseconds due) noexcept {
     const auto whole = std::chrono::duration_cast<std::chrono::seconds>(due);
     timespec t{};
@@ -53,11 +47,8 @@ struct monotonic_clock {
     }
   }
 #else
-  using clock = std::chrono::steady_clock;
-  [[nodiscard]] static std::chrono::nanoseconds now() noexcept {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(clock::now().time_since_epoch());
-  }
   static void sleep_until(std::chrono::nanoseconds due) noexcept {
+    using clock = std::chrono::steady_clock;
     std::this_thread::sleep_until(
         clock::time_point(std::chrono::duration_cast<clock::duration>(due)));
   }
@@ -112,27 +103,6 @@ class basic_pace {
 };
 
 using steady_pace = basic_pace<monotonic_clock>;
-
-/// For a device of your own, whose samples have to say how long their tick was.
-///     ph::stopwatch watch;  …  return {.position = read(), .held = f, .dt = watch.lap(), .valid = true};
-template <pacing_clock Clock>
-class basic_stopwatch {
- public:
-  constexpr explicit basic_stopwatch(Clock clock = {}) noexcept
-      : clock_(clock), last_(clock_.now()) {}
-
-  /// Since the last lap, or since the beginning [s].
-  [[nodiscard]] constexpr double lap() noexcept {
-    const std::chrono::nanoseconds now = clock_.now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  Clock clock_;
-  std::chrono::nanoseconds last_;
-};
-
-using stopwatch = basic_stopwatch<monotonic_clock>;
 
 }  // namespace v0
 }  // namespace passive_haptics
