@@ -7,6 +7,7 @@
 
 #if __has_include(<libusb-1.0/libusb.h>)
 #include <libusb-1.0/libusb.h>
+#include <string_view>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -12,6 +12,7 @@
 #include <passive_haptics/falcon/recording.hpp>
 
 #include <charconv>
+#include <string_view>
 
 namespace passive_haptics {
 inline namespace v0 {
