@@ -43,7 +43,7 @@ int touch(Device& grip) {
 }
 
 int main(int argc, char** argv) {
-  falcon::mock_parameters simulated{.runs = true, .homed = true};
+  simulated_falcon simulated{.runs = true, .homed = true};
   simulated.body.damping = 0.4;
   simulated.body.friction = 0.3;
   const ph::simulation::impedance_hand<scene> hand{// comes slowly, then pushes on

@@ -31,7 +31,7 @@ int identify(Device& grip) {
 
 int main(int argc, char** argv) {
   std::signal(SIGINT, [](int) { stop = true; });
-  falcon::mock_parameters simulated{.runs = true, .homed = true};
+  simulated_falcon simulated{.runs = true, .homed = true};
   simulated.body.mass = 0.25;
   simulated.body.damping = 1;
   return with_falcon(argc, argv, falcon::cautious_gain<double>, simulated,

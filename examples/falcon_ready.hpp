@@ -5,6 +5,7 @@
 
 #include <passive_haptics/falcon/mock.hpp>
 #include <passive_haptics/falcon_hid.hpp>
+#include <passive_haptics/simulation/device.hpp>
 
 #include <cstdio>
 #include <string_view>
@@ -12,6 +13,7 @@
 namespace ph = passive_haptics;
 namespace falcon = passive_haptics::falcon;
 using scene = ph::space<double, 3>;
+using simulated_falcon = falcon::mock_parameters<ph::simulation::device_parameters<scene>>;
 
 inline int complain(const falcon::result& fault) {
   std::array<char, 160> text{};
@@ -44,7 +46,7 @@ inline constexpr falcon::settings<double> patience{.reply = std::chrono::millise
 /// `use` gets the homed device and returns what main() returns.
 ///     program [FIRMWARE]      program --simulate      program --help
 template <class Hand, class Use>
-int with_falcon(int argc, char** argv, double gain, const falcon::mock_parameters& simulated,
+int with_falcon(int argc, char** argv, double gain, const simulated_falcon& simulated,
                 const Hand& hand, const Use& use) {
   const auto run = [&use](auto& grip, const char* image_path) {
     if (const auto done = make_ready(grip, image_path); !done) return complain(done);
@@ -63,8 +65,8 @@ int with_falcon(int argc, char** argv, double gain, const falcon::mock_parameter
     return 0;
   }
   if (said == "--simulate") {
-    falcon::device<falcon::in_memory_transport<falcon::mock<Hand>>> grip{gain, patience, simulated,
-                                                                         hand};
+    using mock = falcon::mock<ph::simulation::device<scene, Hand>>;
+    falcon::device<falcon::in_memory_transport<mock>> grip{gain, patience, simulated, hand};
     return run(grip, nullptr);
   }
 #if __has_include(<libusb-1.0/libusb.h>)

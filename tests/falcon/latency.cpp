@@ -9,16 +9,15 @@ namespace {
 
 /// A mock whose answers get lost now and then.
 template <class Hand>
-struct lossy_mock : falcon::mock<Hand> {
+struct lossy_mock : mock_falcon<Hand> {
   random_source random;
   double part;  ///< of the answers that are lost
   int lost = 0;
 
-  lossy_mock(const falcon::mock_parameters& setup, const Hand& hand, double lose,
-             std::uint64_t seed)
-      : falcon::mock<Hand>(setup, hand), random(seed), part(lose) {}
+  lossy_mock(const mock_parameters& setup, const Hand& hand, double lose, std::uint64_t seed)
+      : mock_falcon<Hand>(setup, hand), random(seed), part(lose) {}
   std::size_t transmit(std::span<falcon::byte> into) noexcept {
-    const std::size_t sent = falcon::mock<Hand>::transmit(into);
+    const std::size_t sent = mock_falcon<Hand>::transmit(into);
     if (sent <= falcon::ftdi::status_size || !random.chance(part)) return sent;
     ++lost;
     return 0;
@@ -30,7 +29,7 @@ struct lossy_mock : falcon::mock<Hand> {
 TEST_CASE("the ledger on the mock Falcon never exceeds the truth, whatever the host's jitter",
           "[falcon][wall]") {
   const auto overstated = [](const auto& ledger, bool by_reply, std::uint64_t seed) {
-    falcon::mock_parameters mock{.runs = true, .homed = true};
+    mock_parameters mock{.runs = true, .homed = true};
     mock.body.damping = 0.3;
     const restless_hand hand{.tap = {{0, 0, 0.12}, {0, 0, 1}, 15.0}, .seed = seed, .part = 0.3};
     falcon_device<restless_hand> device{3500.0, eager(), mock, hand};
@@ -80,7 +79,7 @@ TEST_CASE("a lost answer is covered if longest_tick covers the wait for it", "[f
   const auto least = [&lost](const auto& bound, double longest_tick) {
     double worst = 0.0;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-      falcon::mock_parameters mock{.runs = true, .homed = true};
+      mock_parameters mock{.runs = true, .homed = true};
       mock.body.damping = b;
       mock.body.start = {0.003, -0.004, 0.122};
       const hand_type hand{.tap = {{0, 0, 0.12}, {0, 0, 1}, 5.0}, .seed = seed, .part = 0.6};

@@ -28,7 +28,7 @@ struct homing_hand {
   [[nodiscard]] ph::parameter_fault check() const noexcept { return {}; }
 };
 
-constexpr falcon::mock_parameters ready{.runs = true, .homed = true};
+constexpr mock_parameters ready{.runs = true, .homed = true};
 
 falcon::point<double> truth(const auto& body) {
   return {{body.position()[0], body.position()[1], body.position()[2]}};
@@ -38,7 +38,7 @@ falcon::point<double> truth(const auto& body) {
 
 TEST_CASE("the mock is homed by hand, and its encoders jump when it is", "[falcon][mock]") {
   using hand = homing_hand;
-  falcon_device<hand> device{3500.0, {}, falcon::mock_parameters{.runs = true}, hand{}};
+  falcon_device<hand> device{3500.0, {}, mock_parameters{.runs = true}, hand{}};
   REQUIRE(device.open());
   REQUIRE(device.boot({}).how);
   CHECK(device.where() == falcon::state::unhomed);
@@ -64,13 +64,13 @@ TEST_CASE("the mock is homed by hand, and its encoders jump when it is", "[falco
   REQUIRE(sample.valid);
   CHECK((d3::vector(sample.position) - body_of(device).position()).norm() < 1e-3);
   CHECK_FALSE([&] {  // an unhomed one does not home by waiting
-    falcon_device<sim::no_hand<d3>> still{3500.0, {}, falcon::mock_parameters{.runs = true}};
+    falcon_device<sim::no_hand<d3>> still{3500.0, {}, mock_parameters{.runs = true}};
     return still.open() && still.boot({}).how && still.home(2s);
   }());
 }
 
 TEST_CASE("counts in, words out: force and position go through the whole chain", "[falcon][mock]") {
-  falcon::mock_parameters setup = ready;
+  mock_parameters setup = ready;
   setup.body.damping = 20.0;  // it hardly moves
   falcon_device<sim::no_hand<d3>> device{3500.0, {}, setup};
   REQUIRE(make_ready(device));
@@ -92,7 +92,7 @@ TEST_CASE("counts in, words out: force and position go through the whole chain",
 
 TEST_CASE("a force is held from its packet on, and the sample that shows it is the next but one",
           "[falcon][mock]") {
-  falcon::mock_parameters setup = ready;
+  mock_parameters setup = ready;
   setup.body.damping = 20.0;
   falcon_device<sim::no_hand<d3>> device{3500.0, {}, setup};
   REQUIRE(make_ready(device));

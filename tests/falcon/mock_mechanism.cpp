@@ -12,7 +12,7 @@ namespace {
 
 using sim::random_source;
 
-constexpr falcon::mock_parameters ready{.runs = true, .homed = true};
+constexpr mock_parameters ready{.runs = true, .homed = true};
 
 falcon::leg_words random_words(random_source& random) {
   falcon::leg_words words{};
@@ -23,7 +23,7 @@ falcon::leg_words random_words(random_source& random) {
 }  // namespace
 
 TEST_CASE("every pose that the mock's arms can take is a good one", "[falcon][mock]") {
-  const falcon::mock_parameters mock;
+  const mock_parameters mock;
   CHECK_FALSE(mock.check());
   double worst = 0.0, steep = 0.0;
   const auto& [low, high] = std::pair(d3::vector(mock.body.lower), d3::vector(mock.body.upper));
@@ -74,11 +74,11 @@ TEST_CASE("the mock's energy meter books what its motors do", "[falcon][mock]") 
   random_source random(21);
   double worst = 0.0, work = 0.0;
   for (int run = 0; run < 10; ++run) {
-    falcon::mock_parameters setup = ready;
+    mock_parameters setup = ready;
     setup.body.start = {0.001 * run, -0.002 * run, 0.125};
     setup.body.friction = run % 2 == 0 ? 0.0 : 0.2;
-    falcon::mock_mechanism<sim::impedance_hand<d3>> arms(
-        setup, {.stiffness = 400.0, .damping = 3.0, .target = {0, 0, 0.12}});
+    mock_falcon<sim::impedance_hand<d3>>::mechanism_type arms(
+        setup, sim::impedance_hand<d3>{.stiffness = 400.0, .damping = 3.0, .target = {0, 0, 0.12}});
     for (int n = 0; n < 500; ++n) {
       if (n % 7 == 0) arms.hold(random_words(random));
       arms.elapse(random.uniform(1e-4, 2e-3));
@@ -93,6 +93,6 @@ TEST_CASE("the mock's energy meter books what its motors do", "[falcon][mock]") 
 }
 
 TEST_CASE("a bad parameter of the mock is named", "[falcon][mock]") {
-  CHECK(std::string(falcon::mock_parameters{.gain = 0.0}.check().parameter) == "gain");
-  CHECK(std::string(falcon::mock_parameters{.out_angle = -1.0}.check().parameter) == "out_angle");
+  CHECK(std::string(mock_parameters{.gain = 0.0}.check().parameter) == "gain");
+  CHECK(std::string(mock_parameters{.out_angle = -1.0}.check().parameter) == "out_angle");
 }

@@ -8,7 +8,7 @@ TEST_CASE("the mock takes a program as the real one does, and no other way", "[f
   falcon_cable<sim::no_hand<d3>> cable;
   REQUIRE(cable.open());
   const auto image = synthetic_image();
-  using stage = falcon::mock<>::processor_type::stage;
+  using stage = mock_falcon<>::processor_type::stage;
   const auto booted = [&cable](std::span<const falcon::byte> with, falcon::firmware_policy how) {
     return falcon::bootloader{cable, with, {.policy = how, .attempts = 2}}.run();
   };

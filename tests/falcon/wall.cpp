@@ -60,7 +60,7 @@ outcome run(auto model, falcon_device<Hand>& device, double z, const d3::vector&
 
 /// The drop of the core's experiments: 61 mm onto 10 kN/m, left alone for 6 s.
 outcome drop(auto model, double mass, double b, double friction, bool yields) {
-  falcon::mock_parameters mock{.runs = true, .homed = true};
+  mock_parameters mock{.runs = true, .homed = true};
   mock.body.mass = mass;
   mock.body.damping = b;
   mock.body.friction = friction;
@@ -82,7 +82,7 @@ outcome drop(auto model, double mass, double b, double friction, bool yields) {
 outcome tapped(auto model, double mass, double b, int seeds) {
   outcome worst;
   for (int seed = 1; seed <= seeds; ++seed) {
-    falcon::mock_parameters mock{.runs = true, .homed = true};
+    mock_parameters mock{.runs = true, .homed = true};
     mock.body.mass = mass;
     mock.body.damping = b;
     mock.body.start = {0.003, -0.004, 0.122};

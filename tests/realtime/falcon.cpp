@@ -9,7 +9,7 @@
 
 TEST_CASE("the Falcon's driver allocates nothing after open()", "[falcon][realtime]") {
   const auto image = synthetic_image();
-  falcon_device<sim::no_hand<d3>> device{3500.0, {}, falcon::mock_parameters{.homed = true}};
+  falcon_device<sim::no_hand<d3>> device{3500.0, {}, mock_parameters{.homed = true}};
   auto model =
       following_half_space<d3>(ph::damped_spring{.mass = 0.1},
                                ph::quantised_energy{.damping = 0.03, .quantum = 1e-4, .loan = 1e-3},

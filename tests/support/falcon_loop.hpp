@@ -4,6 +4,7 @@
 #include "support/scenes.hpp"
 #include <passive_haptics/falcon/device.hpp>
 #include <passive_haptics/falcon/mock.hpp>
+#include <passive_haptics/simulation/device.hpp>
 
 namespace falcon = passive_haptics::falcon;
 namespace sim = passive_haptics::simulation;
@@ -11,8 +12,11 @@ namespace sim = passive_haptics::simulation;
 /// One count on every leg, at its worst in the workspace, along one axis [m].
 inline constexpr double falcon_quantum = 1.03e-4;
 
+using mock_parameters = falcon::mock_parameters<sim::device_parameters<d3>>;
+template <class Hand = sim::no_hand<d3>>
+using mock_falcon = falcon::mock<sim::device<d3, Hand>>;
 template <class Hand>
-using falcon_cable = falcon::in_memory_transport<falcon::mock<Hand>>;
+using falcon_cable = falcon::in_memory_transport<mock_falcon<Hand>>;
 template <class Hand>
 using falcon_device = falcon::device<falcon_cable<Hand>, d3>;
 

@@ -16,15 +16,21 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
 
-///     in_memory_transport<mock<>> cable{mock_parameters{.runs = true, .homed = true}};
-template <class Hand = simulation::no_hand<space<double, 3>>>
+/// `Body` is what the arms carry, and the hand on it:
+///     using body = simulation::device<space<double, 3>>;
+///     using parameters = mock_parameters<body::parameters_type>;
+///     in_memory_transport<mock<body>> cable{parameters{.runs = true, .homed = true}};
+template <mock_body Body>
 class mock {
  public:
-  using mechanism_type = mock_mechanism<Hand>;
+  using mechanism_type = mock_mechanism<Body>;
   using processor_type = mock_processor<mechanism_type>;
+  using parameters_type = typename mechanism_type::parameters_type;
 
-  explicit mock(const mock_parameters& parameters = {}, const Hand& hand = {}) noexcept
-      : mechanism_(parameters, hand), processor_(parameters.runs) {}
+  /// What is left goes to the body.
+  template <class... Arguments>
+  explicit mock(const parameters_type& parameters = {}, const Arguments&... left) noexcept
+      : mechanism_(parameters, left...), processor_(parameters.runs) {}
 
   void control(request r, std::uint16_t value) noexcept {
     processor_.control(r, value, mechanism_);
@@ -53,8 +59,6 @@ class mock {
   processor_type processor_;
   bool attached_ = true;
 };
-
-static_assert(far_side<mock<>>);
 
 }  // namespace falcon
 }  // namespace v0

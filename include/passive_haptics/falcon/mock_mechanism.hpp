@@ -8,28 +8,39 @@
 // torques' work, F·Δp = τ·Δθ (force_over), so the energy meter of the body is exact for the motors.
 // Mass, damping and homing angles are made up: nobody has published a Falcon's.
 
-#include <passive_haptics/device/eigen_space.hpp>
+#include <passive_haptics/base/ledger.hpp>
+#include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/falcon/force.hpp>
 #include <passive_haptics/falcon/packet.hpp>
-#include <passive_haptics/simulation/device.hpp>
 
 #include <algorithm>
+#include <concepts>
 
 namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
 
-/// The body's box keeps every pose regular; its period is the longest step.
-struct mock_parameters {
-  using room = space<double, 3>;
+/// The body that the arms carry, a mass in three dimensions: simulation::device<space<double, 3>, Hand>
+/// is one. It is copied to look ahead.
+template <class B>
+concept mock_body = std::copyable<B> && requires(B body, const B still, typename B::vector force) {
+  typename B::parameters_type;
+  body.set_period(1e-3);  // the length of the coming step [s]
+  body.exchange(force);   // one step under a force [N]
+  still.position()[2];    // [m]
+};
 
-  simulation::device_parameters<room> body{.mass = 0.1,
-                                           .damping = 0.03,
-                                           .lower = {-0.035, -0.035, 0.080},
-                                           .upper = {0.035, 0.035, 0.165},
-                                           .period = 125e-6,
-                                           .start = {0.0, 0.0, 0.125},
-                                           .substeps = 2};
+/// The body's box keeps every pose regular; its period is the longest step. `Body` are the parameters
+/// of such a body: simulation::device_parameters<space<double, 3>>.
+template <class Body>
+struct mock_parameters {
+  Body body{.mass = 0.1,
+            .damping = 0.03,
+            .lower = {-0.035, -0.035, 0.080},
+            .upper = {0.035, 0.035, 0.165},
+            .period = 125e-6,
+            .start = {0.0, 0.0, 0.125},
+            .substeps = 2};
   double gain = cautious_gain<double>;  ///< k, of the simulated motors [counts per N·m]
   bool runs = false;                    ///< is a program in it already?
   bool homed = false;                   ///< does it know where it is already?
@@ -46,14 +57,16 @@ struct mock_parameters {
   }
 };
 
-template <class Hand = simulation::no_hand<space<double, 3>>>
+template <mock_body Body>
 class mock_mechanism {
  public:
-  using room = space<double, 3>;
-  using body_type = simulation::device<room, Hand>;
+  using body_type = Body;
+  using parameters_type = mock_parameters<typename Body::parameters_type>;
 
-  explicit mock_mechanism(const mock_parameters& parameters = {}, const Hand& hand = {}) noexcept
-      : parameters_(parameters), body_(parameters.body, hand) {
+  /// What is left goes to the body: simulation::device takes a hand.
+  template <class... Arguments>
+  explicit mock_mechanism(const parameters_type& parameters = {}, const Arguments&... left) noexcept
+      : parameters_(parameters), body_(parameters.body, left...) {
     look();
     homed_ = parameters.homed ? from_device::all_legs : byte(0);
     at_power_up_ = to_counts(theta_);
@@ -99,7 +112,7 @@ class mock_mechanism {
   [[nodiscard]] static point<double> position_of(const body_type& body) noexcept {
     return {{body.position()[0], body.position()[1], body.position()[2]}};
   }
-  [[nodiscard]] static room::vector vector_of(const force<double>& f) noexcept {
+  [[nodiscard]] static typename Body::vector vector_of(const force<double>& f) noexcept {
     return {f[0], f[1], f[2]};
   }
 
@@ -145,7 +158,7 @@ class mock_mechanism {
     }
   }
 
-  mock_parameters parameters_;
+  parameters_type parameters_;
   body_type body_;
   leg_words words_{};
   torques<double> torque_{};
