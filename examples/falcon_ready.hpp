@@ -3,6 +3,8 @@
 // What the Falcon's examples have in common: the real device, or with --simulate one that is not
 // there; a program loaded, homed, and then the example's own work.
 
+#include <passive_haptics/falcon/boot.hpp>
+#include <passive_haptics/falcon/in_memory_transport.hpp>
 #include <passive_haptics/falcon/mock.hpp>
 #include <passive_haptics/falcon_hid.hpp>
 #include <passive_haptics/simulation/device.hpp>
@@ -29,7 +31,7 @@ falcon::result make_ready(Device& grip, const char* image_path) {
     if (const auto done = image.load(image_path); !done) return done;
   }
   if (const auto done = grip.open(); !done) return done;
-  const auto report = grip.boot(image.bytes());
+  const auto report = falcon::boot(grip, image.bytes());
   if (!report.how) return report.how;
   std::puts(report.attempts > 0 ? "program loaded" : "a program is running");
   std::puts("pull the grip fully out, then push it fully in");

@@ -173,7 +173,7 @@ int run(const std::vector<std::string>& arguments) {
 
   falcon::device<recorded_line, room> device{falcon::cautious_gain<double>, {}, replies};
   (void)device.open();
-  (void)device.boot({}, {.policy = falcon::firmware_policy::assume_running});
+  (void)device.start([](auto&) { return falcon::result{}; });
   if (!device.home(std::chrono::seconds(10))) {
     return experiments::ended("falcon_cost", {std::string("the recording does not home: ") +
                                               to_string(device.latest().what)});

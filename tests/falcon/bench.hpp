@@ -22,7 +22,7 @@ struct falcon_bench {
     box.now = scripted_falcon::mode::running;
     box.homed = legs;
     REQUIRE(device.open());
-    REQUIRE(device.boot({}).how);
+    REQUIRE(device.start());
   }
 
   auto exchange(const d3::vector& force = push) { return device.exchange(force); }

@@ -23,7 +23,7 @@ TEST_CASE("the Falcon goes through its states, and each call says what it lacks"
   CHECK(device.where() == state::closed);
   CHECK_FALSE(device.exchange(push).valid);
   CHECK(device.latest().what == code::not_open);
-  CHECK(device.boot({}).how.what == code::not_open);
+  CHECK(falcon::boot(device, {}).how.what == code::not_open);
   CHECK(device.home(std::chrono::seconds(1)).what == code::not_open);
   CHECK(device.close());
 
@@ -33,11 +33,12 @@ TEST_CASE("the Falcon goes through its states, and each call says what it lacks"
   const auto image = synthetic_image();
   std::vector<falcon::boot_step> steps;
   bool booting = true;
-  const auto report = device.boot(image, {}, [&](falcon::boot_step s, std::size_t, std::size_t) {
-    booting = booting && device.where() == state::booting;
-    if (steps.empty() || steps.back() != s) steps.push_back(s);
-    return true;
-  });
+  const auto report =
+      falcon::boot(device, image, {}, [&](falcon::boot_step s, std::size_t, std::size_t) {
+        booting = booting && device.where() == state::booting;
+        if (steps.empty() || steps.back() != s) steps.push_back(s);
+        return true;
+      });
   REQUIRE(report.how);
   CHECK(booting);
   using falcon::boot_step;
@@ -57,13 +58,28 @@ TEST_CASE("the Falcon goes through its states, and each call says what it lacks"
   CHECK(device.where() == state::closed);
 }
 
+TEST_CASE("a Falcon that runs a program already needs no boot", "[falcon][device]") {
+  grip device{k};
+  CHECK(device.start().what == code::not_open);
+  REQUIRE(device.open());
+  CHECK(device.start({.questions = 3}).what == code::no_program);
+  CHECK(device.where() == state::open);
+  constexpr auto silence =
+      falcon::packet_link<falcon::in_memory_transport<scripted_falcon>>::silence;
+  CHECK(device.line().now() == 3 * falcon::probing{}.reply + 2 * silence);
+  device.line().peer().now = scripted_falcon::mode::running;
+  CHECK(device.start());
+  CHECK(device.where() == state::unhomed);
+  CHECK(device.line().peer().loads == 0);
+}
+
 TEST_CASE("a boot that fails leaves the Falcon open, for another try", "[falcon][device]") {
   grip device{k};
   REQUIRE(device.open());
-  CHECK(device.boot({}).how.what == code::image_missing);
+  CHECK(falcon::boot(device, {}).how.what == code::image_missing);
   CHECK(device.where() == state::open);
   const auto image = synthetic_image();
-  CHECK(device.boot(image).how);
+  CHECK(falcon::boot(device, image).how);
   CHECK(device.where() == state::unhomed);
 }
 
@@ -137,7 +153,7 @@ TEST_CASE("forces are limited in norm, then in words, and never wrap", "[falcon]
     device.line().peer().now = scripted_falcon::mode::running;
     device.line().peer().homed = 7;
     REQUIRE(device.open());
-    REQUIRE(device.boot({}).how);
+    REQUIRE(device.start());
     for (int n = 0; n < 700; ++n) (void)device.exchange(newton * direction);
     return device.line().peer().last.motor;
   };
@@ -193,7 +209,7 @@ TEST_CASE("closing and destroying leave the motors at zero", "[falcon][device]")
       device.line().peer().now = scripted_falcon::mode::running;
       device.line().peer().homed = 7;
       REQUIRE(device.open());
-      REQUIRE(device.boot({}).how);
+      REQUIRE(device.start());
       for (int n = 0; n < 700; ++n) (void)device.exchange(push);
       CHECK(seen != nothing);
     }
@@ -227,7 +243,7 @@ TEST_CASE("in single precision the Falcon commands the same, within a count", "[
   box.now = scripted_falcon::mode::running;
   box.homed = 7;
   REQUIRE(single.open());
-  REQUIRE(single.boot({}).how);
+  REQUIRE(single.start());
   double apart = 0.0;
   for (int n = 0; n < 1500; ++n) {
     box.encoder =

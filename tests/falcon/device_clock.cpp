@@ -35,7 +35,7 @@ std::unique_ptr<unsteady> homed() {
   device->line().peer().now = scripted_falcon::mode::running;
   device->line().peer().homed = 7;
   REQUIRE(device->open());
-  REQUIRE(device->boot({}).how);
+  REQUIRE(device->start());
   for (int n = 0; n < 700; ++n) (void)device->exchange(push);
   REQUIRE(device->latest().strength == 1.0);
   return device;

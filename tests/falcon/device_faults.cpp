@@ -172,7 +172,7 @@ TEST_CASE("every fault of the cable ends with zero force, and recovers where it 
     CHECK(b.device.where() == state::closed);
     box.plugged = true;
     CHECK(b.device.open());
-    CHECK(b.device.boot({}).how);
+    CHECK(falcon::boot(b.device, {}).how);
     (void)b.exchange();
     CHECK(box.last.motor == nothing);
     b.warm_up();
@@ -190,7 +190,7 @@ TEST_CASE("unplugging in each state ends in a documented one", "[falcon][device]
     grip device{k};
     REQUIRE(device.open());
     device.line().peer().plugged = false;
-    CHECK(device.boot(synthetic_image()).how.what == code::unplugged);
+    CHECK(falcon::boot(device, synthetic_image()).how.what == code::unplugged);
     CHECK(device.where() == state::open);
     CHECK(device.close());
   }

@@ -208,3 +208,10 @@ TEST_CASE("inverse names what it cannot reach", "[falcon][faults]") {
         falcon::pose_fault::out_of_reach);
   CHECK(std::string(to_string(falcon::pose_fault::out_of_reach)) == "out of reach");
 }
+
+TEST_CASE("counts and angles belong together", "[falcon]") {
+  for (int n = -3000; n <= 3000; ++n) {
+    REQUIRE(falcon::to_counts(falcon::to_angles<double>({n, -n, 0})) == falcon::counts{n, -n, 0});
+    REQUIRE(falcon::to_counts(falcon::to_angles<float>({n, -n, 0})) == falcon::counts{n, -n, 0});
+  }
+}

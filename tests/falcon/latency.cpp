@@ -87,7 +87,7 @@ TEST_CASE("a lost answer is covered if longest_tick covers the wait for it", "[f
       setup.reply = std::chrono::microseconds(static_cast<std::int64_t>(wait * 1e6));
       device_type device{3500.0, setup, mock, hand, 0.05, seed};
       REQUIRE(device.open());
-      REQUIRE(device.boot({}).how);
+      REQUIRE(device.start());
       REQUIRE(device.home(std::chrono::seconds(2)));
       auto model = composed(ph::spring{}, sure(b), bound, ticks_of(longest_tick));
       model.update({d3::vector(0, 0, 0.12), d3::vector(0, 0, 1), 1e4});

@@ -40,7 +40,7 @@ TEST_CASE("the mock is homed by hand, and its encoders jump when it is", "[falco
   using hand = homing_hand;
   falcon_device<hand> device{3500.0, {}, mock_parameters{.runs = true}, hand{}};
   REQUIRE(device.open());
-  REQUIRE(device.boot({}).how);
+  REQUIRE(device.start());
   CHECK(device.where() == falcon::state::unhomed);
   const auto before = device.line().peer().mechanism().encoder();
   CHECK(before == falcon::leg_words{});  // power-up is its zero
@@ -65,7 +65,7 @@ TEST_CASE("the mock is homed by hand, and its encoders jump when it is", "[falco
   CHECK((d3::vector(sample.position) - body_of(device).position()).norm() < 1e-3);
   CHECK_FALSE([&] {  // an unhomed one does not home by waiting
     falcon_device<sim::no_hand<d3>> still{3500.0, {}, mock_parameters{.runs = true}};
-    return still.open() && still.boot({}).how && still.home(2s);
+    return still.open() && still.start() && still.home(2s);
   }());
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("an unplugged mock goes on pushing, a plugged one stops when told", "[
   CHECK(box.mechanism().words() == held);  // nothing can be done from here
   box.plug_in();
   REQUIRE(device.open());
-  REQUIRE(device.boot({}).how);
+  REQUIRE(device.start());
   CHECK(box.mechanism().words() == falcon::leg_words{});
 }
 

@@ -71,7 +71,7 @@ TEST_CASE("what comes unasked is thrown away, before a question and after a miss
         self.late_at = self.clock + std::chrono::microseconds(500);
       }
     };
-    CHECK(b.device.boot({}).how);
+    CHECK(falcon::boot(b.device, {}).how);
     b.box.on_reply = nullptr;
     CHECK(packets == 3);
     CHECK(b.box.late.empty());

@@ -20,7 +20,7 @@ TEST_CASE("a replay gives every sample, force and state again, to the bit", "[fa
   CHECK(original.rows.size() > 2500);
   replayed device{k, {}, std::span(original.rows)};
   REQUIRE(device.open());
-  REQUIRE(device.boot({}, no_boot()).how);
+  REQUIRE(falcon::boot(device, {}, no_boot()).how);
   const auto again = session(device, [](int) {});
   REQUIRE(again.size() == original.result.size());
   CHECK(std::memcmp(again.data(), original.result.data(), again.size() * sizeof(double)) == 0);
@@ -35,7 +35,7 @@ TEST_CASE("a driver that decides otherwise diverges from the log, and is told wh
   const taken original = record();
   replayed device{2 * k, {}, std::span(original.rows)};
   REQUIRE(device.open());
-  REQUIRE(device.boot({}, no_boot()).how);
+  REQUIRE(falcon::boot(device, {}, no_boot()).how);
   (void)session(device, [](int) {});
   CHECK(device.line().divergences() > 100);
   REQUIRE(device.line().first_divergence() > 400);  // no force before homing: the same till then
@@ -47,7 +47,7 @@ TEST_CASE("a full recorder says so, and no firmware gets into a log", "[falcon][
   recorded device{k, {}, std::size_t(300)};
   REQUIRE(device.open());
   device.line().record(true);
-  REQUIRE(device.boot(image).how);
+  REQUIRE(falcon::boot(device, image).how);
   std::size_t longest = 0;
   for (const auto& row : device.line().rows()) {
     if (row.what == falcon::wire_row::call::write && row.count > 0) {

@@ -61,7 +61,7 @@ inline taken record() {
   recorded device{k, {}, std::size_t(8000)};
   device.line().line().peer().now = scripted_falcon::mode::running;
   REQUIRE(device.open());
-  REQUIRE(device.boot({}).how);
+  REQUIRE(device.start());
   device.line().record(true);
   taken t;
   t.result = session(device, [&](int n) { disturb(device.line().line().peer(), n); });

@@ -2,7 +2,9 @@
 #pragma once
 // What must hold for ANY bytes from the cable. Each function returns null, or what broke.
 #include "fuzz/reader.hpp"
+#include <passive_haptics/falcon/boot.hpp>
 #include <passive_haptics/falcon/device.hpp>
+#include <passive_haptics/falcon/in_memory_transport.hpp>
 
 namespace fuzz {
 
@@ -119,8 +121,8 @@ inline const char* boot(input bytes) noexcept {
   falcon::boot_options options;
   options.policy = static_cast<falcon::firmware_policy>(head.one() % 4);
   options.attempts = 1 + head.one() % 3;
-  options.hellos = options.probes = 2;
-  options.answer = options.reply = options.clear_to_send = std::chrono::milliseconds(2);
+  options.hellos = options.probe.questions = 2;
+  options.answer = options.probe.reply = options.clear_to_send = std::chrono::milliseconds(2);
   // key, reserved, entry, one block of 60 words, end
   std::array<falcon::byte, 2 * (11 + 3 + 60 + 1)> image{0xAA, 0x08};
   image[22] = 60;
@@ -147,9 +149,8 @@ inline const char* device(input bytes) noexcept {
   const falcon::settings<double> setup{.ramp = 0.002, .settle = 2, .most_misses = 4};
   falcon::device<line_type> grip{falcon::cautious_gain<double>, setup, bytes.subspan(half)};
   const auto& box = grip.line().peer();
-  falcon::boot_options options;
-  options.policy = falcon::firmware_policy::assume_running;
-  if (!grip.open() || !grip.boot({}, options).how) return "does not start";
+  const auto runs = [](auto&) { return falcon::result{}; };
+  if (!grip.open() || !grip.start(runs)) return "does not start";
   for (int n = 0; n < 200 && !forces.empty(); ++n) {
     const int what = forces.one();
     const bool raw = (what & 1) != 0;

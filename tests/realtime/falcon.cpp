@@ -18,7 +18,7 @@ TEST_CASE("the Falcon's driver allocates nothing after open()", "[falcon][realti
   model.update({d3::vector(0, 0, 0.13), d3::vector(0, 0, 1), 1e3});
   bool fine = static_cast<bool>(device.open());
   const long before = allocations();
-  fine = fine && device.boot(image).how && device.home(std::chrono::seconds(2));
+  fine = fine && falcon::boot(device, image).how && device.home(std::chrono::seconds(2));
   d3::vector force = d3::zero();
   double most = 0.0;
   for (int n = 0; n < 2000; ++n) {

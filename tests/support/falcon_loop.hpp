@@ -3,6 +3,7 @@
 // A local model in a loop with the mock Falcon: driver, packets, arms and hand, in virtual time.
 #include "support/scenes.hpp"
 #include <passive_haptics/falcon/device.hpp>
+#include <passive_haptics/falcon/in_memory_transport.hpp>
 #include <passive_haptics/falcon/mock.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
@@ -23,7 +24,7 @@ using falcon_device = falcon::device<falcon_cable<Hand>, d3>;
 /// Opened, with a program, homed, forces at full strength; false: it did not work.
 template <class Hand>
 bool make_ready(falcon_device<Hand>& device) {
-  if (!device.open() || !device.boot({}).how) return false;
+  if (!device.open() || !device.start()) return false;
   if (!device.home(std::chrono::seconds(1))) return false;
   for (int n = 0; n < 2000 && device.latest().strength < 1.0; ++n) {
     (void)device.exchange(d3::zero());

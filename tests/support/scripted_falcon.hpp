@@ -3,8 +3,8 @@
 // The far side of a Falcon's cable with every fault a test may want: monitor, C28x loader, program.
 // Independent of the library's own mock. It holds the last motor words it was sent, for ever: that
 // is the worst a device without a watchdog can do.
-#include <passive_haptics/falcon/firmware.hpp>
-#include <passive_haptics/falcon/transport.hpp>
+#include <passive_haptics/falcon/boot.hpp>
+#include <passive_haptics/falcon/in_memory_transport.hpp>
 
 #include <deque>
 #include <functional>

@@ -19,7 +19,7 @@ void begin(grip& device) {
   device.line().peer().now = scripted_falcon::mode::running;
   device.line().peer().homed = 7;
   REQUIRE(device.open());
-  REQUIRE(device.boot({}).how);
+  REQUIRE(device.start());
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // The real libusb against an emulated Falcon. Needs umockdev; skips itself outside of its wrapper.
 #include "support/catch.hpp"
 #include "usb/emulated_falcon.hpp"
+#include <passive_haptics/falcon/boot.hpp>
+#include <passive_haptics/falcon/runner.hpp>
 #include <passive_haptics/falcon_hid.hpp>
 
 #include <cstdio>
@@ -27,10 +29,9 @@ constexpr falcon::settings<double> patient{
 falcon::boot_options patiently() {
   falcon::boot_options options;
   options.attempts = 3;
-  options.probes = 2;
+  options.probe = {.questions = 2, .reply = std::chrono::milliseconds(600)};
   options.hellos = 3;
   options.answer = std::chrono::seconds(5);
-  options.reply = std::chrono::milliseconds(600);
   return options;
 }
 
@@ -99,7 +100,7 @@ TEST_CASE("over libusb: boot, home, a thousand exchanges, close", "[usb]") {
   {
     grip device{k, patient};
     REQUIRE(device.open());
-    const auto report = device.boot(image, patiently());
+    const auto report = falcon::boot(device, image, patiently());
     INFO(falcon::to_string(report.how.what) << " at " << falcon::to_string(report.step));
     REQUIRE(report.how);
     CHECK(report.clear_to_send);
@@ -133,7 +134,7 @@ TEST_CASE("over libusb: boot, home, a thousand exchanges, close", "[usb]") {
 
     // and again: its program is still there
     REQUIRE(device.open());
-    CHECK(device.boot({}, patiently()).how);
+    CHECK(falcon::boot(device, {}, patiently()).how);
     warm_up(device);
     CHECK(motors(bus) != nothing);
   }
@@ -148,7 +149,7 @@ TEST_CASE("over libusb: a silent device is a timeout, then a fault, then back", 
   quick.reply = std::chrono::milliseconds(500);
   grip device{k, quick};
   REQUIRE(device.open());
-  REQUIRE(device.boot({}, patiently()).how);
+  REQUIRE(falcon::boot(device, {}, patiently()).how);
   warm_up(device);
   bus.with([](scripted_falcon& far) {
     far.on_reply = [](scripted_falcon&, auto& bytes) { bytes.clear(); };
@@ -194,7 +195,7 @@ TEST_CASE("over libusb: a runner in its thread, while we look on, until the cabl
   run(bus, 7);
   grip device{k, patient};
   REQUIRE(device.open());
-  REQUIRE(device.boot({}, patiently()).how);
+  REQUIRE(falcon::boot(device, {}, patiently()).how);
   falcon::runner touch{device,
                        [](const auto& sample) { return vector(0, 0, sample.valid ? 1.0 : 0.0); }};
   REQUIRE(touch.start());
@@ -229,25 +230,25 @@ TEST_CASE("over libusb: unplugged in each state", "[usb]") {
   SECTION("open") {
     REQUIRE(device.open());
     unplug(bus);
-    CHECK(device.boot(synthetic_image(), patiently()).how.what == code::unplugged);
+    CHECK(falcon::boot(device, synthetic_image(), patiently()).how.what == code::unplugged);
     CHECK(device.where() == state::open);
   }
   SECTION("booting, at the probe") {
     REQUIRE(device.open());
     bus.with([](scripted_falcon& far) { far.unplug_after = far.calls + 8; });
-    CHECK(device.boot(synthetic_image(), patiently()).how.what == code::unplugged);
+    CHECK(falcon::boot(device, synthetic_image(), patiently()).how.what == code::unplugged);
   }
   SECTION("booting, at the image") {
     REQUIRE(device.open());
     bus.with([](scripted_falcon& far) { far.unplug_after = far.calls + 28; });
-    const auto report = device.boot(synthetic_image(), patiently());
+    const auto report = falcon::boot(device, synthetic_image(), patiently());
     CHECK(report.how.what == code::unplugged);
     CHECK(report.step == falcon::boot_step::image);
   }
   SECTION("unhomed") {
     run(bus, 0);
     REQUIRE(device.open());
-    REQUIRE(device.boot({}, patiently()).how);
+    REQUIRE(falcon::boot(device, {}, patiently()).how);
     unplug(bus);
     CHECK_FALSE(device.exchange(push).valid);
     CHECK(device.where() == state::fault);
@@ -256,7 +257,7 @@ TEST_CASE("over libusb: unplugged in each state", "[usb]") {
   SECTION("homed") {
     run(bus, 7);
     REQUIRE(device.open());
-    REQUIRE(device.boot({}, patiently()).how);
+    REQUIRE(falcon::boot(device, {}, patiently()).how);
     warm_up(device);
     unplug(bus);
     CHECK_FALSE(device.exchange(push).valid);
@@ -267,7 +268,7 @@ TEST_CASE("over libusb: unplugged in each state", "[usb]") {
   SECTION("fault") {
     run(bus, 7);
     REQUIRE(device.open());
-    REQUIRE(device.boot({}, patiently()).how);
+    REQUIRE(falcon::boot(device, {}, patiently()).how);
     (void)device.exchange({0, 0, std::nan("")});
     CHECK(device.where() == state::fault);
     unplug(bus);

@@ -98,7 +98,7 @@ namespace detail {
 
 namespace devices {
 
-/// Its three encoders have one count to 5.13/140.8 of a degree (falcon/geometry.hpp): 38 µm at the hinge
+/// Its three encoders have one count to 5.13/140.8 of a degree (falcon/kinematics.hpp): 38 µm at the hinge
 /// of a thigh of 60 mm. What that is at the grip depends on where the grip is.
 inline constexpr device_facts falcon{
     .name = "Novint Falcon",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// From a device that may hold no program to one that answers packets.
+// From a device that may hold no program to one that answers packets: the Falcon forgets its program at
+// every power-off.
 //
 //   probe    1.5 MBd    packet ─▶                ◀─ packet          is a program running?
 //   hello    9600 Bd    DTR up, "\nC\r" ─▶       ◀─ "\nD,\r"        the monitor, perhaps a 0 first
@@ -11,15 +12,133 @@
 // The sequence is the one of the open drivers; that CTS rises when the loader is ready is one user's
 // report, so it is waited for, not insisted on. Loading is flaky in practice: it is tried again from
 // the top. No call waits without end.
+//
+// The program is a boot stream for the ROM of the Falcon's TI C28x. The images are the maker's; none is
+// shipped here, the user names a file. It is checked before a byte of it is sent:
+//
+//   word 0      0x08AA, the key          words 1-8   reserved        words 9, 10   entry, high first
+//   then blocks {length, address high, address low, length × data}, and a length 0 at the very end
+//
+// Words are 16 bits, the low byte first.
 
 #include <passive_haptics/base/no_unique_address.hpp>
-#include <passive_haptics/falcon/boot_options.hpp>
-#include <passive_haptics/falcon/firmware.hpp>
-#include <passive_haptics/falcon/transport.hpp>
+#include <passive_haptics/falcon/packet_link.hpp>
+
+#include <cstdio>
 
 namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
+
+/// What a boot stream says of itself.
+struct image_summary {
+  result how{};             ///< ok, or what is wrong and where
+  std::uint32_t entry = 0;  ///< address the program starts at
+  std::uint32_t blocks = 0;
+  std::uint32_t words = 0;  ///< of data in all blocks
+};
+
+/// Walks through the whole stream; what lies in the blocks is not looked at.
+[[nodiscard]] constexpr image_summary check_image(std::span<const byte> image) noexcept {
+  constexpr unsigned key = 0x08AA;
+  constexpr std::size_t header = 2 * 11;  // key, reserved, entry
+  if (image.empty()) return {{code::image_missing}};
+  const auto word = [&image](std::size_t at) {
+    return static_cast<std::uint32_t>(image[at] | image[at + 1] << 8);
+  };
+  const auto at_byte = [](code c, std::size_t at) {
+    return result{c, static_cast<std::int64_t>(at)};
+  };
+  if (image.size() >= 2 && word(0) != key) return {{code::image_wrong_key, word(0)}};
+  if (image.size() < header + 2) return {at_byte(code::image_truncated, 0)};
+  image_summary seen{{}, word(18) << 16 | word(20)};
+  std::size_t at = header;
+  while (at + 2 <= image.size()) {
+    const std::uint32_t length = word(at);
+    if (length == 0) {
+      if (at + 2 != image.size()) seen.how = at_byte(code::image_trailing, at + 2);
+      return seen;
+    }
+    const std::size_t next = at + 2 + 4 + 2 * static_cast<std::size_t>(length);
+    if (next + 2 > image.size()) break;
+    ++seen.blocks;
+    seen.words += length;
+    at = next;
+  }
+  seen.how = at_byte(code::image_truncated, at);
+  return seen;
+}
+
+/// An image read from a file. 40 kB as a member or a static, better not on a small stack.
+class firmware {
+ public:
+  static constexpr std::size_t capacity = 40 * 1024;  ///< the chip has 36 kB of memory
+
+  /// Reads and checks the file.
+  result load(const char* path) noexcept {
+    size_ = 0;
+    std::FILE* file = path != nullptr ? std::fopen(path, "rb") : nullptr;
+    if (file == nullptr) return {code::image_unreadable};
+    const std::size_t read = std::fread(bytes_.data(), 1, bytes_.size(), file);
+    const bool failed = std::ferror(file) != 0;
+    const bool more = read == bytes_.size() && std::fgetc(file) != EOF;
+    std::fclose(file);
+    if (failed) return {code::image_unreadable};
+    if (more) return {code::image_too_long, static_cast<std::int64_t>(capacity)};
+    const result sound = check_image(std::span(bytes_).first(read)).how;
+    if (sound) size_ = read;
+    return sound;
+  }
+
+  /// Empty until a load() went well.
+  [[nodiscard]] std::span<const byte> bytes() const noexcept {
+    return std::span(bytes_).first(size_);
+  }
+
+ private:
+  std::array<byte, capacity> bytes_{};
+  std::size_t size_ = 0;
+};
+
+enum class firmware_policy : byte {
+  probe_then_load,  ///< load only if nothing answers
+  always_load,      ///< probing an empty device is said to spoil the next load
+  never_load,       ///< probe only
+  assume_running,   ///< not even that: for replays
+};
+
+enum class boot_step : byte { probe, hello, loader, image, program };
+
+[[nodiscard]] constexpr const char* to_string(boot_step s) noexcept {
+  constexpr std::array names{"probe", "hello", "loader", "image", "program"};
+  const auto i = static_cast<std::size_t>(s);
+  return i < names.size() ? names[i] : "unknown step";
+}
+
+struct boot_options {
+  firmware_policy policy = firmware_policy::probe_then_load;
+  int attempts = 10;                                    ///< to load the image; users report 1 to 10
+  int hellos = 10;                                      ///< in each attempt
+  nanoseconds answer = std::chrono::milliseconds(100);  ///< to wait for monitor and loader
+  nanoseconds clear_to_send = std::chrono::milliseconds(200);  ///< to wait for CTS
+  probing probe{};                                             ///< for a program that runs
+};
+
+struct boot_report {
+  result how{};
+  boot_step step = boot_step::probe;  ///< the last one taken
+  int attempts = 0;                   ///< to load
+  std::size_t echoed = 0;             ///< bytes of the image, in the last attempt
+  bool clear_to_send = false;         ///< was CTS seen before the loader was called?
+};
+
+/// Takes any callable bool(boot_step, done, all); false cancels.
+struct no_progress {
+  constexpr bool operator()(boot_step /*step*/, std::size_t /*done*/,
+                            std::size_t /*all*/) const noexcept {
+    return true;
+  }
+};
 
 /// One boot over an open transport.
 ///     const auto report = bootloader{usb, image.bytes(), options}.run();
@@ -67,67 +186,15 @@ class bootloader {
     return progress_(step, done, all) ? result{} : result{code::cancelled};
   }
 
-  struct setting {
-    request what;
-    std::uint16_t value;
-  };
-  template <std::size_t N>
-  [[nodiscard]] result set(const setting (&settings)[N]) noexcept {
-    for (const auto& [what, value] : settings) {
-      if (const result done = line_.control(what, value); !done) return done;
-    }
-    return {};
-  }
-
   [[nodiscard]] result send(std::span<const byte> bytes) noexcept {
     return line_.write(bytes, line_.now() + options_.answer);
   }
 
-  /// A program answers packets at 1.5 MBd. The homing bit is set, lest a homed device forget.
   [[nodiscard]] result find_program(boot_step step) noexcept {
-    const std::uint16_t event = ftdi::event_character_on | detail::closing;
-    if (const result done =
-            set({{request::latency_timer, 1},
-                 {request::data, ftdi::eight_bits},
-                 {request::flow_control, 0},
-                 {request::event_character, options_.flush_on_closing ? event : std::uint16_t(0)},
-                 {request::baud, ftdi::program_baud},
-                 {request::reset, ftdi::purge_receive},
-                 {request::reset, ftdi::purge_transmit}});
-        !done) {
-      return done;
-    }
-    packet_parser<from_device> parser;
-    const packet_bytes question = encode(to_device{});
-    for (int i = 0; i < options_.probes; ++i) {
-      const auto all = static_cast<std::size_t>(options_.probes);
-      if (const result go = begin(step, static_cast<std::size_t>(i), all); !go) return go;
-      if (const result sent = send(question); !sent) return sent;
-      const nanoseconds deadline = line_.now() + options_.reply;
-      std::array<byte, ftdi::usb_packet> bytes{};
-      for (;;) {
-        const transfer got = line_.read(bytes, deadline);
-        if (got.how.what == code::timeout) break;
-        if (!got.how) return got.how;
-        for (const byte b : std::span(bytes).first(got.bytes)) {
-          if (parser.push(b)) return i == 0 ? result{} : await_silence();
-        }
-      }
-    }
-    return {code::no_program};
-  }
-
-  /// More than one probe was sent: an answer that is still on its way would pass for the first question's.
-  [[nodiscard]] result await_silence() noexcept {
-    constexpr nanoseconds silence = std::chrono::milliseconds(2);  // two latency periods
-    const nanoseconds end = line_.now() + options_.reply;
-    std::array<byte, ftdi::usb_packet> bytes{};
-    while (line_.now() < end) {
-      const transfer got = line_.read(bytes, (std::min)(end, line_.now() + silence));
-      if (got.how.what == code::timeout) break;
-      if (!got.how) return got.how;
-    }
-    return {};
+    const auto all = static_cast<std::size_t>(options_.probe.questions);
+    return packet_link(line_).find_program(options_.probe, [&](int n) noexcept {
+      return begin(step, static_cast<std::size_t>(n), all);
+    });
   }
 
   [[nodiscard]] result load() noexcept {
@@ -141,16 +208,17 @@ class bootloader {
   [[nodiscard]] result hello() noexcept {
     constexpr std::array<byte, 3> greeting{'\n', 'C', '\r'};
     constexpr std::array<byte, 4> reply{'\n', 'D', ',', '\r'};
-    if (const result done = set({{request::reset, ftdi::purge_receive},
-                                 {request::reset, ftdi::purge_transmit},
-                                 {request::latency_timer, 16},  // the monitor fails with less
-                                 {request::baud, ftdi::monitor_baud},
-                                 {request::data, ftdi::eight_bits},
-                                 {request::flow_control, 0},
-                                 {request::event_character, 0},
-                                 {request::modem, ftdi::rts_low},
-                                 {request::modem, ftdi::dtr_low},
-                                 {request::modem, ftdi::dtr_high}});
+    if (const result done =
+            detail::set(line_, {{request::reset, ftdi::purge_receive},
+                                {request::reset, ftdi::purge_transmit},
+                                {request::latency_timer, 16},  // the monitor fails with less
+                                {request::baud, ftdi::monitor_baud},
+                                {request::data, ftdi::eight_bits},
+                                {request::flow_control, 0},
+                                {request::event_character, 0},
+                                {request::modem, ftdi::rts_low},
+                                {request::modem, ftdi::dtr_low},
+                                {request::modem, ftdi::dtr_high}});
         !done) {
       return done;
     }
@@ -169,8 +237,8 @@ class bootloader {
   [[nodiscard]] result call_loader() noexcept {
     constexpr std::array<byte, 1> lock{'A'};
     if (const result go = begin(boot_step::loader, 0, 1); !go) return go;
-    if (const result done =
-            set({{request::modem, ftdi::dtr_low}, {request::baud, ftdi::loader_baud}});
+    if (const result done = detail::set(
+            line_, {{request::modem, ftdi::dtr_low}, {request::baud, ftdi::loader_baud}});
         !done) {
       return done;
     }
@@ -241,6 +309,19 @@ class bootloader {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS Progress progress_;
   boot_report report_{};
 };
+
+/// Boots an open device: open → booting → unhomed, or back to open. May take seconds.
+///     const auto report = boot(grip, image.bytes());
+template <class Device, class Progress = no_progress>
+boot_report boot(Device& grip, std::span<const byte> image, const boot_options& options = {},
+                 const Progress& progress = {}) noexcept {
+  boot_report report;
+  report.how = grip.start([&](auto& line) noexcept {
+    report = bootloader{line, image, options, progress}.run();
+    return report.how;
+  });
+  return report;
+}
 
 }  // namespace falcon
 }  // namespace v0

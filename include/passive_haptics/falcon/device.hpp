@@ -11,12 +11,12 @@
 // a sample is the force of the packet before, from the words really sent.
 // Whenever an exchange ends without a usable position, the motors are sent zero at once.
 
+#include <passive_haptics/device/device_sample.hpp>
 #include <passive_haptics/device/eigen_space.hpp>
-#include <passive_haptics/falcon/boot.hpp>
-#include <passive_haptics/falcon/reply_guard.hpp>
-#include <passive_haptics/port/concepts.hpp>
+#include <passive_haptics/falcon/settings.hpp>
 
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace passive_haptics {
@@ -26,7 +26,8 @@ namespace falcon {
 /// Models haptic_device_for<Space>. One thread owns it. Nothing is allocated after open().
 ///     falcon::device<falcon::libusb_transport> grip{falcon::cautious_gain<double>};
 ///     if (const auto done = grip.open(); !done) return complain(done);
-///     if (const auto done = grip.boot(image.bytes()).how; !done) return complain(done);
+///     if (const auto done = grip.start(); !done) return complain(done);  // or boot(grip, image): boot.hpp
+///     if (const auto done = grip.home(std::chrono::minutes(1)); !done) return complain(done);
 ///     sample = grip.exchange(force);
 template <transport Transport, class Space = space<double, 3>>
 requires(Space::dof == 3) class device {
@@ -63,25 +64,25 @@ requires(Space::dof == 3) class device {
     return done;
   }
 
-  /// open → booting → unhomed, or back to open. May take seconds.
-  template <class Progress = no_progress>
-  boot_report boot(std::span<const byte> image, const boot_options& options = {},
-                   const Progress& progress = {}) noexcept {
-    boot_report report;
-    if (now_.where == state::closed) {
-      report.how = {code::not_open};
-      return report;
-    }
+  /// open → unhomed, where a program runs already; without one it stays open, and that is no_program.
+  result start(const probing& how = {}) noexcept {
+    return start([&](Transport& line) noexcept {
+      return packet_link(line).find_program(how, [](int) { return result{}; });
+    });
+  }
+
+  /// open → booting → unhomed, or back to open. `load(line)` gets a program to run and says whether it
+  /// does: boot() of boot.hpp is that, and may take seconds.
+  template <class Load>
+  requires std::is_invocable_r_v<result, Load, Transport&> result start(const Load& load)
+  noexcept {
+    if (now_.where == state::closed) return {code::not_open};
     (void)silence_motors();
     enter(state::booting, code::not_open);
-    report = bootloader<Transport, Progress>{line_, image, options, progress}.run();
-    start();
-    if (report.how) {
-      enter(state::unhomed, code::not_homed);
-    } else {
-      enter(state::open, report.how.what);
-    }
-    return report;
+    const result done = load(line_);
+    forget();
+    enter(done ? state::unhomed : state::open, done ? code::not_homed : done.what);
+    return done;
   }
 
   /// unhomed → homed: waits until the grip was pulled out and pushed in. `progress` is called with
@@ -141,7 +142,7 @@ requires(Space::dof == 3) class device {
       done = talks() ? silence_motors() : result{code::unplugged};
     }
     line_.close();
-    start();
+    forget();
     enter(state::closed, code::not_open);
     return done;
   }
@@ -179,7 +180,7 @@ requires(Space::dof == 3) class device {
   }
 
   /// As after power-up: nothing is known.
-  void start() noexcept {
+  void forget() noexcept {
     link_.reset();
     now_ = reading_type{.where = now_.where, .asked = line_.now(), .stamp = line_.now()};
     pose_ = {};

@@ -30,23 +30,21 @@ inline constexpr S cautious_gain = S(3500);
 /// τ = A⁻ᵀ F [N·m]. All zero when A is singular or anything is not finite.
 template <real S>
 [[nodiscard]] constexpr torques<S> torques_for(const matrix<S>& A, const force<S>& f) noexcept {
-  const auto tau = multiply_transposed<torques<S>>(inverse(A), f);
+  const auto tau = multiply<torques<S>>(transposed(inverse(A)), f);
   return is_finite(tau) ? tau : torques<S>{};
 }
 
 /// F = Aᵀ τ [N].
 template <real S>
 [[nodiscard]] constexpr force<S> force_from(const matrix<S>& A, const torques<S>& tau) noexcept {
-  return multiply_transposed<force<S>>(A, tau);
+  return multiply<force<S>>(transposed(A), tau);
 }
 
 /// ‖F‖ ≤ most [N], direction kept; zero when a component is not finite.
 template <real S>
 [[nodiscard]] constexpr force<S> limited(const force<S>& f, S most) noexcept {
-  S largest(0);  // first, so that no square overflows
-  for (const S component : f.value)
-    largest = kernels::larger(largest, kernels::magnitude(component));
   if (!is_finite(f) || !(most > S(0))) return {};
+  const S largest = largest_in(f);  // first, so that no square overflows
   if (!(largest > S(0))) return f;
   const force<S> direction = S(1) / largest * f;
   const S length = norm(direction) * largest;
@@ -58,15 +56,12 @@ template <real S>
 template <real S>
 [[nodiscard]] constexpr dac_words encode(const torques<S>& tau, S gain) noexcept {
   if (!is_finite(tau) || !(gain > S(0)) || !kernels::is_finite(gain)) return {};
-  S largest(0);
-  for (const S t : tau.value) largest = kernels::larger(largest, kernels::magnitude(t));
+  const S largest = largest_in(tau);
   const S most = S(largest_word) / gain;
   const S scale = largest > most ? most / largest : S(1);
   dac_words words{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const S exact = -gain * (scale * tau[i]);
-    const int word = static_cast<int>(exact < S(0) ? exact - S(0.5) : exact + S(0.5));
-    words[i] = static_cast<std::int16_t>(word);
+    words[i] = static_cast<std::int16_t>(detail::nearest(-gain * (scale * tau[i])));
   }
   return words;
 }

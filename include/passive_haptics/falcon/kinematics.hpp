@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Kinematics of the Falcon: pure functions, constexpr, float or double, nothing linked but <cmath>.
+// The Novint Falcon as a mechanism: its frame, lengths and encoders, and its kinematics. Pure
+// functions, constexpr, float or double, nothing linked but <cmath>.
 //
+//        y up                        legs, seen from the front:  0 top, 1 right, 2 left
+//        │   z out, to the user      origin: on the axis, in the plane of the thighs' hinges;
+//        │ ╱                         z = 0.1346 m at count 0. NO offset is taken off: subtract
+//        o──── x right               `workspace.centre` yourself if you want one.
+//
+//   angles    θ = 35° + (5.13/140.8)°·n    of the thighs, from counts n [rad]; holds once homed
 //   inverse   p → θ        closed form
 //   forward   θ → p        Newton on the closure of the three loops, exact Jacobian, warm start
 //   rates     A: θ̇ = A v   and so J = A⁻¹, v = J θ̇
@@ -12,15 +19,87 @@
 // Singular, and refused, where sin θ3 = 0, sin(θ2 − θ1) = 0, or the legs' rows are dependent.
 //
 // After R. E. Stamper, "A three degree of freedom parallel manipulator with only translational
-// degrees of freedom", PhD 97-4, University of Maryland 1997, eq. 4.12, with the offset s.
+// degrees of freedom", PhD 97-4, University of Maryland 1997, eq. 4.12, with the offset s. Lengths and
+// angles are those the Falcon's open drivers agree on; no maker's drawing was ever published, and the
+// 35° is approximate.
 
-#include <passive_haptics/falcon/geometry.hpp>
+#include <passive_haptics/falcon/vectors.hpp>
 
 #include <cstdint>
+#include <limits>
 
 namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
+
+/// Lengths of each leg [m].
+template <real S>
+struct link_lengths {
+  S thigh = S(0.060);           ///< a
+  S parallelogram = S(0.1025);  ///< b
+  S grip = S(0.01443);          ///< c, hinge to the middle of the grip
+  S hinges = S(0.0225);         ///< d + e, both ends of the parallelogram
+  S side = S(-0.025);           ///< f
+  S base = S(0.0400);           ///< r, axis to the thigh's hinge
+  S offset = S(-0.02309);       ///< s, sideways
+};
+template <real S>
+inline constexpr link_lengths<S> links{};
+
+/// φ of the legs: 105°, −15°, −135°.
+template <real S>
+inline constexpr std::array<sine_cosine<S>, 3> leg_directions{
+    {{S(0.965925826289068286749743L), S(-0.258819045102520762348899L)},
+     {S(-0.258819045102520762348899L), S(0.965925826289068286749743L)},
+     {S(-0.707106781186547524400844L), S(-0.707106781186547524400844L)}}};
+
+/// Encoder readings, one per leg.
+using counts = std::array<int, 3>;
+
+template <real S>
+inline constexpr S angle_at_zero = S(35) * pi<S> / S(180);  ///< θ at n = 0 [rad]
+template <real S>
+inline constexpr S angle_per_count = S(5.13L / 140.8L) * pi<S> / S(180);  ///< [rad]
+
+template <real S>
+[[nodiscard]] constexpr angles<S> to_angles(const counts& n) noexcept {
+  angles<S> theta;
+  for (std::size_t i = 0; i < 3; ++i) theta[i] = angle_at_zero<S> + angle_per_count<S> * S(n[i]);
+  return theta;
+}
+
+namespace detail {
+
+/// Halves away from zero; `exact` must fit an int.
+template <real S>
+[[nodiscard]] constexpr int nearest(S exact) noexcept {
+  return static_cast<int>(exact < S(0) ? exact - S(0.5) : exact + S(0.5));
+}
+
+}  // namespace detail
+
+/// The nearest counts, for |θ| ≤ π.
+template <real S>
+[[nodiscard]] constexpr counts to_counts(const angles<S>& theta) noexcept {
+  counts n{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    n[i] = detail::nearest((theta[i] - angle_at_zero<S>) / angle_per_count<S>);
+  }
+  return n;
+}
+
+/// Where the Falcon is at its best: a ball in which θ stays within −17° and 67° and cond(A) ≤ 3.1.
+template <real S>
+struct ball {
+  point<S> centre{{S(0), S(0), S(0.125)}};  ///< [m]
+  S radius = S(0.040);                      ///< [m]
+
+  [[nodiscard]] constexpr bool contains(const point<S>& p) const noexcept {
+    return dot(p - centre, p - centre) <= radius * radius;
+  }
+};
+template <real S>
+inline constexpr ball<S> workspace{};
 
 enum class pose_fault : std::uint8_t {
   none,
@@ -31,19 +110,10 @@ enum class pose_fault : std::uint8_t {
 };
 
 [[nodiscard]] constexpr const char* to_string(pose_fault fault) noexcept {
-  switch (fault) {
-    case pose_fault::none:
-      return "none";
-    case pose_fault::not_finite:
-      return "not finite";
-    case pose_fault::out_of_reach:
-      return "out of reach";
-    case pose_fault::no_convergence:
-      return "no convergence";
-    case pose_fault::near_singular:
-      return "near a singular pose";
-  }
-  return "unknown fault";
+  constexpr std::array names{"none", "not finite", "out of reach", "no convergence",
+                             "near a singular pose"};
+  const auto i = static_cast<std::size_t>(fault);
+  return i < names.size() ? names[i] : "unknown fault";
 }
 
 template <real S>
@@ -75,14 +145,14 @@ inline constexpr S largest_condition = S(12);
 
 namespace detail {
 
-/// One leg at position p, its thigh at θ1.
+/// sin and cos of θ1, leg by leg.
 template <real S>
-struct leg_state {
-  std::array<S, 3> gradient;  ///< of the gap: (cosθ2, cotθ3, sinθ2) turned into the frame
-  S gap;                      ///< (thigh's end to grip) − L [m], 0 when the loop is closed
-  S swing;                    ///< a sin(θ2 − θ1) [m]:  gradient·ṗ = swing θ̇1
-  bool reachable;             ///< |v + f| < b
-};
+using thighs = std::array<sine_cosine<S>, 3>;
+
+template <real S>
+[[nodiscard]] constexpr thighs<S> thighs_at(const angles<S>& theta) noexcept {
+  return {sine_cosine_of(theta[0]), sine_cosine_of(theta[1]), sine_cosine_of(theta[2])};
+}
 
 template <real S>
 struct leg_coordinates {
@@ -96,37 +166,13 @@ template <real S>
           p[1] * c - p[0] * s - links<S>.offset};
 }
 
-template <real S>
-[[nodiscard]] constexpr leg_state<S> leg_at(const point<S>& p, const sine_cosine<S>& thigh,
-                                            std::size_t i) noexcept {
-  constexpr auto& l = links<S>;
-  const auto [U, v] = in_leg(p, i);
-  const S cos3 = (v + l.side) / l.parallelogram;
-  const S square = (S(1) - cos3) * (S(1) + cos3);
-  if (!(square > S(0))) return {{}, S(0), S(0), false};
-  const S sin3 = kernels::square_root(square);
-  const S L = l.hinges + l.parallelogram * sin3;
-  const S cos2 = (U - l.thigh * thigh.cosine) / L;
-  const S sin2 = (p[2] - l.thigh * thigh.sine) / L;
-  const S cot3 = cos3 / sin3;
-  const auto [s, c] = leg_directions<S>[i];
-  return {{c * cos2 - s * cot3, s * cos2 + c * cot3, sin2},
-          L * (cos2 * cos2 + sin2 * sin2 - S(1)) / S(2),
-          l.thigh * (sin2 * thigh.cosine - cos2 * thigh.sine),
-          true};
-}
-
-template <real S>
-[[nodiscard]] constexpr std::array<sine_cosine<S>, 3> thighs(const angles<S>& theta) noexcept {
-  return {sine_cosine_of(theta[0]), sine_cosine_of(theta[1]), sine_cosine_of(theta[2])};
-}
-
-/// The three legs together.
+/// The three legs at a position, their thighs at given angles.
 template <real S>
 struct legs_state {
-  matrix<S> gradient;
-  triple<S, struct gap_kind> gap, swing;
-  bool reachable = true;
+  matrix<S> gradient;  ///< of the gaps: (cosθ2, cotθ3, sinθ2) of each leg, turned into the frame
+  triple<S, struct gap_kind> gap;  ///< (thigh's end to grip) − L [m], 0 when the loop is closed
+  triple<S, struct swing_kind> swing;  ///< a sin(θ2 − θ1) [m]:  gradient·ṗ = swing θ̇1
+  bool reachable = true;               ///< |v + f| < b on every leg
 
   /// Is every leg bent the way a Falcon's is?
   [[nodiscard]] constexpr bool bent_rightly() const noexcept {
@@ -135,22 +181,33 @@ struct legs_state {
   [[nodiscard]] constexpr matrix<S> rates() const noexcept {
     matrix<S> A = gradient;
     for (std::size_t i = 0; i < 3; ++i) {
-      for (S& entry : A.row[i]) entry = entry / swing[i];
+      for (S& entry : A.row[i].value) entry = entry / swing[i];
     }
     return A;
   }
 };
 
 template <real S>
-[[nodiscard]] constexpr legs_state<S> legs_at(const point<S>& p,
-                                              const std::array<sine_cosine<S>, 3>& thigh) noexcept {
+[[nodiscard]] constexpr legs_state<S> legs_at(const point<S>& p, const thighs<S>& thigh) noexcept {
+  constexpr auto& l = links<S>;
   legs_state<S> legs;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto leg = leg_at(p, thigh[i], i);
-    legs.gradient.row[i] = leg.gradient;
-    legs.gap[i] = leg.gap;
-    legs.swing[i] = leg.swing;
-    legs.reachable = legs.reachable && leg.reachable;
+    const auto [U, v] = in_leg(p, i);
+    const S cos3 = (v + l.side) / l.parallelogram;
+    const S square = (S(1) - cos3) * (S(1) + cos3);
+    if (!(square > S(0))) {
+      legs.reachable = false;
+      continue;
+    }
+    const S sin3 = kernels::square_root(square);
+    const S L = l.hinges + l.parallelogram * sin3;
+    const S cos2 = (U - l.thigh * thigh[i].cosine) / L;
+    const S sin2 = (p[2] - l.thigh * thigh[i].sine) / L;
+    const S cot3 = cos3 / sin3;
+    const auto [s, c] = leg_directions<S>[i];
+    legs.gradient.row[i] = {{c * cos2 - s * cot3, s * cos2 + c * cot3, sin2}};
+    legs.gap[i] = L * (cos2 * cos2 + sin2 * sin2 - S(1)) / S(2);
+    legs.swing[i] = l.thigh * (sin2 * thigh[i].cosine - cos2 * thigh[i].sine);
   }
   return legs;
 }
@@ -184,7 +241,7 @@ template <real S>
 ///           / (a sinθ3 sin(θ2 − θ1))
 template <real S>
 [[nodiscard]] constexpr matrix<S> rates(const point<S>& p, const angles<S>& theta) noexcept {
-  return detail::legs_at(p, detail::thighs(theta)).rates();
+  return detail::legs_at(p, detail::thighs_at(theta)).rates();
 }
 
 /// J = A⁻¹ [m]: v = J θ̇.
@@ -206,7 +263,7 @@ template <real S>
 
   pose_result<S> pose{.position = is_finite(start) ? start : workspace<S>.centre};
   if (!is_finite(theta)) return pose;
-  const auto thigh = detail::thighs(theta);
+  const auto thigh = detail::thighs_at(theta);
   const auto& middle = workspace<S>.centre;
   point<S>& p = pose.position;
   const auto refuse = [&pose](pose_fault why) {

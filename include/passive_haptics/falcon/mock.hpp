@@ -10,7 +10,6 @@
 
 #include <passive_haptics/falcon/mock_mechanism.hpp>
 #include <passive_haptics/falcon/mock_processor.hpp>
-#include <passive_haptics/falcon/transport.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

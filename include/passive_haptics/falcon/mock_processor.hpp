@@ -6,9 +6,9 @@
 //                9600 Bd              142 857 Bd        echoes every byte        1.5 MBd
 //
 // Bytes at another speed than the stage's are lost, as on a real line. The image's content is not
-// looked at, only its frame (firmware.hpp); any well-formed stream "runs".
+// looked at, only its frame (boot.hpp); any well-formed stream "runs".
 
-#include <passive_haptics/falcon/ftdi.hpp>
+#include <passive_haptics/falcon/in_memory_transport.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -81,17 +81,12 @@ constexpr void take_flags(from_device& p, byte flags) noexcept {
   p.buttons = static_cast<byte>(flags & 0x0F);
   p.homed = static_cast<byte>(flags >> 4 & 7);
 }
-[[nodiscard]] constexpr const leg_words& words_of(const to_device& p) noexcept {
-  return p.motor;
-}
-[[nodiscard]] constexpr const leg_words& words_of(const from_device& p) noexcept {
-  return p.encoder;
-}
-[[nodiscard]] constexpr leg_words& words_of(to_device& p) noexcept {
-  return p.motor;
-}
-[[nodiscard]] constexpr leg_words& words_of(from_device& p) noexcept {
-  return p.encoder;
+[[nodiscard]] constexpr auto& words_of(auto& packet) noexcept {
+  if constexpr (requires { packet.motor; }) {
+    return packet.motor;
+  } else {
+    return packet.encoder;
+  }
 }
 
 /// Can byte b stand at that place of a packet? The flags need 7 bits: 0x41 … 0xC0.

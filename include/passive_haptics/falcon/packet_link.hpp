@@ -8,6 +8,8 @@
 
 #include <passive_haptics/falcon/transport.hpp>
 
+#include <initializer_list>
+
 namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
@@ -28,6 +30,31 @@ struct [[nodiscard]] link_answer {
   nanoseconds stamp{};   ///< when it was there, or was given up
 };
 
+/// How a program is looked for.
+struct probing {
+  int questions = 10;                                 ///< to send until one is answered
+  nanoseconds reply = std::chrono::milliseconds(30);  ///< to wait for each answer
+  bool flush_on_closing = false;  ///< '>' as event character: may beat 1 kHz, never tried
+};
+
+namespace detail {
+
+struct chip_setting {
+  request what;
+  std::uint16_t value;
+};
+
+/// One setting after the other, until one fails.
+template <transport Transport>
+[[nodiscard]] result set(Transport& line, std::initializer_list<chip_setting> all) noexcept {
+  for (const auto& [what, value] : all) {
+    if (const result done = line.control(what, value); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace detail
+
 template <transport Transport>
 class packet_link {
  public:
@@ -36,10 +63,37 @@ class packet_link {
 
   explicit packet_link(Transport& line) noexcept : line_(line) {}
 
+  /// Does a program answer packets, at 1.5 MBd? ok, no_program, a fault of the line, or what
+  /// `go(n)`, called before question n, returns when that is not ok. The homing bit is set, lest a
+  /// homed device forget.
+  template <class Go>
+  result find_program(const probing& how, const Go& go) noexcept {
+    const std::uint16_t event = ftdi::event_character_on | detail::closing;
+    const result ready = detail::set(
+        line_, {{request::latency_timer, 1},
+                {request::data, ftdi::eight_bits},
+                {request::flow_control, 0},
+                {request::event_character, how.flush_on_closing ? event : std::uint16_t(0)},
+                {request::baud, ftdi::program_baud},
+                {request::reset, ftdi::purge_receive},
+                {request::reset, ftdi::purge_transmit}});
+    if (!ready) return ready;
+    for (int n = 0; n < how.questions; ++n) {
+      if (const result on = go(n); !on) return on;
+      const result answered = exchange(to_device{}, how.reply).how;
+      // After a miss, an answer that is still on its way would pass for the first question's.
+      if (answered) return n == 0 ? result{} : clear(silence);
+      if (answered.what != code::timeout) return answered;
+    }
+    return {code::no_program};
+  }
+
   /// Sends the packet and waits, no longer than `most`, for its answer.
   link_answer exchange(const to_device& packet, nanoseconds most) noexcept {
-    if (const result clear = unsettled_ ? await_silence() : drain(); !clear) return miss(clear);
-    if (const result sent = send(packet, most); !sent) return miss(sent);
+    if (const result cleared = clear(unsettled_ ? silence : nanoseconds(0)); !cleared) {
+      return miss(cleared, line_.now());
+    }
+    if (const result sent = send(packet, most); !sent) return miss(sent, line_.now());
     const nanoseconds asked = line_.now();
     for (;;) {
       const arrival came = take(asked + most);
@@ -97,21 +151,12 @@ class packet_link {
     return came;
   }
 
-  /// Throws away all that is there.
-  [[nodiscard]] result drain() noexcept {
-    for (int most = 64; most > 0; --most) {  // a line that babbles for ever is read no further
-      const arrival came = take(line_.now());
-      if (came.how.what == code::timeout) return {};
-      if (!came.how) return came.how;
-      counts_.stale += came.packets;
-    }
-    return {};
-  }
-
-  [[nodiscard]] result await_silence() noexcept {
+  /// Throws away what is there, and what comes until nothing has come for `quiet`. A line that babbles
+  /// for ever is read no further.
+  [[nodiscard]] result clear(nanoseconds quiet) noexcept {
     const nanoseconds end = line_.now() + patience;
-    while (line_.now() < end) {
-      const arrival came = take((std::min)(end, line_.now() + silence));
+    for (int most = 64; most > 0 && line_.now() < end; --most) {
+      const arrival came = take((std::min)(end, line_.now() + quiet));
       if (came.how.what == code::timeout) return {};
       if (!came.how) return came.how;
       counts_.stale += came.packets;
@@ -124,7 +169,6 @@ class packet_link {
     ++counts_.misses_in_row;
     return {how, {}, asked, line_.now()};
   }
-  [[nodiscard]] link_answer miss(const result& how) noexcept { return miss(how, line_.now()); }
 
   Transport& line_;
   packet_parser<from_device> parser_;

@@ -8,15 +8,15 @@
 //
 //     const auto log = load("session.csv");
 //     device<replay_transport> again{gain, {}, std::span(log.rows)};
-//     again.open();  again.boot({}, {.policy = firmware_policy::assume_running});
+//     again.open();  boot(again, {}, {.policy = firmware_policy::assume_running});
 //
 // Only packets are kept of what is written, so no firmware ever gets into a log. A row per call,
 // about three per exchange; the memory for them is taken at construction.
 
 #include <passive_haptics/falcon/transport.hpp>
 
-#include <cstdio>
-#include <string_view>
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace passive_haptics {

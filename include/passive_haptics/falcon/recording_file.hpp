@@ -12,6 +12,7 @@
 #include <passive_haptics/falcon/recording.hpp>
 
 #include <charconv>
+#include <cstdio>
 #include <string_view>
 
 namespace passive_haptics {

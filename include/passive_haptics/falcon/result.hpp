@@ -66,7 +66,7 @@ inline constexpr code_text code_texts[] = {
     {code::ok, "ok"},
     {code::timeout, "nothing came before the deadline"},
     {code::unplugged, "the device is gone", "plug it in, close() and open() again"},
-    {code::not_open, "the device is not open", "open() and boot() first"},
+    {code::not_open, "the device is not open", "open(), and start() or boot(), first"},
     {code::no_device, "no such Falcon on the bus",
      "check cable and power; list_devices() says what is there"},
     {code::no_permission, "no permission to open the device",

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a Falcon is told before it starts, and what it tells afterwards.
+// What a Falcon is told before it starts, what it tells afterwards, and which of that is believed.
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/falcon/force.hpp>
 #include <passive_haptics/falcon/packet_link.hpp>
+
+#include <optional>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -22,21 +24,9 @@ enum class state : byte {
 };
 
 [[nodiscard]] constexpr const char* to_string(state s) noexcept {
-  switch (s) {
-    case state::closed:
-      return "closed";
-    case state::open:
-      return "open";
-    case state::booting:
-      return "booting";
-    case state::unhomed:
-      return "unhomed";
-    case state::homed:
-      return "homed";
-    case state::fault:
-      return "fault";
-  }
-  return "unknown state";
+  constexpr std::array names{"closed", "open", "booting", "unhomed", "homed", "fault"};
+  const auto i = static_cast<std::size_t>(s);
+  return i < names.size() ? names[i] : "unknown state";
 }
 
 template <real S>
@@ -50,7 +40,7 @@ struct settings {
   /// To wait for an answer, while the last words are held: loop_limits::longest_tick covers it, or
   /// an answer that is lost may cost energy.
   nanoseconds reply = std::chrono::milliseconds(5);
-  point<S> origin{};  ///< taken off positions [m], in the frame of falcon/geometry.hpp
+  point<S> origin{};  ///< taken off positions [m], in the frame of falcon/kinematics.hpp
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     const auto refused = [](const char* parameter, auto value, const char* remedy) {
@@ -86,6 +76,44 @@ struct reading {
   nanoseconds stamp{};     ///< when the reply was there
   link_counts counts{};
   ftdi::line_status lines{};
+};
+
+/// Which replies may be believed. Packets have no checksum, and homing moves the origin of the counts
+/// in one step, perhaps some replies after the homed bits: so a jump, or a leg that is not homed,
+/// takes `settle` good replies to be forgotten.
+template <real S>
+class reply_guard {
+ public:
+  /// ok, encoder_jump, not_homed or settling, for the reply that came at `stamp`.
+  [[nodiscard]] constexpr code judge(const from_device& reply, nanoseconds stamp,
+                                     const settings<S>& setup) noexcept {
+    const bool jumped = heard_ && farther(reply.encoder, most(stamp - *heard_, setup));
+    heard_ = stamp;
+    encoder_ = reply.encoder;
+    if (jumped || !reply.is_homed()) {
+      settled_ = 0;
+      return jumped ? code::encoder_jump : code::not_homed;
+    }
+    if (settled_ < setup.settle) ++settled_;
+    return settled_ < setup.settle ? code::settling : code::ok;
+  }
+
+ private:
+  /// Counts that a leg may move in that time; in less than a tick as many as in one.
+  [[nodiscard]] static constexpr S most(nanoseconds passed, const settings<S>& setup) noexcept {
+    const S ticks = std::chrono::duration<S>(passed).count() / setup.tick;
+    return kernels::larger(S(1), ticks) * S(setup.largest_step);
+  }
+  [[nodiscard]] constexpr bool farther(const leg_words& encoder, S allowed) const noexcept {
+    for (std::size_t i = 0; i < encoder.size(); ++i) {
+      if (kernels::magnitude(S(encoder[i]) - S(encoder_[i])) > allowed) return true;
+    }
+    return false;
+  }
+
+  leg_words encoder_{};               ///< of the last reply
+  std::optional<nanoseconds> heard_;  ///< when it came
+  int settled_ = 0;                   ///< good replies in a row
 };
 
 }  // namespace falcon

@@ -1,23 +1,87 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Transport: bytes to and from the Falcon's serial bridge. One protocol, several ways to carry it:
+// Bytes to and from the Falcon. It is no USB-HID-class device (HID here means haptic interface device)
+// but a serial bridge, an FTDI FT232R, 0403:cb48, one bulk pipe each way:
+//
+//   IN transfer = 64-byte packets, each   modem status | line status | ≤ 62 bytes
+//
+// A packet goes out when it is full, or when the latency timer ends, with or without bytes in it.
+// One protocol, several ways to carry it:
 //
 //   libusb_transport       the real device                        libusb_transport.hpp
-//   in_memory_transport    a simulated far side, virtual time     here
+//   in_memory_transport    a simulated far side, virtual time     in_memory_transport.hpp
 //   replay_transport       a recorded log, its own time           recording.hpp
 //   recording_transport    any of them, and keeps what passes     recording.hpp
 //
 // Time belongs to the transport, so that a simulated hour takes a second and a test repeats itself.
 
-#include <passive_haptics/falcon/ftdi.hpp>
+#include <passive_haptics/falcon/packet.hpp>
 #include <passive_haptics/falcon/result.hpp>
 
+#include <algorithm>
+#include <chrono>
 #include <concepts>
-#include <utility>
 
 namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
+
+/// Since the transport's own epoch, monotonic.
+using nanoseconds = std::chrono::nanoseconds;
+
+/// Vendor requests of the chip (type 0x40, index 0), and the values we send with them.
+enum class request : byte {
+  reset = 0,            ///< `purge_receive`, `purge_transmit`, or 0 for all
+  modem = 1,            ///< `rts_low`, `dtr_low`, `dtr_high`
+  flow_control = 2,     ///< 0: none
+  baud = 3,             ///< a divisor of 3 MHz
+  data = 4,             ///< `eight_bits`: 8N1
+  event_character = 6,  ///< `event_character_on` | the character
+  latency_timer = 9,    ///< [ms]
+};
+
+namespace ftdi {
+
+inline constexpr std::uint16_t vendor = 0x0403, product = 0xcb48;
+inline constexpr byte bulk_in = 0x81, bulk_out = 0x02;
+
+inline constexpr std::uint16_t purge_receive = 1, purge_transmit = 2;
+inline constexpr std::uint16_t rts_low = 0x0200, dtr_low = 0x0100, dtr_high = 0x0101;
+inline constexpr std::uint16_t eight_bits = 0x0008;
+inline constexpr std::uint16_t event_character_on = 0x0100;
+inline constexpr std::uint16_t monitor_baud = 0x4138;  ///< 9600 Bd
+inline constexpr std::uint16_t loader_baud = 0x0015;   ///< 142 857 Bd
+inline constexpr std::uint16_t program_baud = 0x0002;  ///< 1.5 MBd
+
+inline constexpr std::size_t usb_packet = 64;  ///< with
+inline constexpr std::size_t status_size = 2;  ///< of them status
+inline constexpr std::size_t payload_size = usb_packet - status_size;
+
+/// The chip's two status bytes.
+struct line_status {
+  byte modem = 0;
+  byte line = 0;
+
+  [[nodiscard]] constexpr bool clear_to_send() const noexcept { return (modem & 0x10) != 0; }
+  [[nodiscard]] constexpr bool overrun() const noexcept { return (line & 0x02) != 0; }
+  [[nodiscard]] constexpr bool parity_error() const noexcept { return (line & 0x04) != 0; }
+  [[nodiscard]] constexpr bool framing_error() const noexcept { return (line & 0x08) != 0; }
+  bool operator==(const line_status&) const = default;
+};
+
+/// Takes the status bytes out of an IN transfer, in place: the payload moves to the front. Returns
+/// its length; `last` becomes the status of the last packet in it, if there is one.
+constexpr std::size_t strip_status(std::span<byte> transfer, line_status& last) noexcept {
+  std::size_t kept = 0;
+  for (std::size_t at = 0; at + status_size <= transfer.size(); at += usb_packet) {
+    last = {transfer[at], transfer[at + 1]};
+    const std::size_t end = (std::min)(at + usb_packet, transfer.size());
+    for (std::size_t i = at + status_size; i < end; ++i) transfer[kept++] = transfer[i];
+  }
+  return kept;
+}
+
+}  // namespace ftdi
 
 /// How a read() ended.
 struct [[nodiscard]] transfer {
@@ -46,98 +110,6 @@ concept transport = requires(T t, const T c, request r, std::uint16_t value,
   requires noexcept(t.read(in, deadline));
   requires noexcept(t.close());
   requires noexcept(c.now());
-};
-
-/// What is beyond the cable: the chip and all behind it. control() and receive() take what the host
-/// sends. transmit() fills in the IN transfer that is due, status bytes included, and returns its
-/// length, 0 when none is (ftdi::sender does that). elapse() lets time pass. attached() is false
-/// once the cable is out.
-template <class F>
-concept far_side = requires(F f, const F c, request r, std::uint16_t value,
-                            std::span<const byte> out, std::span<byte> in, nanoseconds passed) {
-  { f.control(r, value) } -> std::same_as<void>;
-  { f.receive(out) } -> std::same_as<void>;
-  { f.transmit(in) } -> std::same_as<std::size_t>;
-  { f.elapse(passed) } -> std::same_as<void>;
-  { c.attached() } -> std::same_as<bool>;
-};
-
-/// The cable to a simulated far side. Its clock advances only while somebody waits in read(), in
-/// steps of one USB microframe.
-template <far_side FarSide>
-class in_memory_transport {
- public:
-  static constexpr nanoseconds step = std::chrono::microseconds(125);
-
-  template <class... Arguments>
-  explicit in_memory_transport(Arguments&&... arguments)
-      : far_(std::forward<Arguments>(arguments)...) {}
-
-  result open() noexcept {
-    if (!far_.attached()) return {code::no_device};
-    open_ = true;
-    return {};
-  }
-  void close() noexcept { open_ = false; }
-  [[nodiscard]] bool is_open() const noexcept { return open_; }
-
-  result control(request r, std::uint16_t value) noexcept {
-    if (const result fault = reachable(); !fault) return fault;
-    if (r == request::reset && value != ftdi::purge_transmit) first_ = end_;
-    far_.control(r, value);
-    return {};
-  }
-
-  result write(std::span<const byte> bytes, nanoseconds /*deadline*/) noexcept {
-    if (const result fault = reachable(); !fault) return fault;
-    far_.receive(bytes);
-    return {};
-  }
-
-  transfer read(std::span<byte> into, nanoseconds deadline) noexcept {
-    for (;;) {
-      if (const result fault = reachable(); !fault) return {fault, 0, now_};
-      if (first_ == end_) {
-        const std::size_t received = far_.transmit(received_);
-        first_ = 0;
-        end_ = ftdi::strip_status(std::span(received_).first(received), lines_);
-      }
-      if (first_ != end_) break;
-      if (now_ >= deadline) return {{code::timeout}, 0, now_};
-      pass((std::min)(step, deadline - now_));
-    }
-    const std::size_t n = (std::min)(into.size(), end_ - first_);
-    std::copy_n(received_.begin() + static_cast<std::ptrdiff_t>(first_), n, into.begin());
-    first_ += n;
-    return {{}, n, now_};
-  }
-
-  [[nodiscard]] ftdi::line_status lines() const noexcept { return lines_; }
-  [[nodiscard]] nanoseconds now() const noexcept { return now_; }
-
-  /// Lets time pass with nobody reading.
-  void pass(nanoseconds passed) noexcept {
-    now_ += passed;
-    far_.elapse(passed);
-  }
-
-  /// The far side itself.
-  [[nodiscard]] FarSide& peer() noexcept { return far_; }
-  [[nodiscard]] const FarSide& peer() const noexcept { return far_; }
-
- private:
-  [[nodiscard]] result reachable() const noexcept {
-    if (!open_) return {code::not_open};
-    if (!far_.attached()) return {code::unplugged};
-    return {};
-  }
-
-  FarSide far_;
-  std::array<byte, 8 * ftdi::usb_packet> received_{};
-  std::size_t first_ = 0, end_ = 0;  ///< the payload in it
-  ftdi::line_status lines_{};
-  nanoseconds now_{0};
-  bool open_ = false;
 };
 
 }  // namespace falcon

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
-#include <passive_haptics/falcon/ftdi.hpp>
+#include <passive_haptics/falcon/in_memory_transport.hpp>
 
 #include <array>
 #include <vector>
