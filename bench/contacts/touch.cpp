@@ -35,8 +35,9 @@ touch_row judge(touch_row row) {
   }
   static_cast<void>(
       port.tick(vector(0.0, 0.0, 1.0), ph::seconds{T}));  // they are all met from outside
-  const ph::proxy_spring::at<double> rule({.mass = mass});
-  const auto spring = rule.sampled(row.stiffness, T);
+  ph::proxy_spring::at<double> rule({.mass = mass});
+  rule.adopt(T);
+  const auto spring = rule.sampled(row.stiffness);
   row.damper = spring.settling * spring.stiffness * row.speed;
   for (const vector& from : {vector(0.0, 0.0, 1.0), vector(0.36, -0.48, 0.8)}) {
     vector last = vector::Zero();

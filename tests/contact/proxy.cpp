@@ -80,11 +80,12 @@ TEMPLATE_TEST_CASE("sweeps arrive where the closed form is", "[proxy]", d3, f3) 
 }
 
 TEST_CASE("one contact alone is the spring and the damper that it asks for", "[proxy]") {
-  const ph::proxy_spring::at<double> rule({.mass = 0.1});
-  const auto spring = rule.sampled(500.0, 1e-3);
+  ph::proxy_spring::at<double> rule({.mass = 0.1});
+  rule.adopt(1e-3);
+  const auto spring = rule.sampled(500.0);
   CHECK(spring.stiffness == 500.0);
   CHECK_THAT(spring.settling, WithinRel(2.0 * std::sqrt(50.0) / 500.0, 1e-12));
-  CHECK(rule.sampled(1e9, 1e-3).stiffness == 0.95 * 0.1 * 0.1 / 1e-6);  // (1 − ε) κ m/T²
+  CHECK(rule.sampled(1e9).stiffness == 0.95 * 0.1 * 0.1 / 1e-6);  // (1 − ε) κ m/T²
   ph::proxy_problem<double, double, 1> one;
   const double depth = ph::damped_depth(spring, 1e-3, 0.01);
   one.add(1.0, depth, spring.compliance, 0.0);

@@ -30,7 +30,8 @@ struct moment {
             .held = held,
             .travel = travel,
             .travel_error = 0.0,
-            .motion_known = true};
+            .motion_known = true,
+            .late = false};
   }
 };
 const moment quiet;
@@ -73,7 +74,8 @@ TEST_CASE("along one direction rigid_reachable_bound is reachable_bound", "[rigi
                                              .held = held,
                                              .travel = travel,
                                              .travel_error = 0.0,
-                                             .motion_known = true};
+                                             .motion_known = true,
+                                             .late = false};
         CHECK_THAT(left, WithinRel(plain.limit(f, state1).factor, 1e-9));
         CHECK(rigid.limit(w, quiet.with(moved, energy)).factor <= left * (1 + 1e-12));
       }

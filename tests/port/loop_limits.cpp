@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include <passive_haptics/contact/at_tip.hpp>
+#include <passive_haptics/contact/contact_set.hpp>
+#include <passive_haptics/contact/contacts.hpp>
+#include <passive_haptics/contact/given_force.hpp>
+#include <passive_haptics/contact/rigid_tool.hpp>
 
 static_assert(ph::loop_limits::latency == 0 && !ph::loop_limits::traits.watched);
 static_assert(ph::late_loop_limits<3>::latency == 3 && !ph::late_loop_limits<3>::traits.watched);
@@ -68,6 +73,103 @@ TEST_CASE("a loop that learns its longest tick says so in its type, and goes by 
   const double less = push(learns), more = push(states);
   CHECK(less > 0.0);
   CHECK_THAT(more / less, Catch::Matchers::WithinRel(std::sqrt(1.5), 1e-6));
+}
+
+TEST_CASE("the tick that a loop learns from is late for its bound, too", "[loop_limits]") {
+  const auto pushed_in = [](const auto& limits) {
+    ph::passive_port port{d1{}, ph::given_force{}, thesis_ledger(), ph::memoryless_bound{}, limits};
+    (void)port.tick(0.0, ph::seconds{1e-3}, 0.0);
+    (void)port.tick(1e-4, ph::seconds{1e-3}, 1e-3);
+    return port.tick(2e-4, ph::seconds{1.5e-3}, 1e-3);
+  };
+  const auto learns = pushed_in(ph::learning_loop_limits<>{.longest_tick = 1e-3});
+  const auto told = pushed_in(ph::loop_limits{.longest_tick = 1.5e-3});
+  CHECK(learns.what == ph::event::late_tick);
+  CHECK(learns.force == 0.0);  // what it held was bounded for a shorter one
+  CHECK(told.what == ph::event::nominal);
+  CHECK(told.force > 0.0);
+}
+
+namespace {
+
+constexpr double stiff = 1e5;  // more than 0.1 kg can be held with in ticks of 1 ms [N/m]
+const ph::half_space<d1> stiff_wall{0.0, 1.0, stiff};
+const ph::half_space<d3> stiff_floor{d3::zero(), d3::vector(0, 0, 1), stiff};
+constexpr ph::proxy_spring proxy{.mass = 0.1};
+
+/// A port that gives what its source asks for, in a loop that is told of ticks of 1 ms, and in one that was
+/// told of 0.1 ms and learns: the second presses as the first does. `tell` brings a surface, if there is one.
+template <class Port, class Source, class Pose>
+void check_that_it_learns(const Source& source, auto tell, const Pose& outside,
+                          const Pose& inside) {
+  ph::passive_port told{Port{}, source, ph::no_observer{}, ph::no_bound{},
+                        ph::loop_limits{.longest_tick = 1e-3}};
+  ph::passive_port learns{Port{}, source, ph::no_observer{}, ph::no_bound{},
+                          ph::learning_loop_limits<>{.longest_tick = 1e-4}};
+  for (const bool again : {false, true}) {  // news that come before the loop has learned, and after
+    tell(told.source());
+    tell(learns.source());
+    for (const Pose& x : {outside, outside, inside, inside, inside}) {
+      const auto expected = told.tick(x, ph::seconds{1e-3});
+      const auto found = learns.tick(x, ph::seconds{1e-3});
+      CAPTURE(again, found.depth);
+      CHECK(found.force == expected.force);
+      CHECK((expected.depth > 0.0) == !(expected.force == Port::zero()));
+    }
+  }
+  CHECK(told.longest_tick() == 1e-3);
+  CHECK(learns.longest_tick() == 1e-3);
+  REQUIRE_FALSE(told.set(ph::loop_limits{.longest_tick = 2e-3}));
+  CHECK(told.longest_tick() == 2e-3);
+  CHECK_FALSE(told.tick(inside, ph::seconds{1e-3}).force ==
+              learns.tick(inside, ph::seconds{1e-3}).force);  // softer
+  (void)learns.tick(inside, ph::seconds{2e-3});
+  CHECK(told.tick(inside, ph::seconds{1e-3}).force == learns.tick(inside, ph::seconds{1e-3}).force);
+}
+constexpr auto silent = [](auto& /*source*/) {};
+
+}  // namespace
+
+TEST_CASE("a wall is as stiff as the ticks that its loop has learned of can hold",
+          "[loop_limits]") {
+  const auto wall = [](const auto& supply) {
+    return ph::local_contact{supply, ph::turn_at_once{}, ph::damped_spring{.mass = 0.1}};
+  };
+  SECTION("one that is fixed") {
+    check_that_it_learns<d1>(wall(ph::fixed{stiff_wall}), silent, 1e-3, -1e-3);
+  }
+  SECTION("one that is followed, silent or not") {
+    check_that_it_learns<d1>(wall(ph::followed{stiff_wall}), silent, 1e-3, -1e-3);
+    check_that_it_learns<d1>(
+        wall(ph::followed<ph::half_space<d1>>{}), [](auto& one) { one.update(stiff_wall); }, 1e-3,
+        -1e-3);
+  }
+  SECTION("one among other contacts") {
+    check_that_it_learns<d1>(ph::contacts{wall(ph::fixed{stiff_wall}), ph::given_force{}}, silent,
+                             1e-3, -1e-3);
+  }
+  SECTION("one in a set") {
+    check_that_it_learns<d1>(
+        ph::contact_set{proxy, ph::pursuit{}, ph::slots<ph::half_space<d1>, 2>{}},
+        [](auto& set) { set.update(0, stiff_wall); }, 1e-3, -1e-3);
+  }
+  SECTION("one at the tip of a stylus") {
+    const ph::rigid_pose<double> above{{0, 0, 0.101}, {}}, below{{0, 0, 0.099}, {}};
+    check_that_it_learns<ph::stylus<double>>(
+        ph::at_tip{ph::contact_set{proxy, ph::pursuit{}, ph::slots<ph::half_space<d3>, 1>{}},
+                   {0.0, 0.0, -0.1}},
+        [](auto& tip) { tip.contact().update(0, stiff_floor); }, above, below);
+  }
+  SECTION("one under a rigid tool") {
+    const ph::rigid_pose<double> above{{0, 0, 0.101}, {}}, below{{0, 0, 0.099}, {}};
+    check_that_it_learns<ph::rigid_body<double>>(
+        ph::rigid_tool{ph::tool_spring{.mass = 0.15, .least_inertia = 1e-4}, ph::pursuit{},
+                       ph::slots<ph::half_space<d3>, 2>{}},
+        [](auto& tool) {
+          tool.update(1, {0.02, 0.0, -0.1}, stiff_floor);
+        },
+        above, below);
+  }
 }
 
 namespace {

@@ -3,6 +3,7 @@
 // honestly or as the mean; what the second costs in energy is in numbers here.
 #include "simulation/challenged.hpp"
 #include <passive_haptics/compositions.hpp>
+#include <passive_haptics/contact/contact_set.hpp>
 #include <passive_haptics/motion_estimator/mass_observer.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
@@ -127,4 +128,31 @@ TEST_CASE("the longest tick stated too short loses by as much as it is too short
 
   const ph::learning_loop_limits<> learnt{.longest_tick = 1e-3, .top_speed = 100.0};
   CHECK(least(1.2e-3, learnt) > twenty);  // only until the longest has come
+}
+
+TEST_CASE("a stiff wall in a loop that has learned its longest tick does not shake", "[jitter]") {
+  const ph::half_space<d1> stiff{0.0, 1.0, 1e5};
+  const ph::learning_loop_limits<> limits{.longest_tick = 1e-4};  // and they last 1 ms
+  const ph::reachable_bound bound{.mass = mass, .hand_force = 5.0};
+  const auto largest_step = [](auto port) {
+    sim::device<d1> device({.mass = mass, .damping = 0.03, .load = -3.0, .start = 0.002});
+    auto sample = device.exchange(0.0);
+    double last = 0.0, step = 0.0;
+    for (int n = 0; n < 4000; ++n) {
+      const double force = port.tick(sample).force;
+      if (n > 2000) step = std::max(step, std::abs(force - last));
+      last = force;
+      sample = device.exchange(force);
+    }
+    CHECK_THAT(last, WithinRel(3.0, 1e-2));
+    return step;
+  };
+  CHECK(largest_step(ph::local_model{d1{}, ph::fixed{stiff}, ph::turn_at_once{},
+                                     ph::damped_spring{.mass = mass},
+                                     ph::reduced_energy{.damping = 0.03}, bound, limits}) < 1e-2);
+  ph::passive_port set{
+      d1{}, ph::contact_set{ph::proxy_spring{.mass = mass}, {}, ph::slots<ph::half_space<d1>, 1>{}},
+      ph::reduced_energy{.damping = 0.03}, bound, limits};
+  set.source().update(0, stiff);
+  CHECK(largest_step(set) < 1e-2);
 }

@@ -78,7 +78,8 @@ struct situation {
             .held = held,
             .travel = travel,
             .travel_error = travel_error,
-            .motion_known = motion_known};
+            .motion_known = motion_known,
+            .late = ph::is_late(dt, longest_tick)};
   }
 };
 

@@ -55,9 +55,7 @@ class at_tip<Source>::on {
     }
     return detail::fault_in(source_);
   }
-  constexpr void begin(scalar longest_tick) noexcept {
-    if constexpr (requires { source_.begin(longest_tick); }) source_.begin(longest_tick);
-  }
+  constexpr void adopt(scalar longest_tick) noexcept { detail::tell(source_, longest_tick); }
   constexpr void reset() noexcept { detail::restart(source_); }
   template <class Parameters>
   static constexpr int takers = detail::takers<Parameters, Source, space>;

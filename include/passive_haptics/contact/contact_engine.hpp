@@ -94,10 +94,10 @@ class contact_engine {
     if constexpr (std::same_as<Parameters, pursuit>) pace_ = decltype(pace_)(p);
     if constexpr (std::same_as<Parameters, Friction>) friction_ = decltype(friction_)(p);
   }
-  /// The longest tick of the loop [s], on which the stiffness depends.
-  constexpr void begin(scalar longest_tick) noexcept {
-    longest_tick_ = longest_tick;
-    slots_.for_each([&](auto& slot, std::size_t) { slot.begin(spring_, longest_tick); });
+  /// T [s] or a parameter is another: the same surfaces are as stiff as they let them be.
+  constexpr void adopt(scalar T) noexcept {
+    spring_.adopt(T);
+    slots_.for_each([&](auto& slot, std::size_t) { slot.adopt(spring_); });
   }
   constexpr void reset() noexcept {
     slots_.for_each([](auto& slot, std::size_t) { slot.reset(); });
@@ -128,7 +128,7 @@ class contact_engine {
     gathered all;
     gather(now, port.dt, all, what);
     if (all.empty) what = worse(what, event::no_target);
-    const auto coupling = frame::coupling(spring_, all.stiffest, longest_tick_);
+    const auto coupling = frame::coupling(spring_, all.stiffest);
     coupling.bring(all.rows);
     solve(
         all.rows, [&coupling](const row& a, const row& b) { return coupling.inner(a, b); },
@@ -185,9 +185,8 @@ class contact_engine {
   constexpr bool put(int i, const point_type& point, const Surface& next) noexcept {
     bool taken = false;
     slots_.template visit<Surface>(i, [&](auto& slot) {
-      taken = frame::is_point(point) &&
-              slot.update(next, frame::place(seen_, slot.point), frame::place(seen_, point),
-                          spring_, pace_, longest_tick_);
+      taken = frame::is_point(point) && slot.update(next, frame::place(seen_, slot.point),
+                                                    frame::place(seen_, point), spring_, pace_);
       if (taken) slot.point = point;
     });
     refused_ = refused_ || !taken;
@@ -267,8 +266,7 @@ class contact_engine {
   int sweeps_;
   typename frame::stored seen_{};  ///< where the device was last
   typename Port::stored_effort
-      coupled_{};  ///< how far the proxy is from the device: Σ λ n over K_c
-  scalar longest_tick_{};
+      coupled_{};         ///< how far the proxy is from the device: Σ λ n over K_c
   bool rests_ = true;     ///< no contact pressed in the last tick
   bool refused_ = false;  ///< news, since the last tick
 };

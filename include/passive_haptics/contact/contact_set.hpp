@@ -99,8 +99,7 @@ struct point_frame {
       return scalar(1);
     }
   };
-  [[nodiscard]] static constexpr proxy coupling(const auto& spring, scalar stiffest,
-                                                scalar /*T*/) noexcept {
+  [[nodiscard]] static constexpr proxy coupling(const auto& spring, scalar stiffest) noexcept {
     return {stiffest, scalar(1) - spring.softness()};
   }
 };

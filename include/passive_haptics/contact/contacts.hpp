@@ -60,10 +60,8 @@ class contacts<Sources...>::on {
     });
     return first;
   }
-  constexpr void begin(scalar longest_tick) noexcept {
-    for_each(*this, [longest_tick](auto& source) {
-      if constexpr (requires { source.begin(longest_tick); }) source.begin(longest_tick);
-    });
+  constexpr void adopt(scalar longest_tick) noexcept {
+    for_each(*this, [longest_tick](auto& source) { detail::tell(source, longest_tick); });
   }
   constexpr void reset() noexcept {
     for_each(*this, [](auto& source) { detail::restart(source); });

@@ -97,8 +97,9 @@ class local_contact {
     detail::restart(law_);
     beside_ = {};
   }
-  /// The longest tick of the loop [s], which the law's stiffness depends on.
-  constexpr void begin(scalar longest_tick) noexcept {
+
+  /// T [s] or a parameter is another: the same surface is as stiff as they let it be.
+  constexpr void adopt(scalar longest_tick) noexcept {
     if (supply_.target().stiffness > scalar(0)) {
       law_.adopt(supply_.target().stiffness, longest_tick);
     }

@@ -81,12 +81,14 @@ class proxy_spring::at {
             .force_limit = static_cast<double>(force_limit_)};
   }
 
-  /// K = min(K, (1 − ε) κ m/T²) and B = min(2ζ√(Km), β m/T), T the longest tick [s].
-  [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K, Scalar T) const noexcept {
-    const Scalar k =
-        kernels::sampled_stiffness(K, stiffness_fraction_ * (Scalar(1) - softness_), mass_, T);
+  /// From now on for ticks of T at most [s].
+  constexpr void adopt(Scalar T) noexcept { sampled_every_ = T; }
+  /// K = min(K, (1 − ε) κ m/T²) and B = min(2ζ√(Km), β m/T).
+  [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K) const noexcept {
+    const Scalar k = kernels::sampled_stiffness(K, stiffness_fraction_ * (Scalar(1) - softness_),
+                                                mass_, sampled_every_);
     return sampled_spring<Scalar>::of(
-        k, kernels::sampled_damping(k, damping_ratio_, damping_fraction_, mass_, T));
+        k, kernels::sampled_damping(k, damping_ratio_, damping_fraction_, mass_, sampled_every_));
   }
   /// The same where the motors cannot give K d: the secant F/d, so that a heavy device is stopped all
   /// the way out.
@@ -103,6 +105,7 @@ class proxy_spring::at {
 
  private:
   Scalar mass_, stiffness_fraction_, damping_ratio_, damping_fraction_, softness_, force_limit_;
+  Scalar sampled_every_{};  ///< T [s]
 };
 
 /// d' ≤ 3d: on the way in the damper asks for twice what the spring does at most, so nothing steps at the

@@ -108,9 +108,9 @@ class pursued {
   /// Takes a new surface while the contact is at `here`, and was at `was` with the last one, or refuses it
   /// and keeps the last good one. One that is pressed keeps the force it has; any other is met anew.
   constexpr bool update(Surface next, const vector& was, const vector& here, const auto& rule,
-                        const pursuit::on<Space>& pace, scalar longest_tick) noexcept {
+                        const pursuit::on<Space>& pace) noexcept {
     if (!next.prepare()) return false;
-    const auto spring = rule.sampled(next.stiffness, longest_tick);
+    const auto spring = rule.sampled(next.stiffness);
     if (pressed_ > scalar(0)) {
       const auto shown = next.at(here);
       const vector normal = shown.outward();
@@ -134,8 +134,9 @@ class pursued {
     state_ = pressed_ > scalar(0) ? state::leaving : state::empty;
   }
   constexpr void reset() noexcept { *this = {}; }
-  constexpr void begin(const auto& rule, scalar longest_tick) noexcept {
-    if (taken()) spring_ = rule.sampled(target_.stiffness, longest_tick);
+  /// The same surface, as stiff as another rule lets it be.
+  constexpr void adopt(const auto& rule) noexcept {
+    if (taken()) spring_ = rule.sampled(target_.stiffness);
   }
 
   [[nodiscard]] constexpr bool taken() const noexcept { return state_ != state::empty; }

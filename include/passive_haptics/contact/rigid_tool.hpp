@@ -63,14 +63,18 @@ class tool_spring::at {
             .stiffness_fraction = static_cast<double>(fraction_),
             .softness = static_cast<double>(softness_)};
   }
+  /// From now on for ticks of T at most [s].
+  constexpr void adopt(Scalar T) noexcept { sampled_every_ = T; }
   /// K = min(K, (1 − ε) κ m/T²) and B = K τ of a point at the handle.
-  [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K, Scalar T) const noexcept {
-    const Scalar k = kernels::sampled_stiffness(K, fraction_ * (Scalar(1) - softness_), mass_, T);
-    return sampled_spring<Scalar>::of(k, k * settling_time(k, k * lever_ * lever_, T));
+  [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K) const noexcept {
+    const Scalar k =
+        kernels::sampled_stiffness(K, fraction_ * (Scalar(1) - softness_), mass_, sampled_every_);
+    return sampled_spring<Scalar>::of(k, k * settling_time(k, k * lever_ * lever_));
   }
   /// k_ω [N·m/rad] beside k_v = K [N/m].
-  [[nodiscard]] constexpr Scalar turning(Scalar K, Scalar T) const noexcept {
-    return kernels::smaller(K * lever_ * lever_, fraction_ * inertia_ / (T * T));
+  [[nodiscard]] constexpr Scalar turning(Scalar K) const noexcept {
+    return kernels::smaller(K * lever_ * lever_,
+                            fraction_ * inertia_ / (sampled_every_ * sampled_every_));
   }
   /// The same at any depth: what the motors cannot give is cut by the bound.
   [[nodiscard]] static constexpr bool saturates(const sampled_spring<Scalar>& /*s*/,
@@ -85,11 +89,12 @@ class tool_spring::at {
 
  private:
   /// τ = min(2√(m/k_v), 2√(I/k_ω), 5T) [s]: B/K of damped_spring, for travel and for turns.
-  [[nodiscard]] constexpr Scalar settling_time(Scalar k, Scalar turn, Scalar T) const noexcept {
+  [[nodiscard]] constexpr Scalar settling_time(Scalar k, Scalar turn) const noexcept {
     const Scalar slowest = kernels::smaller(mass_ / k, inertia_ / turn);
-    return kernels::smaller(Scalar(2) * kernels::square_root(slowest), Scalar(5) * T);
+    return kernels::smaller(Scalar(2) * kernels::square_root(slowest), Scalar(5) * sampled_every_);
   }
   Scalar mass_, inertia_, lever_, fraction_, softness_;
+  Scalar sampled_every_{};  ///< T [s]
 };
 
 namespace detail {
@@ -172,8 +177,8 @@ struct body_frame {
       return scalar(1) + turns(p, p);
     }
   };
-  [[nodiscard]] static proxy coupling(const auto& spring, scalar stiffest, scalar T) noexcept {
-    return {stiffest, spring.turning(stiffest, T), scalar(1) - spring.softness()};
+  [[nodiscard]] static proxy coupling(const auto& spring, scalar stiffest) noexcept {
+    return {stiffest, spring.turning(stiffest), scalar(1) - spring.softness()};
   }
 };
 

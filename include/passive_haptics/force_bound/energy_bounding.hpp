@@ -106,7 +106,7 @@ class energy_bounding::on {
 
   [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) noexcept {
     vector force = Space::zero();
-    if (state.motion_known && state.dt <= state.longest_tick) {
+    if (state.fate() == tick_fate::on_time) {
       const scalar B = detail::least_damping<Space>(state.damping) / state.longest_tick;
       const scalar c2 = kernels::smaller(storage_, kernels::smaller(slope_, B));
       const vector closest = nearest(desired, c2, state);
@@ -189,7 +189,7 @@ struct tight_energy_bounding {
     }
     [[nodiscard]] constexpr share<scalar> limit(const typename Space::effort& desired,
                                                 const auto& state) const noexcept {
-      if (!state.motion_known || state.dt > state.longest_tick) return {scalar(0)};
+      if (state.fate() != tick_fate::on_time) return {scalar(0)};
       const scalar B = detail::least_damping<Space>(state.damping) / state.longest_tick;
       return detail::put_aside<Space>(desired, kernels::smaller(storage_, scalar(2) * B),
                                       kernels::largest<scalar>(), state);

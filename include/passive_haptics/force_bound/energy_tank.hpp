@@ -170,7 +170,7 @@ class two_layer_tank::on {
     energy_ +=
         state.damping.dissipated(state.travel, state.dt) - Space::dot(state.held, state.travel);
     // a late tick may have lost its force part of the way
-    energy_ = kernels::smaller(energy_, state.dt > state.longest_tick ? written_off : cap_);
+    energy_ = kernels::smaller(energy_, state.fate() == tick_fate::on_time ? cap_ : written_off);
   }
   /// s: the whole way in, what the tank holds on the way out.
   [[nodiscard]] constexpr scalar left(const vector& desired, const auto& state) const noexcept {

@@ -138,7 +138,7 @@ class basic_series_controller<Credit>::on {
     if constexpr (Credit == damping_credit::counted) {
       energy_ += state.damping.dissipated(state.travel, state.dt);
     }
-    if (state.dt > state.longest_tick) energy_ = kernels::smaller(energy_, written_off);
+    if (state.fate() != tick_fate::on_time) energy_ = kernels::smaller(energy_, written_off);
     idle_ = Space::dot(state.held, state.held) > scalar(0) ? scalar(0) : idle_ + state.dt;
     if (idle_ >= reset_after_) energy_ = kernels::smaller(energy_, scalar(0));
   }

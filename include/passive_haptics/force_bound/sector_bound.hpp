@@ -60,7 +60,7 @@ class sector_bound::on {
 
   [[nodiscard]] constexpr typename P::effort limit(const typename P::effort& desired,
                                                    const auto& state) noexcept {
-    if (!state.motion_known || state.dt > state.longest_tick) return last_ = scalar(0);
+    if (state.fate() != tick_fate::on_time) return last_ = scalar(0);
     const scalar steepest = scalar(2) * state.damping.along_axis(0) / state.longest_tick;
     const scalar gentlest = kernels::smaller(slope_, steepest);
     const bool backwards =

@@ -78,7 +78,7 @@ struct memoryless_bound {
                                                 const auto& state) const noexcept {
       const scalar T = state.longest_tick;
       scalar credit(0);
-      if (state.motion_known && state.dt <= T) {
+      if (state.fate() == tick_fate::on_time) {
         credit = state.damping.worst_outflow(state.held, T) + state.gain();
       }
       return {state.damping.affordable(desired, credit, T)};
@@ -153,7 +153,7 @@ class per_axis_bound::on {
     const scalar work = held * travel;
     scalar after = kernels::sum_rounded_down(
         before, kernels::sure_gain(b * travel * travel / state.dt, work, kernels::magnitude(work)));
-    if (state.dt > state.longest_tick) {
+    if (state.fate() != tick_fate::on_time) {
       const scalar worst = kernels::worst_outflow(held, b / state.longest_tick);
       after = kernels::smaller(after, detail::written_off(before, worst));
     }

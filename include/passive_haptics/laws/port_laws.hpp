@@ -187,7 +187,8 @@ class random_port {
             .held = commanded_[0],
             .travel = random_.vector<P>() * scalar(0.002),
             .travel_error = scalar(0),
-            .motion_known = true};
+            .motion_known = true,
+            .late = false};
   }
   [[nodiscard]] constexpr samples& random() noexcept { return random_; }
 

@@ -19,6 +19,12 @@ template <class Part>
   return false;
 }
 
+/// T [s] or a parameter is another: what a source has made of them, it makes anew.
+template <class Source, class Scalar>
+constexpr void tell(Source& source, Scalar longest_tick) noexcept {
+  if constexpr (requires { source.adopt(longest_tick); }) source.adopt(longest_tick);
+}
+
 /// Does an observer book what is unsure of a turn?
 template <class Observer>
 [[nodiscard]] constexpr bool books_turns() noexcept {

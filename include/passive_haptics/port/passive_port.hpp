@@ -194,6 +194,8 @@ class passive_port {
   }
 
   [[nodiscard]] constexpr scalar energy() const noexcept { return observer_.value(); }  ///< E1 [J]
+  /// T [s], as stated, or as a loop that learns has come to know it.
+  [[nodiscard]] constexpr scalar longest_tick() const noexcept { return limits_.longest_tick; }
   /// Of the last good sample, if there has been one.
   [[nodiscard]] constexpr pose position() const noexcept { return guard_.last(); }
   [[nodiscard]] constexpr bool has_position() const noexcept { return guard_.has_seen(); }
@@ -236,8 +238,11 @@ class passive_port {
       return refuse(event::rejected_sample, dt);
     }
     guard_.move_to(position);
-    event what = seen(travel, dt);
-    if constexpr (Limits::traits.learns) limits_.longest_tick = limits_.held_for(dt);
+    const bool late = is_late(dt, limits_.longest_tick);
+    event what = booked_as(travel, dt, late);
+    if constexpr (Limits::traits.learns) {
+      if (late) learn(dt);
+    }
     const state_type state{.damping = observer_.damping(),
                            .commanded = guard_.commanded(),
                            .energy = observer_.value(),
@@ -246,7 +251,8 @@ class passive_port {
                            .held = force,
                            .travel = travel,
                            .travel_error = travel_error(),
-                           .motion_known = known};
+                           .motion_known = known,
+                           .late = late};
     const auto request = source_.template ask<zero_stays_zero>(
         motion_.estimate(position, travel, force, dt, known), state, what);
     if constexpr (zero_stays_zero) {
@@ -268,10 +274,11 @@ class passive_port {
     return P::zero();
   }
   /// What is to be said of a tick that was booked.
-  [[nodiscard, gnu::always_inline]] constexpr event seen(const motion& travel, scalar dt) noexcept {
+  [[nodiscard, gnu::always_inline]] constexpr event booked_as(const motion& travel, scalar dt,
+                                                              [[maybe_unused]] bool late) noexcept {
     if constexpr (!trusting) {
       if (watch_.repeats(travel, dt, limits_.top_speed)) return event::repeated_sample;
-      if (dt > limits_.longest_tick) return event::late_tick;
+      if (late) return event::late_tick;
     }
     return observer_.value() < scalar(0) ? event::debt : event::nominal;
   }
@@ -336,11 +343,15 @@ class passive_port {
     return source_.refused({P::zero(), observer_.value(), why, false}, passed);
   }
 
+  /// The longest tick is the longest so far, up to what the driver lets a force be held for.
+  [[gnu::cold, gnu::noinline]] constexpr void learn(scalar dt) noexcept {
+    limits_.longest_tick = limits_.held_for(dt);
+    detail::tell(source_, limits_.longest_tick);
+  }
+  /// The parameters may be others.
   constexpr void begin() noexcept {
     sound_ = !check();
-    if constexpr (requires { source_.begin(limits_.longest_tick); }) {
-      source_.begin(limits_.longest_tick);
-    }
+    detail::tell(source_, limits_.longest_tick);
   }
 
   source_type source_;

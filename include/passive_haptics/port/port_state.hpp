@@ -3,6 +3,7 @@
 // What a force bound may look at, and what it answers.
 //
 //   port_state   the port and its ledger: no normal, no depth, no stiffness
+//   tick_fate    whether the last tick was on time, late or lost; judged here and nowhere else
 //   share        how much of the desired effort is left, from a bound that only reduces
 //
 // Whatever looks at the contact is a shaper and stands on the contact's side (contact/shaped.hpp).
@@ -11,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -23,6 +25,18 @@ struct share {
 };
 template <class Scalar>
 share(Scalar) -> share<Scalar>;
+
+/// What became of the last tick. The port judges it, once; whoever has to know reads it in port_state.
+enum class tick_fate : std::uint8_t {
+  on_time,  ///< no longer than the longest tick, and its motion is known
+  late,     ///< longer than that: the force that was held in it was bounded for less
+  lost      ///< the sample before it was none, or a bad one: its motion is unknown
+};
+/// The rule for late ticks: of a tick of dt [s], where T [s] was the longest that was allowed for.
+template <class Scalar>
+[[nodiscard]] constexpr bool is_late(Scalar dt, Scalar T) noexcept {
+  return dt > T;
+}
 
 /// The port in one tick. Motions [m], efforts [N], energies [J], times [s]; of joints [rad], [N·m].
 template <class Port, class Damping, int Latency = 0, bool Exact = true>
@@ -46,6 +60,12 @@ struct port_state {
   motion travel;                             ///< Δx over the last tick, as shown
   scalar travel_error;                       ///< the true Δx is no farther from it than this
   bool motion_known;  ///< false: the last sample was lost, Δx is unknown and given as zero
+  bool late;          ///< dt is longer than was allowed for
+
+  [[nodiscard]] constexpr tick_fate fate() const noexcept {
+    if (!motion_known) return tick_fate::lost;
+    return late ? tick_fate::late : tick_fate::on_time;
+  }
 
   /// ¼ Σ fᵀB⁻¹f over the commands that are still on their way to the motors [J], rounded up (§ 3), with
   /// what elastic friction may hold back meanwhile.

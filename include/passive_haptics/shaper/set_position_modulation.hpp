@@ -132,7 +132,7 @@ class basic_set_position_modulation<Leak>::on {
   /// that was not seen, or was too long, leaves neither that energy nor credit.
   constexpr scalar book(const auto& port) noexcept {
     if (!(spring_.stiffness > scalar(0))) return scalar(0);  // there was no target yet, so no force
-    if (!port.motion_known || port.dt > port.longest_tick) {
+    if (port.fate() != tick_fate::on_time) {
       energy_ = kernels::smaller(energy_, scalar(0));
       since_ = {};
       return scalar(0);
