@@ -18,31 +18,30 @@ constexpr const char* compiler = "g++";
 constexpr int version[] = {__GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__};
 #endif
 
-template <class Scene, class State, class Position>
-[[gnu::flatten]] auto probe(State& state, const Position& x, typename Scene::scalar dt) noexcept {
+template <class Scene, class State, class Position, class Time>
+[[gnu::flatten]] auto probe(State& state, const Position& x, Time dt) noexcept {
   return advance(state, x, dt);
 }
 
 volatile int going = 0;
 
 /// Calls `ticker` and leaves its path in the call graph.
-template <path Path, class Scene, class State, class Position, class Ticker>
-[[gnu::noinline]] void along(Ticker ticker, State& state, const Position& x,
-                             typename Scene::scalar dt) {
+template <path Path, class Scene, class State, class Position, class Time, class Ticker>
+[[gnu::noinline]] void along(Ticker ticker, State& state, const Position& x, Time dt) {
   going = static_cast<int>(Path);  // no two of these are alike, so none are merged
   [[maybe_unused]] const auto result = ticker(state, x, dt);
 }
 
 template <class Scene, class State>
 void run(State state, const std::vector<step>& steps) {
-  using S = typename Scene::scalar;
   using position = decltype(position_for<Scene, State>({}));
-  auto* volatile ticker = &probe<Scene, State, position>;  // not to be inlined
-  using pointer = decltype(&probe<Scene, State, position>);
+  using time = decltype(time_for<Scene, State>({}));
+  auto* volatile ticker = &probe<Scene, State, position, time>;  // not to be inlined
+  using pointer = decltype(&probe<Scene, State, position, time>);
   for (const step& s : steps) {
     if (s.news) update_any(state, s.target);
     const position x = position_for<Scene, State>(s.position);
-    const S dt = in<S>(s.dt);
+    const time dt = time_for<Scene, State>(s.dt);
     const pointer call = ticker;
     switch (s.taken) {
       case path::air:

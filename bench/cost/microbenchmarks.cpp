@@ -24,7 +24,7 @@ void benchmark(const char* side, State state) {
     n = n + 1 < steps.size() ? n + 1 : 0;
     if (s.news) cost::update_any(state, s.target);
     return cost::advance(state, cost::position_for<Scene, State>(s.position),
-                         cost::in<typename Scene::scalar>(s.dt));
+                         cost::time_for<Scene, State>(s.dt));
   };
 }
 

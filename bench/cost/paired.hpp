@@ -28,7 +28,7 @@ struct timing {
 template <class Scene, class State>
 struct prepared {
   decltype(position_for<Scene, State>({})) position;
-  typename Scene::scalar dt;
+  decltype(time_for<Scene, State>({})) dt;
 };
 
 template <class Scene, class State>
@@ -36,11 +36,11 @@ class stopwatch {
  public:
   using result =
       decltype(advance(std::declval<State&>(), std::declval<prepared<Scene, State>&>().position,
-                       typename Scene::scalar{}));
+                       std::declval<prepared<Scene, State>&>().dt));
 
   explicit stopwatch(const std::vector<step>& steps) : steps_(steps) {
     for (const step& s : steps) {
-      ready_.push_back({position_for<Scene, State>(s.position), in<typename Scene::scalar>(s.dt)});
+      ready_.push_back({position_for<Scene, State>(s.position), time_for<Scene, State>(s.dt)});
     }
   }
 

@@ -196,12 +196,23 @@ template <class Scene, class State>
   }
 }
 
+/// And a time.
+template <class Scene, class State>
+[[nodiscard]] constexpr auto time_for(double dt) {
+  const auto rounded = in<typename Scene::scalar>(dt);
+  if constexpr (requires { typename State::port_type; }) {
+    return ph::seconds{rounded};
+  } else {
+    return rounded;
+  }
+}
+
 /// One tick of either side.
-template <class State, class Position, class Scalar>
+template <class State, class Position, class Time>
 [[nodiscard, gnu::always_inline, gnu::flatten]] inline auto advance(State& state, const Position& x,
-                                                                    Scalar dt) noexcept {
-  if constexpr (requires { state.tick(x, ph::seconds{dt}); }) {
-    return state.tick(x, ph::seconds{dt});
+                                                                    Time dt) noexcept {
+  if constexpr (requires { typename State::port_type; }) {
+    return state.tick(x, dt);
   } else if constexpr (requires { wall_strict_tick(&state, x, dt); }) {
     return wall_strict_tick(&state, x, dt);
   } else if constexpr (requires { half_space_reachable_tick(&state, &x, dt); }) {

@@ -79,8 +79,8 @@ template <class Scene>
     step s = script(n);
     if (Scene::space::dof == 1) s.position = {s.position[2], 0, 0};
     if (s.news) update_any(state, s.target);
-    const auto o = outcome_of<S>(
-        advance(state, position_for<Scene, decltype(state)>(s.position), in<S>(s.dt)));
+    const auto o = outcome_of<S>(advance(state, position_for<Scene, decltype(state)>(s.position),
+                                         time_for<Scene, decltype(state)>(s.dt)));
     s.taken = path_of(state, o);
     steps.push_back(s);
   }

@@ -17,7 +17,7 @@ candidate side(std::string name, const State& fresh) {
               const cost::step& s = steps[static_cast<std::size_t>(n) % steps.size()];
               if (s.news) cost::update_any(state, s.target);
               const auto out = cost::advance(state, cost::position_for<Scene, State>(s.position),
-                                             static_cast<typename Scene::scalar>(s.dt));
+                                             cost::time_for<Scene, State>(s.dt));
               sum += static_cast<double>(out.depth);
             }
             return sum;

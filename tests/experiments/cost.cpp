@@ -127,11 +127,13 @@ long differences(std::uint64_t seed, met& found) {
     // one axis is enough for the wall, and it is the one that the others press along
     auto x = hand.shown();
     if (Scene::space::dof == 1) x = {x[2], 0, 0};
-    const S dt = cost::in<S>(hand.measured());
+    const double dt = hand.measured();
     const auto a = cost::outcome_of<S>(
-        cost::advance(composed, cost::position_for<Scene, decltype(composed)>(x), dt));
-    const auto b = cost::outcome_of<S>(
-        cost::advance(by_hand, cost::position_for<Scene, decltype(by_hand)>(x), dt));
+        cost::advance(composed, cost::position_for<Scene, decltype(composed)>(x),
+                      cost::time_for<Scene, decltype(composed)>(dt)));
+    const auto b =
+        cost::outcome_of<S>(cost::advance(by_hand, cost::position_for<Scene, decltype(by_hand)>(x),
+                                          cost::time_for<Scene, decltype(by_hand)>(dt)));
     different += !same_bits(a, b);
     count(found, a);
   }
