@@ -43,7 +43,7 @@ template <class Policy, class Port>
   constexpr bool of_a_port = damping_for<Policy, Port> || inertia_for<Policy, Port> ||
                              energy_observer_for<Policy, Port> || force_bound_for<Policy, Port>;
   constexpr bool of_a_contact = [] {
-    if constexpr (requires { typename Port::geometry; }) {
+    if constexpr (detail::has_geometry<Port>) {
       return normal_interpolation_for<Policy, Port> || contact_law_for<Policy, Port> ||
              surface_for<Policy, Port>;
     }

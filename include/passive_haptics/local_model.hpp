@@ -54,5 +54,13 @@ class local_model : public passive_port<Space, local_contact<Space, Supply, Norm
   [[nodiscard]] constexpr const auto& law() const noexcept { return this->source().law(); }
 };
 
+/// One that lacks its limits or its law, so that the compiler says which.
+template <class Space, class Supply, class Normals, class Law, class Observer, class Bound>
+requires contact_law_for<Law, Space> local_model(Space, Supply, Normals, Law, Observer, Bound)
+->local_model<Space, Supply, Normals, Law, Observer, Bound, detail::left_out>;
+template <class Space, class Supply, class Normals, class Observer, class Bound, class Limits>
+local_model(Space, Supply, Normals, Observer, Bound, Limits)
+    -> local_model<Space, Supply, Normals, detail::left_out, Observer, Bound, Limits>;
+
 }  // namespace v0
 }  // namespace passive_haptics

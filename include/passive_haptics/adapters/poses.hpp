@@ -21,7 +21,7 @@ concept turning_port = port<P> && requires {
 };
 /// A port that moves in space, turning or not.
 template <class P>
-concept hand_port = turning_port<P> ||(port<P>&& P::dof == 3 && requires { typename P::geometry; });
+concept hand_port = turning_port<P> ||(port<P>&& P::dof == 3 && detail::has_geometry<P>);
 
 /// The rotation of a matrix whose columns are the handle's axes in the world, or none if they are no
 /// right-handed frame of unit axes: one that is mirrored would turn the hand's torques round.

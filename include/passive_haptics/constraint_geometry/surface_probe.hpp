@@ -35,7 +35,7 @@ namespace detail {
 /// −∇depth as the probe tells it, along which a spring must push.
 template <class Space>
 [[nodiscard]] constexpr typename Space::vector steepest_push(const auto& probe) noexcept {
-  if constexpr (requires { probe.push(); }) {
+  if constexpr (says_push<decltype(probe)>) {
     return probe.push();
   } else {
     return probe.outward();

@@ -40,6 +40,8 @@ class at_tip<Source>::on {
   using scalar = typename Stylus::scalar;
   using vector = typename space::vector;
   using source_type = part_at<Source, space>;
+  static_assert(source_for<Source, space>,
+                "passive_haptics: the source does not model source_for: see port/concepts.hpp");
   using result_type = typename source_type::result_type;
   static constexpr bool asks_for_numbers = source_type::asks_for_numbers;
   static constexpr bool needs_ledger = detail::spends_ledger<source_type>();
@@ -69,7 +71,7 @@ class at_tip<Source>::on {
   [[nodiscard]] constexpr const source_type& contact() const noexcept { return source_; }
 
   /// The tip, as its source sees it.
-  struct seen {
+  struct tip_motion {
     vector position, travel;  ///< [m]
     scalar dt;                ///< [s]
     [[nodiscard]] scalar along(const vector& n) const noexcept {
@@ -84,7 +86,7 @@ class at_tip<Source>::on {
     vector travel = port.travel;
     if (port.motion_known) travel = travel + (arm - vector(arm_));
     arm_ = arm;
-    const seen now{vector(Stylus::place(motion.position)) + arm, travel, port.dt};
+    const tip_motion now{vector(Stylus::place(motion.position)) + arm, travel, port.dt};
     return source_.template ask<Shortcut>(now, port, what);
   }
   [[nodiscard]] constexpr result_type answered(const request& r,

@@ -52,7 +52,7 @@ class capped<Law>::on : public part_at<Law, Space> {
   }
   [[nodiscard]] constexpr capped parameters() const noexcept {
     capped p;
-    if constexpr (requires { law_part::parameters(); }) p.law = law_part::parameters();
+    if constexpr (detail::has_parameters<law_part>) p.law = law_part::parameters();
     p.most = static_cast<double>(most_);
     return p;
   }

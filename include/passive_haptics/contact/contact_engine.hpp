@@ -45,15 +45,13 @@ struct contact_parameters {
 
 namespace detail {
 
-/// A frame says where on the device a contact is, and what its force does there:
-///   space, row, point   where surfaces are; a force or a wrench; where on the device a slot is
-///   stored, place()     where the device was, and where a point of it was then
-///   now()               a tick: at(point), along(…), velocity(…), travel(…), row_of(…, n), seen()
-///   coupling()          C of the proxy: inner(), bring(problem), way(effort), most_yield(point)
+/// Surfaces in slots and the proxy that they leave, on a device of that frame (frame_for in port/concepts.hpp).
 template <class Port, template <class> class Frame, class Spring, class Friction, class... Slots>
 class contact_engine {
  protected:
   using frame = Frame<Port>;
+  static_assert(frame_for<frame, Port>,
+                "passive_haptics: the frame does not model frame_for: see port/concepts.hpp");
   using space_type = typename frame::space;
   using point_type = typename frame::point;
 
@@ -124,7 +122,7 @@ class contact_engine {
   template <bool Shortcut>
   [[nodiscard]] constexpr request ask(const auto& motion, const auto& port, event& what) noexcept {
     if (std::exchange(refused_, false)) what = worse(what, event::rejected_target);
-    const auto now = frame::now(motion, port, seen_);
+    const auto now = frame::now(motion, port, last_);
     gathered all;
     gather(now, port.dt, all, what);
     if (all.empty) what = worse(what, event::no_target);
@@ -145,7 +143,7 @@ class contact_engine {
         if (felt) {
           const auto here = now.at(slot.point);
           const auto& of = slot.spring();
-          const scalar k = of.stiffness * share / coupling.most_yield(slot.point);
+          const scalar k = of.stiffness * per_contact / coupling.most_yield(slot.point);
           rubbed = rubbed + now.row_of(here, bristles_[i].rub(friction_, lambda, all.normal[r],
                                                               now.travel(slot.point, here),
                                                               now.velocity(here), k,
@@ -160,7 +158,7 @@ class contact_engine {
         ++r;
       }
     });
-    seen_ = now.seen();
+    last_ = now.place();
     coupled_ = coupling.way(pressed);
     const row wanted = pressed + rubbed;
     if (!Port::is_finite(wanted)) [[unlikely]] {
@@ -185,8 +183,8 @@ class contact_engine {
   constexpr bool put(int i, const point_type& point, const Surface& next) noexcept {
     bool taken = false;
     slots_.template visit<Surface>(i, [&](auto& slot) {
-      taken = frame::is_point(point) && slot.update(next, frame::place(seen_, slot.point),
-                                                    frame::place(seen_, point), spring_, pace_);
+      taken = frame::is_point(point) && slot.update(next, frame::place(last_, slot.point),
+                                                    frame::place(last_, point), spring_, pace_);
       if (taken) slot.point = point;
     });
     refused_ = refused_ || !taken;
@@ -196,7 +194,7 @@ class contact_engine {
  private:
   static constexpr auto cells = static_cast<std::size_t>(all_slots::capacity);
   /// Of a contact's K and B, what its bristle has: all of them together have no more than one contact.
-  static constexpr scalar share = scalar(1) / scalar(all_slots::capacity);
+  static constexpr scalar per_contact = scalar(1) / scalar(all_slots::capacity);
   struct nothing_kept {};
   struct no_friction {
     constexpr explicit no_friction(const Friction& /*f*/) noexcept {}
@@ -264,7 +262,7 @@ class contact_engine {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
   std::conditional_t<rubs, stick_slip::on<space_type>, no_friction> friction_;
   int sweeps_;
-  typename frame::stored seen_{};  ///< where the device was last
+  typename frame::stored last_{};  ///< where the device was last
   typename Port::stored_effort
       coupled_{};         ///< how far the proxy is from the device: Σ λ n over K_c
   bool rests_ = true;     ///< no contact pressed in the last tick

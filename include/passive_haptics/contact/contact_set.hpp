@@ -38,8 +38,8 @@ struct point_frame {
   using stored = typename Space::coordinates;
 
   [[nodiscard]] static constexpr bool is_point(const point& /*p*/) noexcept { return true; }
-  [[nodiscard]] static constexpr vector place(const stored& seen, const point& /*p*/) noexcept {
-    return seen;
+  [[nodiscard]] static constexpr vector place(const stored& was, const point& /*p*/) noexcept {
+    return was;
   }
   [[nodiscard]] static constexpr scalar along(const row& n, const row& way) noexcept {
     return Space::dot(n, way);
@@ -76,7 +76,7 @@ struct point_frame {
     [[nodiscard]] constexpr row row_of(const spot& /*s*/, const vector& n) const noexcept {
       return n;
     }
-    [[nodiscard]] constexpr stored seen() const noexcept { return x; }
+    [[nodiscard]] constexpr stored place() const noexcept { return x; }
   };
   template <class Motion>
   [[nodiscard]] static constexpr tick<Motion> now(const Motion& motion, const auto& /*port*/,

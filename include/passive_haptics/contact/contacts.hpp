@@ -149,7 +149,7 @@ class contacts<Sources...>::on {
       const port_result<Space> part{cut ? vector(own * left) : own, port.energy, port.what, cut};
       const auto result = source.answered(one, part);
       sum.limited = sum.limited || result.limited;
-      if constexpr (requires { result.depth; }) {
+      if constexpr (detail::says_depth<decltype(result)>) {
         sum.depth = kernels::larger(sum.depth, result.depth);
       }
     };

@@ -32,9 +32,28 @@ inline constexpr bool is_shaped = requires(part_at<Law, Space> law) {
 
 template <class Law>
 [[nodiscard]] constexpr bool wants_local_model() noexcept {
-  if constexpr (requires { Law::needs_local_model; }) return Law::needs_local_model;
+  if constexpr (speaks_of_local_model<Law>) return Law::needs_local_model;
   return false;
 }
+
+/// Is what a supply brings, if it says what, a constraint?
+template <class Supply, class Space>
+[[nodiscard]] constexpr bool supplies_no_other_than_constraints() noexcept {
+  if constexpr (requires { typename Supply::constraint_type; }) {
+    return constraint_for<typename Supply::constraint_type, Space>;
+  }
+  return true;
+}
+/// The space of what a supply brings, or of a surface that is given in place of one.
+template <class Supply>
+struct space_of : space_of<typename Supply::constraint_type> {};
+template <class Surface>
+requires requires {
+  typename Surface::space_type;
+}
+struct space_of<Surface> {
+  using type = typename Surface::space_type;
+};
 }  // namespace detail
 
 /// A surface that a supply brings, turned by a normal interpolation, pressed back by a contact law:
@@ -43,6 +62,29 @@ template <class Law>
 /// Models source_for<Space>. It holds no energy and promises nothing.
 template <class Space, class Supply, class Normals, class Law>
 class local_contact {
+  static_assert(
+      !surface_for<Supply, Space>,
+      "passive_haptics: a surface by itself brings no news and no promise to stay: wrap it "
+      "in followed, or in fixed if it never moves");
+  static_assert(
+      detail::supplies_no_other_than_constraints<Supply, Space>(),
+      "passive_haptics: the constraint does not model constraint_for: see port/concepts.hpp");
+  static_assert(supply_for<Supply, Space>,
+                "passive_haptics: the supply does not model supply_for: see port/concepts.hpp");
+  static_assert(
+      !std::same_as<Law, detail::left_out>,
+      "passive_haptics: the contact law is left out: after the normal interpolation comes "
+      "spring{} or another one");
+  static_assert(normal_interpolation_for<Normals, Space>,
+                "passive_haptics: the normal interpolation does not model "
+                "normal_interpolation_for: see port/concepts.hpp");
+  static_assert(
+      std::same_as<Law, detail::left_out> || contact_law_for<Law, Space>,
+      "passive_haptics: the contact law does not model contact_law_for: see port/concepts.hpp");
+  static_assert(Supply::moves || !detail::wants_local_model<Law>(),
+                "passive_haptics: this shaper compares with a local model that can move: "
+                "use followed instead of fixed");
+
  public:
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
@@ -53,21 +95,6 @@ class local_contact {
   using supply_type = Supply;
   static constexpr bool asks_for_numbers = true;
   static constexpr bool needs_ledger = detail::spends_ledger<Law>();  ///< a shaper of it does
-
-  static_assert(
-      constraint_for<constraint_type, Space>,
-      "passive_haptics: the constraint does not model constraint_for: see port/concepts.hpp");
-  static_assert(supply_for<Supply, Space>,
-                "passive_haptics: the supply does not model supply_for: see port/concepts.hpp");
-  static_assert(normal_interpolation_for<Normals, Space>,
-                "passive_haptics: the normal interpolation does not model "
-                "normal_interpolation_for: see port/concepts.hpp");
-  static_assert(
-      contact_law_for<Law, Space>,
-      "passive_haptics: the contact law does not model contact_law_for: see port/concepts.hpp");
-  static_assert(Supply::moves || !detail::wants_local_model<Law>(),
-                "passive_haptics: this shaper compares with a local model that can move: "
-                "use followed instead of fixed");
 
   constexpr local_contact() noexcept : local_contact(Supply{}, Normals{}, Law{}) {}
   constexpr local_contact(const Supply& supply, const Normals& normals, const Law& law) noexcept
@@ -81,7 +108,7 @@ class local_contact {
   template <class Parameters>
   static constexpr int takers = detail::takers<Parameters, Normals, Space> +
                                 detail::takers<Parameters, Law, Space> +
-                                static_cast<int>(requires(Supply s, Parameters p) { s.set(p); });
+                                static_cast<int>(detail::takes_in_place<Supply, Parameters>);
   template <class Parameters>
   constexpr void take(const Parameters& p) noexcept {
     if constexpr (detail::takers < Parameters, Normals, Space >> 0) {
@@ -318,7 +345,11 @@ class local_contact {
 /// The space is that of the constraint.
 template <class Supply, class Normals, class Law>
 local_contact(Supply, Normals, Law)
-    -> local_contact<typename Supply::constraint_type::space_type, Supply, Normals, Law>;
+    -> local_contact<typename detail::space_of<Supply>::type, Supply, Normals, Law>;
+/// One that lacks its law, so that the compiler says so.
+template <class Supply, class Normals>
+local_contact(Supply, Normals)
+    -> local_contact<typename detail::space_of<Supply>::type, Supply, Normals, detail::left_out>;
 
 }  // namespace v0
 }  // namespace passive_haptics

@@ -165,7 +165,7 @@ class pursued {
                                                           felt& own) noexcept {
     const auto shown = target_.at(x);
     own.normal = own.push = shown.outward();
-    if constexpr (requires { shown.push(); }) own.push = shown.push();
+    if constexpr (detail::says_push<decltype(shown)>) own.push = shown.push();
     own.depth = shown.depth;
     const bool ends = state_ == state::leaving || state_ == state::stale || !shown.covered();
     if (!own.is_finite()) [[unlikely]] {

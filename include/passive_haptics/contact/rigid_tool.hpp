@@ -110,8 +110,8 @@ struct body_frame {
   using stored = typename Body::stored_pose;
 
   [[nodiscard]] static bool is_point(const point& p) noexcept { return space::is_finite(p); }
-  [[nodiscard]] static vector place(const stored& seen, const point& p) noexcept {
-    return vector(seen.position) + rotation::rotate<scalar>(seen.orientation, p);
+  [[nodiscard]] static vector place(const stored& was, const point& p) noexcept {
+    return vector(was.position) + rotation::rotate<scalar>(was.orientation, p);
   }
   [[nodiscard]] static scalar along(const row& a, const row& way) noexcept {
     return Body::work(a, way).joules;
@@ -136,12 +136,12 @@ struct body_frame {
       return space::dot(velocity(s), n);
     }
     [[nodiscard]] vector travel(const point& p, const spot& s) const noexcept {
-      return s.position - place(last, p);
+      return s.position - body_frame::place(last, p);
     }
     [[nodiscard]] row row_of(const spot& s, const vector& n) const noexcept {
       return Body::join(n, space::cross(s.arm, n));
     }
-    [[nodiscard]] stored seen() const noexcept { return pose; }
+    [[nodiscard]] stored place() const noexcept { return pose; }
   };
   [[nodiscard]] static tick now(const auto& motion, const auto& port, const stored& last) noexcept {
     stored pose = motion.position;

@@ -61,7 +61,7 @@ class shaped<Law, Shapers...>::on : public part_at<Law, Space> {
   }
   [[nodiscard]] constexpr shaped parameters() const noexcept {
     shaped p;
-    if constexpr (requires { law_part::parameters(); }) p.law = law_part::parameters();
+    if constexpr (detail::has_parameters<law_part>) p.law = law_part::parameters();
     p.shapers = shapers_.parameters();
     return p;
   }

@@ -10,6 +10,7 @@
 // bound). All guarantees scale with b, so state a LOWER bound of it, say half the identified value.
 
 #include <passive_haptics/base/parameter.hpp>
+#include <passive_haptics/device/space.hpp>
 
 #include <array>
 #include <cstddef>
@@ -37,7 +38,7 @@ struct isotropic_damping {
     using motion = typename Space::motion;
     using effort = typename Space::effort;
     static_assert(
-        requires { typename Space::geometry; },
+        detail::has_geometry<Space>,
         "passive_haptics: isotropic_damping has one number for all directions of a space: "
         "joints need diagonal_damping");
 

@@ -59,10 +59,9 @@ struct damping_and_friction {
 
    public:
     using typename damper::effort, typename damper::motion, typename damper::scalar;
-    static_assert(
-        requires { typename Space::geometry; },
-        "passive_haptics: damping_and_friction has one number for all directions of a "
-        "space: joints need diagonal_damping_and_friction");
+    static_assert(detail::has_geometry<Space>,
+                  "passive_haptics: damping_and_friction has one number for all directions of a "
+                  "space: joints need diagonal_damping_and_friction");
 
     constexpr explicit on(const damping_and_friction& p) noexcept
         : damper(p.coefficient),

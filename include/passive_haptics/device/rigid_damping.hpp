@@ -35,7 +35,7 @@ class rigid_damping::on {
   using motion = typename Port::motion;
   using effort = typename Port::effort;
   static_assert(
-      requires(motion m) { Port::angular(m); },
+      detail::moves_and_turns<Port>,
       "passive_haptics: rigid_damping has one number for travel and one for turns: it is for a "
       "rigid_body");
 

@@ -35,6 +35,17 @@ struct work_done {
 
 namespace detail {
 
+/// Is a port a point that moves in a space, where a vector has a length and a direction?
+template <class P>
+concept has_geometry = requires {
+  typename P::geometry;
+};
+/// Does it move and turn, so that an effort is a force and a torque?
+template <class P>
+concept moves_and_turns = requires(typename P::motion m) {
+  P::angular(m);
+};
+
 /// The algebra of `Dof` numbers. Specialised here for one, in eigen_space.hpp for more.
 ///   scalar        a number
 ///   vector        what is computed with: Scalar for Dof 1, Eigen::Matrix<Scalar, Dof, 1> above

@@ -46,10 +46,9 @@ struct actuator_limit {
   class on {
    public:
     using scalar = typename Space::scalar;
-    static_assert(
-        requires { typename Space::geometry; },
-        "passive_haptics: actuator_limit bounds the length of a force: joints need "
-        "motor_limits");
+    static_assert(detail::has_geometry<Space>,
+                  "passive_haptics: actuator_limit bounds the length of a force: joints need "
+                  "motor_limits");
 
     constexpr explicit on(const actuator_limit& p) noexcept
         : most_(detail::number<scalar>(p.most)) {}

@@ -89,10 +89,9 @@ class energy_bounding::on {
  public:
   using scalar = typename Space::scalar;
   using vector = typename Space::effort;
-  static_assert(
-      requires { typename Space::geometry; },
-      "passive_haptics: energy_bounding measures lengths in a space: joints need "
-      "strict_bound");
+  static_assert(detail::has_geometry<Space>,
+                "passive_haptics: energy_bounding measures lengths in a space: joints need "
+                "strict_bound");
 
   constexpr explicit on(const energy_bounding& p) noexcept { set(p); }
   constexpr void set(const energy_bounding& p) noexcept {
@@ -177,10 +176,9 @@ struct tight_energy_bounding {
   class on {
    public:
     using scalar = typename Space::scalar;
-    static_assert(
-        requires { typename Space::geometry; },
-        "passive_haptics: tight_energy_bounding measures lengths in a space: joints need "
-        "strict_bound");
+    static_assert(detail::has_geometry<Space>,
+                  "passive_haptics: tight_energy_bounding measures lengths in a space: joints need "
+                  "strict_bound");
 
     constexpr explicit on(const tight_energy_bounding& p) noexcept
         : storage_(detail::number<scalar>(p.storage)) {}

@@ -121,10 +121,9 @@ class two_layer_tank::on {
  public:
   using scalar = typename Space::scalar;
   using vector = typename Space::effort;
-  static_assert(
-      requires { typename Space::geometry; },
-      "passive_haptics: two_layer_tank drags with one damping in all directions of a "
-      "space: joints need strict_bound");
+  static_assert(detail::has_geometry<Space>,
+                "passive_haptics: two_layer_tank drags with one damping in all directions of a "
+                "space: joints need strict_bound");
 
   constexpr explicit on(const two_layer_tank& p) noexcept {
     set(p);

@@ -78,10 +78,9 @@ class basic_series_controller<Credit>::on {
  public:
   using scalar = typename Space::scalar;
   using vector = typename Space::effort;
-  static_assert(
-      requires { typename Space::geometry; },
-      "passive_haptics: series_passivity_controller damps alike in all directions of a "
-      "space: joints need strict_bound");
+  static_assert(detail::has_geometry<Space>,
+                "passive_haptics: series_passivity_controller damps alike in all directions of a "
+                "space: joints need strict_bound");
 
   constexpr explicit on(const basic_series_controller& p) noexcept {
     set(p);

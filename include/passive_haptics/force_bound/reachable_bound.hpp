@@ -117,10 +117,9 @@ class reachable_bound::on {
  public:
   using scalar = typename Space::scalar;
   using effort = typename Space::effort;
-  static_assert(
-      requires { typename Space::geometry; },
-      "passive_haptics: reachable_bound knows one mass for all directions of a space: "
-      "joints need reachable_work_bound");
+  static_assert(detail::has_geometry<Space>,
+                "passive_haptics: reachable_bound knows one mass for all directions of a space: "
+                "joints need reachable_work_bound");
 
   constexpr explicit on(const reachable_bound& p) noexcept : by_(p) {}
   [[nodiscard]] constexpr reachable_bound parameters() const noexcept { return by_.parameters(); }

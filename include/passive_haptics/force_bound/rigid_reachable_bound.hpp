@@ -71,7 +71,7 @@ class rigid_reachable_bound::on {
   using scalar = typename P::scalar;
   using effort = typename P::effort;
   static_assert(
-      requires(effort w) { P::angular(w); },
+      detail::moves_and_turns<P>,
       "passive_haptics: rigid_reachable_bound knows the inertia of a handle that moves and turns: "
       "other ports need reachable_bound or reachable_work_bound");
 
@@ -182,7 +182,7 @@ struct rigid_actuator_limit {
    public:
     using scalar = typename P::scalar;
     static_assert(
-        requires(typename P::effort w) { P::angular(w); },
+        detail::moves_and_turns<P>,
         "passive_haptics: rigid_actuator_limit bounds a force and a torque: other ports need "
         "actuator_limit or motor_limits");
 

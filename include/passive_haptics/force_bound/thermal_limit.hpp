@@ -46,7 +46,7 @@ class thermal_limit::on {
  public:
   using scalar = typename Space::scalar;
   static_assert(
-      requires { typename Space::geometry; },
+      detail::has_geometry<Space>,
       "passive_haptics: thermal_limit bounds the length of a force: joints need motor_limits");
 
   constexpr explicit on(const thermal_limit& p) noexcept { set(p); }

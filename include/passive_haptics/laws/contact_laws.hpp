@@ -237,7 +237,7 @@ template <class Space, class Surface>
       const vector z = x + way * (scalar(piece) / scalar(pieces));
       const auto between = surface.at(z);
       covered = between.covered();
-      if constexpr (requires { between.push(); }) {
+      if constexpr (detail::says_push<decltype(between)>) {
         steepest = kernels::larger(steepest, Space::norm(vector(between.push())));
       }
     }

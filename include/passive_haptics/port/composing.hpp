@@ -12,6 +12,20 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
+template <class Part>
+concept has_parameters = requires(const Part part) {
+  part.parameters();
+};
+template <class Part, class Parameters>
+concept takes_in_place = requires(Part part, const Parameters& p) {
+  part.set(p);
+};
+/// A shaper says whether it needs a local model, either way; a bound has none to need.
+template <class Part>
+concept speaks_of_local_model = requires {
+  { Part::needs_local_model } -> std::convertible_to<bool>;
+};
+
 /// Does a source or a law spend what an observer must have counted?
 template <class Part>
 [[nodiscard]] constexpr bool spends_ledger() noexcept {
@@ -43,7 +57,7 @@ concept books_work = requires(Observer o, const typename P::motion m, const repo
 template <class... Bounds>
 [[nodiscard]] constexpr bool are_bounds() noexcept {
   static_assert(
-      (!requires { Bounds::needs_local_model; } && ...),
+      (!speaks_of_local_model<Bounds> && ...),
       "passive_haptics: this is a shaper, not a bound: it may ask for more than the ledger "
       "covers, so it stands before the bound: shaped{spring{}, force_rate_limit{}}");
   return true;
@@ -137,7 +151,7 @@ template <class Spec, class P, class Parameters>
 constexpr void take(part_at<Spec, P>& part, const Parameters& p) noexcept {
   if constexpr (!std::same_as<Parameters, Spec>) {
     part.take(p);
-  } else if constexpr (requires { part.set(p); }) {
+  } else if constexpr (takes_in_place<part_at<Spec, P>, Parameters>) {
     part.set(p);
   } else {
     part = part_at<Spec, P>(p);
@@ -211,7 +225,7 @@ class sequence<First, Rest...>::on {
   }
   [[nodiscard]] constexpr sequence parameters() const noexcept {
     sequence p;
-    if constexpr (requires { first_.parameters(); }) {
+    if constexpr (has_parameters<part_at<First, P>>) {
       p.first = first_.parameters();
     } else if constexpr (std::same_as<First, part_at<First, P>>) {
       p.first = first_;

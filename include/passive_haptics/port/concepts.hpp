@@ -34,12 +34,49 @@
 #include <passive_haptics/port/port_state.hpp>
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
 
 namespace passive_haptics {
 inline namespace v0 {
+
+// Besides its concept a part may have what stands here, and is asked for it by `if constexpr`:
+//
+//   hook                    who may have it      who reads it          what it means if there is none
+//   parameters(), check()   any part             the port's check()    nothing of it can be out of range
+//   set(parameters)         any part             the port's set()      it is made anew: no state is lost
+//   takers<X>, take(x)      what has parts       the port's set()      no part of it takes parameters X
+//   reset()                 any part             the port's reset()    it keeps nothing from tick to tick
+//   turns                   port, observer       passive_port          false: every turn is a straight one
+//   reports_work            port                 passive_port          false: the work is effort times motion
+//   geometry                port                 who measures lengths  joints: no length, no direction
+//   angular(motion)         port                 rigid_… parts         it does not turn
+//   place(pose)             port                 guard                 the pose is where it is
+//   moved(pose, motion)     port                 the laws              pose + motion
+//   unsure(Δx, f, dt)       damping              ledgers, port_state   paths are straight
+//   friction_…, most_…      damping that rubs    dual_ledger           no friction is credited
+//   update(Δx, effort and   observer             passive_port          it fits no port that reports work
+//     work, dt)
+//   travel_error()          observer, not exact  passive_port          the motion shown is exact
+//   passivity               bound, on its port   passive_port          its `on<Port>` says it
+//   apply(f, states…)       sequence of parts    applied()             limit() or shape() answers
+//   only_reduces<States…>   sequence of parts    passive_port          what limit() or shape() returns says it
+//   stateless<States…>      sequence of parts    passive_port          it is, if that is const
+//   adopt(T)                source               passive_port, when T  nothing that it keeps depends on T or
+//                                                or a parameter is new on a parameter
+//   update(effort)          source               tick(…, wanted)       there is no such tick
+//   needs_ledger            source, law          passive_port          false: spends nothing of the ledger
+//   depth                   result of a source   contacts, scope       there is no contact to be deep in
+//   travel, dt              estimate of motion   contact_set           a speed is asked of it axis by axis
+//   needs_local_model       law; every shaper    local_contact         false: the supply may be fixed
+//   shapers()               law                  local_contact         nothing shapes its force
+//   kind                    surface              contact_set           faceted
+//   push()                  probe of a surface   contact_set, the laws its force acts along outward()
+//   around()                surface              the laws              they look about the origin
+//   prepare()               field                distance_field        there is nothing to prepare
+//   set(freshness)          supply               the port's set()      it does not age
 
 /// A value: trivially copyable where the scalar is, so that it can be logged, sent and snapshotted;
 /// otherwise (a multiprecision scalar) one that copies without throwing.
@@ -100,13 +137,6 @@ template <class P>
     return held;
   }
 }
-/// A damping that says how much less than its ends show a turn may have brought.
-template <class D, class P>
-concept knows_turns = requires(const D d, const typename P::motion m, const typename P::effort f,
-                               typename P::scalar s) {
-  { d.unsure(m, f, s) } -> std::same_as<typename P::scalar>;
-  requires noexcept(d.unsure(m, f, s));
-};
 }  // namespace detail
 
 /// dissipated(Δx, dt) [J] is never more than the device took; worst_outflow(f, T) [J] is the most that
@@ -236,18 +266,65 @@ struct port_result {
   bool limited = false;         ///< the bound changed the desired effort
 };
 
-/// ask() is given the estimate of the motion, the port_state and the event so far, and returns a
-/// request: `wanted`, an effort, and `nothing`, whether there is nothing to bound. answered() gets the
-/// request back with what became of it, refused() a tick that nobody could believe, of length dt [s];
-/// both return the result of the tick. `asks_for_numbers`: it never asks for NaN or an infinity, so the
-/// port need not look.
+namespace detail {
+/// Does the result of a source say how deep the contact is?
+template <class R>
+concept says_depth = requires(const R r) {
+  r.depth;
+};
+/// Is there a tick that takes an effort of one's own?
 template <class S, class P>
+concept takes_efforts = requires(S s, const typename P::effort f) {
+  s.update(f);
+};
+/// Does a probe say along what a force acts, where that is not outward()?
+template <class Probe>
+concept says_push = requires(const Probe p) {
+  p.push();
+};
+/// The least that a motion estimator says, for asking whether a source fits.
+template <class P>
+struct some_estimate {
+  typename P::stored_pose position;
+  [[nodiscard]] typename P::scalar along(const typename P::motion& n) const noexcept;
+};
+/// What stands where a part should, so that the compiler can say which part is missing.
+struct left_out {};
+}  // namespace detail
+
+/// ask<Shortcut>() is given the estimate of the motion, the port_state and the event so far, which it may
+/// make worse, and returns a request: `wanted`, an effort, and `nothing`, whether there is nothing to bound;
+/// with a Shortcut nothing is what a bound would leave of it. answered() gets the request back with what
+/// became of it, refused() a tick that nobody could believe, of length dt [s]; both return the result of the
+/// tick. `asks_for_numbers`: it never asks for NaN or an infinity, so the port need not look.
+template <class S, class P, class State = port_state<P, detail::some_damping<P>>>
 concept source_for = plain_value<part_at<S, P>, P> &&
-    requires(part_at<S, P> s, const port_result<P> r, typename P::scalar dt) {
+    requires(part_at<S, P> s, const typename part_at<S, P>::request asked,
+             const detail::some_estimate<P> motion, const State state, event what,
+             const port_result<P> r, typename P::scalar dt) {
   typename part_at<S, P>::result_type;
   { part_at<S, P>::asks_for_numbers } -> std::convertible_to<bool>;
+  { asked.wanted } -> std::convertible_to<typename P::effort>;
+  { asked.nothing } -> std::convertible_to<bool>;
+  { s.template ask<true>(motion, state, what) } -> std::same_as<typename part_at<S, P>::request>;
+  { s.answered(asked, r) } -> std::same_as<typename part_at<S, P>::result_type>;
   { s.refused(r, dt) } -> std::same_as<typename part_at<S, P>::result_type>;
+  requires noexcept(s.template ask<true>(motion, state, what));
+  requires noexcept(s.template ask<false>(motion, state, what));
+  requires noexcept(s.answered(asked, r));
   requires noexcept(s.refused(r, dt));
+};
+
+/// What a port has to know of its loop: `latency` in ticks, traits, what the guarantee is worth in it,
+/// and what looks at its samples; at a port, T [s].
+template <class L, class P>
+concept limits_for = requires(const part_at<L, P> l) {
+  { L::latency } -> std::convertible_to<int>;
+  { L::traits.learns } -> std::convertible_to<bool>;
+  { L::traits.watched } -> std::convertible_to<bool>;
+  { L::passivity } -> std::convertible_to<guarantee>;
+  typename L::template guard_type<P>;
+  { l.longest_tick } -> std::convertible_to<typename P::scalar>;
 };
 
 /// How the normal of a surface changes along it: not at all, evenly with its curvature, or in jumps.
@@ -349,15 +426,70 @@ struct contact_state {
 };
 
 /// shape() takes the desired force, the contact and the port, and answers as a force bound does.
-/// `needs_local_model` says that it compares with a local model that can move.
+/// `needs_local_model` says that it compares with a local model that can move, `needs_ledger` that it
+/// spends what an observer must have counted.
 template <class H, class Space, class State = port_state<Space, detail::some_damping<Space>>>
 concept shaper_for = plain_value<part_at<H, Space>, Space> &&
     requires(part_at<H, Space> h, const typename Space::vector f, const contact_state<Space> c,
              const State s) {
   { H::needs_local_model } -> std::convertible_to<bool>;
+  { H::needs_ledger } -> std::convertible_to<bool>;
   requires std::same_as<decltype(h.shape(f, c, s)), share<typename Space::scalar>> ||
       std::same_as<decltype(h.shape(f, c, s)), typename Space::vector>;
   requires noexcept(h.shape(f, c, s));
+};
+
+namespace detail {
+/// What the coupling of a frame asks of a spring, and of the contacts of a tick.
+template <class Scalar>
+struct some_spring {
+  [[nodiscard]] Scalar turning(Scalar K) const noexcept;
+  [[nodiscard]] Scalar softness() const noexcept;
+};
+template <class Row, class Scalar>
+struct some_contacts {
+  Row row[1];
+  Scalar own[1];
+  std::size_t count;
+  void couple(Scalar K) noexcept;
+};
+}  // namespace detail
+
+/// Where contacts are on a device, and what their forces do to it: what contact_set and rigid_tool differ in.
+///     space, row, point, stored   where surfaces are; a force or a wrench; where on the device a contact is;
+///                                 where the device was
+///     is_point(p), place(was, p)  is p usable; where it was [m]
+///     along(row, way)             the work of a row on the way that the proxy is off
+///     now(motion, state, was)     a tick: at(p), a spot with its `position` [m]; velocity(spot) [m/s], and
+///                                 along(spot, n) of it; travel(p, spot) [m]; row_of(spot, n); place()
+///     coupling(spring, K)         C of the proxy (contact/proxy.hpp), K the stiffest contact [N/m]: inner(row,
+///                                 row), bring(contacts), way(row), most_yield(p)
+template <class F, class P, class State = port_state<P, detail::some_damping<P>>>
+concept frame_for = plain_value<typename F::stored, P> &&
+    std::default_initializable<typename F::point> &&
+    requires(const typename F::point p, const typename F::stored was, const typename F::row row,
+             const detail::some_estimate<P> motion, const State state,
+             const detail::some_spring<typename P::scalar> spring, typename P::scalar s,
+             const typename F::space::vector n,
+             detail::some_contacts<typename F::row, typename P::scalar> contacts) {
+  { F::is_point(p) } -> std::same_as<bool>;
+  { F::place(was, p) } -> std::convertible_to<typename F::space::vector>;
+  { F::along(row, row) } -> std::same_as<typename P::scalar>;
+  { F::now(motion, state, was).at(p).position } -> std::convertible_to<typename F::space::vector>;
+  requires requires(const decltype(F::now(motion, state, was)) now,
+                    const decltype(F::now(motion, state, was).at(p)) spot) {
+    { now.velocity(spot) } -> std::convertible_to<typename F::space::vector>;
+    { now.along(spot, n) } -> std::same_as<typename P::scalar>;
+    { now.travel(p, spot) } -> std::convertible_to<typename F::space::vector>;
+    { now.row_of(spot, n) } -> std::convertible_to<typename F::row>;
+    { now.place() } -> std::convertible_to<typename F::stored>;
+  };
+  requires requires(const decltype(F::coupling(spring, s)) C) {
+    { C.inner(row, row) } -> std::same_as<typename P::scalar>;
+    { C.bring(contacts) } -> std::same_as<void>;
+    { C.way(row) } -> std::convertible_to<typename F::row>;
+    { C.most_yield(p) } -> std::same_as<typename P::scalar>;
+  };
 };
 
 /// exchange() commands an effort and returns the newest sample. Simulated, replayed or real.

@@ -77,7 +77,7 @@ class guard : public last_tick<P, Latency> {
                                                                  scalar workspace) noexcept {
     if constexpr (requires { P::place(position); }) {
       return P::body_space::squared(P::place(position)) <= workspace * workspace;
-    } else if constexpr (requires { typename P::geometry; }) {
+    } else if constexpr (detail::has_geometry<P>) {
       return P::squared(position) <= workspace * workspace;
     } else {
       return true;

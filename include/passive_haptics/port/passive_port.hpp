@@ -41,15 +41,21 @@ class passive_port {
   using source_type = part_at<Source, P>;
   using observer_type = part_at<Observer, P>;
   using bound_type = part_at<Bound, P>;
-  using result_type = typename source_type::result_type;
-  static constexpr int latency = Limits::latency;
 
   static_assert(source_for<Source, P>,
                 "passive_haptics: the source does not model source_for: see port/concepts.hpp");
+  static_assert(!std::same_as<Limits, detail::left_out>,
+                "passive_haptics: the limits of the loop are left out: after the bound comes "
+                "loop_limits{.longest_tick = ...}");
+  static_assert(std::same_as<Limits, detail::left_out> || limits_for<Limits, P>,
+                "passive_haptics: the limits do not model limits_for: see port/concepts.hpp");
   static_assert(energy_observer_for<Observer, P>,
                 "passive_haptics: the observer does not model energy_observer_for: "
                 "see port/concepts.hpp");
   static_assert(detail::are_bounds<Bound>());
+
+  using result_type = typename source_type::result_type;
+  static constexpr int latency = Limits::latency;
 
  private:
   using damping_type =
@@ -172,14 +178,14 @@ class passive_port {
   }
   /// The same two with an effort of your own making for this tick, from a source that takes one.
   template <class Own = source_type>
-  requires requires(Own& s, effort f) { s.update(f); }
+  requires detail::takes_efforts<Own, P>
   [[nodiscard, gnu::flatten]] constexpr result_type tick(const pose& position, seconds<scalar> dt,
                                                          const effort& wanted) noexcept {
     source_.update(wanted);
     return tick(position, dt);
   }
   template <class Own = source_type>
-  requires requires(Own& s, effort f) { s.update(f); }
+  requires detail::takes_efforts<Own, P>
   [[nodiscard, gnu::flatten]] constexpr result_type tick(const device_sample<P>& sample,
                                                          const effort& wanted) noexcept {
     source_.update(wanted);
@@ -363,6 +369,11 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
   bool sound_ = true;  ///< are the parameters good?
 };
+
+/// One that lacks its limits, so that the compiler says so.
+template <class P, class Source, class Observer, class Bound>
+passive_port(P, Source, Observer, Bound)
+    -> passive_port<P, Source, Observer, Bound, detail::left_out>;
 
 }  // namespace v0
 }  // namespace passive_haptics

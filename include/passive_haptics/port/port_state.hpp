@@ -11,6 +11,7 @@
 #include <passive_haptics/base/ledger.hpp>
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -37,6 +38,16 @@ template <class Scalar>
 [[nodiscard]] constexpr bool is_late(Scalar dt, Scalar T) noexcept {
   return dt > T;
 }
+
+namespace detail {
+/// A damping that says how much less than its ends show a turn may have brought.
+template <class D, class P>
+concept knows_turns = requires(const D d, const typename P::motion m, const typename P::effort f,
+                               typename P::scalar s) {
+  { d.unsure(m, f, s) } -> std::same_as<typename P::scalar>;
+  requires noexcept(d.unsure(m, f, s));
+};
+}  // namespace detail
 
 /// The port in one tick. Motions [m], efforts [N], energies [J], times [s]; of joints [rad], [N·m].
 template <class Port, class Damping, int Latency = 0, bool Exact = true>
@@ -96,7 +107,7 @@ struct port_state {
   /// What the last tick brought, Δxᵀ(b/dt)Δx − f_held·Δx [J], rounded down, at least.
   [[nodiscard]] constexpr scalar gain() const noexcept {
     scalar brought = detail::sure_gain<Port>(damping.dissipated(travel, dt), held, travel);
-    if constexpr (requires { damping.unsure(travel, held, dt); }) {
+    if constexpr (detail::knows_turns<Damping, Port>) {
       brought -= damping.unsure(travel, held, dt);
     }
     return brought;

@@ -123,7 +123,7 @@ class scope {
     r.given = out.force;
     r.has_wanted = wanted != nullptr;
     if (wanted != nullptr) r.wanted = *wanted;
-    if constexpr (requires { out.depth; }) {
+    if constexpr (detail::says_depth<decltype(out)>) {
       r.depth = out.depth;
       r.has_depth = true;
     }
@@ -164,7 +164,7 @@ inline constexpr bool is_turned = requires(const Pose& x) {
 /// Metres and newtons in a space, radians and newton metres in joints. Name others for joints that slide.
 template <class Port>
 [[nodiscard]] constexpr scope_units usual_units() noexcept {
-  if constexpr (requires { typename Port::geometry; } || is_turned<typename Port::stored_pose>) {
+  if constexpr (detail::has_geometry<Port> || is_turned<typename Port::stored_pose>) {
     return {"m", "N"};
   } else {
     return {"rad", "Nm"};
@@ -214,7 +214,7 @@ class csv_line {
 template <class Port>
 [[nodiscard]] inline std::string axis_name(int i, int count) {
   if (count == 1) return "";
-  if constexpr (requires { typename Port::geometry; } || is_turned<typename Port::stored_pose>) {
+  if constexpr (detail::has_geometry<Port> || is_turned<typename Port::stored_pose>) {
     return std::string("_") + "xyz"[i % 3];
   } else {
     return "_" + std::to_string(i + 1);
