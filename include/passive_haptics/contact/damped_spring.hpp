@@ -4,6 +4,7 @@
 //
 //   damped_spring     f* = K_s d − D_s max(0, v_out)   (§ 9); needs the device's mass
 
+#include <passive_haptics/contact/sampled_spring.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
@@ -27,18 +28,7 @@ struct damped_spring {
   double force_limit = std::numeric_limits<double>::infinity();  ///< F, what the motors hold [N]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
-    if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
-    if (!(stiffness_fraction > 0.0 && stiffness_fraction <= 1.0)) {
-      return {"stiffness_fraction", stiffness_fraction, "in (0, 1]"};
-    }
-    if (!detail::not_negative(damping_ratio)) {
-      return {"damping_ratio", damping_ratio, "finite and ≥ 0"};
-    }
-    if (!(damping_fraction >= 0.0 && damping_fraction <= 1.0)) {
-      return {"damping_fraction", damping_fraction, "in [0, 1]"};
-    }
-    if (!(force_limit > 0.0)) return {"force_limit", force_limit, "> 0 N"};
-    return {};
+    return detail::sampled_fault(*this);
   }
   template <class Space>
   class on;
@@ -51,24 +41,16 @@ class damped_spring::on {
 
   constexpr explicit on(const damped_spring& p) noexcept { set(p); }
   /// The new ones count from the next adopt() on.
-  constexpr void set(const damped_spring& p) noexcept {
-    mass_ = detail::number<scalar>(p.mass);
-    stiffness_fraction_ = detail::number<scalar>(p.stiffness_fraction);
-    damping_ratio_ = detail::number<scalar>(p.damping_ratio);
-    damping_fraction_ = detail::number<scalar>(p.damping_fraction);
-    force_limit_ = detail::number<scalar>(p.force_limit);
-  }
+  constexpr void set(const damped_spring& p) noexcept { rule_ = detail::damped_mass<scalar>(p); }
   [[nodiscard]] constexpr damped_spring parameters() const noexcept {
-    return {.mass = static_cast<double>(mass_),
-            .stiffness_fraction = static_cast<double>(stiffness_fraction_),
-            .damping_ratio = static_cast<double>(damping_ratio_),
-            .damping_fraction = static_cast<double>(damping_fraction_),
-            .force_limit = static_cast<double>(force_limit_)};
+    damped_spring p;
+    rule_.state(p);
+    return p;
   }
 
   constexpr void adopt(scalar K, scalar T) noexcept {
-    stiffness_ = kernels::sampled_stiffness(K, stiffness_fraction_, mass_, T);
-    damping_ = kernels::sampled_damping(stiffness_, damping_ratio_, damping_fraction_, mass_, T);
+    stiffness_ = rule_.stiffness(K, T);
+    damping_ = rule_.damping(stiffness_, T);
   }
   [[nodiscard]] constexpr scalar stiffness() const noexcept { return stiffness_; }  ///< K_s [N/m]
   [[nodiscard]] constexpr scalar damping() const noexcept { return damping_; }  ///< D_s [N·s/m]
@@ -76,7 +58,7 @@ class damped_spring::on {
   [[nodiscard]] constexpr scalar force(scalar depth, scalar outward_speed) const noexcept {
     if (!(depth > scalar(0))) return scalar(0);
     const scalar pressed = stiffness_ * depth;
-    if (pressed > force_limit_) return saturated(depth, outward_speed);
+    if (pressed > rule_.force_limit()) return saturated(depth, outward_speed);
     return kernels::larger(pressed - resistance(outward_speed), scalar(0));
   }
   /// Below the force limit the inverse of force(), above it F/K_s.
@@ -87,16 +69,16 @@ class damped_spring::on {
 
  private:
   [[nodiscard]] constexpr scalar saturated(scalar depth, scalar outward_speed) const noexcept {
-    const scalar secant =
-        scalar(2) * damping_ratio_ * kernels::square_root(force_limit_ * mass_ / depth);
+    const scalar secant = rule_.critical(rule_.force_limit() * rule_.mass() / depth);
     const scalar speed = kernels::larger(outward_speed, scalar(0));
-    return kernels::larger(force_limit_ - kernels::smaller(damping_, secant) * speed, scalar(0));
+    return kernels::larger(rule_.force_limit() - kernels::smaller(damping_, secant) * speed,
+                           scalar(0));
   }
   [[nodiscard]] constexpr scalar resistance(scalar outward_speed) const noexcept {
     return damping_ * kernels::larger(outward_speed, scalar(0));
   }
 
-  scalar mass_{}, stiffness_fraction_{}, damping_ratio_{}, damping_fraction_{}, force_limit_{};
+  detail::damped_mass<scalar> rule_;
   scalar stiffness_{}, damping_{};
 };
 

@@ -12,7 +12,7 @@
 // wall are that wall, where the sum of their springs would be 8 times as stiff, and shake.
 // Source and proofs: docs/design/contacts.md.
 
-#include <passive_haptics/base/parameter.hpp>
+#include <passive_haptics/contact/sampled_spring.hpp>
 
 #include <array>
 #include <cstddef>
@@ -33,78 +33,47 @@ struct proxy_spring {
   double force_limit = std::numeric_limits<double>::infinity();  ///< what the motors hold [N]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
-    if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
-    if (!(stiffness_fraction > 0.0 && stiffness_fraction <= 1.0)) {
-      return {"stiffness_fraction", stiffness_fraction, "in (0, 1]"};
-    }
-    if (!detail::not_negative(damping_ratio)) {
-      return {"damping_ratio", damping_ratio, "finite and ≥ 0"};
-    }
-    if (!(damping_fraction >= 0.0 && damping_fraction <= 1.0)) {
-      return {"damping_fraction", damping_fraction, "in [0, 1]"};
-    }
-    if (!(softness >= 0.001 && softness < 1.0)) return {"softness", softness, "in [0.001, 1)"};
-    if (!(force_limit > 0.0)) return {"force_limit", force_limit, "> 0 N"};
-    return {};
+    return detail::sampled_fault(*this);
   }
   template <class Scalar>
   class at;
-};
-
-/// What a sampled mass can take of a contact, each number at hand without a division.
-template <class Scalar>
-struct sampled_spring {
-  Scalar stiffness{};   ///< K [N/m]
-  Scalar compliance{};  ///< 1/K [m/N]
-  Scalar settling{};    ///< B/K [s]
-  [[nodiscard]] static constexpr sampled_spring of(Scalar K, Scalar B) noexcept {
-    return {K, Scalar(1) / K, B / K};
-  }
 };
 
 template <class Scalar>
 class proxy_spring::at {
  public:
   constexpr explicit at(const proxy_spring& p) noexcept
-      : mass_(detail::number<Scalar>(p.mass)),
-        stiffness_fraction_(detail::number<Scalar>(p.stiffness_fraction)),
-        damping_ratio_(detail::number<Scalar>(p.damping_ratio)),
-        damping_fraction_(detail::number<Scalar>(p.damping_fraction)),
-        softness_(detail::number<Scalar>(p.softness)),
-        force_limit_(detail::number<Scalar>(p.force_limit)) {}
+      : rule_(p), softness_(detail::number<Scalar>(p.softness)) {}
   [[nodiscard]] constexpr proxy_spring parameters() const noexcept {
-    return {.mass = static_cast<double>(mass_),
-            .stiffness_fraction = static_cast<double>(stiffness_fraction_),
-            .damping_ratio = static_cast<double>(damping_ratio_),
-            .damping_fraction = static_cast<double>(damping_fraction_),
-            .softness = static_cast<double>(softness_),
-            .force_limit = static_cast<double>(force_limit_)};
+    proxy_spring p;
+    rule_.state(p);
+    p.softness = static_cast<double>(softness_);
+    return p;
   }
 
   /// From now on for ticks of T at most [s].
   constexpr void adopt(Scalar T) noexcept { sampled_every_ = T; }
   /// K = min(K, (1 − ε) κ m/T²) and B = min(2ζ√(Km), β m/T).
   [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K) const noexcept {
-    const Scalar k = kernels::sampled_stiffness(K, stiffness_fraction_ * (Scalar(1) - softness_),
-                                                mass_, sampled_every_);
-    return sampled_spring<Scalar>::of(
-        k, kernels::sampled_damping(k, damping_ratio_, damping_fraction_, mass_, sampled_every_));
+    const Scalar k = rule_.stiffness(K, softness_, sampled_every_);
+    return sampled_spring<Scalar>::of(k, rule_.damping(k, sampled_every_));
   }
   /// The same where the motors cannot give K d: the secant F/d, so that a heavy device is stopped all
   /// the way out.
   [[nodiscard]] constexpr bool saturates(const sampled_spring<Scalar>& s, Scalar d) const noexcept {
-    return s.stiffness * d > force_limit_;
+    return s.stiffness * d > rule_.force_limit();
   }
   [[nodiscard]] constexpr sampled_spring<Scalar> saturated(const sampled_spring<Scalar>& s,
                                                            Scalar d) const noexcept {
-    const Scalar secant = force_limit_ / d;
-    const Scalar damping = Scalar(2) * damping_ratio_ * kernels::square_root(secant * mass_);
+    const Scalar secant = rule_.force_limit() / d;
+    const Scalar damping = rule_.critical(secant * rule_.mass());
     return sampled_spring<Scalar>::of(secant, kernels::smaller(s.settling * s.stiffness, damping));
   }
   [[nodiscard]] constexpr Scalar softness() const noexcept { return softness_; }  ///< ε
 
  private:
-  Scalar mass_, stiffness_fraction_, damping_ratio_, damping_fraction_, softness_, force_limit_;
+  detail::damped_mass<Scalar> rule_;
+  Scalar softness_;
   Scalar sampled_every_{};  ///< T [s]
 };
 

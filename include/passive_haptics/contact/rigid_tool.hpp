@@ -32,15 +32,11 @@ struct tool_spring {
   double softness = 0.1;            ///< ε: more than for a point, because sweeps converge faster
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
-    if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
+    if (const auto fault = detail::sampled_fault(*this)) return fault;
     if (!detail::positive(least_inertia)) {
       return {"least_inertia", least_inertia, "finite and > 0 kg·m²"};
     }
     if (!detail::positive(lever)) return {"lever", lever, "finite and > 0 m"};
-    if (!(stiffness_fraction > 0.0 && stiffness_fraction <= 1.0)) {
-      return {"stiffness_fraction", stiffness_fraction, "in (0, 1]"};
-    }
-    if (!(softness >= 0.001 && softness < 1.0)) return {"softness", softness, "in [0.001, 1)"};
     return {};
   }
   template <class Scalar>
@@ -51,30 +47,29 @@ template <class Scalar>
 class tool_spring::at {
  public:
   constexpr explicit at(const tool_spring& p) noexcept
-      : mass_(detail::number<Scalar>(p.mass)),
+      : rule_(p),
         inertia_(detail::number<Scalar>(p.least_inertia)),
         lever_(detail::number<Scalar>(p.lever)),
-        fraction_(detail::number<Scalar>(p.stiffness_fraction)),
         softness_(detail::number<Scalar>(p.softness)) {}
   [[nodiscard]] constexpr tool_spring parameters() const noexcept {
-    return {.mass = static_cast<double>(mass_),
-            .least_inertia = static_cast<double>(inertia_),
-            .lever = static_cast<double>(lever_),
-            .stiffness_fraction = static_cast<double>(fraction_),
-            .softness = static_cast<double>(softness_)};
+    tool_spring p;
+    rule_.state(p);
+    p.least_inertia = static_cast<double>(inertia_);
+    p.lever = static_cast<double>(lever_);
+    p.softness = static_cast<double>(softness_);
+    return p;
   }
   /// From now on for ticks of T at most [s].
   constexpr void adopt(Scalar T) noexcept { sampled_every_ = T; }
   /// K = min(K, (1 − ε) κ m/T²) and B = K τ of a point at the handle.
   [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K) const noexcept {
-    const Scalar k =
-        kernels::sampled_stiffness(K, fraction_ * (Scalar(1) - softness_), mass_, sampled_every_);
+    const Scalar k = rule_.stiffness(K, softness_, sampled_every_);
     return sampled_spring<Scalar>::of(k, k * settling_time(k, k * lever_ * lever_));
   }
   /// k_ω [N·m/rad] beside k_v = K [N/m].
   [[nodiscard]] constexpr Scalar turning(Scalar K) const noexcept {
-    return kernels::smaller(K * lever_ * lever_,
-                            fraction_ * inertia_ / (sampled_every_ * sampled_every_));
+    return kernels::sampled_stiffness(K * lever_ * lever_, rule_.fraction(), inertia_,
+                                      sampled_every_);
   }
   /// The same at any depth: what the motors cannot give is cut by the bound.
   [[nodiscard]] static constexpr bool saturates(const sampled_spring<Scalar>& /*s*/,
@@ -90,10 +85,11 @@ class tool_spring::at {
  private:
   /// τ = min(2√(m/k_v), 2√(I/k_ω), 5T) [s]: B/K of damped_spring, for travel and for turns.
   [[nodiscard]] constexpr Scalar settling_time(Scalar k, Scalar turn) const noexcept {
-    const Scalar slowest = kernels::smaller(mass_ / k, inertia_ / turn);
+    const Scalar slowest = kernels::smaller(rule_.mass() / k, inertia_ / turn);
     return kernels::smaller(Scalar(2) * kernels::square_root(slowest), Scalar(5) * sampled_every_);
   }
-  Scalar mass_, inertia_, lever_, fraction_, softness_;
+  detail::sampled_mass<Scalar> rule_;
+  Scalar inertia_, lever_, softness_;
   Scalar sampled_every_{};  ///< T [s]
 };
 
