@@ -14,43 +14,26 @@ shard part(const std::string& text) {
   return s;
 }
 
-std::vector<std::string> some_sections(const std::string& text) {
-  std::string known;
-  for (const auto& s : sections()) known += (known.empty() ? "" : ", ") + std::string(s.name);
-  std::vector<std::string> list;
-  std::istringstream in(text);
-  for (std::string name; std::getline(in, name, ',');) {
-    const auto is = [&name](const section& s) { return name == s.name; };
-    if (std::none_of(sections().begin(), sections().end(), is)) {
-      ex::complain("--only " + name + ": there are " + known);
-    }
-    list.push_back(name);
-  }
-  if (list.empty()) ex::complain("--only: name some of " + known);
-  return list;
-}
-
 }  // namespace
 
 settings parse(const std::vector<std::string>& arguments) {
-  settings chosen;
+  settings chosen{{"controllers"}};
   bool sharded = false;
   ex::read_options(
       "controllers",
-      {ex::a_switch("--quick", "small: fewer seeds, runs and grid points", chosen.quick),
-       ex::a_text("--out DIR", "where the results go (default: controllers)", chosen.out),
-       {"--only LIST", "of the sections, with commas between (default: all)",
-        [&](const std::string& text) { chosen.only = some_sections(text); }},
-       ex::a_number("--seeds", "random schedules per scene (default: 10, quick 3)", chosen.seeds),
-       ex::a_number("--runs", "per adversary and dimension (default: 1000, quick 30)", chosen.runs),
-       ex::a_number("--threads", "(default: as many as the machine has)", chosen.threads),
-       {"--shard I/N", "only the I-th of N parts of the Z-width sweep",
-        [&](const std::string& text) {
-          chosen.part = part(text);
-          sharded = true;
-        }},
-       {"--merge FILE...", "joins parts that --shard wrote, and draws them",
-        [&](const std::string& file) { chosen.merge.push_back(file); }}},
+      ex::section_options(
+          sections(), chosen, "small: fewer seeds, runs and grid points",
+          {ex::a_number("--seeds", "random schedules per scene (default: 10, quick 3)",
+                        chosen.seeds),
+           ex::a_number("--runs", "per adversary and dimension (default: 1000, quick 30)",
+                        chosen.runs),
+           {"--shard I/N", "only the I-th of N parts of the Z-width sweep",
+            [&](const std::string& text) {
+              chosen.part = part(text);
+              sharded = true;
+            }},
+           {"--merge FILE...", "joins parts that --shard wrote, and draws them",
+            [&](const std::string& file) { chosen.merge.push_back(file); }}}),
       arguments, [&] {
         if (!sharded) return;
         if (!chosen.merge.empty()) ex::complain("--merge joins what --shard wrote: give one");

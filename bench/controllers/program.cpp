@@ -26,23 +26,17 @@ std::vector<std::string> judge(const session& s) {
                                                   : "1"},
                       {"composition", c.composition}};
   }));
-  std::vector<std::string> found;
-  for (const auto& section : sections()) {
-    const auto& only = s.chosen.only;
-    if (!only.empty() && std::find(only.begin(), only.end(), section.name) == only.end()) continue;
-    for (auto& sentence : section.run(s)) found.push_back(std::move(sentence));
-  }
-  return found;
+  return ex::run_sections(sections(), s.chosen.only, s);
 }
 
 }  // namespace
 
-const std::vector<section>& sections() {
-  static const std::vector<section> all{{"wall", run_wall},
-                                        {"adversaries", run_adversaries},
-                                        {"stiffness", run_stiffness},
-                                        {"settling", run_settling},
-                                        {"z_width", run_z_width}};
+const std::vector<ex::section<session>>& sections() {
+  static const std::vector<ex::section<session>> all{{"wall", run_wall},
+                                                     {"adversaries", run_adversaries},
+                                                     {"stiffness", run_stiffness},
+                                                     {"settling", run_settling},
+                                                     {"z_width", run_z_width}};
   return all;
 }
 

@@ -3,6 +3,7 @@
 // The program, apart from main(), so that a test can run it, and stop it; and what its sections share.
 
 #include "../common/rows.hpp"
+#include "../common/sections.hpp"
 #include "catalogue.hpp"
 
 namespace controllers {
@@ -15,15 +16,11 @@ struct shard {
   int of = 1;
 };
 
-struct settings {
-  std::string out = "controllers";
-  std::vector<std::string> only;   ///< sections; empty: all
-  std::vector<std::string> merge;  ///< parts of z_width to join instead of running
+struct settings : ex::section_settings {
+  std::vector<std::string> merge{};  ///< parts of z_width to join instead of running
   shard part{};
-  bool quick = false;
-  int seeds = 0;    ///< schedules per scene; 0: 10, quick 3
-  int runs = 0;     ///< per adversary and dimension; 0: 1000, quick 30
-  int threads = 0;  ///< 0: as many as the machine has
+  int seeds = 0;  ///< schedules per scene; 0: 10, quick 3
+  int runs = 0;   ///< per adversary and dimension; 0: 1000, quick 30
 };
 
 struct session : ex::workshop {
@@ -41,13 +38,8 @@ auto with_each(const std::vector<controller>& judged, const std::vector<What>& l
   return all;
 }
 
-/// A part of the run. It writes its rows as they are finished, adds itself to the report, and
-/// returns a sentence for everything that contradicts a tag.
-struct section {
-  const char* name;
-  std::vector<std::string> (*run)(const session&);
-};
-[[nodiscard]] const std::vector<section>& sections();
+/// They write their rows as they are finished.
+[[nodiscard]] const std::vector<ex::section<session>>& sections();
 
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);

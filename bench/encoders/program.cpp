@@ -3,28 +3,14 @@
 
 namespace encoders {
 
-const std::vector<section>& sections() {
-  static const std::vector<section> all{{"gentle_touch", run_gentle_touch},
-                                        {"endurance", run_endurance},
-                                        {"guarantee", run_guarantee}};
+const std::vector<ex::section<session>>& sections() {
+  static const std::vector<ex::section<session>> all{{"gentle_touch", run_gentle_touch},
+                                                     {"endurance", run_endurance},
+                                                     {"guarantee", run_guarantee}};
   return all;
 }
 
 namespace {
-
-std::vector<std::string> some_sections(const std::string& text) {
-  std::vector<std::string> list;
-  std::istringstream in(text);
-  for (std::string name; std::getline(in, name, ',');) {
-    const auto is = [&name](const section& s) { return name == s.name; };
-    if (std::none_of(sections().begin(), sections().end(), is)) {
-      ex::complain("--only " + name + ": there are gentle_touch, endurance, guarantee");
-    }
-    list.push_back(name);
-  }
-  if (list.empty()) ex::complain("--only: name some of gentle_touch, endurance, guarantee");
-  return list;
-}
 
 void show_budgets(const session& s) {
   s.out.section("Devices",
@@ -55,14 +41,9 @@ void show_budgets(const session& s) {
 }  // namespace
 
 settings parse(const std::vector<std::string>& arguments) {
-  settings chosen;
+  settings chosen{"encoders"};
   ex::read_options(
-      "encoders",
-      {ex::a_switch("--quick", "two devices, fewer touches and seconds", chosen.quick),
-       ex::a_text("--out DIR", "where the results go (default: encoders)", chosen.out),
-       {"--only LIST", "of the sections, with commas between (default: all)",
-        [&](const std::string& text) { chosen.only = some_sections(text); }},
-       ex::a_number("--threads", "(default: as many as the machine has)", chosen.threads)},
+      "encoders", ex::section_options(sections(), chosen, "two devices, fewer touches and seconds"),
       arguments);
   return chosen;
 }
@@ -74,12 +55,7 @@ int run(const std::vector<std::string>& arguments, const std::vector<composition
     ex::report report(chosen.out, {.json = "encoders.json", .markdown = "encoders.md"});
     const session s{{report, ex::threads_of(chosen.threads), stop}, chosen, judged};
     show_budgets(s);
-    ex::failures found;
-    for (const auto& part : sections()) {
-      const auto& only = chosen.only;
-      if (!only.empty() && std::find(only.begin(), only.end(), part.name) == only.end()) continue;
-      for (auto& sentence : part.run(s)) found.push_back(std::move(sentence));
-    }
+    const auto found = ex::run_sections(sections(), chosen.only, s);
     return ex::conclude(report, "encoders", "passive_haptics: walls on encoders",
                         "What a hand feels of a guaranteed wall where positions come in steps and "
                         "friction is elastic, and how stiff a wall may be to last.",

@@ -3,31 +3,21 @@
 // The program, apart from main(), so that a test can run it; and what its sections share.
 
 #include "../common/rows.hpp"
+#include "../common/sections.hpp"
 #include "compositions.hpp"
 
 namespace encoders {
 
 namespace ex = experiments;
 
-struct settings {
-  std::string out = "encoders";
-  std::vector<std::string> only;  ///< sections; empty: all
-  bool quick = false;
-  int threads = 0;  ///< 0: as many as the machine has
-};
+using settings = ex::section_settings;
 
 struct session : ex::workshop {
   const settings& chosen;
   const std::vector<composition>& judged;
 };
 
-/// A part of the run. It adds itself to the report and returns a sentence for each promise that was
-/// broken.
-struct section {
-  const char* name;
-  std::vector<std::string> (*run)(const session&);
-};
-[[nodiscard]] const std::vector<section>& sections();
+[[nodiscard]] const std::vector<ex::section<session>>& sections();
 [[nodiscard]] std::vector<std::string> run_gentle_touch(const session& s);
 [[nodiscard]] std::vector<std::string> run_endurance(const session& s);
 [[nodiscard]] std::vector<std::string> run_guarantee(const session& s);

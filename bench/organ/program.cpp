@@ -224,43 +224,19 @@ void publish(ex::report& out, const std::string& name, const std::vector<Row>& r
   out.member(name, ex::json_of(rows));
 }
 
-}  // namespace
-
-settings parse(const std::vector<std::string>& arguments) {
-  static const std::vector<std::string> parts{"solvers", "precision", "chain", "remote",
-                                              "deflections"};
-  settings chosen;
-  ex::read_options(
-      "organ",
-      {ex::a_switch("--quick", "a first look", chosen.quick),
-       ex::a_switch("--large", "97 336 nodes, too (5 GB; 20 minutes)", chosen.large),
-       ex::a_text("--out DIR", "where the results go (default: organ)", chosen.out),
-       ex::a_text("--only PART", "solvers, precision, chain, remote or deflections", chosen.only),
-       ex::a_number("--seconds", "of the chain (default: 60)", chosen.chain.seconds),
-       ex::a_number("--side", "of the chain's organ, nodes (default: 32)", chosen.chain.side, 4),
-       ex::a_number("--rate", "of its environment, Hz (default: 100)", chosen.chain.rate),
-       ex::a_switch("--solve", "in the chain: by the elimination path, not by a table",
-                    chosen.chain.solve),
-       ex::a_switch("--planes", "in the chain: planes are published, not quadrics",
-                    chosen.chain.planes),
-       ex::a_number("--threads", "of the table (default: as many as the machine has)",
-                    chosen.threads)},
-      arguments, [&chosen] {
-        if (chosen.only.empty() ||
-            std::find(parts.begin(), parts.end(), chosen.only) != parts.end()) {
-          return;
-        }
-        ex::complain("--only " + chosen.only +
-                     ": give solvers, precision, chain, remote or deflections");
-      });
-  return chosen;
-}
-
-namespace {
+/// What every section works with.
+struct session {
+  ex::report& out;
+  const settings& chosen;
+  const env::on_progress& tell;
+};
 
 using ex::expect, ex::failures;
 
-failures run_solvers(ex::report& out, const settings& chosen, const env::on_progress& tell) {
+failures run_solvers(const session& s) {
+  ex::report& out = s.out;
+  const settings& chosen = s.chosen;
+  const env::on_progress& tell = s.tell;  // no structured binding: lambdas capture it
   std::vector<int> sizes{10};
   if (!chosen.quick) sizes.push_back(22);
   if (chosen.large) sizes.push_back(46);
@@ -362,7 +338,8 @@ failures run_solvers(ex::report& out, const settings& chosen, const env::on_prog
   return found;
 }
 
-failures judge_precision(ex::report& out, const settings& chosen, const env::on_progress& tell) {
+failures judge_precision(const session& s) {
+  const auto& [out, chosen, tell] = s;
   precision_settings asked{.sides = {10, 16, 22, 32},
                            .rates = {10, 20, 50, 100, 200, 500, 1000},
                            .threads = chosen.threads};
@@ -378,7 +355,8 @@ failures judge_precision(ex::report& out, const settings& chosen, const env::on_
   return found;
 }
 
-failures judge_chain(ex::report& out, const settings& chosen, const env::on_progress& tell) {
+failures judge_chain(const session& s) {
+  const auto& [out, chosen, tell] = s;
   chain_settings asked{.side = chosen.chain.side,
                        .seconds = double(chosen.chain.seconds),
                        .rate = double(chosen.chain.rate),
@@ -395,15 +373,15 @@ failures judge_chain(ex::report& out, const settings& chosen, const env::on_prog
   return found;
 }
 
-failures judge_remote(ex::report& out, const settings& /*chosen*/,
-                      const env::on_progress& /*tell*/) {
+failures judge_remote(const session& s) {
   failures found;
-  add_remote(out, found);
+  add_remote(s.out, found);
   return found;
 }
 
 /// Why small strains stay (docs/design/large_deflections.md), and that rotated elements are right where they are.
-failures judge_deflections(ex::report& out, const settings& chosen, const env::on_progress& tell) {
+failures judge_deflections(const session& s) {
+  const auto& [out, chosen, tell] = s;
   const auto rows =
       large_deflections(chosen.quick ? std::vector{5.0} : std::vector{5.0, 10.0, 20.0}, tell);
   out.section("Large deflections",
@@ -422,7 +400,35 @@ failures judge_deflections(ex::report& out, const settings& chosen, const env::o
   return found;
 }
 
+const std::vector<ex::section<session>>& sections() {
+  static const std::vector<ex::section<session>> all{{"solvers", run_solvers},
+                                                     {"precision", judge_precision},
+                                                     {"chain", judge_chain},
+                                                     {"remote", judge_remote},
+                                                     {"deflections", judge_deflections}};
+  return all;
+}
+
 }  // namespace
+
+settings parse(const std::vector<std::string>& arguments) {
+  settings chosen{{"organ"}};
+  auto& chain = chosen.chain;
+  ex::read_options(
+      "organ",
+      ex::section_options(
+          sections(), chosen, "a first look",
+          {ex::a_switch("--large", "97 336 nodes, too (5 GB; 20 minutes)", chosen.large),
+           ex::a_number("--seconds", "of the chain (default: 60)", chain.seconds),
+           ex::a_number("--side", "of the chain's organ, nodes (default: 32)", chain.side, 4),
+           ex::a_number("--rate", "of its environment, Hz (default: 100)", chain.rate),
+           ex::a_switch("--solve", "in the chain: by the elimination path, not by a table",
+                        chain.solve),
+           ex::a_switch("--planes", "in the chain: planes are published, not quadrics",
+                        chain.planes)}),
+      arguments);
+  return chosen;
+}
 
 int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop) {
   return ex::guarded("organ", [&] {
@@ -430,17 +436,8 @@ int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop
     ex::report out(chosen.out, {.json = "organ.json", .markdown = "organ.md"});
     const env::on_progress tell = [&stop](double) { return !stop; };
     failures all;
-    const auto part = [&](const std::string& name, const auto& judge_it) {
-      if (!chosen.only.empty() && chosen.only != name) return;
-      const failures found = judge_it(out, chosen, tell);
-      all.insert(all.end(), found.begin(), found.end());
-    };
     try {
-      part("solvers", run_solvers);
-      part("precision", judge_precision);
-      part("chain", judge_chain);
-      part("remote", judge_remote);
-      part("deflections", judge_deflections);
+      all = ex::run_sections(sections(), chosen.only, session{out, chosen, tell});
     } catch (const env::stopped_by_caller& e) {
       throw ex::interrupted(e.what());
     }

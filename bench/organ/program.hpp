@@ -3,6 +3,7 @@
 // The program, apart from main(), so that a test can run it.
 
 #include "../common/rows.hpp"
+#include "../common/sections.hpp"
 
 #include <atomic>
 #include <string>
@@ -12,16 +13,12 @@ namespace organ {
 
 namespace ex = experiments;
 
-struct settings {
-  std::string out = "organ";
-  bool quick = false;
+struct settings : ex::section_settings {
   bool large = false;
-  int threads = 0;   ///< of the tables; 0: as many as the machine has
-  std::string only;  ///< this part; empty: all of them
   struct {
     int seconds = 60, side = 32, rate = 100;
     bool solve = false, planes = false;
-  } chain;
+  } chain{};
 };
 
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.

@@ -3,15 +3,24 @@
 
 namespace stability {
 
+namespace {
+
+const std::vector<ex::section<session>>& sections() {
+  static const std::vector<ex::section<session>> all{
+      {"sweep", run_sweep}, {"shapes", run_shapes}, {"numbers", run_numbers}, {"soak", run_soak}};
+  return all;
+}
+
+}  // namespace
+
 settings parse(const std::vector<std::string>& arguments) {
-  settings chosen;
+  settings chosen{{"stability"}};
   ex::read_options(
       "stability",
-      {ex::a_switch("--quick", "seconds instead of minutes", chosen.quick),
-       ex::a_text("--out DIR", "where the results go (default: stability)", chosen.out),
-       ex::a_number("--soak", "ticks of the long run (default: 10000000, quick 1000000)",
-                    chosen.soak, 1000),
-       ex::a_number("--threads", "(default: as many as the machine has)", chosen.threads)},
+      ex::section_options(
+          sections(), chosen, "seconds instead of minutes",
+          {ex::a_number("--soak", "ticks of the long run (default: 10000000, quick 1000000)",
+                        chosen.soak, 1000)}),
       arguments);
   return chosen;
 }
@@ -20,11 +29,7 @@ ex::failures try_all(ex::report& out, const settings& chosen,
                      const std::vector<controllers::controller>& judged) {
   const std::atomic<bool> never = false;
   const session s{{out, ex::threads_of(chosen.threads), never}, chosen, judged};
-  ex::failures found;
-  for (auto* part : {run_sweep, run_shapes, run_numbers, run_soak}) {
-    for (auto& sentence : part(s)) found.push_back(std::move(sentence));
-  }
-  return found;
+  return ex::run_sections(sections(), chosen.only, s);
 }
 
 int run(const std::vector<std::string>& arguments,

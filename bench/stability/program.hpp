@@ -3,6 +3,7 @@
 // The program, apart from main(), so that a test can run it; and what its parts share.
 
 #include "../common/rows.hpp"
+#include "../common/sections.hpp"
 #include "../controllers/catalogue.hpp"
 
 namespace stability {
@@ -10,11 +11,8 @@ namespace stability {
 namespace ex = experiments;
 namespace ph = passive_haptics;
 
-struct settings {
-  std::string out = "stability";
-  bool quick = false;
-  int soak = 0;     ///< ticks; 0: 10⁷, quick 10⁶
-  int threads = 0;  ///< 0: as many as the machine has
+struct settings : ex::section_settings {
+  int soak = 0;  ///< ticks; 0: 10⁷, quick 10⁶
 };
 
 struct session : ex::workshop {
@@ -25,8 +23,8 @@ struct session : ex::workshop {
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);
 
-/// Every part, into `out`. Returns a sentence for each guarantee that was lost, each number that
-/// came out and is none.
+/// Every section that is chosen, into `out`. Returns a sentence for each guarantee that was lost, each
+/// number that came out and is none.
 [[nodiscard]] ex::failures try_all(ex::report& out, const settings& chosen,
                                    const std::vector<controllers::controller>& judged);
 

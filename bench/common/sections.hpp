@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A program in sections, each of which may be asked for by its name: --only LIST.
+
+#include "failures.hpp"
+#include "options.hpp"
+
+#include <iterator>
+
+namespace experiments {
+
+/// A part of a run. It adds itself to the report and returns a sentence for each promise that was
+/// broken.
+template <class Session>
+struct section {
+  const char* name;
+  failures (*run)(const Session&);
+};
+
+/// What such a program is told; its own settings add to that.
+struct section_settings {
+  std::string out{};                ///< folder of the results
+  std::vector<std::string> only{};  ///< sections; empty: all
+  bool quick = false;
+  int threads = 0;  ///< 0: as many as the machine has
+};
+
+/// Its options, `more` after them; `quick` says what --quick leaves out.
+template <class Session>
+[[nodiscard]] std::vector<option> section_options(const std::vector<section<Session>>& all,
+                                                  section_settings& chosen,
+                                                  const std::string& quick,
+                                                  std::vector<option> more = {}) {
+  const auto only = [&all, &chosen](const std::string& text) {
+    std::string known;
+    for (const auto& s : all) known += (known.empty() ? "" : ", ") + std::string(s.name);
+    std::istringstream in(text);
+    for (std::string name; std::getline(in, name, ',');) {
+      const auto is = [&name](const section<Session>& s) { return name == s.name; };
+      if (std::none_of(all.begin(), all.end(), is)) {
+        complain("--only " + name + ": there are " + known);
+      }
+      chosen.only.push_back(name);
+    }
+    if (chosen.only.empty()) complain("--only: name some of " + known);
+  };
+  std::vector<option> options{
+      a_switch("--quick", quick, chosen.quick),
+      a_text("--out DIR", "where the results go (default: " + chosen.out + ")", chosen.out),
+      {"--only LIST", "of the sections, with commas between (default: all)", only},
+      a_number("--threads", "(default: as many as the machine has)", chosen.threads)};
+  std::move(more.begin(), more.end(), std::back_inserter(options));
+  return options;
+}
+
+/// Runs the sections that are asked for. Returns what all of them found.
+template <class Session>
+[[nodiscard]] failures run_sections(const std::vector<section<Session>>& all,
+                                    const std::vector<std::string>& only, const Session& s) {
+  failures found;
+  for (const auto& part : all) {
+    if (!only.empty() && std::find(only.begin(), only.end(), part.name) == only.end()) continue;
+    for (auto& sentence : part.run(s)) found.push_back(std::move(sentence));
+  }
+  return found;
+}
+
+}  // namespace experiments
