@@ -76,8 +76,14 @@ inline std::string json_of(const std::vector<std::string>& sentences) {
   return json_array(items);
 }
 
-/// How a row is taken unless it is said otherwise.
-inline constexpr auto as_it_is = [](const auto& row) { return record_of(row); };
+/// How a row is taken unless it is said otherwise: a record is one.
+inline constexpr auto as_it_is = [](const auto& row) {
+  if constexpr (std::same_as<std::remove_cvref_t<decltype(row)>, record>) {
+    return row;
+  } else {
+    return record_of(row);
+  }
+};
 
 /// Rows as `as` sees them.
 template <class Row, class As = decltype(as_it_is)>

@@ -32,6 +32,20 @@ void write_csv(const report& out, const std::string& file, const std::vector<Row
   csv.close();
 }
 
+/// Rows as a table for people, and under `member` in the JSON file.
+template <class Row>
+void show_rows(report& out, const std::string& member, const std::vector<Row>& rows) {
+  out.show(table_of(rows));
+  out.member(member, json_of(rows));
+}
+
+/// The same, and in a CSV file of that name.
+template <class Row>
+void publish(report& out, const std::string& member, const std::vector<Row>& rows) {
+  write_csv(out, member + ".csv", rows);
+  show_rows(out, member, rows);
+}
+
 /// Who works, where it goes, and what can stop it.
 struct workshop {
   report& out;

@@ -34,8 +34,7 @@ template <class Session>
   const auto only = [&all, &chosen](const std::string& text) {
     std::string known;
     for (const auto& s : all) known += (known.empty() ? "" : ", ") + std::string(s.name);
-    std::istringstream in(text);
-    for (std::string name; std::getline(in, name, ',');) {
+    for (const auto& name : cells_of(text)) {
       const auto is = [&name](const section<Session>& s) { return name == s.name; };
       if (std::none_of(all.begin(), all.end(), is)) {
         complain("--only " + name + ": there are " + known);

@@ -48,6 +48,14 @@ inline std::string json_array(const std::vector<std::string>& items) {
   return text + "\n  ]";
 }
 
+/// What stands between the commas of a line.
+inline std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream rest(line);
+  for (std::string cell; std::getline(rest, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
 /// printf for one number; "-" for none.
 inline std::string format(const char* pattern, double x) {
   if (!std::isfinite(x)) return "-";

@@ -120,8 +120,7 @@ std::vector<std::string> run_curved(const session& s) {
                            return vector(n * (curved::stiffness * std::max(0.0, flat.at(x).depth)));
                          },
                          ticks)});
-  s.out.show(ex::table_of(strokes));
-  s.out.member("stroke", ex::json_of(strokes));
+  ex::show_rows(s.out, "stroke", strokes);
 
   plot_stroke(s, mesh);
   s.out.section(
@@ -141,8 +140,7 @@ std::vector<std::string> run_curved(const session& s) {
   const std::vector<loop_row> loops{{"quadric, 20/m", loop_of(quadric, false)},
                                     {"quadric, along its normal", loop_of(quadric, true)},
                                     {"brick of 12 mm", loop_of(brick, false)}};
-  s.out.show(ex::table_of(loops));
-  s.out.member("loops", ex::json_of(loops));
+  ex::show_rows(s.out, "loops", loops);
 
   std::vector<std::string> found;
   expect(found, strokes[1].feel.largest_step <= 0.0035, "the quadric steps");

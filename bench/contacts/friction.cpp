@@ -200,8 +200,7 @@ std::vector<std::string> run_friction(const session& s) {
     drifts.push_back(hold<1>("plane that wobbles by " + ex::format("%.0f deg", angle),
                              all_planes()[0], on_plane, {x, y}, seconds, angle * degree));
   }
-  s.out.show(ex::table_of(drifts));
-  s.out.member("drift", ex::json_of(drifts));
+  ex::show_rows(s.out, "drift", drifts);
   for (const auto& r : {drifts[0], drifts[1]}) {
     expect(found, r.drift <= 2e-6, r.scene + ": the finger drifts");
     expect(found, r.least_energy >= -1e-12, r.scene + ": loses energy");
@@ -209,16 +208,14 @@ std::vector<std::string> run_friction(const session& s) {
 
   s.out.section("Friction: stick and slip", "Pulled along a plane by a spring.");
   const std::vector<stick_slip_row> pulled{pull()};
-  s.out.show(ex::table_of(pulled));
-  s.out.member("stick_slip", ex::json_of(pulled));
+  ex::show_rows(s.out, "stick_slip", pulled);
   expect(found, pulled[0].slips_per_second > 1.0, "it does not slip again and again");
 
   s.out.section("Friction: stopping",
                 "Thrown along a rough plane at 0.32 m/s, 0.05 to 0.5 kg on "
                 "1e2 to 1e9 N/m.");
   const std::vector<stop_row> stopped{stop()};
-  s.out.show(ex::table_of(stopped));
-  s.out.member("stopping", ex::json_of(stopped));
+  ex::show_rows(s.out, "stopping", stopped);
   expect(found, stopped[0].unsettled == 0, "some do not stop on a rough plane");
   expect(found, stopped[0].least_energy >= -1e-12, "stopping on a rough plane loses energy");
 

@@ -190,15 +190,13 @@ std::vector<std::string> run_news(const session& s) {
   const auto rows = s.rows("news.csv", "news", jobs, [](const news_row& r) {
     return r.planes == 1 ? judge<1>(r) : r.planes == 3 ? judge<3>(r) : judge<6>(r);
   });
-  s.out.show(ex::table_of(rows));
-  s.out.member("news", ex::json_of(rows));
+  ex::show_rows(s.out, "news", rows);
 
   plot_news(s);
   s.out.section("A beating surface",
                 "10 mm at 1.2 Hz under a finger that holds still, told 30 times a second.");
   const std::vector<heart_row> hearts{beat({500.0}), beat({2000.0})};
-  s.out.show(ex::table_of(hearts));
-  s.out.member("heart", ex::json_of(hearts));
+  ex::show_rows(s.out, "heart", hearts);
 
   std::vector<std::string> found;
   for (const auto& r : rows) {

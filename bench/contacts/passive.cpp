@@ -204,8 +204,7 @@ std::vector<std::string> run_passive(const session& s) {
   const auto rows = s.rows("passive.csv", "passive", jobs, [](const passive_row& r) {
     return r.contacts == 1 ? judge<1>(r) : r.contacts == 3 ? judge<3>(r) : judge<16>(r);
   });
-  s.out.show(ex::table_of(rows));
-  s.out.member("passive", ex::json_of(rows));
+  ex::show_rows(s.out, "passive", rows);
 
   std::vector<std::string> found;
   for (const auto& r : rows) {

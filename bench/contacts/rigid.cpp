@@ -184,8 +184,7 @@ std::vector<std::string> run_rigid(const session& s) {
         row.outcome = row.attack(row.runs);
         return row;
       });
-  s.out.show(ex::table_of(rows));
-  s.out.member("rigid", ex::json_of(rows));
+  ex::show_rows(s.out, "rigid", rows);
   std::vector<std::string> found;
   for (const auto& r : rows) {
     const std::string name = r.port + ", " + to_string(r.by);

@@ -116,8 +116,7 @@ std::vector<std::string> run_settling(const session& s) {
   const auto rows = s.rows("settling.csv", "settling", jobs, [](const settling_row& job) {
     return job.scene->normals.size() > 3 ? judge<8>(job) : judge<3>(job);
   });
-  s.out.show(ex::table_of(rows));
-  s.out.member("settling", ex::json_of(rows));
+  ex::show_rows(s.out, "settling", rows);
 
   std::vector<std::string> found;
   for (const auto& r : rows) {

@@ -103,8 +103,7 @@ std::vector<std::string> run_static(const session& s) {
            : r.scene->normals.size() == 3 ? judge<3>(r)
                                           : judge<8>(r);
   });
-  s.out.show(ex::table_of(rows));
-  s.out.member("static", ex::json_of(rows));
+  ex::show_rows(s.out, "static", rows);
   std::vector<std::string> found;
   for (const auto& r : rows) {
     const std::string name = std::string(r.scene->name) + (r.rough ? ", rough" : "");

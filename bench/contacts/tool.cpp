@@ -126,8 +126,7 @@ std::vector<std::string> run_tool(const session& s) {
     for (const bool rough : {false, true}) jobs.push_back({corner, rough});
   }
   const auto rows = s.rows("tool.csv", "tool", jobs, [](const tool_row& r) { return judge(r); });
-  s.out.show(ex::table_of(rows));
-  s.out.member("tool", ex::json_of(rows));
+  ex::show_rows(s.out, "tool", rows);
   std::vector<std::string> found;
   for (const auto& r : rows) {
     const std::string name = std::string(r.corner ? "box corner" : "floor") +

@@ -68,8 +68,7 @@ std::vector<std::string> run_touch(const session& s) {
     }
   }
   const auto rows = s.rows("touch.csv", "touch", jobs, judge);
-  s.out.show(ex::table_of(rows));
-  s.out.member("touch", ex::json_of(rows));
+  ex::show_rows(s.out, "touch", rows);
   std::vector<std::string> found;
   for (const auto& r : rows) {
     expect(found, r.step <= 0.02 * r.damper, std::string(r.scene->name) + ": the touch is a step");

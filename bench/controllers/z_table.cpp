@@ -19,8 +19,7 @@ z_row row_of(const std::string& line, const std::string& where) {
   const auto name_end = line.find('"', 1);
   std::vector<std::string> cells;
   if (!line.empty() && line[0] == '"' && name_end != std::string::npos) {
-    std::istringstream rest(line.substr(name_end + 1));
-    for (std::string cell; std::getline(rest, cell, ',');) cells.push_back(cell);
+    cells = ex::cells_of(line.substr(name_end + 1));
   }
   if (cells.size() != 8) {
     throw std::runtime_error(where +
@@ -155,8 +154,7 @@ void show_z_width(const session& s, const std::vector<z_row>& rows) {
           "greedy), passive against a hand of 5 N that taps, and stable: released at the surface "
           "under 1 N, the swing of the fourth second is no larger than the first. A wall that "
           "swings for ever is stable in this sense; so is one that sinks.");
-  s.out.show(ex::table_of(sums));
-  s.out.member("z_width", ex::json_of(sums));
+  ex::show_rows(s.out, "z_width", sums);
   for (const auto& sum : sums) {
     s.out.plot(z_plot_name(sum.controller),
                {"Z-width: " + sum.controller + " (" + to_string(sum.tag) + ")",

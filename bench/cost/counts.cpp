@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 namespace cost {
@@ -129,22 +128,15 @@ baseline read_baseline(std::istream& in) {
   std::string line;
   std::getline(in, line);  // the heading
   while (std::getline(in, line)) {
-    std::istringstream cells(line);
-    std::string compiler, scene, scalar, side, way, number;
-    std::getline(cells, compiler, ',');
-    std::getline(cells, scene, ',');
-    std::getline(cells, scalar, ',');
-    std::getline(cells, side, ',');
-    std::getline(cells, way, ',');
-    std::getline(cells, number, ',');
+    const auto cells = experiments::cells_of(line);
     char* end = nullptr;
-    const double value = std::strtod(number.c_str(), &end);
-    if (number.empty() || *end != '\0' || !(value > 0)) {
+    const double value = cells.size() == 6 ? std::strtod(cells[5].c_str(), &end) : 0.0;
+    if (!(value > 0) || *end != '\0') {
       throw std::runtime_error("baseline: \"" + line +
                                "\" is not compiler,scene,scalar,side,path,"
                                "instructions: write it anew with --rewrite");
     }
-    committed[compiler][counted{scene, scalar, side, way}.name()] = value;
+    committed[cells[0]][counted{cells[1], cells[2], cells[3], cells[4]}.name()] = value;
   }
   return committed;
 }

@@ -56,11 +56,6 @@ std::string side_by_side(const cost::counts& build, const std::string& scene,
          ex::format("%.3f", ours->per_tick() / theirs->per_tick());
 }
 
-void show(ex::report& out, const std::string& member, const std::vector<ex::record>& rows) {
-  out.show(ex::table_of(rows, std::identity{}));
-  out.member(member, ex::json_of(rows, std::identity{}));
-}
-
 void show_counts(ex::report& out, ex::csv_file& csv, const std::vector<cost::counts>& all) {
   std::vector<ex::record> rows;
   for (const auto& build : all) {
@@ -86,7 +81,7 @@ void show_counts(ex::report& out, ex::csv_file& csv, const std::vector<cost::cou
   out.section("Instructions per tick",
               "Counted by callgrind, -O3 -ffp-contract=off. The ratio is over the whole workload; "
               "then composed / by hand for each path of a tick.");
-  show(out, "instructions", rows);
+  ex::show_rows(out, "instructions", rows);
 }
 
 /// Two rows for a part: instructions per tick of each build, state in bytes.
@@ -126,7 +121,7 @@ std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::cou
   out.section("What each part costs",
               "Instructions per tick, composed, of the same fixed wall with one part more each "
               "time. A part that a scene has no use for must cost none.");
-  show(out, "parts", rows);
+  ex::show_rows(out, "parts", rows);
 
   std::vector<std::string> found;
   for (const auto& build : all) {
@@ -201,7 +196,7 @@ void show_contacts(ex::report& out) {
   out.section("Nanoseconds per tick, several contacts",
               "3-DOF and 6-DOF, double, blocks of 100 ticks in turns with one plane under "
               "reachable_bound; the ratio is the median of the pairs.");
-  show(out, "contacts", rows);
+  ex::show_rows(out, "contacts", rows);
 }
 
 void show_times(ex::report& out) {
@@ -215,11 +210,11 @@ void show_times(ex::report& out) {
   out.section("Nanoseconds per tick",
               "Blocks of 100 ticks, composed and by hand in turns; p50, p99.9 and max of blocks. "
               "The machine's own noise is in all but the ratio.");
-  show(out, "nanoseconds", pairs);
+  ex::show_rows(out, "nanoseconds", pairs);
   out.section("Nanoseconds per tick, by path",
               "Composed, p50 of batches of up to 64 ticks that take the same path, each from the "
               "state in which it happened.");
-  show(out, "nanoseconds_by_path", paths);
+  ex::show_rows(out, "nanoseconds_by_path", paths);
 }
 
 int run(const settings& chosen) {

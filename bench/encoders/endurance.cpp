@@ -177,8 +177,7 @@ std::vector<std::string> run_endurance(const session& s) {
       "Kneading: 0.3 to 1.9 N at 1 Hz; holding: 1.1 N with a tremor of 0.3 N at 8.7 Hz. How "
       "many seconds the budget's stiffness lasts, and the largest stiffness that lasts to "
       "the end, by bisection to 3 %; 0 if 30 N/m does not.");
-  s.out.show(ex::table_of(rows));
-  s.out.member("endurance", ex::json_of(rows));
+  ex::show_rows(s.out, "endurance", rows);
   plot_budget(s, rows);
   return found;
 }

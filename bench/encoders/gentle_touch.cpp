@@ -221,8 +221,7 @@ std::vector<std::string> run_gentle_touch(const session& s) {
       "and more. Buzz: largest swing of the device in the second half of a hold; own swing: on "
       "an ideal spring of that stiffness, seen exactly. Least energy: at the port, what friction "
       "took and stores included.");
-  s.out.show(ex::table_of(rows));
-  s.out.member("gentle_touch", ex::json_of(rows));
+  ex::show_rows(s.out, "gentle_touch", rows);
   int number = 0;
   for (const auto& preset : sim::all_presets) {
     if (std::any_of(rows.begin(), rows.end(), [&](const touch_row& r) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How often each bound holds, and how near it is, on devices drawn at random.
+#include "../common/median.hpp"
 #include "program.hpp"
 
 namespace identify {
@@ -36,12 +37,6 @@ ex::record record_of(const verdict& v) {
 
 namespace {
 
-double median(std::vector<double> all) {
-  if (all.empty()) return std::nan("");
-  std::sort(all.begin(), all.end());
-  return all[all.size() / 2];
-}
-
 /// A line of the summary.
 struct line_of_study {
   std::string bound;
@@ -70,7 +65,7 @@ line_of_study summed(const std::vector<verdict>& all, const std::string& bound, 
     const double r = ratio(v);
     if (r >= 0.0) ratios.push_back(r);
   }
-  sum.middle = median(ratios);
+  sum.middle = ex::median(ratios);
   return sum;
 }
 
@@ -145,10 +140,9 @@ int run_study(const settings& chosen, const std::atomic<bool>& stop) {
       "Devices drawn at random: 0.03 to 1 kg, 0.01 to 5 N·s/m, 0 to 0.5 N of dry friction of "
       "six kinds, presliding up to 50 µm, steps of 1 to 100 µm, up to 3 ticks of latency, a "
       "load of up to 1 N. Each took " +
-          ex::format("%.0f s (median), ", median(times)) +
+          ex::format("%.0f s (median), ", ex::median(times)) +
           ex::format("%.0f s at most.", *std::max_element(times.begin(), times.end())));
-  report.show(ex::table_of(lines));
-  report.member("bounds", ex::json_of(lines));
+  ex::show_rows(report, "bounds", lines);
   ex::failures found;
   for (const auto& l : lines) {
     ex::expect(

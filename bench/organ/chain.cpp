@@ -305,8 +305,7 @@ chain_row run_chain(ex::report& out, const chain_settings& chosen, const env::on
       "of 0.25 kg and 1 N·s/m in a hand of at most 4 N that strokes the organ. The device's "
       "watchdog is the longest tick that was stated. Late are ticks of more than 1.5 ms; "
       "CPU is that of a core.");
-  out.show(ex::table_of(std::vector{row}));
-  out.member("chain", ex::json_of(std::vector{row}));
+  ex::show_rows(out, "chain", std::vector{row});
   draw_surface(out, body, now);
   draw_course(out);
   return row;

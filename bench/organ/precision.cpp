@@ -236,15 +236,11 @@ precision_result run_precision(ex::report& out, const precision_settings& chosen
        &precision_row::front);
   plot(out, all.rows, "precision_own", "the same surface", &precision_row::own_share,
        &precision_row::own_front);
-  ex::write_csv(out, "precision.csv", all.rows);
-  out.show(ex::table_of(all.rows));
-  out.member("precision", ex::json_of(all.rows));
+  ex::publish(out, "precision", all.rows);
   out.section("The meshes themselves",
               "Each at 10 kHz, against the finest one. Under a fingertip of 10 mm a finer mesh is "
               "softer by less and less; a point would sink into it ever deeper.");
-  ex::write_csv(out, "meshes.csv", all.meshes);
-  out.show(ex::table_of(all.meshes));
-  out.member("meshes", ex::json_of(all.meshes));
+  ex::publish(out, "meshes", all.meshes);
   return all;
 }
 

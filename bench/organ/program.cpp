@@ -217,13 +217,6 @@ ex::record record_of(const table_row& r) {
           {"file_MB", r.size},  {"load_ms", r.load}};
 }
 
-template <class Row>
-void publish(ex::report& out, const std::string& name, const std::vector<Row>& rows) {
-  ex::write_csv(out, name + ".csv", rows);
-  out.show(ex::table_of(rows));
-  out.member(name, ex::json_of(rows));
-}
-
 /// What every section works with.
 struct session {
   ex::report& out;
@@ -299,17 +292,17 @@ failures run_solvers(const session& s) {
     }
   }
   out.section("Solvers", "Cubes of tetrahedra, E 5 kPa, nu 0.4, held below; CPU time of one core.");
-  publish(out, "solvers", solvers);
+  ex::publish(out, "solvers", solvers);
   out.section("Search",
               "The closest triangle: all looked at, the tree, the tree from the last one, "
               "and downhill from the last one; and what it costs that all nodes have moved.");
-  publish(out, "searches", searches);
+  ex::publish(out, "searches", searches);
   out.section("Tables",
               "The compliance of a patch in float, computed on all cores, with the patch "
               "eliminated wherever it comes, and last.");
-  publish(out, "tables", tables);
+  ex::publish(out, "tables", tables);
   out.section("Updates", "Contact and quadric of a device that wanders 1 mm below the top.");
-  publish(out, "updates", updates);
+  ex::publish(out, "updates", updates);
 
   failures found;  // times by what else was measured in this run, as machines differ
   for (const auto& r : solvers) {
@@ -386,9 +379,9 @@ failures judge_deflections(const session& s) {
       large_deflections(chosen.quick ? std::vector{5.0} : std::vector{5.0, 10.0, 20.0}, tell);
   out.section("Large deflections",
               "Small strains, and elements that turn, against a neo-Hookean body.");
-  publish(out, "deflections", rows);
-  publish(out, "rotation_costs",
-          rotation_costs(chosen.quick ? std::vector{10} : std::vector{10, 22}));
+  ex::publish(out, "deflections", rows);
+  ex::publish(out, "rotation_costs",
+              rotation_costs(chosen.quick ? std::vector{10} : std::vector{10, 22}));
   failures found;
   for (const auto& r : rows) {
     const bool pressed = r.scene == "block, pressed";

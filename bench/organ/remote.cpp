@@ -74,9 +74,7 @@ void add_remote(ex::report& out, std::vector<std::string>& found) {
           " runs of 6 s. Created: by the hand's port, where both ends count by both, which were "
           "lent 1 mJ. Force: on the wall at rest, 8 N where it is felt as it is. Error: against "
           "the wall as it is now where the hand is now, while it heaves by 3 mm at 7 rad/s.");
-  ex::write_csv(out, "remote.csv", rows);
-  out.show(ex::table_of(rows));
-  out.member("remote", ex::json_of(rows));
+  ex::publish(out, "remote", rows);
 }
 
 }  // namespace organ

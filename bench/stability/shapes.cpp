@@ -204,8 +204,7 @@ std::vector<std::string> run_shapes(const session& s) {
   for (const auto& r : thin) {
     if (r.silent + r.not_finite > 0) found.push_back(described("slivers", r));
   }
-  s.out.show(ex::table_of(thin));
-  s.out.member("slivers", ex::json_of(thin));
+  ex::show_rows(s.out, "slivers", thin);
 
   s.out.section("Normals",
                 "turn_limited at 4 rad/s, 1 ms, from one direction to another. speed: "

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ball.hpp"
 
-#include "../common/record.hpp"
+#include "../common/rows.hpp"
 #include "tangent_plane.hpp"
 #include <passive_haptics/environment/ball.hpp>
 #include <passive_haptics/simulation/device.hpp>
@@ -115,8 +115,7 @@ void run_ball(report& out) {
       "have the same force-rate limit and reachable bound. A position jump is "
       "|x(t+10 ms) − 2x(t) + x(t−10 ms)| at an update. turn_limited: 0.5 rad/s, 0.0286 "
       "degrees a tick.");
-  out.show(table_of(rows, std::identity{}));
-  out.member("ball", json_of(rows, std::identity{}));
+  show_rows(out, "ball", rows);
   const auto positions = [&out](const std::string& name, const caption& said,
                                 const std::string& run) {
     const std::string data = "'ball_" + run + ".csv' every 4 using 1:";

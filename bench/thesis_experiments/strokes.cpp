@@ -115,7 +115,7 @@ void show_strokes(report& out, const stroke_scene& scene, const strokes& runs) {
                                     {"size", size_of(which)},
                                     {"median update ms", update_ms}}));
   out.member("notes", json_of(which.notes));
-  out.member("strokes", json_of(rows, std::identity{}));
+  out.member("strokes", json_of(rows));
   out.plot("mesh_force",
            {"The force along the stroke, its second half enlarged",
             "Grey is what a surface that is solved in every tick feels like. At 30 Hz the bare "

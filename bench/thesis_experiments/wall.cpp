@@ -98,7 +98,7 @@ void run_wall(report& out, int seeds) {
                   r[6],
                   r[7].renamed("force error N")};
   }));
-  out.member("wall", json_of(rows, std::identity{}));
+  out.member("wall", json_of(rows));
   const auto figure = [&out](const std::string& name, const caption& said, const std::string& run,
                              const std::string& times, const std::string& positions) {
     const std::string data = "'wall_" + run + "_1.csv' using 1:";
