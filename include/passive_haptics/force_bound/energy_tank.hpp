@@ -9,6 +9,7 @@
 //
 // Energy quanta from another port are not offered: one port, one tank.
 
+#include <passive_haptics/force_bound/own_ledger.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
 #include <cstdint>
@@ -145,43 +146,29 @@ class two_layer_tank::on {
             .cap = static_cast<double>(cap_),
             .loan = static_cast<double>(loan_)};
   }
-  constexpr void reset() noexcept {
-    energy_ = loan_;
-    started_ = false;
-  }
+  constexpr void reset() noexcept { tank_.reset(loan_); }
 
   [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) noexcept {
-    book(state);
-    started_ = true;
-    if (!state.motion_known) return Space::zero();  // its outflow cannot be predicted
-    const scalar lack = kernels::larger(wanted_ - energy_, scalar(0));
+    const scalar brought =
+        state.damping.dissipated(state.travel, state.dt) - Space::dot(state.held, state.travel);
+    if (!tank_.book(state, cap_, brought)) return Space::zero();  // its outflow cannot be predicted
+    const scalar lack = kernels::larger(wanted_ - tank_.energy(), scalar(0));
     const scalar drag = kernels::smaller(refill_ * lack, max_damping_) / state.dt;
     return desired * left(desired, state) - state.travel * drag;
   }
 
  private:
-  constexpr void book(const auto& state) noexcept {
-    const scalar written_off = kernels::smaller(energy_, scalar(0));
-    if (!state.motion_known) {
-      if (started_) energy_ = written_off;
-      return;
-    }
-    energy_ +=
-        state.damping.dissipated(state.travel, state.dt) - Space::dot(state.held, state.travel);
-    // a late tick may have lost its force part of the way
-    energy_ = kernels::smaller(energy_, state.fate() == tick_fate::on_time ? cap_ : written_off);
-  }
   /// s: the whole way in, what the tank holds on the way out.
   [[nodiscard]] constexpr scalar left(const vector& desired, const auto& state) const noexcept {
     const scalar outflow = Space::dot(desired, state.travel) * (state.longest_tick / state.dt);
     if (!(outflow > scalar(0))) return scalar(1);
     const scalar needed = kernels::larger(outflow, Space::norm(desired) / force_per_joule_);
-    return needed > energy_ ? kernels::larger(energy_, scalar(0)) / needed : scalar(1);
+    return needed > tank_.energy() ? kernels::larger(tank_.energy(), scalar(0)) / needed
+                                   : scalar(1);
   }
 
   scalar wanted_{}, refill_{}, max_damping_{}, force_per_joule_{}, cap_{}, loan_{};
-  scalar energy_{};       ///< H [J]
-  bool started_ = false;  ///< has there been a tick?
+  detail::own_ledger<scalar> tank_{};  ///< H
 };
 
 static_assert(force_bound_for<energy_tank, space<float, 1>>);

@@ -13,6 +13,7 @@
 // Not offered: the published pairing of the NEW force with the last displacement. On a sampled wall
 // it counts the leak of the hold with the wrong sign and never acts (lemma L2; a test shows it).
 
+#include <passive_haptics/force_bound/own_ledger.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
 #include <cstdint>
@@ -103,9 +104,8 @@ class basic_series_controller<Credit>::on {
             .loan = static_cast<double>(loan_)};
   }
   constexpr void reset() noexcept {
-    energy_ = loan_;
+    ledger_.reset(loan_);
     idle_ = scalar(0);
-    started_ = false;
   }
 
   [[nodiscard]] constexpr vector limit(const vector& desired, const auto& state) noexcept {
@@ -116,36 +116,33 @@ class basic_series_controller<Credit>::on {
   [[nodiscard]] constexpr vector repaid(const vector& desired, const auto& state,
                                         scalar kept) noexcept {
     book(state);
-    started_ = true;
     const scalar square = Space::dot(state.travel, state.travel);
     const scalar least = kernels::larger(least_speed_ * state.dt, least_travel_);
     if (!(square > scalar(0)) || square < least * least) return desired;
     const scalar wanted = threshold_ + kept;
-    if (!(energy_ < wanted)) return desired;
-    const scalar damping = kernels::smaller((wanted - energy_) * state.dt / square, max_damping_);
+    if (!(ledger_.energy() < wanted)) return desired;
+    const scalar damping =
+        kernels::smaller((wanted - ledger_.energy()) * state.dt / square, max_damping_);
     return desired - state.travel * (damping / state.dt);
   }
 
  private:
   constexpr void book(const auto& state) noexcept {
-    const scalar written_off = kernels::smaller(energy_, scalar(0));
-    if (!state.motion_known) {
-      if (started_) energy_ = written_off;
-      return;
-    }
-    energy_ -= Space::dot(state.held, state.travel);
+    const scalar any = kernels::largest<scalar>();
+    const scalar environment = -Space::dot(state.held, state.travel);
     if constexpr (Credit == damping_credit::counted) {
-      energy_ += state.damping.dissipated(state.travel, state.dt);
+      const scalar device = state.damping.dissipated(state.travel, state.dt);
+      if (!ledger_.book(state, any, environment, device)) return;
+    } else {
+      if (!ledger_.book(state, any, environment)) return;
     }
-    if (state.fate() != tick_fate::on_time) energy_ = kernels::smaller(energy_, written_off);
     idle_ = Space::dot(state.held, state.held) > scalar(0) ? scalar(0) : idle_ + state.dt;
-    if (idle_ >= reset_after_) energy_ = kernels::smaller(energy_, scalar(0));
+    if (idle_ >= reset_after_) ledger_.keep_no_credit();
   }
 
   scalar max_damping_{}, threshold_{}, least_speed_{}, least_travel_{}, reset_after_{}, loan_{};
-  scalar energy_{};       ///< E [J]
-  scalar idle_{};         ///< force-free time so far [s]
-  bool started_ = false;  ///< has there been a tick?
+  detail::own_ledger<scalar> ledger_{};  ///< E
+  scalar idle_{};                        ///< force-free time so far [s]
 };
 
 static_assert(force_bound_for<series_passivity_controller, space<float, 1>>);
