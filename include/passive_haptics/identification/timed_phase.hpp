@@ -2,6 +2,8 @@
 #pragma once
 // In which phase an experiment is, and for how long.
 
+#include <passive_haptics/base/language.hpp>
+
 namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
