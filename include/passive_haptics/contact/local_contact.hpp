@@ -150,20 +150,20 @@ class local_contact {
 
   /// What is asked of the port, and what answered() needs to know of it.
   struct request {
-    vector wanted;         ///< [N]
-    bool nothing;          ///< no contact: what is not the weight says nothing
-    vector desired;        ///< by the law, before any shaper [N]
-    bool in_local;         ///< in contact with the local model, which so can be followed
-    bool turning;          ///< the normal is still on its way
-    scalar weight;         ///< how far the contact counts
-    scalar felt;           ///< depth of the desired force [m]
+    vector wanted;   ///< [N]
+    bool nothing;    ///< there is no contact; then only `weight` has a meaning below
+    vector desired;  ///< force of the law, before any shaper [N]
+    bool in_local;   ///< the device touches the local model, so the model moves from where it is
+    bool turning;    ///< the normal has not arrived at the target's yet
+    scalar weight;   ///< how far the contact counts, in [0, 1]
+    scalar felt;     ///< depth that the law was given [m]
     scalar outward_speed;  ///< [m/s]
     vector here;           ///< [m]
     vector normal;
   };
 
-  /// `what` becomes worse if the supply has bad news. `Shortcut`: a bound that only reduces has no say
-  /// where nothing is asked.
+  /// What this contact asks of the port in a tick. `what` becomes worse if the supply has bad news. With a
+  /// `Shortcut`, as under a bound that only reduces, a tick without contact is over at once.
   template <bool Shortcut>
   [[nodiscard, gnu::always_inline]] constexpr request ask(const auto& motion, const auto& port,
                                                           event& what) noexcept {
@@ -263,8 +263,8 @@ class local_contact {
     }
   }
 
-  /// How far the contact counts at all: 1, less as a silent environment fades, 0 before
-  /// its first word.
+  /// How far the contact counts, in [0, 1]: 1 while the environment's news are fresh, less while a silent
+  /// environment fades, 0 before its first target.
   [[nodiscard]] constexpr scalar presence(scalar dt, event& what) noexcept {
     if constexpr (Supply::moves) {
       if (supply_.refused()) what = worse(what, event::rejected_target);
@@ -286,7 +286,8 @@ class local_contact {
     if constexpr (Supply::moves) return supply_.changed();
     return false;
   }
-  /// Notes whether x is behind the surface, but outside its edges; returns whether it was.
+  /// Remembers whether x is now behind the surface but outside its edges, and returns whether it was so in
+  /// the last tick: such a device has come from the side.
   [[nodiscard]] constexpr bool pass_beside([[maybe_unused]] bool now) noexcept {
     if constexpr (Supply::moves) return std::exchange(beside_, now);
     return false;

@@ -3,7 +3,7 @@
 // One slot of a set of contacts: the newest surface that the world has told, and what is felt of it, which
 // follows at a limited speed. The news are limited, the motion never:
 //
-//   new shape     its own depth stays what it was: the lag ℓ takes up the difference        d = d_target − ℓ
+//   new shape     the depth that is felt stays; the lag ℓ becomes the difference             d = d_target − ℓ
 //   appears       no deeper than what the contacts that are there press anyway, so with λ = 0
 //   every tick    |ℓ| falls by ρ dt, or by what makes up for the last news within t_c, if that is more; the
 //                 own normal turns towards the target's at a limited rate
@@ -158,9 +158,10 @@ class pursued {
     if (state_ == state::there && pace.stale(age_)) state_ = state::stale;
   }
 
-  /// Goes on to x, where it moves outwards by `along`(n) [m/s], and says in `own` what is felt there; false:
-  /// nothing. `rests`: no contact pressed in the last tick. `unfelt`(push) is the depth up to which one more
-  /// would not [m].
+  /// Brings the slot to a tick in which the device is at x, and writes what is felt of its surface there into
+  /// `own`; false if it is empty or ends. `along`(n) is the outward speed of the device [m/s], `rests` says
+  /// that no contact pressed in the last tick, and `unfelt`(push) is the depth [m] that a contact pushing so
+  /// may have before the contacts that are there leave it any force.
   [[nodiscard, gnu::always_inline]] constexpr bool follow(const vector& x, const auto& along,
                                                           scalar dt, bool rests, const auto& unfelt,
                                                           const pursuit::on<Space>& pace,
@@ -178,7 +179,7 @@ class pursued {
       if (state_ == state::expected) {
         meet(own, unfelt(own.push), pace);
       } else if (rests && own.depth <= scalar(0)) {
-        keep(scalar(0), own.normal);  // nothing is felt of any: there is nothing to limit
+        keep(scalar(0), own.normal);  // no contact is felt, so no force can step
       }
     }
     const scalar lag =

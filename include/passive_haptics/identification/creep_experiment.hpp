@@ -13,8 +13,9 @@
 // 1/(2π √(m C)), and 50 Hz at most.
 //
 // Dupont's friction creeps from 0.6 of the force at which it slips on, by about 3.2 (s − 0.6)³ p in a cycle.
-// Where all cycles of that would have been less than 1.6 steps, nothing was seen and 0.6 G is stated,
-// unasked; where a lower level had to be tried, 0.7 of the one that came back.
+// Where all the cycles together would have crept by less than 1.6 steps, the encoder cannot show it, and the
+// share that Dupont gives, 0.6, is stated without a test; where a lower level had to be tried, 0.7 of the one
+// that came back.
 
 #include <passive_haptics/identification/break_away_experiment.hpp>
 
@@ -81,7 +82,7 @@ class creep_experiment {
     [[nodiscard]] double mean() const noexcept { return count > 0 ? sum / count : 0.0; }
   };
   static constexpr double pi = 3.14159265358979323846;
-  static constexpr double untold = 0.6;  // share of friction that is taken not to creep, unasked
+  static constexpr double untold = 0.6;  // share of friction below which none is taken to creep
   static constexpr std::array levels{1.0, 0.85, 0.72, 0.61, 0.52, 0.4, 0.25};
 
   double give_up(const char* why) noexcept {

@@ -143,7 +143,8 @@ class passive_port {
     return {};
   }
 
-  /// Everything but the parameters as at the start, the loan included: for a device that has stopped.
+  /// Puts everything but the parameters back to the start, the loan included, for a device that has stopped.
+  /// The world has said nothing then: a first target that was given to `followed` is to be told again.
   constexpr void reset() noexcept {
     detail::restart(source_);
     detail::restart(observer_);
