@@ -37,9 +37,10 @@ class seconds {
  public:
   constexpr explicit seconds(Scalar count) noexcept : count_(count) {}
   template <class Other>
-  constexpr seconds(const seconds<Other>& s) noexcept : count_(static_cast<Scalar>(s.count())) {}
+  constexpr seconds(const seconds<Other>& s) noexcept  // NOLINT: the same time
+      : count_(static_cast<Scalar>(s.count())) {}
   template <detail::duration D>
-  constexpr seconds(const D& d) noexcept
+  constexpr seconds(const D& d) noexcept  // NOLINT: it says its unit
       : count_(static_cast<Scalar>(d.count()) * static_cast<Scalar>(D::period::num) /
                static_cast<Scalar>(D::period::den)) {}
 
