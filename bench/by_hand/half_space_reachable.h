@@ -68,7 +68,7 @@ __attribute__((flatten)) static inline struct answer3 half_space_reachable_tick(
     d->blind = 0;
   }
   d->position = x;
-  uint8_t what = booked_as(dt, T, l->energy);
+  uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   const vec3 normal = w->plane.normal;
   real depth = dot3(sub3(w->plane.point, x), normal);

@@ -113,11 +113,6 @@ static inline real time_lost(real dt, real T) {
   return positive(dt) ? dt : T;
 }
 
-/* What is to be said of a tick that was booked. */
-static inline uint8_t booked_as(real dt, real T, real energy) {
-  return dt > T ? late_tick : energy < 0 ? debt : nominal;
-}
-
 /* What a surface that the environment moves remembers of it. */
 struct news {
   real stale_after, fade; /* silence before the contact fades, and how long that takes */

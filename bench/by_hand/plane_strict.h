@@ -78,7 +78,7 @@ __attribute__((flatten)) static inline struct answer2 plane_strict_tick(struct p
     d->blind = 0;
   }
   d->position = x;
-  uint8_t what = booked_as(dt, T, l->energy);
+  uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   const real last_weight = n->last_weight;
   const real weight = presence(n, dt, &what);

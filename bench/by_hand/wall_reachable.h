@@ -94,7 +94,7 @@ __attribute__((flatten)) static inline struct answer1 wall_reachable_tick(struct
     d->blind = 0;
   }
   d->position = x;
-  uint8_t what = booked_as(dt, T, l->energy);
+  uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   const real weight = presence(n, dt, &what);
   const real normal = w->newest.normal;

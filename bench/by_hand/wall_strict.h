@@ -57,7 +57,7 @@ __attribute__((flatten)) static inline struct answer1 wall_strict_tick(struct wa
     d->blind = 0;
   }
   d->position = x;
-  uint8_t what = booked_as(dt, T, l->energy);
+  uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   const real depth = (w->wall.point - x) * w->wall.normal;
   if (!(depth > 0)) { /* nothing is asked, nothing is given */
