@@ -9,10 +9,7 @@
 // own tick can reach.
 
 #include <passive_haptics/device/inertia.hpp>
-#include <passive_haptics/force_bound/commands_on_their_way.hpp>
 #include <passive_haptics/port/concepts.hpp>
-
-#include <type_traits>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -52,66 +49,6 @@ struct reachable_bound {
   class on;
 };
 
-namespace detail {
-
-/// A force by its length |f| [N], and how far out the device can come along it [m].
-template <port Space>
-class reach_in_metres {
- public:
-  using scalar = typename Space::scalar;
-  using effort = typename Space::effort;
-
-  constexpr explicit reach_in_metres(const reachable_bound& p) noexcept
-      : mass_(number<scalar>(p.mass)), hand_force_(number<scalar>(p.hand_force)) {}
-  [[nodiscard]] constexpr reachable_bound parameters() const noexcept {
-    return {.mass = static_cast<double>(mass_), .hand_force = static_cast<double>(hand_force_)};
-  }
-
-  [[nodiscard]] constexpr scalar norm(const effort& f) const noexcept { return Space::norm(f); }
-  [[nodiscard]] constexpr scalar now(const effort& f, scalar length, scalar held,
-                                     const auto& state) const noexcept {
-    const scalar push = other(state);
-    if (!state.motion_known) return kernels::largest<scalar>();  // at any speed
-    scalar outward = Space::dot(state.travel, f) / length +
-                     kernels::rounding<scalar>() * Space::norm(state.travel);
-    if constexpr (!std::remove_cvref_t<decltype(state)>::exact) outward += state.travel_error;
-    return kernels::outward_reach(outward, Space::norm(state.held), held, push, mass_, state.dt,
-                                  state.longest_tick);
-  }
-  [[nodiscard]] constexpr scalar later(scalar /*length*/, scalar before, scalar held,
-                                       const auto& state) const noexcept {
-    const scalar T = state.longest_tick;
-    return kernels::outward_reach(scalar(0), before, held, other(state), mass_, T, T);
-  }
-  [[nodiscard]] constexpr scalar handed_out(const effort& f, scalar length, scalar reach,
-                                            const auto& state) const noexcept {
-    scalar beyond = length;
-    if constexpr (std::remove_cvref_t<decltype(state)>::damping_type::rubs) {
-      beyond -= state.damping.friction(f);
-    }
-    const scalar B = state.damping.per_tick(f, state.longest_tick);
-    return kernels::reachable_outflow(beyond, B, reach);
-  }
-
- private:
-  /// F_other: hand, and twice what the damper held over the last tick [N].
-  [[nodiscard]] constexpr scalar other(const auto& state) const noexcept {
-    scalar moved = Space::norm(state.travel);
-    if constexpr (!std::remove_cvref_t<decltype(state)>::exact) moved += state.travel_error;
-    return hand_force_ + scalar(2) * most_damped(state.damping, state.longest_tick) * moved;
-  }
-  /// B of the axis that damps most, so that no damper holds more than B|Δx| [N/m].
-  [[nodiscard]] static constexpr scalar most_damped(const auto& damping, scalar T) noexcept {
-    scalar b = damping.along_axis(0);
-    for (int i = 1; i < Space::dof; ++i) b = kernels::larger(b, damping.along_axis(i));
-    return b / T;
-  }
-
-  scalar mass_, hand_force_;
-};
-
-}  // namespace detail
-
 template <port Space>
 class reachable_bound::on {
  public:
@@ -121,21 +58,24 @@ class reachable_bound::on {
                 "passive_haptics: reachable_bound knows one mass for all directions of a space: "
                 "joints need reachable_work_bound");
 
-  constexpr explicit on(const reachable_bound& p) noexcept : by_(p) {}
-  [[nodiscard]] constexpr reachable_bound parameters() const noexcept { return by_.parameters(); }
+  constexpr explicit on(const reachable_bound& p) noexcept
+      : mass_(detail::number<scalar>(p.mass)), hand_force_(detail::number<scalar>(p.hand_force)) {}
+  [[nodiscard]] constexpr reachable_bound parameters() const noexcept {
+    return {.mass = static_cast<double>(mass_), .hand_force = static_cast<double>(hand_force_)};
+  }
 
   template <class State>
   [[nodiscard]] constexpr share<scalar> limit(const effort& desired,
                                               const State& state) const noexcept {
-    const detail::commands_on_their_way coming(by_, state);
-    const scalar credit = coming.left_of(owned(state));
+    const scalar credit = left_for_it(state);
     const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
     if (outflow <= kernels::spendable(credit))
       return share{scalar(1)};  // by the worst motion of all
     const scalar force = Space::norm(desired);
     if (!(force > scalar(0))) return share{scalar(1)};
     const scalar B = state.damping.per_tick(desired, state.longest_tick);
-    scalar most = kernels::reachable_force_bound(credit, B, coming.reach(desired, force));
+    scalar most = kernels::reachable_force_bound(
+        credit, B, reach<State::latency + 1>(desired, force, force, state));
     if constexpr (State::damping_type::rubs) {
       if (credit < scalar(0)) return share{scalar(0)};  // friction is no licence to go on spending
       most = (state.damping.friction(desired) + most) *
@@ -145,17 +85,66 @@ class reachable_bound::on {
   }
 
  private:
-  /// E1 less what friction may hold back [J].
+  /// E1 less the worst of what is on its way to the motors [J].
   template <class State>
-  [[nodiscard]] static constexpr scalar owned(const State& state) noexcept {
+  [[nodiscard]] constexpr scalar left_for_it(const State& state) const noexcept {
+    scalar credit = state.energy;
     if constexpr (State::latency > 0) {
-      return state.energy - state.held_back();
+      credit -= state.held_back();
+      promise<1>(credit, state);
+    }
+    return credit;
+  }
+  template <int J, class State>
+  constexpr void promise(scalar& credit, const State& state) const noexcept {
+    const effort h = coming<J>(state);
+    const scalar force = Space::norm(h);
+    if (force > scalar(0)) {
+      scalar beyond = force;
+      if constexpr (State::damping_type::rubs) beyond -= state.damping.friction(h);
+      const scalar B = state.damping.per_tick(h, state.longest_tick);
+      credit -= kernels::reachable_outflow(beyond, B, reach<J>(h, force, force, state)) *
+                (scalar(1) + kernels::rounding<scalar>());
+    }
+    if constexpr (J < State::latency) promise<J + 1>(credit, state);
+  }
+
+  /// The command that is held in the J-th coming tick [N].
+  template <int J, class State>
+  [[nodiscard]] static constexpr effort coming(const State& state) noexcept {
+    return state.commanded[static_cast<std::size_t>(State::latency - J)];
+  }
+
+  /// δ(J) along `direction`, of length `length` [m]; `last` is the force in tick J [N].
+  template <int J, class State>
+  [[nodiscard]] constexpr scalar reach(const effort& direction, scalar length, scalar last,
+                                       const State& state) const noexcept {
+    const scalar T = state.longest_tick;
+    scalar moved = Space::norm(state.travel);
+    if constexpr (!State::exact) moved += state.travel_error;
+    const scalar other = hand_force_ + scalar(2) * most_damped(state.damping, T) * moved;
+    if constexpr (J == 1) {
+      if (!state.motion_known) return kernels::largest<scalar>();  // at any speed
+      scalar outward = Space::dot(state.travel, direction) / length +
+                       kernels::rounding<scalar>() * Space::norm(state.travel);
+      if constexpr (!State::exact) outward += state.travel_error;
+      return kernels::outward_reach(outward, Space::norm(state.held), last, other, mass_, state.dt,
+                                    T);
     } else {
-      return state.energy;
+      const scalar before = Space::norm(coming<J - 1>(state));
+      return reach<J - 1>(direction, length, before, state) +
+             kernels::outward_reach(scalar(0), before, last, other, mass_, T, T);
     }
   }
 
-  detail::reach_in_metres<Space> by_;
+  /// B of the axis that damps most, so that no damper holds more than B|Δx| [N/m].
+  [[nodiscard]] static constexpr scalar most_damped(const auto& damping, scalar T) noexcept {
+    scalar b = damping.along_axis(0);
+    for (int i = 1; i < Space::dof; ++i) b = kernels::larger(b, damping.along_axis(i));
+    return b / T;
+  }
+
+  scalar mass_, hand_force_;
 };
 
 /// The same law in joules, for any port and any inertia: a wrench, a gripper, joints. With
@@ -190,55 +179,6 @@ struct basic_reachable_work_bound {
 template <int Dof>
 using reachable_work_bound = basic_reachable_work_bound<diagonal_inertia<Dof>>;
 
-namespace detail {
-
-/// An effort by its norm ‖f‖ [√J/s], and the most work that it can do [J].
-template <port P, class Inertia>
-class reach_in_joules {
- public:
-  using scalar = typename P::scalar;
-  using effort = typename P::effort;
-
-  constexpr explicit reach_in_joules(const basic_reachable_work_bound<Inertia>& p) noexcept
-      : inertia_(p.inertia), hand_(number<scalar>(p.hand)) {}
-  [[nodiscard]] constexpr basic_reachable_work_bound<Inertia> parameters() const noexcept {
-    return {.inertia = inertia_.parameters(), .hand = static_cast<double>(hand_)};
-  }
-
-  [[nodiscard]] constexpr scalar norm(const effort& f) const noexcept { return inertia_.norm(f); }
-  [[nodiscard]] constexpr scalar now(const effort& f, scalar norm, scalar held,
-                                     const auto& state) const noexcept {
-    const scalar push = other(state);
-    if (!state.motion_known) return kernels::largest<scalar>();
-    const scalar T = state.longest_tick;
-    const auto work = P::work(f, state.travel);
-    const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
-    const scalar pushed = (inertia_.norm(state.held) + push) * state.dt * T + (held + push) * T * T;
-    return outward * T / state.dt +
-           norm * pushed / scalar(2) * (scalar(1) + kernels::rounding<scalar>());
-  }
-  [[nodiscard]] constexpr scalar later(scalar norm, scalar before, scalar held,
-                                       const auto& state) const noexcept {
-    return kernels::later_reach(norm, before, held, other(state), state.longest_tick);
-  }
-  [[nodiscard]] constexpr scalar handed_out(const effort& f, scalar /*norm*/, scalar reach,
-                                            const auto& state) const noexcept {
-    return kernels::reachable_work(state.damping.worst_outflow(f, state.longest_tick), reach);
-  }
-
- private:
-  /// F: hand, and twice what the damper held over the last tick [√J/s].
-  [[nodiscard]] constexpr scalar other(const auto& state) const noexcept {
-    const effort damper = state.damping.force(state.travel, state.longest_tick);
-    return hand_ + scalar(2) * inertia_.norm(damper);
-  }
-
-  part_at<Inertia, P> inertia_;
-  scalar hand_;
-};
-
-}  // namespace detail
-
 template <class Inertia>
 template <port P>
 class basic_reachable_work_bound<Inertia>::on {
@@ -248,9 +188,10 @@ class basic_reachable_work_bound<Inertia>::on {
   static_assert(inertia_for<Inertia, P>,
                 "passive_haptics: the inertia does not model inertia_for: see port/concepts.hpp");
 
-  constexpr explicit on(const basic_reachable_work_bound& p) noexcept : by_(p) {}
+  constexpr explicit on(const basic_reachable_work_bound& p) noexcept
+      : inertia_(p.inertia), hand_(detail::number<scalar>(p.hand)) {}
   [[nodiscard]] constexpr basic_reachable_work_bound parameters() const noexcept {
-    return by_.parameters();
+    return {.inertia = inertia_.parameters(), .hand = static_cast<double>(hand_)};
   }
 
   template <class State>
@@ -259,17 +200,57 @@ class basic_reachable_work_bound<Inertia>::on {
     static_assert(!State::damping_type::rubs,
                   "passive_haptics: reachable_work_bound is proved for viscous damping: count dry "
                   "friction into `hand` instead of crediting it");
-    const detail::commands_on_their_way coming(by_, state);
-    const scalar credit = coming.left_of(state.energy);
+    scalar credit = state.energy;
+    if constexpr (State::latency > 0) promise<1>(credit, state);
     const scalar W = state.damping.worst_outflow(desired, state.longest_tick);
     if (W <= kernels::spendable(credit)) return share{scalar(1)};
-    const scalar norm = by_.norm(desired);
+    const scalar norm = inertia_.norm(desired);
     if (!(norm > scalar(0))) return share{scalar(1)};
-    return share{kernels::reachable_share(credit, W, coming.reach(desired, norm))};
+    return share{
+        kernels::reachable_share(credit, W, reach<State::latency + 1>(desired, norm, norm, state))};
   }
 
  private:
-  detail::reach_in_joules<P, Inertia> by_;
+  template <int J, class State>
+  constexpr void promise(scalar& credit, const State& state) const noexcept {
+    const effort h = coming<J>(state);
+    const scalar norm = inertia_.norm(h);
+    if (norm > scalar(0)) {
+      const scalar W = state.damping.worst_outflow(h, state.longest_tick);
+      credit -= kernels::reachable_work(W, reach<J>(h, norm, norm, state)) *
+                (scalar(1) + kernels::rounding<scalar>());
+    }
+    if constexpr (J < State::latency) promise<J + 1>(credit, state);
+  }
+  template <int J, class State>
+  [[nodiscard]] static constexpr effort coming(const State& state) noexcept {
+    return state.commanded[static_cast<std::size_t>(State::latency - J)];
+  }
+
+  /// η(J) of an effort of that norm [J]; `last` is the norm of what is held in tick J.
+  template <int J, class State>
+  [[nodiscard]] constexpr scalar reach(const effort& f, scalar norm, scalar last,
+                                       const State& state) const noexcept {
+    const scalar T = state.longest_tick;
+    const scalar up = scalar(1) + kernels::rounding<scalar>();
+    const effort damper = state.damping.force(state.travel, T);
+    const scalar other = hand_ + scalar(2) * inertia_.norm(damper);
+    if constexpr (J == 1) {
+      if (!state.motion_known) return kernels::largest<scalar>();
+      const auto work = P::work(f, state.travel);
+      const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
+      const scalar pushed =
+          (inertia_.norm(state.held) + other) * state.dt * T + (last + other) * T * T;
+      return outward * T / state.dt + norm * pushed / scalar(2) * up;
+    } else {
+      const scalar before = inertia_.norm(coming<J - 1>(state));
+      return reach<J - 1>(f, norm, before, state) +
+             norm * (before + last + scalar(2) * other) * T * T / scalar(2) * up;
+    }
+  }
+
+  part_at<Inertia, P> inertia_;
+  scalar hand_;
 };
 
 static_assert(force_bound_for<reachable_bound, space<float, 1>>);

@@ -9,7 +9,6 @@
 
 #include <passive_haptics/device/rigid_damping.hpp>
 #include <passive_haptics/device/rigid_inertia.hpp>
-#include <passive_haptics/force_bound/commands_on_their_way.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
@@ -100,16 +99,27 @@ class rigid_reachable_bound::on {
     if constexpr (State::latency == 0) {
       if (W <= kernels::spendable(state.energy)) return share{known};  // by the worst motion of all
     }
-    const reach_of_wrenches by(inertia_, around(state));
+    const surroundings all = around(state);
     const scalar norm = inertia_.norm(wrench);
-    const detail::commands_on_their_way coming(by, state);
-    const scalar credit = coming.left_of(state.energy);
+    scalar credit = state.energy;
+    scalar before = norm;
+    scalar later(0);
+    if constexpr (State::latency > 0) {
+      const effort coming = state.commanded[0];
+      before = inertia_.norm(coming);
+      later = kernels::later_reach(norm, before, norm, all.pushed, T);
+      if (before > scalar(0)) {
+        const scalar worst = state.damping.worst_outflow(coming, T);
+        credit -= kernels::reachable_work(worst, reach(coming, before, before, all, state)) *
+                  (scalar(1) + kernels::rounding<scalar>());
+      }
+    }
     if (W <= kernels::spendable(credit) || !(norm > scalar(0))) return share{known};
-    return share{known * kernels::reachable_share(credit, W, coming.reach(wrench, norm))};
+    const scalar most = reach(wrench, norm, before, all, state) + later;
+    return share{known * kernels::reachable_share(credit, W, most)};
   }
 
  private:
-  using inertia_type = part_at<rigid_inertia, P>;
   /// What pushed over the last tick, and goes on.
   struct surroundings {
     scalar held;     ///< ‖held‖ [√J/s]
@@ -129,37 +139,21 @@ class rigid_reachable_bound::on {
     return {held, pushed, turn, inertia_.turning_by(held + pushed)};
   }
 
-  /// A wrench by its norm ‖w‖ [√J/s], and the most work η that it can do [J].
-  struct reach_of_wrenches {
-    const inertia_type& inertia;
-    surroundings all;
+  /// η [J] of a wrench of that norm in the tick that begins now, where one of the norm `next` is held.
+  [[nodiscard]] constexpr scalar reach(const effort& w, scalar norm, scalar next,
+                                       const surroundings& all, const auto& state) const noexcept {
+    if (!state.motion_known || !(all.turn <= scalar(1))) return kernels::largest<scalar>();
+    const scalar T = state.longest_tick;
+    const auto work = P::work(w, state.travel);
+    const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
+    const scalar pushed =
+        norm * ((all.held + all.pushed) * state.dt * T + (next + all.pushed) * T * T) / scalar(2);
+    const scalar beside = inertia_.template length<3>(w) *
+                          kernels::unseen_turn(all.turn, all.turning, state.dt) * T / state.dt;
+    return outward * T / state.dt + (pushed + beside) * (scalar(1) + kernels::rounding<scalar>());
+  }
 
-    constexpr reach_of_wrenches(const inertia_type& i, const surroundings& a) noexcept
-        : inertia(i), all(a) {}
-    [[nodiscard]] constexpr scalar norm(const effort& w) const noexcept { return inertia.norm(w); }
-    [[nodiscard]] constexpr scalar now(const effort& w, scalar norm, scalar held,
-                                       const auto& state) const noexcept {
-      if (!state.motion_known || !(all.turn <= scalar(1))) return kernels::largest<scalar>();
-      const scalar T = state.longest_tick;
-      const auto work = P::work(w, state.travel);
-      const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
-      const scalar pushed =
-          norm * ((all.held + all.pushed) * state.dt * T + (held + all.pushed) * T * T) / scalar(2);
-      const scalar beside = inertia.template length<3>(w) *
-                            kernels::unseen_turn(all.turn, all.turning, state.dt) * T / state.dt;
-      return outward * T / state.dt + (pushed + beside) * (scalar(1) + kernels::rounding<scalar>());
-    }
-    [[nodiscard]] constexpr scalar later(scalar norm, scalar before, scalar held,
-                                         const auto& state) const noexcept {
-      return kernels::later_reach(norm, before, held, all.pushed, state.longest_tick);
-    }
-    [[nodiscard]] constexpr scalar handed_out(const effort& w, scalar /*norm*/, scalar reach,
-                                              const auto& state) const noexcept {
-      return kernels::reachable_work(state.damping.worst_outflow(w, state.longest_tick), reach);
-    }
-  };
-
-  inertia_type inertia_;
+  part_at<rigid_inertia, P> inertia_;
   scalar hand_force_, hand_torque_, linear_most_, angular_most_;
 };
 
