@@ -46,7 +46,9 @@ template <class Supply, class Space>
 }
 /// The space of what a supply brings, or of a surface that is given in place of one.
 template <class Supply>
-struct space_of : space_of<typename Supply::constraint_type> {};
+struct space_of {
+  using type = typename Supply::constraint_type::space_type;
+};
 template <class Surface>
 requires requires {
   typename Surface::space_type;

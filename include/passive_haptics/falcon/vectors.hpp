@@ -126,7 +126,7 @@ struct sine_cosine {
   S sine, cosine;
 };
 
-/// sin φ and cos φ [rad], those of <cmath>; in a constant expression their power series, |φ| ≤ 2π.
+/// sin φ and cos φ [rad], those of cmath; in a constant expression their power series, |φ| ≤ 2π.
 template <real S>
 [[nodiscard]] constexpr sine_cosine<S> sine_cosine_of(S angle) noexcept {
   using std::cos, std::sin;
