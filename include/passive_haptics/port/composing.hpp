@@ -12,10 +12,12 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
+/// A part that gives back the parameters that it was made of.
 template <class Part>
 concept has_parameters = requires(const Part part) {
   part.parameters();
 };
+/// A part that takes new parameters and keeps its state.
 template <class Part, class Parameters>
 concept takes_in_place = requires(Part part, const Parameters& p) {
   part.set(p);
