@@ -52,7 +52,7 @@ int main() {
   now.press("motors of 2 N", 50);
 
   now.touch().release();  // the environment has nothing there any more
-  now.press("released", 60);
+  now.press("released", 200);
   now.touch().reset();  // for another hand, elsewhere
   std::printf("anew: E1 = %g J\n", now.touch().energy());
 }

@@ -80,7 +80,7 @@ struct turn {
   real cosine, sine, chord_squared;
 };
 static inline struct turn half_angle_turn(real angle) {
-  const real t = angle / 2, d = 1 + t * t;
+  const real t = smaller(angle / 2, 1 << 20), d = 1 + t * t;
   const struct turn r = {(1 - t * t) / d, 2 * t / d, 4 * t * t / d};
   return r;
 }

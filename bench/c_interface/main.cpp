@@ -129,10 +129,7 @@ cost of_touch(int rounds, Touch touch, const char* composition, double friction)
 }
 
 cost of_guard(int rounds) {
-  auto guard = ph::passive_port{
-      scene{}, ph::given_force{}, ph::reduced_energy{.damping = device.damping},
-      ph::bound_chain{ph::strict_bound{}, ph::actuator_limit{.most = device.force_limit}},
-      ph::loop_limits{.longest_tick = T}};
+  auto guard = ph::make_force_guard<scene>(device, T);
   ph_port* const port = open("force_guard", 0.0);
   const auto wanted = [](const place& x) { return x[2] < 0.0 ? -800.0 * x[2] : 0.0; };
   const cost found = compare(

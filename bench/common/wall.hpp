@@ -14,10 +14,13 @@
 #include "spring_wall.hpp"
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
+#include <passive_haptics/simulation/quiet.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <span>
 
 namespace experiments {
 
@@ -47,7 +50,27 @@ struct wall_result {
   double rubbed_energy = 0;      ///< the same with what dry friction has taken [J]
   double ledger = 0;             ///< of the model, at the end [J]
   double force_error = 0;        ///< mean |f − K d| in contact [N]
+  double quiet = std::nan("");   ///< from then on (simulation/quiet.hpp) [s]; none: not in time
+  sim::quiet_bar missed{};       ///< by the last window that was not
 };
+
+/// By then a device has to be quiet [s]. What hops is quiet while it is in the air, so a run goes on for longer.
+inline constexpr double quiet_in = 5.0;
+
+/// Since when it is quiet [s]; NaN where it is not in time.
+inline double quiet_in_time(const sim::quiet_judge<line>& judge) {
+  return judge.since() <= quiet_in ? judge.since() : std::nan("");
+}
+/// "0.40 s", or which bar was missed last.
+inline std::string quiet_since(double since, sim::quiet_bar missed) {
+  return std::isfinite(since) ? format("%.2f s", since)
+                              : "no: " + std::string(sim::to_string(missed));
+}
+/// The bars for a wall of K shown by a device on its encoders.
+inline sim::quiet_bars quiet_on(double K, double quantum, double mass) {
+  const double most = 0.1 * mass / 1e-6;  // of κ m/T², the stiffest that is sampled
+  return sim::quiet_bars{}.on_encoders(quantum, std::min(K, most), mass);
+}
 
 inline wall_result judge(const std::vector<double>& x, double period) {
   const auto swing = [&x](std::size_t from) {
@@ -105,8 +128,13 @@ wall_result drop(auto model, Device device, const wall_scene& scene, std::uint64
   std::vector<double> positions;
   double error = 0.0;
   int in_contact = 0;
+  sim::quiet_judge<line> judge_of_quiet(quiet_on(scene.stiffness, scene.quantum, scene.mass));
+  constexpr std::array<double, 1> normal{-1.0};
   const auto note = [&](const auto& now, double surface) {
-    if (now.position > surface) {
+    const bool touches = now.position > surface;
+    judge_of_quiet.add(now.force, device.velocity(), 1e-3,
+                       std::span(normal).first(touches ? 1 : 0));
+    if (touches) {
       error += std::abs(-now.sample.held - scene.stiffness * (now.position - surface));
       ++in_contact;
     }
@@ -121,6 +149,8 @@ wall_result drop(auto model, Device device, const wall_scene& scene, std::uint64
   result.port_energy = device.meter().minimum();
   result.rubbed_energy = seen.least_energy;
   result.ledger = model.energy();
+  result.quiet = quiet_in_time(judge_of_quiet);
+  result.missed = judge_of_quiet.missed();
   result.force_error = in_contact > 0 ? error / in_contact : 0.0;
   return result;
 }

@@ -5,16 +5,22 @@ namespace contacts {
 
 const std::vector<ex::section<session>>& sections() {
   static const std::vector<ex::section<session>> all{
-      {"settling", run_settling}, {"touch", run_touch},       {"news", run_news},
-      {"curved", run_curved},     {"friction", run_friction}, {"static", run_static},
-      {"passive", run_passive},   {"rigid", run_rigid},       {"tool", run_tool}};
+      {"quiet", run_quiet},       {"quiet_tool", run_quiet_tool},
+      {"settling", run_settling}, {"touch", run_touch},
+      {"news", run_news},         {"curved", run_curved},
+      {"friction", run_friction}, {"static", run_static},
+      {"passive", run_passive},   {"rigid", run_rigid},
+      {"tool", run_tool},         {"guards", run_guards}};
   return all;
 }
 
 settings parse(const std::vector<std::string>& arguments) {
-  settings chosen{"contacts"};
-  ex::read_options("contacts", ex::section_options(sections(), chosen, "fewer cases and seconds"),
-                   arguments);
+  settings chosen{{"contacts"}};
+  ex::read_options(
+      "contacts",
+      ex::section_options(sections(), chosen, "fewer cases and seconds",
+                          {ex::a_number("--seed", "of the scenes (default: 1)", chosen.seed)}),
+      arguments);
   return chosen;
 }
 

@@ -15,13 +15,17 @@ namespace contacts {
 namespace ex = experiments;
 using ex::expect;
 
-using settings = ex::section_settings;
+struct settings : ex::section_settings {
+  int seed = 1;  ///< of what is drawn at random
+};
 
 struct session : ex::workshop {
   const settings& chosen;
 };
 
 [[nodiscard]] const std::vector<ex::section<session>>& sections();
+[[nodiscard]] std::vector<std::string> run_quiet(const session& s);
+[[nodiscard]] std::vector<std::string> run_quiet_tool(const session& s);
 [[nodiscard]] std::vector<std::string> run_settling(const session& s);
 [[nodiscard]] std::vector<std::string> run_touch(const session& s);
 [[nodiscard]] std::vector<std::string> run_news(const session& s);
@@ -31,6 +35,7 @@ struct session : ex::workshop {
 [[nodiscard]] std::vector<std::string> run_passive(const session& s);
 [[nodiscard]] std::vector<std::string> run_rigid(const session& s);
 [[nodiscard]] std::vector<std::string> run_tool(const session& s);
+[[nodiscard]] std::vector<std::string> run_guards(const session& s);
 
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);

@@ -12,7 +12,11 @@ stiffness_row judge_on_stiffness(const controller& c, double stiffness) {
   auto wall = c.in<d1>()({.damping = 0.1, .hand_force = most_hand, .load = 30.0 * 0.015});
   wall.update({0.0, -1.0, stiffness});
   double squares = 0.0;
+  sim::quiet_judge<d1> quiet;
+  constexpr std::array<double, 1> normal{-1.0};
   sim::run(device, wall, 5999, sim::idle, sim::idle, [&](const auto& now) {
+    quiet.add(now.force, device.velocity(), 1e-3,
+              std::span(normal).first(now.position > 0.0 ? 1 : 0));
     if (now.tick >= 3999) squares += device.velocity() * device.velocity();
   });
   return {c.name,
@@ -21,14 +25,17 @@ stiffness_row judge_on_stiffness(const controller& c, double stiffness) {
           c.covers_prompt(stiffness),
           0.0 - device.meter().minimum(),
           device.meter().total().actuator,
-          std::sqrt(squares / 2000.0)};
+          std::sqrt(squares / 2000.0),
+          ex::quiet_in_time(quiet),
+          quiet.missed()};
 }
 
 static ex::record record_of(const stiffness_row& r) {
-  return {{"controller", r.controller},     {"tag", to_string(r.tag)},
-          {"stiffness N/m", r.stiffness},   {"covered", r.covered},
-          {"out of port J", r.out_of_port}, {"out of wall J", r.out_of_wall},
-          {"rms speed m/s", r.rms_speed}};
+  return {{"controller", r.controller},        {"tag", to_string(r.tag)},
+          {"stiffness N/m", r.stiffness},      {"covered", r.covered},
+          {"out of port J", r.out_of_port},    {"out of wall J", r.out_of_wall},
+          {"rms speed m/s", r.rms_speed},      {"quiet s", r.quiet},
+          {"misses", sim::to_string(r.missed)}};
 }
 
 std::vector<std::string> run_stiffness(const session& s) {
@@ -36,13 +43,14 @@ std::vector<std::string> run_stiffness(const session& s) {
   const auto rows =
       s.rows("stiffness.csv", "stiffness", with_each(s.judged, swept),
              [](const auto& job) { return judge_on_stiffness(*job.first, job.second); });
-  std::vector<std::string> heading{"out of port | of wall, mJ", "tag"}, found, line;
+  std::vector<std::string> heading{"out of port | of wall, mJ | quiet", "tag"}, found, line;
   for (const double K : swept) heading.push_back(ex::format("%g N/m", K));
   ex::table shown(heading);
   for (const auto& r : rows) {
     if (line.empty()) line = {r.controller, to_string(r.tag)};
-    const std::string cell =
-        ex::format("%.3g", r.out_of_port * 1e3) + " | " + ex::format("%.3g", r.out_of_wall * 1e3);
+    const std::string cell = ex::format("%.3g", r.out_of_port * 1e3) + " | " +
+                             ex::format("%.3g", r.out_of_wall * 1e3) + " | " +
+                             ex::quiet_since(r.quiet, r.missed);
     line.push_back(r.covered ? cell : "(" + cell + ")");
     if (line.size() == heading.size()) shown.add(std::exchange(line, {}));
     if (!r.covered || r.out_of_port <= 1e-12) continue;
@@ -55,7 +63,10 @@ std::vector<std::string> run_stiffness(const session& s) {
       "A hand of 30 N/m and 0.5 N·s/m lets a device of 0.1 kg and 0.1 N·s/m go at the wall, 6 s. "
       "First the most that wall and device together ever gave to the hand (what a guarantee is "
       "about: not above zero), then the sum of f·Δx at the end, which the damper of the device may "
-      "have eaten: negative when the wall has kept energy. In brackets: not covered by the tag, "
+      "have eaten: negative when the wall has kept energy; then since when it is quiet "
+      "(docs/design/settling.md), or what it missed last, if not by 5 s. In brackets: not covered "
+      "by the "
+      "tag, "
       "or the controller is built for a loop that is late.");
   s.out.show(shown);
   s.out.member("stiffness", ex::json_of(rows));

@@ -20,8 +20,9 @@ struct wall_row {
   std::string scene;
   int runs = 0;
   int settled = 0;
-  bool covered = false;             ///< the guarantee has to hold here
-  ex::wall_result mean{};           ///< settle: the worst; port_energy: the least; the rest: means
+  int quiet = 0;           ///< runs that are so in time
+  bool covered = false;    ///< the guarantee has to hold here
+  ex::wall_result mean{};  ///< settle, quiet: the worst; port_energy: the least; the rest: means
   ex::wall_result least{}, most{};  ///< of the runs, in peak_to_peak and force_error
   double displayed = 0.0;           ///< static stiffness [N/m]
 };
@@ -104,6 +105,8 @@ struct stiffness_row {
   double out_of_port = 0.0;  ///< most that wall and device together ever gave the hand [J]
   double out_of_wall = 0.0;  ///< Σ f·Δx at the end: what the device's damper took is in it [J]
   double rms_speed = 0.0;    ///< over the last 2 s [m/s]
+  double quiet = 0.0;        ///< from then on (simulation/quiet.hpp) [s]; NaN: not in time
+  sim::quiet_bar missed{};   ///< by the last window that was not
 };
 
 [[nodiscard]] stiffness_row judge_on_stiffness(const controller& c, double stiffness);

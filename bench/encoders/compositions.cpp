@@ -35,7 +35,8 @@ wall with_rigid_friction(const design::stated_device& d, double /*most*/) {
 }
 wall encoder_touch(const design::stated_device& d, double most) {
   auto made = ph::make_encoder_touch<line>(d, hand_force);
-  (void)made.set(ph::capped{ph::damped_spring{.mass = d.mass, .force_limit = d.force_limit}, most});
+  (void)made.set(
+      ph::capped{ph::eased{ph::damped_spring{.mass = d.mass, .force_limit = d.force_limit}}, most});
   return made;
 }
 wall of_exact_positions(const design::stated_device& d, double /*most*/) {

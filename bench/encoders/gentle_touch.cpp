@@ -5,9 +5,12 @@
 #include "program.hpp"
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
+#include <passive_haptics/simulation/quiet.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
+#include <array>
 #include <numeric>
+#include <span>
 
 namespace encoders {
 
@@ -60,6 +63,7 @@ struct touch_row {
   double buzz = 0.0;             ///< largest swing of the device while it is held [m]
   double own_swing = 0.0;        ///< the same with an ideal spring in place of the wall [m]
   double least_energy = 0.0;     ///< at the port, friction included [J]
+  int holds = 0, quiet = 0;      ///< and those that are quiet at their end
 
   [[nodiscard]] double displayed() const { return what->displayed(m, stiffness); }
   [[nodiscard]] double share(double least) const {
@@ -87,6 +91,7 @@ ex::record record_of(const touch_row& r) {
           {"first_three_ratio", r.first_three, "%.2f"},
           {"buzz_steps", r.buzz / r.m.preset.quantum, "%.1f"},
           {"own_swing_steps", r.own_swing / r.m.preset.quantum, "%.1f"},
+          {"quiet_share", static_cast<double>(r.quiet) / std::max(1, r.holds), "%.2f"},
           {"least_energy_J", r.least_energy}};
 }
 
@@ -103,22 +108,33 @@ double touch(touch_row& job, int touches, std::uint64_t seed, std::vector<double
     int in_leg = 0;
     double target = surface - 3e-3, force = 0.0, depth = 0.0;
     double lowest = unlimited, highest = -unlimited;
+    const sim::impedance_hand<line>& fingers = device.hand();
+    sim::quiet_judge<line> judge(sim::quiet_bars{}.on_encoders(
+        job.m.preset.quantum, displayed, job.m.preset.mass + fingers.own_mass));
+    constexpr std::array<double, 1> normal{-1.0};
     const auto hand = [&](const auto&) {
       while (at < legs.size() && in_leg == legs[at].ticks) {
         if (legs[at].felt) {
           ratios.push_back(depth > 0.0 ? force / depth / displayed : 0.0);
           job.buzz = std::max(job.buzz, highest - lowest);
+          ++job.holds;
+          if (judge.quiet()) ++job.quiet;
         }
         force = depth = 0.0;
         lowest = unlimited, highest = -unlimited;
         in_leg = 0;
         ++at;
+        judge.news();
       }
       device.hand().aim(target, legs[at].speed, device.time());
       target += legs[at].speed * T;
       ++in_leg;
     };
     const auto watch = [&](const auto& now) {
+      if (legs[at].felt) {
+        judge.add(now.force, device.velocity(), T,
+                  std::span(normal).first(now.position > surface ? 1 : 0));
+      }
       if (!legs[at].felt || 2 * in_leg <= legs[at].ticks) return;
       force -= now.force;
       depth += std::max(0.0, now.position - surface);
@@ -219,7 +235,9 @@ std::vector<std::string> run_gentle_touch(const session& s) {
       "of the device's damping and friction stated, nothing lent. Ratio: force over true "
       "depth, over what the contact law displays; share_080: of the touches, those of 0.8 "
       "and more. Buzz: largest swing of the device in the second half of a hold; own swing: on "
-      "an ideal spring of that stiffness, seen exactly. Least energy: at the port, what friction "
+      "an ideal spring of that stiffness, seen exactly. Quiet: the share of the holds, of 0.3 to "
+      "1 s, that end so (docs/design/settling.md), by the floor of the steps under the stiffness "
+      "displayed. Least energy: at the port, what friction "
       "took and stores included.");
   ex::show_rows(s.out, "gentle_touch", rows);
   int number = 0;

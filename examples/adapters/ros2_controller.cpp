@@ -55,5 +55,7 @@ class passive_effort_controller : public ci::ChainableControllerInterface {
 
  private:
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  ph::force_guard<scene> port_ = ph::make_force_guard<scene>({0.1}, 0.002);
+  // State less mass and damping than your device has, and a hand stronger than any that will hold it.
+  ph::force_guard<scene> port_ = ph::make_force_guard<scene>(
+      {.mass = 0.1, .damping = 0.1, .hand_force = 5.0, .force_limit = 8.0}, 0.002);
 };

@@ -12,9 +12,8 @@ using scene = ph::space<double, 3>;
 /// The device is behind Redis, so a force is held a tick late at least: measure it (measure_latency).
 using late_guard = ph::force_guard<scene, ph::isotropic_damping, ph::late_loop_limits<1>>;
 
-late_guard make_guard(double damping) {
-  return {scene{}, ph::given_force{}, ph::reduced_energy{.damping = damping}, ph::strict_bound{},
-          ph::late_loop_limits<1>{.longest_tick = 0.002}};
+late_guard make_guard(const ph::known_device& device) {
+  return ph::make_force_guard<scene, ph::late_loop_limits<1>>(device, 0.002);
 }
 
 SaiPrimitives::HapticControllerOutput command(SaiPrimitives::HapticDeviceController& controller,

@@ -156,8 +156,11 @@ template <int Latency>
   const ph::given_force defaults;
   return {.stale_after = stated(p.stale_after, defaults.stale_after)};
 }
-[[nodiscard]] ph::damped_spring settling(const ph_parameters& p) noexcept {
-  return {.mass = p.mass, .force_limit = p.force_limit};
+[[nodiscard]] ph::settled_force settled(const ph_parameters& p) noexcept {
+  return {.mass = p.mass, .force_limit = p.force_limit, .stale_after = given(p).stale_after};
+}
+[[nodiscard]] ph::eased<ph::damped_spring> settling(const ph_parameters& p) noexcept {
+  return ph::eased{ph::damped_spring{.mass = p.mass, .force_limit = p.force_limit}};
 }
 [[nodiscard]] ph::reachable_bound reachable(const ph_parameters& p) noexcept {
   return {.mass = p.mass, .hand_force = p.hand_force};
@@ -223,6 +226,14 @@ struct strict_touch {
 struct force_guard {
   template <int Latency>
   static auto make(const ph_parameters& p) noexcept {
+    return ph::force_guard<scene, ph::isotropic_damping, ph::late_loop_limits<Latency>>{
+        scene{}, settled(p), ph::reduced_energy{.damping = p.damping},
+        ph::bound_chain{reachable(p), motors(p)}, limits<Latency>(p)};
+  }
+};
+struct strict_guard {
+  template <int Latency>
+  static auto make(const ph_parameters& p) noexcept {
     return ph::passive_port{scene{}, given(p), ph::reduced_energy{.damping = p.damping},
                             ph::bound_chain{ph::strict_bound{}, motors(p)}, limits<Latency>(p)};
   }
@@ -261,7 +272,8 @@ constexpr std::array compositions{
     named_composition{"quantised_touch", make<quantised_touch>, true, true},
     named_composition{"encoder_touch", make<encoder_touch>, true, true},
     named_composition{"strict_touch", make<strict_touch>, false, false},
-    named_composition{"force_guard", make<force_guard>, false, false},
+    named_composition{"force_guard", make<force_guard>, true, false},
+    named_composition{"strict_guard", make<strict_guard>, false, false},
     named_composition{"encoder_guard", make<encoder_guard>, false, true},
 };
 
@@ -421,7 +433,7 @@ std::int32_t ph_create(const char* composition, const ph_parameters* parameters,
   if (chosen == compositions.end()) {
     reason.say(
         "composition = \"%.60s\" is refused: one of touch, quantised_touch, encoder_touch, "
-        "strict_touch, force_guard, encoder_guard",
+        "strict_touch, force_guard, strict_guard, encoder_guard",
         composition);
     return PH_UNKNOWN_COMPOSITION;
   }

@@ -248,6 +248,7 @@ PYBIND11_MODULE(passive_haptics, module) {
              "(N/m, why): how stiff a wall may be before the ledger of this device runs dry.");
   module.def(
       "event_text", [](int event) { return ph_event_text(event); }, py::arg("event"));
-  module.attr("compositions") = py::make_tuple("touch", "quantised_touch", "encoder_touch",
-                                               "strict_touch", "force_guard", "encoder_guard");
+  module.attr("compositions") =
+      py::make_tuple("touch", "quantised_touch", "encoder_touch", "strict_touch", "force_guard",
+                     "strict_guard", "encoder_guard");
 }

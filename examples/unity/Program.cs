@@ -81,7 +81,7 @@ internal static class Program
             {
                 Result now = guard.Tick(new Vector(0, 0, 0.01 - 1e-4 * n), 1e-3, new Vector(0, 0, 5));
                 if (n < 9) continue;
-                Console.WriteLine("guard:   wants 5 N, has " + Newtons(first) + ", then " + Newtons(now));
+                Console.WriteLine("guard:   wants 5 N, has " + Newtons(first) + ", moving in " + Newtons(now));
             }
         }
     }

@@ -6,7 +6,9 @@
 //                                                     is stiff, passive for the device and hand stated
 //   encoder_touch<Space>  make_encoder_touch(device, hand)   the same on encoders whose steps are felt: as
 //                                                     stiff as dry friction can pay for, so that it lasts
-//   force_guard<Port>  make_force_guard(damping, T)   force in, force out: strictly passive
+//   force_guard<Space>    make_force_guard(device, longest_tick)   force in, force out: what somebody else's
+//                                                     renderer leaves ringing settles, and stays stiff
+//   strict_guard<Port>    make_strict_guard(damping, T)   the same, strictly passive: any port, and soft
 //
 //     class hand_loop {
 //       ph::touch<scene> touch_ = ph::make_touch<scene>({.mass = 0.1, .damping = 0.03,
@@ -16,7 +18,9 @@
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/contact/capped.hpp>
 #include <passive_haptics/contact/damped_spring.hpp>
+#include <passive_haptics/contact/eased.hpp>
 #include <passive_haptics/contact/given_force.hpp>
+#include <passive_haptics/contact/settled_force.hpp>
 #include <passive_haptics/design/stiffness_budget.hpp>
 #include <passive_haptics/energy_observer/dual_ledger.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
@@ -42,8 +46,8 @@ struct known_device {
 
 /// What we recommend for a device of known mass. It is conditional, like reachable_bound.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
-using touch = local_model<Space, followed<Constraint>, turn_limited, damped_spring, reduced_energy,
-                          bound_chain<reachable_bound, actuator_limit>, Limits>;
+using touch = local_model<Space, followed<Constraint>, turn_limited, eased<damped_spring>,
+                          reduced_energy, bound_chain<reachable_bound, actuator_limit>, Limits>;
 
 /// The normal turns by at most `turn_rate` [rad/s]; the longest tick is that of YOUR loop [s].
 template <class Space, class Constraint = half_space<Space>>
@@ -53,7 +57,7 @@ template <class Space, class Constraint = half_space<Space>>
   return {Space{},
           followed<Constraint>{},
           turn_limited{.rate = turn_rate},
-          damped_spring{.mass = device.mass, .force_limit = device.force_limit},
+          eased{damped_spring{.mass = device.mass, .force_limit = device.force_limit}},
           reduced_energy{.damping = device.damping},
           bound_chain{reachable_bound{.mass = device.mass, .hand_force = device.hand_force},
                       actuator_limit{.most = device.force_limit}},
@@ -65,8 +69,8 @@ template <class Space, class Constraint = half_space<Space>>
 /// displayed softer; law().is_capped() is true then.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
 using encoder_touch =
-    local_model<Space, followed<Constraint>, turn_limited, capped<damped_spring>, dual_ledger,
-                bound_chain<reachable_bound, thermal_limit>, Limits, edge_observer>;
+    local_model<Space, followed<Constraint>, turn_limited, capped<eased<damped_spring>>,
+                dual_ledger, bound_chain<reachable_bound, thermal_limit>, Limits, edge_observer>;
 
 /// `hand_force` is the most that hand, load and dry friction push with [N]. The stiffness is the budget for
 /// the `latency` that the device states. If that is less than the latency of Limits, the contact is as
@@ -81,7 +85,8 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
   return {Space{},
           followed<Constraint>{},
           turn_limited{.rate = turn_rate},
-          capped{damped_spring{.mass = device.mass, .force_limit = device.force_limit}, stiffness},
+          capped{eased{damped_spring{.mass = device.mass, .force_limit = device.force_limit}},
+                 stiffness},
           dual_ledger{.damping = {.coefficient = device.damping,
                                   .coulomb = device.friction,
                                   .presliding = device.presliding},
@@ -95,13 +100,30 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
                         .presliding = friction_is_stiffer ? device.presliding : 0.0}};
 }
 
-/// For a force that you compute yourself. It is strict, so it is soft while the ledger is empty.
+/// For a force that you compute yourself, or that a renderer, a simulator, an SDK does. It is conditional, like
+/// reachable_bound, and rests when the hand does: of a renderer up to source().parameters().most_stiffness(T).
+template <class Space, class Damping = isotropic_damping, class Limits = loop_limits>
+using force_guard = passive_port<Space, settled_force, basic_reduced_energy<Damping>,
+                                 bound_chain<reachable_bound, actuator_limit>, Limits>;
+
+template <class Space, class Limits = loop_limits>
+[[nodiscard]] constexpr force_guard<Space, isotropic_damping, Limits> make_force_guard(
+    const known_device& device, double longest_tick) noexcept {
+  return {Space{}, settled_force{.mass = device.mass, .force_limit = device.force_limit},
+          reduced_energy{.damping = device.damping},
+          bound_chain{reachable_bound{.mass = device.mass, .hand_force = device.hand_force},
+                      actuator_limit{.most = device.force_limit}},
+          Limits{.longest_tick = longest_tick}};
+}
+
+/// The same for a device of which only the damping is known, joints among them. It is strict, so it is soft
+/// while the ledger is empty, 2b/T pressed slowly; and it settles what it makes soft, no more.
 template <port P, class Damping = isotropic_damping, class Limits = loop_limits>
-using force_guard =
+using strict_guard =
     passive_port<P, given_force, basic_reduced_energy<Damping>, strict_bound, Limits>;
 
 template <port P, class Damping = isotropic_damping>
-[[nodiscard]] constexpr force_guard<P, Damping> make_force_guard(
+[[nodiscard]] constexpr strict_guard<P, Damping> make_strict_guard(
     const std::type_identity_t<Damping>& damping, double longest_tick) noexcept {
   return {P{}, given_force{}, basic_reduced_energy<Damping>{.damping = damping}, strict_bound{},
           loop_limits{.longest_tick = longest_tick}};

@@ -15,6 +15,7 @@
 #include <passive_haptics/contact/contacts.hpp>
 #include <passive_haptics/contact/damped_spring.hpp>
 #include <passive_haptics/contact/given_force.hpp>
+#include <passive_haptics/contact/settled_force.hpp>
 #include <passive_haptics/contact/spring.hpp>
 #include <passive_haptics/contact/virtual_coupling.hpp>
 #include <passive_haptics/energy_observer/dual_ledger.hpp>

@@ -3,7 +3,7 @@
 // The core, whole: everything a haptic loop needs, nothing of devices, environments or simulation. A
 // loop with one degree of freedom that wants no Eigen includes local_model.hpp and its parts instead.
 //
-//   compositions.hpp        start here: touch, encoder_touch, force_guard
+//   compositions.hpp        start here: touch, encoder_touch, force_guard, strict_guard
 //   local_model.hpp         one contact on one device
 //   port/passive_port.hpp   one device, whatever pushes on it
 //   energy_observer/        counts the energy that the hand and the device exchange
@@ -34,8 +34,11 @@
 #include <passive_haptics/contact/contact_set.hpp>
 #include <passive_haptics/contact/contacts.hpp>
 #include <passive_haptics/contact/damped_spring.hpp>
+#include <passive_haptics/contact/eased.hpp>
 #include <passive_haptics/contact/given_force.hpp>
 #include <passive_haptics/contact/local_contact.hpp>
+#include <passive_haptics/contact/manifold.hpp>
+#include <passive_haptics/contact/settled_force.hpp>
 #include <passive_haptics/contact/shaped.hpp>
 #include <passive_haptics/contact/spring.hpp>
 #include <passive_haptics/contact/virtual_coupling.hpp>

@@ -165,7 +165,10 @@ TEST_CASE("outward_reach bounds a mass under the worst admissible forces, and is
 
 TEST_CASE("half_angle_turn stays on the circle and never turns further than asked (A20)",
           "[kernels]") {
-  for (const double angle : {0.0, 1e-9, 1e-4, 0.004, 0.1, 1.0, 3.0, 100.0}) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (const double angle :
+       {0.0, 1e-9, 1e-4, 0.004, 0.1, 1.0, 3.0, 100.0, 1e9, 1e160, largest, infinite}) {
     const auto turn = k::half_angle_turn(angle);
     CHECK_THAT(turn.cosine * turn.cosine + turn.sine * turn.sine, WithinAbs(1.0, 4e-16));
     const double turned = std::atan2(turn.sine, turn.cosine);

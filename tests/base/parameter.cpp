@@ -71,7 +71,9 @@ TEST_CASE("every part gives its parameters back, and those that it takes later",
   gives_back(ph::two_layer_tank{1, 2, 3, 4, 5, 6}, {7, 8, 9, 10, 11, 12});
   gives_back(ph::series_passivity_controller{1, 2, 3, 4, 5, 6}, {7, 8, 9, 10, 11, 12});
   gives_back(ph::given_force{1, 2}, {3, 4});
-  gives_back(ph::damped_spring{1, 0.5, 3, 0.25, 5}, {6, 0.75, 8, 0.125, 10});
+  gives_back(ph::settled_force{1, 0.5, 3, 0.0625, 5, 6, 7, 8},
+             {9, 0.25, 4, 0.03125, 10, 11, 12, 13});
+  gives_back(ph::damped_spring{1, 0.25, 3, 0.5, 5}, {6, 0.125, 8, 0.375, 10});
   gives_back(ph::virtual_coupling{1, 2}, {3, 4});
   gives_back(ph::turn_limited{1}, {2});
   gives_back(ph::force_rate_limit{1}, {2});

@@ -192,7 +192,12 @@ TEST_CASE("in a loop that is late a touch by name is the late one", "[c_interfac
 }
 
 TEST_CASE("a guard by name is the library's, bit for bit", "[c_interface]") {
-  agree("force_guard",
+  constexpr ph::known_device device{
+      .mass = 0.045, .damping = 0.05, .hand_force = 5.0, .force_limit = 3.3};
+  agree("force_guard", ph::make_force_guard<d3>(device, T), grip(), &ph_parameters::mass);
+  agree("force_guard", ph::make_force_guard<d3, ph::late_loop_limits<2>>(device, T), grip(2),
+        &ph_parameters::hand_force);
+  agree("strict_guard",
         ph::passive_port{d3{}, ph::given_force{}, ph::reduced_energy{.damping = 0.05},
                          ph::bound_chain{ph::strict_bound{}, motors},
                          ph::loop_limits{.longest_tick = T}},
@@ -216,7 +221,8 @@ TEST_CASE("every composition has its promise, and presses", "[c_interface]") {
   CHECK(promise("quantised_touch", on_encoders()) == PH_CONDITIONAL);
   CHECK(promise("encoder_touch", on_encoders()) == PH_CONDITIONAL);
   CHECK(promise("strict_touch", grip()) == PH_STRICT);
-  CHECK(promise("force_guard", grip()) == PH_STRICT);
+  CHECK(promise("force_guard", grip()) == PH_CONDITIONAL);
+  CHECK(promise("strict_guard", grip()) == PH_STRICT);
   CHECK(promise("encoder_guard", on_encoders()) == PH_STRICT);
   CHECK(c.guarantee_of(nullptr) == PH_NONE);
   for (std::uint32_t latency = 0; latency <= PH_MOST_LATENCY; ++latency) {

@@ -140,7 +140,7 @@ TEST_CASE("what is released recedes, under a finger that follows it as well, and
   for (const double follows : {0.0, 0.1}) {  // [m/s], faster than any surface recedes
     auto port = corner<d3, 1>();
     d3::vector x(-2e-3, 0.0, 0.0);
-    for (int i = 0; i < 5; ++i) (void)port.tick(x, ph::seconds{T});
+    for (int i = 0; i < 100; ++i) (void)port.tick(x, ph::seconds{T});
     port.source().release(0);
     CHECK(port.source().slot(0).taken());
     int ticks = 0;
@@ -279,6 +279,7 @@ TEST_CASE("parameters of a set out of range are named, and change while it works
   CHECK(named({.mass = 0.1}, {.speed = 0.0}) == "speed");
   CHECK(named({.mass = 0.1}, {.catch_up = 0.0}) == "catch_up");
   CHECK(named({.mass = 0.1}, {.turn_rate = std::nan("")}) == "turn_rate");
+  CHECK(named({.mass = 0.1}, {.force_rate = 0.0}) == "force_rate");
   CHECK(named({.mass = 0.1}, {.stale_after = -1.0}) == "stale_after");
 
   auto port = corner<d3, 3>();
@@ -286,8 +287,205 @@ TEST_CASE("parameters of a set out of range are named, and change while it works
   (void)port.tick(x, ph::seconds{T});
   CHECK_THAT(port.tick(x, ph::seconds{T}).force.x(), WithinRel(1.0, 1e-12));
   CHECK_FALSE(port.set(ph::proxy_spring{.mass = 0.001}));  // K is capped at (1 − ε) κ m/T²
+  CHECK_THAT(port.tick(x, ph::seconds{T}).force.x(), WithinRel(0.95, 1e-12));  // by 50 N/s
+  for (int i = 0; i < 20; ++i) (void)port.tick(x, ph::seconds{T});
   CHECK_THAT(port.tick(x, ph::seconds{T}).force.x(), WithinRel(0.095, 1e-12));
   CHECK(port.set(ph::pursuit{.speed = -1.0}));
   port.reset();
   CHECK(port.tick(x, ph::seconds{T}).what == ph::event::no_target);
+}
+
+TEST_CASE("no news steps a device that holds still, and the truth is there within a second",
+          "[contact_set]") {
+  using ball = ph::sphere<d3>;
+  using set =
+      ph::contact_set<ph::frictionless, ph::slots<ph::half_space<d3>, 4>, ph::slots<ball, 2>>;
+  for (const double rate : {50.0, 1e9}) {  // the second is the control
+    ph::laws::samples random(7);
+    set parts;
+    parts.spring = {.mass = 0.1};
+    parts.pace = {.force_rate = rate};
+    auto port = open_port<d3>(parts);
+    const d3::vector x = d3::vector::Zero();
+    d3::vector last = port.tick(x, ph::seconds{T}).force;
+    double widest = 0.0, off = 0.0;
+    for (int n = 0; n < 6000; ++n) {
+      if (n % 33 == 0 && n % 3000 < 2000) {
+        const auto normal = random.direction<d3>();
+        const double depth = 1.5e-3 + 1.5e-3 * random.number<double>();
+        const double K = std::pow(10.0, 3.0 + random.number<double>());
+        const int slot = n % 4;
+        if (n % 5 == 0) {
+          port.source().release(slot);
+        } else if (n % 7 == 0) {
+          (void)port.source().update(slot / 2, ball{normal * (depth - 0.02), 0.02, K});
+        } else {
+          (void)port.source().update(slot, ph::half_space<d3>{normal * depth, normal, K});
+        }
+      }
+      const d3::vector f = port.tick(x, ph::seconds{T}).force;
+      widest = std::max(widest, (f - last).norm());
+      last = f;
+      if (n % 3000 == 2999) {  // as one would be that has met the same surfaces just now
+        d3::vector meant = d3::vector::Zero();
+        auto same = port;
+        for (int i = 0; i < 3000; ++i) meant = same.tick(x, ph::seconds{T}).force;
+        off = std::max(off, (meant - f).norm());
+      }
+    }
+    CAPTURE(rate);
+    CHECK((widest <= 0.05 * (1.0 + 1e-9)) == (rate == 50.0));
+    CHECK(off < 1e-9);
+  }
+}
+
+namespace {
+
+/// Of a finger that strokes: how far its force leans off what the surface itself pushes with.
+struct stroked {
+  double worst = 0.0;         ///< off the direction of the truth [rad]
+  double largest_step = 0.0;  ///< [N] in a tick
+  double leaning = 0.0;       ///< off by more than 5 degrees [s]
+  double work = 0.0;          ///< that the finger got [J]
+};
+
+/// `path`(n) is where it is, `truth`(x) what pushes there, and `told`(n) the surface to publish, every 33 ms.
+template <class Surface>
+stroked stroke(const ph::pursuit& pace, int ticks, const auto& path, const auto& truth,
+               const auto& told) {
+  ph::passive_port port{d3{},
+                        ph::contact_set{ph::proxy_spring{.mass = 0.1, .damping_ratio = 0.0}, pace,
+                                        ph::slots<Surface, 1>{}},
+                        ph::no_observer{}, ph::no_bound{}, thesis_loop};
+  REQUIRE(port.source().update(0, told(0)));
+  const d3::vector begin = path(0);
+  for (int n = 100; n > 0; --n) {
+    (void)port.tick(d3::vector(begin + truth(begin).normalized() * (1e-4 * n)), 1ms);
+  }
+  stroked result;
+  d3::vector last = d3::zero(), was = begin;
+  for (int n = 0; n < ticks; ++n) {
+    const d3::vector x = path(n);
+    if (n % 33 == 0) REQUIRE(port.source().update(0, told(n)));
+    const d3::vector force = port.tick(x, 1ms).force, right = truth(x);
+    const double off = std::atan2(d3::cross(force, right).norm(), force.dot(right));
+    result.worst = std::max(result.worst, off);
+    if (n > 0) result.largest_step = std::max(result.largest_step, (force - last).norm());
+    if (off > 0.087) result.leaning += 1e-3;
+    result.work += last.dot(x - was);
+    last = force;
+    was = x;
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a ball told by its tangent planes may be stroked fast", "[contact_set]") {
+  constexpr double radius = 0.05, K = 500.0, speed = 0.2;
+  const auto path = [](int n) -> d3::vector {
+    const double angle = speed / radius * 1e-3 * n;
+    return (radius - 2e-3) * d3::vector(std::cos(angle), 0.0, std::sin(angle));
+  };
+  const auto truth = [](const d3::vector& x) -> d3::vector {
+    return x.normalized() * (K * (radius - x.norm()));
+  };
+  const auto told = [&](int n) {
+    const d3::vector up = path(n).normalized();
+    return ph::half_space<d3>{d3::vector(up * radius), up, K};
+  };
+  const auto felt = stroke<ph::half_space<d3>>({}, 1500, path, truth, told);
+  CHECK(felt.worst < 0.18);  // 10 degrees
+  CHECK(felt.largest_step < 0.05);
+  const auto control = stroke<ph::half_space<d3>>({.catch_up = 1e9}, 1500, path, truth, told);
+  CHECK(control.worst > 1.0);  // 4 rad/s, where 2 may be turned
+}
+
+TEST_CASE("a ridge turns the force where the finger passes it, as if it were rounded",
+          "[contact_set]") {
+  constexpr double K = 500.0, speed = 0.045, r = 1e-3,
+                   slope = 0.57735;  // falls by 30 degrees each side
+  ph::patch<d3, 4> ridge;
+  ridge.nodes[0] = d3::vector(0, -0.1, 0);
+  ridge.nodes[1] = d3::vector(0, 0.1, 0);
+  ridge.nodes[2] = d3::vector(0.05, -0.1, -0.05 * slope);
+  ridge.nodes[3] = d3::vector(0.05, 0.1, -0.05 * slope);
+  ridge.nodes[4] = d3::vector(-0.05, -0.1, -0.05 * slope);
+  ridge.nodes[5] = d3::vector(-0.05, 0.1, -0.05 * slope);
+  ridge.node_count = 6;
+  ridge.triangles = {{{0, 2, 1}, {1, 2, 3}, {0, 1, 4}, {1, 5, 4}}};
+  ridge.triangle_count = 4;
+  ridge.stiffness = K;
+  auto itself = ridge;
+  REQUIRE(itself.prepare());
+  const int there = int(0.02 / (speed * 1e-3)), loop = 2 * there;  // ±10 mm, and back
+  const auto path = [&](int n) -> d3::vector {
+    const double way = 0.01 - speed * 1e-3 * std::abs(n % loop - there);
+    return {way, 0.0, -std::abs(way) * slope - 2e-3 / 0.8660254};
+  };
+  const auto truth = [&](const d3::vector& x) -> d3::vector {
+    const auto seen = itself.at(x);
+    return seen.outward() * (K * seen.depth);
+  };
+  const auto told = [&](int) { return ridge; };
+  const auto felt = stroke<ph::patch<d3, 4>>({.edge = r}, 5 * loop, path, truth, told);
+  const double force = K * 2e-3, way = speed * 1e-3 / 0.8660254;
+  CHECK(felt.leaning < 10 * 1.05 * r / speed);  // r times 60 degrees, ten times
+  const double by_news = 1.05 / 0.04 * 1e-3;    // 60 degrees within t_c [rad a tick]
+  CHECK(felt.largest_step < 1.05 * force * (way / r + by_news));
+  CHECK(felt.work > -10 * 1.05 * force * r * 0.5);  // each time no more than F r (1 − cos 60°)
+  CHECK(felt.work < 0.0);
+  const auto control =
+      stroke<ph::patch<d3, 4>>({.catch_up = 1e9, .edge = 1e3}, 5 * loop, path, truth, told);
+  CHECK(control.leaning > 1.0);  // at 2 rad/s
+  CHECK(control.work < -10 * 2.0 * force * r);
+}
+
+TEST_CASE("surfaces out of reach sleep, and nobody feels that they do", "[contact_set]") {
+  constexpr int count = 64;
+  constexpr double softness = ph::proxy_spring{}.softness;
+  ph::laws::samples random(11);
+  auto port = open_port<d3>(
+      ph::contact_set{ph::proxy_spring{.mass = 0.1, .damping_ratio = 0.0, .softness = softness},
+                      ph::pursuit{}, ph::slots<ph::half_space<d3>, count>{}});
+  std::array<ph::half_space<d3>, count> walls;
+  for (int i = 0; i < count; ++i) {  // a room of 64 walls, 20 to 180 mm away
+    const auto n = random.direction<d3>();
+    auto& wall = walls[static_cast<std::size_t>(i)];
+    wall = {n * (-0.1 + 0.08 * random.number<double>()), n,
+            std::pow(10.0, 3.0 + random.number<double>())};
+    REQUIRE(wall.prepare());
+    REQUIRE(port.source().update(i, wall));
+  }
+  d3::vector x = d3::zero();
+  int slept = 0, pressed = 0;
+  double worst = 0.0;
+  for (int n = 0; n < 2000; ++n) {
+    const double t = n * T;  // up to 0.7 m/s
+    x = std::min(0.06, 0.1 * t) *
+        d3::vector(std::sin(7 * t), std::sin(5 * t + 1), std::sin(8 * t + 2));
+    for (const auto& wall : walls) {  // the finger goes 1 mm deep, no deeper
+      const auto here = wall.at(x);
+      if (here.depth > 1e-3) x += here.outward() * (here.depth - 1e-3);
+    }
+    const d3::vector force = port.tick(x, ph::seconds{T}).force;
+    ph::proxy_problem<d3::vector, double, count> all;
+    for (int i = 0; i < count; ++i) {
+      const auto& wall = walls[static_cast<std::size_t>(i)];
+      slept += port.source().slot(i).asleep ? 1 : 0;
+      all.add(wall.at(x).outward(), port.source().slot(i).spring().compliance,
+              port.source().slot(i).spring(), wall.at(x).depth, 0.0, 0.0);
+    }
+    ph::solve(all, [&all](std::size_t i, std::size_t j) {
+      return (1.0 - softness) * all.row[i].dot(all.row[j]) *
+             std::min(all.compliance[i], all.compliance[j]);
+    });
+    d3::vector truth = d3::zero();
+    for (std::size_t i = 0; i < count; ++i) truth += all.row[i] * all.pressed[i];
+    if (truth.norm() > 0.0) ++pressed;
+    worst = std::max(worst, (force - truth).norm() / (1.0 + truth.norm()));
+  }
+  CHECK(pressed > 200);
+  CHECK(slept > 2000 * count / 10);
+  CHECK(worst < 1e-9);
 }

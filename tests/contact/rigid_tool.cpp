@@ -99,6 +99,7 @@ TEST_CASE("a tool refuses what is none, and goes on with what is", "[rigid_tool]
   CHECK_FALSE(port.source().update(16, {0.0, 0.0, 0.0}, floor_));  // the 17th
   refused();
   CHECK_FALSE(port.source().update(-1, {0.0, 0.0, 0.0}, floor_));
+  CHECK_FALSE(port.source().update(-1, floor_));
   refused();
   CHECK_FALSE(port.source().update(0, {nan, 0.0, 0.0}, floor_));
   refused();

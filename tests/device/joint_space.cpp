@@ -111,7 +111,7 @@ TEST_CASE("a port of seven joints with a given torque is strict", "[joints][pass
 }
 
 TEST_CASE("a port of joints believes no joint that jumps", "[joints]") {
-  auto guard = ph::make_force_guard<arm, ph::diagonal_damping<7>>(seven, 1e-3);
+  auto guard = ph::make_strict_guard<arm, ph::diagonal_damping<7>>(seven, 1e-3);
   const arm::vector torque = arm::vector::Constant(0.1);
   arm::vector q = arm::zero();
   CHECK(guard.tick(q, 1ms, torque).what == ph::event::nominal);
@@ -126,7 +126,7 @@ TEST_CASE("a joint that is no number is refused, whichever it is, and the port c
           "[joints]") {
   const arm::vector torque = arm::vector::Constant(0.1);
   for (int i = 0; i < 7; ++i) {
-    auto guard = ph::make_force_guard<arm, ph::diagonal_damping<7>>(seven, 1e-3);
+    auto guard = ph::make_strict_guard<arm, ph::diagonal_damping<7>>(seven, 1e-3);
     arm::vector bad = arm::zero();
     bad(i) = std::nan("");
     CHECK(guard.tick(bad, 1ms, torque).what == ph::event::rejected_sample);

@@ -255,6 +255,21 @@ TEST_CASE("a table whose computation was killed goes on where it was", "[environ
 }
 #endif
 
+TEST_CASE("a table whose sizes are beyond all numbers is refused before it is read",
+          "[environment][table]") {
+  const scene s;
+  env::table_header header;  // its sizes add up to 72 MB modulo 2^64, and its list alone has 7.6 GB
+  header.nodes = 1893902559;
+  header.block_nodes = 137;
+  header.body = s.id;
+  header.checksum = header.right_checksum();
+  const std::size_t size = header.begin_of(header.blocks());
+  REQUIRE(size == 71733568);
+  write(s.path, std::string(reinterpret_cast<const char*>(&header), sizeof(header)));
+  std::filesystem::resize_file(s.path, size);  // sparse
+  CHECK(contains(s.fault(), "has 71733568 bytes, too few for 1893902559 nodes"));
+}
+
 TEST_CASE("a table that is not what it should be is refused with a sentence",
           "[environment][table]") {
   const scene s;

@@ -24,8 +24,10 @@ TEST_CASE("contacts keep every promise in a first look, and what stands beside t
   CHECK(found.code == 0);  // the controls among them: one that loses nothing is a failure
   const std::string json = content(out / "contacts.json");
   for (const char* key :
-       {"settling", "touch", "news", "heart", "stroke", "loops", "drift", "stick_slip", "stopping",
-        "cone", "static", "passive", "rigid", "tool", "failures"}) {
+       {"quiet",       "quiet_late",  "quiet_tool",   "settling",        "touch",   "news",
+        "greedy_news", "heart",       "stroke",       "loops",           "drift",   "stick_slip",
+        "stopping",    "cone",        "static",       "passive",         "rigid",   "tool",
+        "guards",      "guards_sums", "guards_drops", "guards_encoders", "failures"}) {
     CAPTURE(key);
     CHECK(json.find('"' + std::string(key) + '"') != std::string::npos);
   }

@@ -60,7 +60,8 @@ TEMPLATE_TEST_CASE("every policy obeys the laws of its role", "[law]", d1, f1, d
   obey<role::contact_law, S>(ph::spring{}, ph::damped_spring{.mass = 0.1}, ph::virtual_coupling{},
                              ph::virtual_coupling{.stiffness = 2000.0, .damping = 0.02},
                              ph::shaped{ph::spring{}, ph::force_rate_limit{.rate = 100.0}},
-                             ph::capped{ph::damped_spring{.mass = 0.1}, 800.0});
+                             ph::capped{ph::damped_spring{.mass = 0.1}, 800.0},
+                             ph::eased{ph::damped_spring{.mass = 0.1}});
   CHECK(laws::turns_at_most<S>(ph::turn_limited{50.0}, 50));
   CHECK(laws::turns_at_most<S>(ph::turn_at_once{}, 3200));
 }

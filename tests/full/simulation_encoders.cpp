@@ -3,6 +3,7 @@
 #include "simulation/challenged.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace simulated;
 
@@ -21,6 +22,18 @@ double worst(const auto& model, const sim::circumstances& world, int runs) {
 auto counting_on(double damping, double friction) {
   return following_half_space<d1>(
       ph::spring{}, ph::dual_ledger{.damping = {damping, friction, 0.0}}, ph::strict_bound{});
+}
+
+/// What a dual ledger is told of a world: on every axis a spring that gives way by p, so p √n in all.
+template <class Space>
+ph::dual_ledger told(const sim::circumstances& world) {
+  return {.damping = {world.damping, world.friction, world.presliding * std::sqrt(Space::dof)},
+          .quantum = world.quantum + world.noise};
+}
+template <class Space, int Latency = 0>
+auto dual(const sim::circumstances& world) {
+  return following_half_space<Space>(ph::spring{}, told<Space>(world), ph::strict_bound{},
+                                     late_loop<Latency>);
 }
 
 }  // namespace
@@ -90,5 +103,46 @@ TEST_CASE("dual_ledger loses on a friction that forgets where it was reversed, w
   for (const auto forgets : {sim::friction_kind::dahl, sim::friction_kind::lugre}) {
     world.rubs_like = forgets;
     CHECK(worst(model, world, 20) < -1e-5);
+  }
+}
+
+TEMPLATE_TEST_CASE("strict_bound on dual_ledger loses nothing to steps, noise and elastic friction",
+                   "[adversaries][law]", d1, d3) {
+  for (const double p : {5e-6, 20e-6}) {
+    for (const sim::circumstances& world :
+         {sim::circumstances{.friction = 0.2, .presliding = p, .quantum = 60e-6},
+          sim::circumstances{.friction = 0.2, .presliding = p, .noise = 60e-6},
+          sim::circumstances{.friction = 0.2, .presliding = p, .quantum = 10e-6}}) {
+      CAPTURE(p, world.quantum, world.noise);
+      const int runs = TestType::dof == 1 ? 12 : 4;
+      survives(sim::challenge_encoders(dual<TestType>(world), world, runs));
+      survives_all(dual<TestType>(world), world, 6);
+      sim::circumstances late = world;
+      late.latency = 2;
+      survives(sim::challenge_encoders(dual<TestType, 2>(world), late, runs));
+    }
+  }
+}
+
+TEST_CASE("reachable_bound on dual_ledger loses nothing to a hand of limited force",
+          "[adversaries][law]") {
+  for (const double p : {5e-6, 30e-6}) {
+    const sim::circumstances world{
+        .friction = 0.2, .presliding = p, .hand_force = 3.0, .quantum = 60e-6};
+    const auto with = [&world](double hand) {
+      return following_half_space<d1>(ph::spring{}, told<d1>(world),
+                                      ph::reachable_bound{.mass = 0.1, .hand_force = hand});
+    };
+    for (const auto by :
+         {sim::adversary::tapping, sim::adversary::random_tapping, sim::adversary::trembling}) {
+      CAPTURE(p, to_string(by));
+      const auto one = sim::challenge(with(3.0 + 0.2), by, world, 30);
+      CHECK(passes(one));
+      CHECK(one.largest_force > 1.0);
+    }
+    // The control: a hand that it was not told of.
+    sim::circumstances strong = world;
+    strong.hand_force = 30.0;
+    CHECK(sim::challenge(with(0.2), by::random_tapping, strong, 30).least_energy < -1e-6);
   }
 }

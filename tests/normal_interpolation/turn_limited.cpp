@@ -105,3 +105,22 @@ TEST_CASE("turn_limited refuses a rate it cannot keep", "[normal]") {
     CHECK(std::string(fault.parameter) == "rate");
   }
 }
+
+TEMPLATE_TEST_CASE("however fast a normal may turn, and however long a tick is, it stays a normal",
+                   "[normal][fault]", d2, f2, d3, f3) {
+  using scalar = typename TestType::scalar;
+  using vector = typename TestType::vector;
+  vector from = TestType::zero(), to = TestType::zero();
+  from(0) = to(1) = scalar(1);
+  const vector opposite = vector(-from);
+  for (const double rate : {2.0, 1e9, 1e30, 1e100, 1e160, 1.7e308}) {
+    for (const double dt : {1e-3, 1.0, 1e30, 1e160}) {
+      CAPTURE(rate, dt);
+      const ph::turn_limited::on<TestType> limit({.rate = rate});
+      const scalar T = ph::detail::number<scalar>(dt);
+      CHECK_THAT(double(limit.step(from, to, T).norm()), WithinAbs(1.0, 1e-6));
+      CHECK_THAT(double(limit.step(from, opposite, T).norm()), WithinAbs(1.0, 1e-6));
+      if (rate * dt > 10.0) CHECK(limit.step(from, to, T) == to);
+    }
+  }
+}

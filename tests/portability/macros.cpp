@@ -47,7 +47,7 @@ float touched(const scene::vector& position) {
 }
 
 float guarded(float position, float wanted) {
-  static auto port = ph::make_force_guard<ph::space<float, 1>>({0.03}, 0.0011);
+  static auto port = ph::make_strict_guard<ph::space<float, 1>>({0.03}, 0.0011);
   return port.tick(position, ph::seconds{1e-3}, wanted).force;
 }
 #endif

@@ -4,7 +4,9 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 
+#include <array>
 #include <memory>
+#include <span>
 
 TEST_CASE("a tick allocates nothing", "[local_model][realtime]") {
   ph::local_model model{d3{},
@@ -30,4 +32,22 @@ TEST_CASE("a tick allocates nothing", "[local_model][realtime]") {
   const auto control = std::make_unique<int>(5);
   CHECK(allocations() == before + 1);
   CHECK(*control == 5);
+}
+
+TEST_CASE("surfaces find their slots without an allocation", "[manifold][realtime]") {
+  using plane = ph::half_space<d3>;
+  ph::passive_port port{
+      d3{}, ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::slots<plane, 4>{}},
+      thesis_ledger(), ph::reachable_bound{.mass = 0.1, .hand_force = 5}, thesis_loop};
+  ph::contact_manifold<plane, 4> seen;
+  std::array<plane, 9> surfaces{};  // the last has no normal
+  for (std::size_t i = 0; i < 8; ++i)
+    surfaces[i] = {{0, 0, 1e-3}, {0.1 * static_cast<double>(i), 1, 2}, 800};
+  const long before = allocations();
+  for (std::size_t n = 0; n < 1000; ++n) {
+    const d3::vector x(0, 0, n % 97 == 0 ? std::nan("") : 1e-3);
+    (void)seen.show(port.source(), std::span(surfaces).subspan(n % 9), x);
+    (void)port.tick(x, 1ms);
+  }
+  CHECK(allocations() == before);
 }

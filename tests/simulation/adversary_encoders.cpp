@@ -145,31 +145,8 @@ ph::dual_ledger told(const sim::circumstances& world) {
   return {.damping = {world.damping, world.friction, world.presliding * std::sqrt(Space::dof)},
           .quantum = world.quantum + world.noise};
 }
-template <class Space, int Latency = 0>
-auto dual(const sim::circumstances& world) {
-  return following_half_space<Space>(ph::spring{}, told<Space>(world), ph::strict_bound{},
-                                     late_loop<Latency>);
-}
 
 }  // namespace
-
-TEMPLATE_TEST_CASE("strict_bound on dual_ledger loses nothing to steps, noise and elastic friction",
-                   "[adversaries][law]", d1, d3) {
-  for (const double p : {5e-6, 20e-6}) {
-    for (const sim::circumstances& world :
-         {sim::circumstances{.friction = 0.2, .presliding = p, .quantum = 60e-6},
-          sim::circumstances{.friction = 0.2, .presliding = p, .noise = 60e-6},
-          sim::circumstances{.friction = 0.2, .presliding = p, .quantum = 10e-6}}) {
-      CAPTURE(p, world.quantum, world.noise);
-      const int runs = TestType::dof == 1 ? 12 : 4;
-      survives(sim::challenge_encoders(dual<TestType>(world), world, runs));
-      survives_all(dual<TestType>(world), world, 6);
-      sim::circumstances late = world;
-      late.latency = 2;
-      survives(sim::challenge_encoders(dual<TestType, 2>(world), late, runs));
-    }
-  }
-}
 
 TEST_CASE("dual_ledger that is told too little loses", "[adversaries][law]") {
   const sim::circumstances world{.friction = 0.2, .presliding = 30e-6, .quantum = 60e-6};
@@ -188,27 +165,4 @@ TEST_CASE("dual_ledger that is told too little loses", "[adversaries][law]") {
   CHECK(least(told<d1>(slippery), slippery) >= -1e-12);
   CHECK(least(fine, slippery) < -1e-6);
   CHECK(least(rough, world) < -1e-5);
-}
-
-TEST_CASE("reachable_bound on dual_ledger loses nothing to a hand of limited force",
-          "[adversaries][law]") {
-  for (const double p : {5e-6, 30e-6}) {
-    const sim::circumstances world{
-        .friction = 0.2, .presliding = p, .hand_force = 3.0, .quantum = 60e-6};
-    const auto with = [&world](double hand) {
-      return following_half_space<d1>(ph::spring{}, told<d1>(world),
-                                      ph::reachable_bound{.mass = 0.1, .hand_force = hand});
-    };
-    for (const auto by :
-         {sim::adversary::tapping, sim::adversary::random_tapping, sim::adversary::trembling}) {
-      CAPTURE(p, to_string(by));
-      const auto one = sim::challenge(with(3.0 + 0.2), by, world, 30);
-      CHECK(passes(one));
-      CHECK(one.largest_force > 1.0);
-    }
-    // The control: a hand that it was not told of.
-    sim::circumstances strong = world;
-    strong.hand_force = 30.0;
-    CHECK(sim::challenge(with(0.2), by::random_tapping, strong, 30).least_energy < -1e-6);
-  }
 }

@@ -99,6 +99,14 @@ TEST_CASE("strict_bound with the right latency survives every adversary under la
   }
 }
 
+TEST_CASE("news that are made up for smoothly draw nothing", "[adversaries][law]") {
+  survives_all(model_of<d1>(ph::eased{ph::spring{}}, ph::strict_bound{}), {}, 20);
+  survives_all(model_of<d3>(ph::eased{ph::spring{}}, ph::strict_bound{}), {}, 10);
+  const sim::verdict v = sim::challenge(model_of<d1>(ph::eased{ph::spring{}}, ph::no_bound{}),
+                                        by::jumping_surface, {}, 20);
+  CHECK(v.least_energy < -1e-3);  // the control: it is the bound that promises
+}
+
 TEST_CASE("an adversary knows the force that will be held, whatever the latency", "[adversaries]") {
   for (const int latency : {0, 1, 2, 3}) {  // mistaken by a tick, it would pay instead
     CAPTURE(latency);

@@ -64,11 +64,12 @@ struct guarded {
   }
 };
 
-template <class Space, int k>
-constexpr auto port_late_by() {
-  return ph::passive_port{Space{}, ph::given_force{}, thesis_ledger<Space>(), ph::strict_bound{},
+template <class Space, int k, class Source = ph::given_force>
+constexpr auto port_late_by(const Source& source = {}) {
+  return ph::passive_port{Space{}, source, thesis_ledger<Space>(), ph::strict_bound{},
                           ph::late_loop_limits<k>{.longest_tick = 1e-3, .watchdog = 1e-3}};
 }
+constexpr ph::settled_force settling{.mass = 0.1};
 
 template <class Port>
 void survives_reported_or_not(const Port& port, int ticks_late, int runs) {
@@ -126,6 +127,39 @@ TEST_CASE("a renderer behind a port loses nothing, on time or late, held force r
   survives_reported_or_not(port_late_by<d1, 2>(), 2, 10);
   survives_reported_or_not(port_late_by<d1, 3>(), 3, 10);
   survives_reported_or_not(port_late_by<d3, 2>(), 2, 4);
+}
+
+TEST_CASE("a settled_force behind a strict bound loses nothing to any adversary, on time or late",
+          "[adversaries][law]") {
+  survives_reported_or_not(port_late_by<d1, 0>(settling), 0, 10);
+  survives_reported_or_not(port_late_by<d1, 2>(settling), 2, 10);
+  survives_reported_or_not(port_late_by<d3, 0>(settling), 0, 4);
+  survives_reported_or_not(port_late_by<d3, 1>(settling), 1, 4);
+}
+
+TEST_CASE(
+    "make_force_guard loses nothing to the hands that it is told of, and does to stronger ones",
+    "[adversaries]") {
+  const auto least = [](const auto& guard, int ticks_late, double hand_force, by adversary) {
+    sim::circumstances world = late(ticks_late);
+    world.watchdog = false;
+    world.hand_force = hand_force;
+    using port = std::remove_cvref_t<decltype(guard)>;
+    const auto v = sim::challenge(guarded<port>{guard}, adversary, world, 40, 1, lay);
+    CHECK(v.largest_force > 0.1);
+    return v.least_energy;
+  };
+  constexpr ph::known_device told{
+      .mass = 0.1, .damping = 0.03, .hand_force = 5.0, .force_limit = 50.0};
+  using late_one = ph::late_loop_limits<1>;
+  for (const by hand : {by::tapping, by::random_tapping, by::trembling}) {
+    CAPTURE(to_string(hand));
+    CHECK(least(ph::make_force_guard<d1>(told, 1e-3), 0, 5.0, hand) >= -1e-12);
+    CHECK(least(ph::make_force_guard<d1, late_one>(told, 1e-3), 1, 5.0, hand) >= -1e-12);
+    CHECK(least(ph::make_force_guard<d3>(told, 1e-3), 0, 5.0, hand) >= -1e-12);
+  }
+  CHECK(least(ph::make_force_guard<d1>(told, 1e-3), 0, 40.0, by::tapping) < -1e-4);
+  CHECK(least(ph::make_force_guard<d1>(told, 1e-3), 0, 5.0, by::greedy) < -1e-4);  // is no hand
 }
 
 TEST_CASE("the same renderer without a port loses to every adversary", "[adversaries]") {

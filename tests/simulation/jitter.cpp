@@ -77,7 +77,7 @@ void for_each_composition(double longest, const Judge& judge) {
                         ph::reachable_bound{.mass = mass, .hand_force = 5.0}, limits,
                         ph::mass_observer{.mass = mass}},
         10e-6);
-  judge("force in, force out", ph::make_force_guard<d1>(damping, longest), 0.0);
+  judge("force in, force out", ph::make_strict_guard<d1>(damping, longest), 0.0);
 
   const ph::local_contact flat{ph::fixed{plane}, ph::turn_at_once{},
                                ph::damped_spring{.mass = mass}};

@@ -75,9 +75,10 @@ TEST_CASE("exchange carries every constraint and sample of the library", "[excha
 }
 
 TEST_CASE("two threads through exchange never see half a value", "[exchange][threads]") {
-  // PASSIVE_HAPTICS_READS sets the number of reads; the default is the 10 million asked for. The
-  // reader looks at the value it holds again and again while the writer goes on writing. On a machine so
-  // busy that they take turns on one core it still waits for one new value in 10 000 looks.
+  // PASSIVE_HAPTICS_READS sets the number of reads; the default is the 10 million asked for, of which the
+  // quick preset makes one. The reader looks at the value it holds again and again while the writer goes on
+  // writing. On a machine so busy that they take turns on one core it still waits for one new value in
+  // 10 000 looks.
   const char* asked = std::getenv("PASSIVE_HAPTICS_READS");
   const std::uint64_t reads = asked != nullptr ? std::strtoull(asked, nullptr, 10) : 10'000'000;
   ph::exchange<telltale> box;

@@ -8,7 +8,7 @@
 //
 //     chai3d::cGenericHapticDevicePtr falcon;
 //     handler->getDevice(falcon, 0);
-//     auto device = ph::adapters::make_passive_device(falcon, ph::make_force_guard<scene>({0.1}, 0.002));
+//     auto device = ph::adapters::make_passive_device(falcon, ph::make_force_guard<scene>(facts, 0.002));
 //     tool->setHapticDevice(device);                      // instead of falcon; all else as it was
 //
 // The port counts what the device itself says, not what the tool makes of it: a workspace that is scaled by 5
@@ -66,7 +66,7 @@ class decorated : public ::chai3d::cGenericHapticDevice {};
 
 /// A device whose every force goes through a port; in all else it is the device that it decorates.
 ///
-/// `Port` is a passive_port at a given_force: of space<S, 3> or stylus, and then a torque is refused, or of
+/// `Port` is a passive_port at a given_force or a settled_force: of space<S, 3> or stylus, and then a torque is refused, or of
 /// rigid_body, and then force and torque are one wrench. The force of a gripper is refused: no port here has
 /// its work in the ledger. What is refused is not sent, and has_refused() says so.
 ///

@@ -14,7 +14,7 @@
 //     if (const auto fault = touch.start()) return complain(fault);
 //     hdStartScheduler();                                               // yours: once, for all devices
 //
-// Whoever has a force already, from HLAPI's or their own renderer, has a port at a given_force, and a feed
+// Whoever has a force already, from HLAPI's or their own renderer, has a make_force_guard, and a feed
 // that returns that force:  [&](auto& port, const auto& x) { return renderer.force(x); }.
 //
 // Each device has its own object: its frame makes it the current one. The driver is asked for the time of a

@@ -301,10 +301,11 @@ struct turn {
 };
 
 /// The turn by 2 atan(φ/2), from tan(turn/2) = φ/2: never more than φ [rad], short of it by φ³/12.
-/// cos² + sin² = 1 to rounding, for any φ ≥ 0. (2.30-2.31 without cos and sin, A20)
+/// cos² + sin² = 1 to rounding, for any φ ≥ 0; beyond 2²¹ it is half a turn to within 2 µrad, so that no
+/// square is beyond all numbers. (2.30-2.31 without cos and sin, A20)
 template <real S>
 [[nodiscard]] constexpr turn<S> half_angle_turn(S angle) noexcept {
-  const S t = angle / S(2);
+  const S t = smaller(angle / S(2), S(1 << 20));
   const S d = S(1) + t * t;
   return {(S(1) - t * t) / d, S(2) * t / d, S(4) * t * t / d};
 }

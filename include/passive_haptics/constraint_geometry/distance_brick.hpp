@@ -18,7 +18,7 @@ inline namespace v0 {
 /// φ(x) = Σ cᵢⱼₖ B(ξ − i) B(η − j) B(ζ − k), ξ, η, ζ the coordinates of x − origin in spacings, B the
 /// quadratic B-spline. d = −φ, and push() = ∇φ is continuous and exactly the gradient of φ, so the force
 /// K d push() is conservative whatever the coefficients. It covers 0.5 to 2.5 spacings along each axis, a cube
-/// of two spacings.
+/// of two spacings. φ may have any slope: prepare() scales it to that of a distance.
 template <class Space>
 requires(Space::dof == 3) struct distance_brick {
   using space_type = Space;
@@ -63,13 +63,24 @@ requires(Space::dof == 3) struct distance_brick {
     return brick;
   }
 
-  /// False for coefficients or an origin that are not finite, a spacing, a stiffness or a thickness ≤ 0.
+  /// Divides φ by its slope s₀ where the surface is nearest to the middle of the cube, because a spring of K is
+  /// felt as K|∇φ|²; a distance, s₀ within 1/16 of 1, stays as it is. Where φ is more than √2 times steeper in a
+  /// corner, s₀ is that over √2: nowhere is more than about 2K felt. False for coefficients or an origin that
+  /// are not finite, a spacing, a stiffness or a thickness ≤ 0, and a slope beyond all numbers.
   [[nodiscard]] constexpr bool prepare() noexcept {
     for (const scalar& c : coefficients) {
       if (!kernels::is_finite(c)) return false;
     }
-    return Space::is_finite(origin) && detail::usable_length(spacing) &&
-           detail::usable_length(thickness) && detail::usable_stiffness(stiffness);
+    if (!(Space::is_finite(origin) && detail::usable_length(spacing) &&
+          detail::usable_length(thickness) && detail::usable_stiffness(stiffness))) {
+      return false;
+    }
+    const scalar slope = slope_at_the_surface();
+    if (!kernels::is_finite(slope) || !kernels::is_finite(scalar(1) / slope)) return false;
+    if (kernels::magnitude(slope - scalar(1)) > scalar(1) / scalar(16)) {
+      for (scalar& c : coefficients) c /= slope;
+    }
+    return true;
   }
 
   using probe = gradient_probe<Space>;
@@ -103,6 +114,30 @@ requires(Space::dof == 3) struct distance_brick {
   }
 
  private:
+  /// s₀; 1 where φ has no slope.
+  [[nodiscard]] constexpr scalar slope_at_the_surface() const noexcept {
+    const vector least = vector(origin) + vector(spacing, spacing, spacing) * scalar(0.5);
+    vector x = least + vector(spacing, spacing, spacing);
+    for (int step = 0; step < 4; ++step) {  // Newton's, kept in the cube
+      const probe here = at(x);
+      const scalar squared = Space::dot(here.pushing, here.pushing);
+      if (!(squared > scalar(0))) break;
+      x += here.pushing * (here.depth / squared);
+      for (int axis = 0; axis < 3; ++axis) {
+        x(axis) = kernels::smaller(kernels::larger(x(axis), least(axis)),
+                                   least(axis) + scalar(2) * spacing);
+      }
+    }
+    scalar steepest(0);
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const auto of = [corner](std::size_t bit) { return scalar((corner & bit) != 0 ? 2 : 0); };
+      const vector there(of(1), of(2), of(4));
+      steepest = kernels::larger(steepest, Space::norm(at(least + there * spacing).pushing));
+    }
+    const scalar slope =
+        kernels::larger(Space::norm(at(x).pushing), steepest * scalar(0.7071067811865476));
+    return slope > scalar(0) ? slope : scalar(1);
+  }
   /// The values and slopes of the three B-splines along one axis that are not zero.
   struct basis {
     std::array<scalar, 3> weight;

@@ -16,7 +16,7 @@ inline namespace v0 {
 template <class Space>
 struct distance_and_gradient {
   typename Space::scalar distance;  ///< φ [m]
-  typename Space::vector gradient;  ///< ∇φ; of length one where φ is a true distance
+  typename Space::vector gradient;  ///< ∇φ; of length one where φ is a true distance, but not zero
 };
 
 /// The answer of a surface that knows the gradient of its depth and no distance.
@@ -33,9 +33,12 @@ struct gradient_probe {
   [[nodiscard]] constexpr bool covered() const noexcept { return within; }
 };
 
-/// d = −φ, push() = ∇φ of a function of your own: `field` is a plain value, and field(x) returns a
-/// distance_and_gradient and does not throw. If the gradient is that of φ (laws.hpp tries it), the force
-/// K d push() is conservative, whether φ is a true distance or not. A prepare() of the field is asked, too.
+/// A function of your own, whatever its slope: `field` is a plain value, and field(x) returns a
+/// distance_and_gradient and does not throw. Depth is the distance to first order, so the stiffness is K,
+///     d = −φ/s,   s = |∇φ|,   push() = −∇d = (∇φ + d ∇s)/s,   ∇s = ∇²φ ∇φ/s
+/// with ∇s by a central difference along ∇φ: two more calls of the field, which are not made where φ is a true
+/// distance, s = 1. If the gradient is that of φ (laws.hpp tries it), the force K d push() is conservative. Deeper
+/// than a metre, as beside a place without a slope, there is no contact. A prepare() of the field is asked, too.
 ///     struct wave {
 ///       ph::distance_and_gradient<scene> operator()(const scene::vector& x) const noexcept;
 ///     };
@@ -69,13 +72,33 @@ struct distance_field {
   using probe = gradient_probe<Space>;
   [[nodiscard]] constexpr probe at(const vector& x) const noexcept(noexcept(field(x))) {
     const distance_and_gradient<Space> found = field(x);
-    const scalar away = Space::norm(Space::difference(x, centre));
-    return {-found.distance, found.gradient, -found.distance <= thickness && away <= radius};
+    const bool within = Space::norm(Space::difference(x, centre)) <= radius;
+    const scalar squared = Space::dot(found.gradient, found.gradient);
+    const scalar rounding = scalar(4) * kernels::rounding<scalar>();
+    if (kernels::magnitude(squared - scalar(1)) <= rounding) [[likely]] {
+      return {-found.distance, found.gradient, within && -found.distance <= thickness};
+    }
+    if (!(squared * std::numeric_limits<scalar>::epsilon() > kernels::smallest<scalar>())) {
+      return {-found.distance, found.gradient, false};
+    }
+    const scalar slope = kernels::square_root(squared);
+    const scalar depth = -found.distance / slope;
+    const vector way = found.gradient * (difference() / slope);
+    const vector bend = (field(vector(x + way)).gradient - field(vector(x - way)).gradient) /
+                        (scalar(2) * difference());
+    return {depth, vector((found.gradient + bend * depth) / slope),
+            within && depth <= kernels::smaller(thickness, scalar(1))};
   }
 
   /// The ball where the field is valid, but of a radius of one metre at most.
   [[nodiscard]] constexpr neighbourhood<Space> around() const noexcept {
     return {centre, kernels::smaller(radius, scalar(1))};
+  }
+
+ private:
+  /// Over which a slope is compared [m]: rounding and curvature count alike at 1 cm times ∛ε.
+  [[nodiscard]] static constexpr scalar difference() noexcept {
+    return scalar(std::numeric_limits<scalar>::digits > 30 ? 6e-8 : 5e-5);
   }
 };
 

@@ -57,7 +57,9 @@ class at_tip<Source>::on {
     }
     return detail::fault_in(source_);
   }
-  constexpr void adopt(scalar longest_tick) noexcept { detail::tell(source_, longest_tick); }
+  constexpr void adopt(scalar longest_tick, int late) noexcept {
+    detail::tell(source_, longest_tick, late);
+  }
   constexpr void reset() noexcept { detail::restart(source_); }
   template <class Parameters>
   static constexpr int takers = detail::takers<Parameters, Source, space>;

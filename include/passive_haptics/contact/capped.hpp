@@ -61,9 +61,9 @@ class capped<Law>::on : public part_at<Law, Space> {
     detail::take<Law, Space>(*this, p);
   }
 
-  constexpr void adopt(scalar K, scalar T) noexcept {
+  constexpr void adopt(scalar K, scalar T, int late = 0) noexcept {
     is_capped_ = K > most_;
-    law_part::adopt(is_capped_ ? most_ : K, T);
+    detail::tell(static_cast<law_part&>(*this), is_capped_ ? most_ : K, T, late);
   }
   /// Does the constraint ask for more than `most`?
   [[nodiscard]] constexpr bool is_capped() const noexcept { return is_capped_; }

@@ -7,7 +7,7 @@
 //   (slots)     per slot   own normals    (S1, S2)          per slot
 
 #include <passive_haptics/contact/local_contact.hpp>
-#include <passive_haptics/contact/proxy.hpp>
+#include <passive_haptics/contact/proxy_solver.hpp>
 #include <passive_haptics/contact/pursuit.hpp>
 #include <passive_haptics/contact/slot_room.hpp>
 #include <passive_haptics/contact/stick_slip.hpp>
@@ -27,7 +27,6 @@ struct contact_parameters {
   Spring spring{};
   pursuit pace{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS Friction friction{};
-  int sweeps = 16;  ///< of Gauss-Seidel at most, where more than three surfaces are there
 
   constexpr contact_parameters() noexcept = default;
   constexpr contact_parameters(const Spring& s, const pursuit& p, const Friction& f,
@@ -38,7 +37,6 @@ struct contact_parameters {
     if (const auto fault = spring.check()) return fault;
     if (const auto fault = pace.check()) return fault;
     if (const auto fault = friction.check()) return fault;
-    if (sweeps < 1) return {"sweeps", static_cast<double>(sweeps), "≥ 1"};
     return {};
   }
 };
@@ -62,8 +60,11 @@ class contact_engine {
   template <class Surface>
   struct slot_of : pursued<Surface, space_type> {
     PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS point_type point{};
+    bool asleep = false;  ///< too far to be felt before all are looked at again
   };
   using all_slots = slot_room<slot_of, Slots...>;
+  /// Where there are many, those out of reach are left out of the ticks.
+  static constexpr bool naps = all_slots::capacity > 4 && frame::naps;
 
  public:
   using scalar = typename Port::scalar;
@@ -73,13 +74,12 @@ class contact_engine {
   static constexpr bool asks_for_numbers = true;
 
   constexpr explicit contact_engine(const parameters_type& p) noexcept
-      : spring_(p.spring), pace_(p.pace), friction_(p.friction), sweeps_(p.sweeps) {}
+      : spring_(p.spring), pace_(p.pace), friction_(p.friction) {}
   [[nodiscard]] constexpr parameters_type parameters() const noexcept {
     parameters_type p;
     p.spring = spring_.parameters();
     p.pace = pace_.parameters();
     if constexpr (rubs) p.friction = friction_.parameters();
-    p.sweeps = sweeps_;
     return p;
   }
   template <class Parameters>
@@ -92,21 +92,29 @@ class contact_engine {
     if constexpr (std::same_as<Parameters, pursuit>) pace_ = decltype(pace_)(p);
     if constexpr (std::same_as<Parameters, Friction>) friction_ = decltype(friction_)(p);
   }
-  /// T [s] or a parameter is another: the same surfaces are as stiff as they let them be.
-  constexpr void adopt(scalar T) noexcept {
-    spring_.adopt(T);
+  /// T [s] or a parameter is another: the same surfaces are as stiff as they let them be, where a command is
+  /// held `late` ticks after it was given.
+  constexpr void adopt(scalar T, int late) noexcept {
+    news();
+    spring_.adopt(T, late);
     slots_.for_each([&](auto& slot, std::size_t) { slot.adopt(spring_); });
   }
   constexpr void reset() noexcept {
     slots_.for_each([](auto& slot, std::size_t) { slot.reset(); });
-    static_cast<void>(let_go());
-    refused_ = false;
+    let_go();
+    asked_ = moved_ = Port::zero();
+    steepest_ = {};
+    refused_ = told_ = chased_ = false;
   }
 
   /// Nothing is there any more: the contact recedes until it presses no longer, and ends.
   template <class Surface = first_kind>
   constexpr void release(int i) noexcept {
-    slots_.template visit<Surface>(i, [](auto& slot) { slot.release(); });
+    news();
+    slots_.template visit<Surface>(i, [](auto& slot) {
+      slot.release();
+      slot.asleep = false;
+    });
   }
   /// Slot i of that kind, 0 ≤ i < Count: its newest surface, its lag ℓ and its λ.
   template <class Surface = first_kind>
@@ -123,19 +131,24 @@ class contact_engine {
   [[nodiscard]] constexpr request ask(const auto& motion, const auto& port, event& what) noexcept {
     if (std::exchange(refused_, false)) what = worse(what, event::rejected_target);
     const auto now = frame::now(motion, port, last_);
+    const auto coupling = frame::coupling(spring_);
     gathered all;
-    gather(now, port.dt, all, what);
+    gather(now, coupling, port.dt, all, what);
     if (all.empty) what = worse(what, event::no_target);
-    const auto coupling = frame::coupling(spring_, all.stiffest);
-    coupling.bring(all.rows);
-    solve(
-        all.rows, [&coupling](const row& a, const row& b) { return coupling.inner(a, b); },
-        sweeps_);
+    const auto& rows = all.rows;
+    solve(all.rows, [&coupling, &rows](std::size_t i, std::size_t j) {
+      return coupling.inner(rows.row[i], rows.row[j],
+                            kernels::smaller(rows.compliance[i], rows.compliance[j]));
+    });
 
     row pressed = Port::zero(), rubbed = Port::zero();
     rests_ = true;
     std::size_t r = 0;
+    if constexpr (naps) nap_.reach = scalar(0);
     slots_.for_each([&](auto& slot, std::size_t i) {
+      if constexpr (naps) {
+        if (slot.asleep) return;
+      }
       const bool felt = r < all.rows.count && all.slot[r] == i;
       const scalar lambda = felt ? all.rows.pressed[r] : scalar(0);
       slot.press(lambda);
@@ -143,7 +156,8 @@ class contact_engine {
         if (felt) {
           const auto here = now.at(slot.point);
           const auto& of = slot.spring();
-          const scalar k = of.stiffness * per_contact / coupling.most_yield(slot.point);
+          const scalar k =
+              of.stiffness * per_contact / coupling.most_yield(slot.point, of.compliance);
           rubbed = rubbed + now.row_of(here, bristles_[i].rub(friction_, lambda, all.normal[r],
                                                               now.travel(slot.point, here),
                                                               now.velocity(here), k,
@@ -154,18 +168,26 @@ class contact_engine {
       }
       if (felt) {
         pressed = pressed + all.rows.row[r] * lambda;
+        if constexpr (naps) nap_.reach += lambda * all.rows.compliance[r];
         rests_ = rests_ && !(lambda > scalar(0));
         ++r;
       }
     });
-    last_ = now.place();
-    coupled_ = coupling.way(pressed);
-    const row wanted = pressed + rubbed;
+    row wanted = pressed + rubbed;
     if (!Port::is_finite(wanted)) [[unlikely]] {
       what = unusable(what);
-      return let_go();
+      let_go();
+      wanted = Port::zero();
+      all.deepest = scalar(0);
+      told_ = true;
     }
-    return {wanted, rests_, all.deepest};
+    const row way = now.moved();
+    if (told_ || chased_ || all.chases) [[unlikely]]
+      wanted = eased(wanted, way, all.chases, port.dt);
+    moved_ = way;
+    last_ = now.place();
+    asked_ = wanted;
+    return {wanted, rests_ && !told_, all.deepest};
   }
   /// The own surfaces follow the world's, not the force: there is nothing to put back.
   [[nodiscard]] constexpr result_type answered(const request& r,
@@ -178,14 +200,23 @@ class contact_engine {
   }
 
  protected:
+  /// The point of slot i of its kind, if there is such a slot.
+  template <class Surface>
+  [[nodiscard]] constexpr point_type point_of(int i) noexcept {
+    point_type point{};
+    slots_.template visit<Surface>(i, [&point](auto& slot) { point = slot.point; });
+    return point;
+  }
   /// The world's newest surface in slot i of its kind, at that point of the device.
   template <class Surface>
   constexpr bool put(int i, const point_type& point, const Surface& next) noexcept {
     bool taken = false;
+    news();
     slots_.template visit<Surface>(i, [&](auto& slot) {
       taken = frame::is_point(point) && slot.update(next, frame::place(last_, slot.point),
                                                     frame::place(last_, point), spring_, pace_);
       if (taken) slot.point = point;
+      slot.asleep = false;
     });
     refused_ = refused_ || !taken;
     return taken;
@@ -203,25 +234,32 @@ class contact_engine {
   using if_it_rubs = std::conditional_t<rubs, std::array<T, cells>, nothing_kept>;
 
   /// What all slots have to say in a tick.
-  struct gathered {
+  struct gathered {  // NOLINT(*-member-init): what is not counted is not read
     proxy_problem<row, scalar, all_slots::capacity> rows;
-    std::array<std::size_t, cells> slot{};  ///< of each row
+    std::array<std::size_t, cells> slot;  ///< of each row
     PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS if_it_rubs<vector> normal;
-    scalar stiffest{}, deepest{};
+    scalar deepest{};
     bool empty = true;
+    bool chases = false;  ///< what is felt of a surface is not yet what has been told
   };
-  constexpr void gather(const auto& now, scalar dt, gathered& all, event& what) noexcept {
-    const row others = coupled_;
+  constexpr void gather(const auto& now, const auto& coupling, scalar dt, gathered& all,
+                        event& what) noexcept {
     const bool rests = rests_;
+    [[maybe_unused]] const scalar slept = time_to_look(now, dt);
     slots_.for_each([&](auto& slot, std::size_t i) {
       if (!slot.taken()) return;
       all.empty = false;
+      if constexpr (naps) {
+        if (slot.asleep && !(slept > scalar(0))) return;
+        if (slot.asleep) slot.grow_older(slept - dt, pace_);
+        slot.asleep = false;
+      }
       slot.grow_older(dt, pace_);
       if (slot.stale()) what = worse(what, event::stale_target);
       const auto here = now.at(slot.point);
       const auto along = [&](const vector& n) { return now.along(here, n); };
       const auto unfelt = [&](const vector& n) {
-        return frame::along(now.row_of(here, n), others);
+        return pressed_by_others(now, coupling, now.row_of(here, n), slot.spring().compliance);
       };
       felt_surface<space_type> own;
       if (!slot.follow(here.position, along, dt, rests, unfelt, pace_, own)) return;
@@ -229,43 +267,111 @@ class contact_engine {
         what = unusable(what);
         return;
       }
+      if constexpr (naps) {
+        slot.asleep = slept > scalar(0) && own.depth < scalar(-2) * pace_.out_of_reach() &&
+                      !own.chases && !(slot.pressed() > scalar(0));
+        if (slot.asleep) return;
+      }
+      all.chases = all.chases || own.chases;
       const auto press = [&](const auto& spring) {
-        all.stiffest = kernels::larger(all.stiffest, spring.stiffness);
-        all.rows.add(now.row_of(here, own.push), damped_depth(spring, own.depth, along(own.push)),
-                     spring.compliance, slot.pressed());
+        const row r = now.row_of(here, own.push);
+        all.rows.add(r, coupling.own(r, spring.compliance), spring, own.depth, along(own.push),
+                     slot.pressed());
       };
+      if constexpr (cells == 1) {
+        if (!(own.depth > scalar(0))) return;  // nobody else can press it
+      }
       all.deepest = kernels::larger(all.deepest, own.depth);
       all.slot[all.rows.count] = i;
       if constexpr (rubs) all.normal[all.rows.count] = own.normal;
-      if (spring_.saturates(slot.spring(), own.depth)) [[unlikely]] {
-        press(spring_.saturated(slot.spring(), own.depth));
-      } else {
-        press(slot.spring());
+      if constexpr (requires { spring_.saturates(slot.spring(), own.depth); }) {
+        if (spring_.saturates(slot.spring(), own.depth)) [[unlikely]] {
+          return press(spring_.saturated(slot.spring(), own.depth));
+        }
       }
+      press(slot.spring());
     });
   }
+  /// All slots are looked at once more: how long those that sleep have done so [s], > 0; else 0. What was
+  /// 2D deep outside has not come nearer than the others may press it while the device is within D, less what
+  /// they press: the proxy is no farther from the device than Σ λ_i c_i.
+  constexpr scalar time_to_look(const auto& now, scalar dt) noexcept {
+    if constexpr (naps) {
+      nap_.lasted += dt;
+      const scalar off = scalar(2) * frame::apart(now, nap_.began_at) + nap_.reach;
+      if (off <= pace_.out_of_reach() && nap_.lasted <= scalar(0.05)) return scalar(0);
+      nap_.began_at = now.place();
+      return std::exchange(nap_.lasted, scalar(0));
+    } else {
+      return scalar(0);
+    }
+  }
+  /// Σ A_ij λ_j over the contacts that pressed in the last tick [m]: how deep a contact that pushes by `mine`
+  /// may be before it presses, too.
+  constexpr scalar pressed_by_others(const auto& now, const auto& coupling, const row& mine,
+                                     scalar compliance) noexcept {
+    scalar depth(0);
+    slots_.for_each([&](auto& other, std::size_t) {
+      if (!(other.pressed() > scalar(0))) return;
+      const row r = now.row_of(now.at(other.point), other.normal());
+      depth += other.pressed() *
+               coupling.inner(mine, r, kernels::smaller(compliance, other.spring().compliance));
+    });
+    return depth;
+  }
+  /// There are news: how steep the force may be is that of the stiffest contact that has pressed since.
+  [[gnu::noinline]] constexpr void news() noexcept {
+    told_ = true;
+    slots_.for_each([&](const auto& slot, std::size_t) {
+      const auto& spring = slot.spring();
+      if (slot.pressed() > scalar(0) && spring.stiffness > steepest_.stiffness) steepest_ = spring;
+    });
+  }
+  /// While there are news to make up for, what is asked changes by R dt and by what the motion may explain,
+  /// and no more; what it owes then falls by R dt in each tick, because no set is steeper than its coupling.
+  [[gnu::noinline]] constexpr row eased(const row& wanted, const row& way, bool chases,
+                                        scalar dt) noexcept {
+    news();
+    const row change = way - row(moved_);
+    const scalar explained =
+        scalar(2) * steepest_.stiffness *
+        (frame::stretch(spring_, way) + steepest_.settling / dt * frame::stretch(spring_, change));
+    const row step = wanted - row(asked_);
+    const scalar size = frame::size(spring_, step), most = pace_.news(dt) + explained;
+    told_ = size > most;
+    chased_ = chases;  // the last of it comes in the tick after
+    if (!told_ && !chases) steepest_ = {};
+    return told_ ? row(row(asked_) + row(step * (most / size))) : wanted;
+  }
   /// No force, and nothing that was felt is remembered.
-  constexpr request let_go() noexcept {
+  constexpr void let_go() noexcept {
     slots_.for_each([](auto& slot, std::size_t) { slot.press(scalar(0)); });
     if constexpr (rubs) {
       for (auto& bristle : bristles_) bristle.reset();
     }
-    coupled_ = row(Port::zero());
     rests_ = true;
-    return {Port::zero(), true, scalar(0)};
   }
 
+  struct nap {
+    typename frame::stored began_at{};  ///< where the device was when all were looked at
+    scalar lasted = scalar(1);          ///< since then [s]
+    scalar reach{};                     ///< Σ λ c in the last tick [m]
+  };
+
   all_slots slots_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<naps, nap, nothing_kept> nap_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS if_it_rubs<stick_slip::bristle<space_type>> bristles_{};
   typename Spring::template at<scalar> spring_;
   pursuit::on<space_type> pace_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
   std::conditional_t<rubs, stick_slip::on<space_type>, no_friction> friction_;
-  int sweeps_;
-  typename frame::stored last_{};  ///< where the device was last
-  typename Port::stored_effort
-      coupled_{};         ///< how far the proxy is from the device: Σ λ n over K_c
-  bool rests_ = true;     ///< no contact pressed in the last tick
+  typename frame::stored last_{};         ///< where the device was last
+  typename Port::stored_effort asked_{};  ///< in the last tick [N], [N·m]
+  typename Port::stored_effort moved_{};  ///< in the last tick [m], [rad]
+  sampled_spring<scalar> steepest_{};     ///< of the stiffest contact that pressed since the news
+  bool rests_ = true;                     ///< no contact pressed in the last tick
+  bool told_ = false;     ///< there are news, or what is asked is not yet what they ask for
+  bool chased_ = false;   ///< a surface was not yet what has been told, in the last tick
   bool refused_ = false;  ///< news, since the last tick
 };
 

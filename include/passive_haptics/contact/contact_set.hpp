@@ -36,13 +36,15 @@ struct point_frame {
   using row = vector;
   struct point {};
   using stored = typename Space::coordinates;
+  static constexpr bool naps = true;
 
+  /// How far the device is from where it was [m].
+  [[nodiscard]] static constexpr scalar apart(const auto& now, const stored& was) noexcept {
+    return Space::norm(Space::difference(now.x, vector(was)));
+  }
   [[nodiscard]] static constexpr bool is_point(const point& /*p*/) noexcept { return true; }
   [[nodiscard]] static constexpr vector place(const stored& was, const point& /*p*/) noexcept {
     return was;
-  }
-  [[nodiscard]] static constexpr scalar along(const row& n, const row& way) noexcept {
-    return Space::dot(n, way);
   }
 
   template <class Motion>
@@ -76,6 +78,7 @@ struct point_frame {
     [[nodiscard]] constexpr row row_of(const spot& /*s*/, const vector& n) const noexcept {
       return n;
     }
+    [[nodiscard]] constexpr row moved() const noexcept { return travelled; }
     [[nodiscard]] constexpr stored place() const noexcept { return x; }
   };
   template <class Motion>
@@ -85,22 +88,27 @@ struct point_frame {
     return {motion, x, vector(x - vector(last))};
   }
 
-  /// C = 1/K_c, K_c = K/(1 − ε), K the stiffest.
+  /// A_ij and A_ii of (S1) [m/N].
   struct proxy {
-    scalar stiffness, together;
-    [[nodiscard]] constexpr scalar inner(const row& a, const row& b) const noexcept {
-      return together * Space::dot(a, b);
+    scalar together;  ///< 1 − ε
+    [[nodiscard]] constexpr scalar inner(const row& a, const row& b, scalar least) const noexcept {
+      return together * Space::dot(a, b) * least;
     }
-    constexpr void bring(auto& problem) const noexcept { problem.couple(stiffness); }
-    [[nodiscard]] constexpr row way(const row& force) const noexcept {
-      return stiffness > scalar(0) ? row(force * (together / stiffness)) : row(Space::zero());
+    [[nodiscard]] static constexpr scalar own(const row& /*r*/, scalar compliance) noexcept {
+      return compliance;
     }
-    [[nodiscard]] static constexpr scalar most_yield(const point& /*p*/) noexcept {
+    [[nodiscard]] static constexpr scalar most_yield(const point& /*p*/, scalar /*c*/) noexcept {
       return scalar(1);
     }
   };
-  [[nodiscard]] static constexpr proxy coupling(const auto& spring, scalar stiffest) noexcept {
-    return {stiffest, scalar(1) - spring.softness()};
+  [[nodiscard]] static constexpr proxy coupling(const auto& spring) noexcept {
+    return {scalar(1) - spring.softness()};
+  }
+  [[nodiscard]] static constexpr scalar size(const auto& /*spring*/, const row& force) noexcept {
+    return kernels::square_root(Space::dot(force, force));
+  }
+  [[nodiscard]] static constexpr scalar stretch(const auto& /*spring*/, const row& way) noexcept {
+    return kernels::square_root(Space::dot(way, way));
   }
 };
 

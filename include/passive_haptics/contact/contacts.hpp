@@ -60,8 +60,8 @@ class contacts<Sources...>::on {
     });
     return first;
   }
-  constexpr void adopt(scalar longest_tick) noexcept {
-    for_each(*this, [longest_tick](auto& source) { detail::tell(source, longest_tick); });
+  constexpr void adopt(scalar longest_tick, int late) noexcept {
+    for_each(*this, [=](auto& source) { detail::tell(source, longest_tick, late); });
   }
   constexpr void reset() noexcept {
     for_each(*this, [](auto& source) { detail::restart(source); });

@@ -48,9 +48,9 @@ class damped_spring::on {
     return p;
   }
 
-  constexpr void adopt(scalar K, scalar T) noexcept {
-    stiffness_ = rule_.stiffness(K, T);
-    damping_ = rule_.damping(stiffness_, T);
+  constexpr void adopt(scalar K, scalar T, int late = 0) noexcept {
+    stiffness_ = rule_.stiffness(K, scalar(0), T, late);
+    damping_ = rule_.damping(stiffness_, T, detail::late_limits<scalar>(late, scalar(6)));
   }
   [[nodiscard]] constexpr scalar stiffness() const noexcept { return stiffness_; }  ///< K_s [N/m]
   [[nodiscard]] constexpr scalar damping() const noexcept { return damping_; }  ///< D_s [N·s/m]

@@ -7,6 +7,7 @@
 //             both      n_VE                                                            at depth f/K
 
 #include <passive_haptics/base/no_unique_address.hpp>
+#include <passive_haptics/contact/lag.hpp>
 #include <passive_haptics/contact/shaped.hpp>
 
 #include <utility>
@@ -28,6 +29,12 @@ namespace detail {
 template <class Law, class Space>
 inline constexpr bool is_shaped = requires(part_at<Law, Space> law) {
   law.shapers();
+};
+
+/// Does the law say at what pace news are made up for?
+template <class Law>
+inline constexpr bool eases_news = requires(const Law law) {
+  law.pace();
 };
 
 template <class Law>
@@ -125,12 +132,14 @@ class local_contact {
     detail::restart(supply_);
     detail::restart(law_);
     beside_ = {};
+    lag_ = {};
   }
 
-  /// T [s] or a parameter is another: the same surface is as stiff as they let it be.
-  constexpr void adopt(scalar longest_tick) noexcept {
+  /// T [s] or a parameter is another: the same surface is as stiff as they let it be, where a command is held
+  /// `late` ticks after it was given.
+  constexpr void adopt(scalar longest_tick, int late) noexcept {
     if (supply_.target().stiffness > scalar(0)) {
-      law_.adopt(supply_.target().stiffness, longest_tick);
+      detail::tell(law_, supply_.target().stiffness, longest_tick, late);
     }
   }
 
@@ -138,6 +147,9 @@ class local_contact {
   /// and the last good one stays; the next tick says so too.
   template <class Owner = Supply>
   requires(Owner::moves) constexpr bool update(const constraint_type& next) noexcept {
+    if constexpr (eases) {
+      if (!supply_.changed()) shown_ = supply_.target();
+    }
     return supply_.update(next);
   }
   /// Nothing is there any more: the contact fades, as it does when data are stale, and ends.
@@ -156,7 +168,7 @@ class local_contact {
     bool nothing;    ///< there is no contact; then only `weight` has a meaning below
     vector desired;  ///< force of the law, before any shaper [N]
     bool in_local;   ///< the device touches the local model, so the model moves from where it is
-    bool turning;    ///< the normal has not arrived at the target's yet
+    bool following;  ///< the own surface has not arrived at the target yet
     scalar weight;   ///< how far the contact counts, in [0, 1]
     scalar felt;     ///< depth that the law was given [m]
     scalar outward_speed;  ///< [m/s]
@@ -171,22 +183,26 @@ class local_contact {
                                                           event& what) noexcept {
     using state = std::remove_cvref_t<decltype(port)>;
     const vector here = motion.position;
-    const scalar weight = presence(port.dt, what);
     const auto newest = supply_.target().at(here);
-    const bool behind = weight > scalar(0) && newest.depth > scalar(0);
+    const scalar depth = depth_in_own(newest.depth, here, port);
+    const scalar weight = presence(depth, port.dt, what);
+    const bool behind = weight > scalar(0) && depth > scalar(0);
     const bool in_target = behind && newest.covered();
     const bool from_the_side = pass_beside(behind && !in_target);
     [[maybe_unused]] const law_type before = law_;  // with the stiffness up to now
-    if (fresh()) law_.adopt(supply_.target().stiffness, port.longest_tick);
+    if constexpr (!eases) {
+      if (fresh())
+        detail::tell(law_, supply_.target().stiffness, port.longest_tick, state::latency);
+    }
     if constexpr (Shortcut && shapers_keep_zero<state>()) {
       if (!in_target) return nothing_asked(weight);
     }
 
-    const auto own = in_own(here, newest.depth, in_target && !from_the_side);
+    const auto own = in_own(here, depth, in_target && !from_the_side);
     const vector goal = newest.outward();
     const vector normal = turned(goal, own.touched, here, port.dt);
     const scalar speed = motion.along(normal);
-    scalar felt = in_target ? newest.depth : scalar(0);
+    scalar felt = in_target ? depth : scalar(0);
     scalar asked = in_target ? weight * law_.force(felt, speed) : scalar(0);
     const scalar both = scalar(2) * asked + felt;  // twice: a unit normal may be an ulp too long
     if (!kernels::is_finite(both)) [[unlikely]] {
@@ -206,7 +222,7 @@ class local_contact {
         }
       }
     }
-    return {wanted, false, desired, own.touched, in_target && !(normal == goal),
+    return {wanted, false, desired, own.touched, in_target && (lags() || !(normal == goal)),
             weight, felt,  speed,   here,        normal};
   }
 
@@ -227,7 +243,7 @@ class local_contact {
         felt = law_.depth(Space::dot(port.force, r.normal), r.outward_speed);
         if (!kernels::is_finite(felt)) felt = scalar(0);  // more than K d over a K next to nothing
       }
-      if (limited || r.turning) {
+      if (limited || r.following) {
         supply_.approach(r.in_local, r.here, r.normal, felt);
       } else {
         supply_.sync();
@@ -240,10 +256,12 @@ class local_contact {
   /// A tick that nobody could believe, of length dt [s].
   constexpr result_type refused(const port_result<Space>& port, scalar dt) noexcept {
     if constexpr (Supply::moves) supply_.grow_older(dt);
+    if constexpr (eases) lag_.grow_older(dt);
     return {port.force, scalar(0), port.energy, port.what, false};
   }
 
  private:
+  static constexpr bool eases = Supply::moves && detail::eases_news<law_type>;
   struct no_memory {};
   template <class State>
   [[nodiscard]] static constexpr bool shapers_reduce() noexcept {
@@ -267,7 +285,8 @@ class local_contact {
 
   /// How far the contact counts, in [0, 1]: 1 while the environment's news are fresh, less while a silent
   /// environment fades, 0 before its first target.
-  [[nodiscard]] constexpr scalar presence(scalar dt, event& what) noexcept {
+  [[nodiscard]] constexpr scalar presence([[maybe_unused]] scalar depth, scalar dt,
+                                          event& what) noexcept {
     if constexpr (Supply::moves) {
       if (supply_.refused()) what = worse(what, event::rejected_target);
       if (!supply_.published()) [[unlikely]] {
@@ -279,13 +298,64 @@ class local_contact {
         return scalar(1);
       }
       if (supply_.stale()) what = worse(what, event::stale_target);
-      return supply_.weight();
+      return faded(supply_.weight(), depth, dt);
     } else {
       return scalar(1);
     }
   }
   [[nodiscard]] constexpr bool fresh() const noexcept {
     if constexpr (Supply::moves) return supply_.changed();
+    return false;
+  }
+  /// How deep x is in the surface that is felt [m]: the newest one or, where news are eased, what follows it.
+  [[nodiscard, gnu::always_inline]] constexpr scalar depth_in_own(
+      scalar now, [[maybe_unused]] const vector& x, [[maybe_unused]] const auto& port) noexcept {
+    if constexpr (eases) {
+      lag_.grow_older(port.dt);
+      if (fresh() || !lag_.settled()) [[unlikely]] {
+        return depth_behind(now, x, port);
+      }
+    }
+    return now;
+  }
+  [[nodiscard, gnu::noinline]] constexpr scalar depth_behind(scalar now, const vector& x,
+                                                             const auto& port) noexcept {
+    if (!lag_.settled()) lag_.follow(port.dt);
+    if (fresh()) hear(now, x, port);
+    const scalar own = now - lag_.offset();
+    if (own > scalar(0) || now > scalar(0)) return own;
+    lag_.let_go();  // neither is touched, so no force can step
+    return now;
+  }
+  /// News: what is pressed keeps the force that it has.
+  constexpr void hear(scalar now, const vector& x, const auto& port) noexcept {
+    const auto was = shown_.at(x);
+    const scalar counted = supply_.last_weight();
+    const bool known = counted > scalar(0) && was.covered();
+    const law_type before = law_;
+    detail::tell(law_, supply_.target().stiffness, port.longest_tick,
+                 std::remove_cvref_t<decltype(port)>::latency);
+    const scalar compliance = law_.depth(scalar(1), scalar(0));
+    scalar own = known ? was.depth - lag_.offset() : scalar(0);
+    const bool as_stiff = before.depth(scalar(1), scalar(0)) == compliance;
+    if (own > scalar(0) && !(as_stiff && counted == scalar(1))) {
+      own = law_.depth(counted * before.force(own, scalar(0)), scalar(0));
+    }
+    lag_.hear(own, now, known ? now - was.depth : scalar(0), compliance, law_.pace());
+  }
+  /// What vanishes takes its force along at a limited rate, too.
+  [[nodiscard, gnu::noinline]] constexpr scalar faded(scalar weight, [[maybe_unused]] scalar depth,
+                                                      [[maybe_unused]] scalar dt) const noexcept {
+    if constexpr (eases) {
+      const scalar whole = law_.force(depth, scalar(0));
+      if (whole > scalar(0)) {
+        return kernels::larger(weight, supply_.last_weight() - law_.pace().most() * dt / whole);
+      }
+    }
+    return weight;
+  }
+  [[nodiscard]] constexpr bool lags() const noexcept {
+    if constexpr (eases) return !lag_.settled();
     return false;
   }
   /// Remembers whether x is now behind the surface but outside its edges, and returns whether it was so in
@@ -343,6 +413,11 @@ class local_contact {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS law_type law_;
   /// Behind the surface, but outside its edges: only what moves can be met that way.
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<Supply::moves, bool, no_memory> beside_{};
+  struct no_lag {};
+  struct no_surface {};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, lag<scalar>, no_lag> lag_{};
+  /// The target of the last tick, for what is new.
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, constraint_type, no_surface> shown_{};
 };
 
 /// The space is that of the constraint.

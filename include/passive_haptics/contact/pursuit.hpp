@@ -6,11 +6,13 @@
 //   new shape     the depth that is felt stays; the lag ℓ becomes the difference             d = d_target − ℓ
 //   appears       no deeper than what the contacts that are there press anyway, so with λ = 0
 //   every tick    |ℓ| falls by ρ dt, or by what makes up for the last news within t_c, if that is more; the
-//                 own normal turns towards the target's at a limited rate
+//                 own normal turns with the target's where the device moves along it, and makes up for what
+//                 news have turned at a limited rate, or within t_c if that is more
 //   vanishes      ℓ grows by ρ dt and by whatever the device goes deeper, until λ = 0
 //
-// Where the target is smooth, the own normal is carried along its curvature first: sliding is no news,
-// however fast. Source: docs/design/contacts.md.
+// The own normal is carried along with the target's first, whatever the surface: sliding is no news, however
+// fast. Over an edge, where the closest feature of a mesh changes, it turns as if the edge were rounded by r:
+// by |Δx|/r at most. Source: docs/design/contacts.md.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/contact/proxy.hpp>
@@ -28,15 +30,19 @@ inline namespace v0 {
 /// weight of old news and keeps its rule beside each age, while an old slot recedes at ρ as one that has
 /// vanished does, and all slots share one rule.
 struct pursuit {
-  double speed = 0.05;     ///< ρ, of a surface under the finger, at least [m/s]
-  double catch_up = 0.04;  ///< t_c, in which news of what is pressed are made up for [s]
-  double turn_rate = 2.0;  ///< of a normal [rad/s]
+  double speed = 0.05;       ///< ρ, of a surface under the finger, at least [m/s]
+  double catch_up = 0.04;    ///< t_c, in which news of what is pressed are made up for [s]
+  double turn_rate = 2.0;    ///< of a normal [rad/s]
+  double force_rate = 50.0;  ///< R, of what is asked, where nothing but news changes it [N/s]
+  double edge = 1e-3;        ///< r, by which an edge of a mesh feels rounded [m]
   double stale_after = std::numeric_limits<double>::infinity();  ///< without news it vanishes [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(speed)) return {"speed", speed, "finite and > 0 m/s"};
     if (!(catch_up > 0.0)) return {"catch_up", catch_up, "> 0 s"};
     if (!detail::positive(turn_rate)) return {"turn_rate", turn_rate, "finite and > 0 rad/s"};
+    if (!(force_rate > 0.0)) return {"force_rate", force_rate, "> 0 N/s"};
+    if (!detail::positive(edge)) return {"edge", edge, "finite and > 0 m"};
     if (!(stale_after > 0.0)) return {"stale_after", stale_after, "> 0 s"};
     return {};
   }
@@ -53,12 +59,17 @@ class pursuit::on {
   constexpr explicit on(const pursuit& p) noexcept
       : speed_(detail::number<scalar>(p.speed)),
         catch_up_(detail::number<scalar>(p.catch_up)),
+        force_rate_(detail::number<scalar>(p.force_rate)),
         stale_after_(detail::number<scalar>(p.stale_after)),
+        per_rate_(detail::number<scalar>(1.0 / p.turn_rate)),
+        edge_(detail::number<scalar>(p.edge)),
         turn_({.rate = p.turn_rate}) {}
   [[nodiscard]] constexpr pursuit parameters() const noexcept {
     return {.speed = static_cast<double>(speed_),
             .catch_up = static_cast<double>(catch_up_),
             .turn_rate = turn_.parameters().rate,
+            .force_rate = static_cast<double>(force_rate_),
+            .edge = static_cast<double>(edge_),
             .stale_after = static_cast<double>(stale_after_)};
   }
 
@@ -74,10 +85,26 @@ class pursuit::on {
                                         scalar dt) const noexcept {
     return turn_.step(from, to, dt);
   }
+  /// By how much news may change the force in dt [N].
+  [[nodiscard]] constexpr scalar news(scalar dt) const noexcept { return force_rate_ * dt; }
+  /// D: a surface is left alone until the device may come nearer to it than that [m].
+  [[nodiscard]] constexpr scalar out_of_reach() const noexcept { return scalar(0.2) * speed_; }
+  /// ≥ 1: how many times faster than the turn rate a normal must turn, so that what the last news have turned it
+  /// by is made up for within t_c.
+  [[nodiscard]] constexpr scalar hurry_for(const vector& own, const vector& goal) const noexcept {
+    const scalar angle = Space::norm(vector(goal - own));
+    return kernels::larger(angle / catch_up_ * per_rate_, scalar(1));
+  }
+  /// `from`, turned towards `to` by an angle at most [rad].
+  [[nodiscard]] constexpr vector turned_by(const vector& from, const vector& to,
+                                           scalar angle) const noexcept {
+    return turned(from, to, angle * per_rate_);
+  }
+  [[nodiscard]] constexpr scalar edge() const noexcept { return edge_; }  ///< r [m]
   [[nodiscard]] constexpr bool stale(scalar age) const noexcept { return age > stale_after_; }
 
  private:
-  scalar speed_, catch_up_, stale_after_;
+  scalar speed_, catch_up_, force_rate_, stale_after_, per_rate_, edge_;
   turn_limited::on<Space> turn_;
 };
 
@@ -88,6 +115,7 @@ struct felt_surface {
   typename Space::vector
       push;  ///< direction of the force for a depth of 1; the normal, for a distance
   typename Space::scalar depth{};  ///< of its own, ≤ 0 outside [m]
+  bool chases = false;             ///< it is not yet what the world has told
 
   /// Numbers, all of them, and no push beyond what a square can say.
   [[nodiscard]] constexpr bool is_finite() const noexcept {
@@ -98,7 +126,9 @@ struct felt_surface {
 /// A slot. λ is told to it after each tick.
 template <class Surface, class Space>
 class pursued {
-  static constexpr bool smooth = kind_of<Surface>() == surface_kind::smooth;
+  /// A plane is the same everywhere, so it turns by news alone.
+  static constexpr bool has_edges = kind_of<Surface>() == surface_kind::faceted;
+  static constexpr bool turns_along = kind_of<Surface>() != surface_kind::flat;
 
  public:
   using scalar = typename Space::scalar;
@@ -121,7 +151,8 @@ class pursued {
       if (!kernels::is_finite(lag) || !Space::is_finite(normal)) return false;
       lag_ = lag;
       speed_ = pace.speed_for(lag);
-      if constexpr (smooth) shown_ = normal;
+      hurry_ = pace.hurry_for(normal_, normal);
+      if constexpr (turns_along) shown_ = normal;
       state_ = state::there;
     } else {
       state_ = state::expected;
@@ -186,13 +217,17 @@ class pursued {
         ends ? lag_ + pace.receding(along(own.normal), dt) : shortened(lag_, speed_ * dt);
     const vector goal = own.normal;
     const vector before = normal_;
-    const vector normal = along_the_target(before, goal);
+    scalar most = turn_of_way(x, pace);
+    const vector normal = along_the_target(before, goal, most, pace);
     if (!(normal == goal)) {
-      own.normal = pace.turned(normal, goal, dt);
+      own.chases = true;
+      own.normal = pace.turned(normal, goal, hurry_ * dt);
+      if constexpr (has_edges) own.normal = pace.turned_by(own.normal, goal, most);
       if (!(own.normal == goal)) own.push = carry<Space>(own.push, goal, own.normal);
     }
     if (!(before == own.normal)) normal_ = own.normal;
     own.depth -= lag;
+    own.chases = own.chases || !(lag == scalar(0));
     lag_ = lag;
     return true;
   }
@@ -200,10 +235,28 @@ class pursued {
  private:
   enum class state : std::uint8_t { empty, expected, there, leaving, stale };
 
-  /// The own normal, carried along the curvature from where the device was to where it is.
-  [[nodiscard]] constexpr vector along_the_target(const vector& before,
-                                                  [[maybe_unused]] const vector& goal) noexcept {
-    if constexpr (smooth) {
+  /// What the way since the last tick lets a normal turn by over an edge [rad].
+  [[nodiscard]] constexpr scalar turn_of_way(
+      [[maybe_unused]] const vector& x, [[maybe_unused]] const pursuit::on<Space>& pace) noexcept {
+    if constexpr (has_edges) {
+      const scalar way = Space::norm(Space::difference(x, place_));
+      place_ = x;
+      return way / pace.edge();
+    } else {
+      return scalar(0);
+    }
+  }
+  /// The own normal, carried along with the target's from where the device was to where it is; over an edge by
+  /// `most` [rad], of which what is not needed remains for what is left of the edge.
+  [[nodiscard]] constexpr vector along_the_target(
+      const vector& before, [[maybe_unused]] const vector& goal, [[maybe_unused]] scalar& most,
+      [[maybe_unused]] const pursuit::on<Space>& pace) noexcept {
+    if constexpr (has_edges) {
+      const vector then = std::exchange(shown_, goal);
+      const vector there = pace.turned_by(then, goal, most);
+      most = kernels::larger(most - Space::norm(vector(goal - then)), scalar(0));
+      return carry<Space>(before, then, there);
+    } else if constexpr (turns_along) {
       const vector then = std::exchange(shown_, goal);
       return carry<Space>(before, then, goal);
     } else {
@@ -221,12 +274,13 @@ class pursued {
     if (most > scalar(0)) most = most / scalar(inward_limit);
     keep(here.depth - kernels::smaller(here.depth, most), here.normal);
     speed_ = pace.speed_for(scalar(0));
+    hurry_ = scalar(1);
     state_ = state::there;
   }
   constexpr void keep(scalar lag, const vector& normal) noexcept {
     lag_ = lag;
     normal_ = normal;
-    if constexpr (smooth) shown_ = normal;
+    if constexpr (turns_along) shown_ = normal;
   }
 
   /// ℓ, nearer to zero by a step [m].
@@ -236,15 +290,19 @@ class pursued {
   }
 
   struct nothing {};
+  struct no_place {};
   using coordinates = typename Space::coordinates;
 
   Surface target_{};
   sampled_spring<scalar> spring_{};
   coordinates normal_{};  ///< its own, unit
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<smooth, coordinates, nothing>
-      shown_{};       ///< the target's, where the device was last
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<turns_along, coordinates, nothing>
+      shown_{};  ///< the target's, where the device was last
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<has_edges, coordinates, no_place>
+      place_{};       ///< of the device, where it was last [m]
   scalar lag_{};      ///< ℓ [m]
   scalar speed_{};    ///< with which it is made up for [m/s]
+  scalar hurry_{1};   ///< how much faster than the turn rate its normal turns
   scalar pressed_{};  ///< λ in the last tick [N]
   scalar age_{};      ///< since the last news [s]
   state state_ = state::empty;

@@ -29,7 +29,7 @@ struct tool_spring {
   double least_inertia{};  ///< smallest moment of inertia about the handle [kg·m²], a lower bound
   double lever = 0.03;     ///< ℓ, a length of the tool [m]
   double stiffness_fraction = 0.1;  ///< κ, of m/T² and of I/T²
-  double softness = 0.1;            ///< ε: more than for a point, because sweeps converge faster
+  double softness = 0.1;  ///< ε: more than for a point, since points of a tool are often alike
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = detail::sampled_fault(*this)) return fault;
@@ -50,6 +50,7 @@ class tool_spring::at {
       : rule_(p),
         inertia_(detail::number<Scalar>(p.least_inertia)),
         lever_(detail::number<Scalar>(p.lever)),
+        per_lever_(Scalar(1) / (lever_ * lever_)),
         softness_(detail::number<Scalar>(p.softness)) {}
   [[nodiscard]] constexpr tool_spring parameters() const noexcept {
     tool_spring p;
@@ -59,38 +60,36 @@ class tool_spring::at {
     p.softness = static_cast<double>(softness_);
     return p;
   }
-  /// From now on for ticks of T at most [s].
-  constexpr void adopt(Scalar T) noexcept { sampled_every_ = T; }
+  /// From now on for ticks of T at most [s], and commands that are held `late` ticks after they were given.
+  constexpr void adopt(Scalar T, int late = 0) noexcept {
+    sampled_every_ = T;
+    late_ = late;
+    least_yield_ = T * T / (rule_.fraction(late) * inertia_);
+  }
   /// K = min(K, (1 − ε) κ m/T²) and B = K τ of a point at the handle.
   [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K) const noexcept {
-    const Scalar k = rule_.stiffness(K, softness_, sampled_every_);
-    return sampled_spring<Scalar>::of(k, k * settling_time(k, k * lever_ * lever_));
+    const Scalar k = rule_.stiffness(K, softness_, sampled_every_, late_);
+    return sampled_spring<Scalar>::of(k, k * settling_time(k, Scalar(1) / yield(Scalar(1) / k)));
   }
-  /// k_ω [N·m/rad] beside k_v = K [N/m].
-  [[nodiscard]] constexpr Scalar turning(Scalar K) const noexcept {
-    return kernels::sampled_stiffness(K * lever_ * lever_, rule_.fraction(), inertia_,
-                                      sampled_every_);
-  }
-  /// The same at any depth: what the motors cannot give is cut by the bound.
-  [[nodiscard]] static constexpr bool saturates(const sampled_spring<Scalar>& /*s*/,
-                                                Scalar /*d*/) noexcept {
-    return false;
-  }
-  [[nodiscard]] static constexpr sampled_spring<Scalar> saturated(const sampled_spring<Scalar>& s,
-                                                                  Scalar /*d*/) noexcept {
-    return s;
+  /// γ = 1/k_ω = max(c/ℓ², T²/(κ I)) [rad/(N·m)] beside c = 1/k_v [m/N].
+  [[nodiscard]] constexpr Scalar yield(Scalar compliance) const noexcept {
+    return kernels::larger(compliance * per_lever_, least_yield_);
   }
   [[nodiscard]] constexpr Scalar softness() const noexcept { return softness_; }  ///< ε
+  [[nodiscard]] constexpr Scalar lever() const noexcept { return lever_; }        ///< ℓ [m]
 
  private:
-  /// τ = min(2√(m/k_v), 2√(I/k_ω), 5T) [s]: B/K of damped_spring, for travel and for turns.
+  /// τ = min(2√(m/k_v), 2√(I/k_ω), 5T) [s]: B/K of damped_spring, for travel and for turns. k ticks late it is
+  /// 2.25(k + 1) T instead of 5T.
   [[nodiscard]] constexpr Scalar settling_time(Scalar k, Scalar turn) const noexcept {
     const Scalar slowest = kernels::smaller(rule_.mass() / k, inertia_ / turn);
-    return kernels::smaller(Scalar(2) * kernels::square_root(slowest), Scalar(5) * sampled_every_);
+    return kernels::smaller(Scalar(2) * kernels::square_root(slowest),
+                            detail::late_limits<Scalar>(late_).ticks * sampled_every_);
   }
   detail::sampled_mass<Scalar> rule_;
-  Scalar inertia_, lever_, softness_;
-  Scalar sampled_every_{};  ///< T [s]
+  Scalar inertia_, lever_, per_lever_, softness_;  // per_lever_ = 1/ℓ²
+  int late_ = 0;                                   ///< [ticks]
+  Scalar sampled_every_{}, least_yield_{};         ///< T [s], T²/(κ I) [rad/(N·m)]
 };
 
 namespace detail {
@@ -104,13 +103,11 @@ struct body_frame {
   using row = typename Body::effort;
   using point = stored_vector<scalar, 3>;  ///< in the frame of the handle [m]
   using stored = typename Body::stored_pose;
+  static constexpr bool naps = false;  ///< a turn brings what is far off the handle near at once
 
   [[nodiscard]] static bool is_point(const point& p) noexcept { return space::is_finite(p); }
   [[nodiscard]] static vector place(const stored& was, const point& p) noexcept {
     return vector(was.position) + rotation::rotate<scalar>(was.orientation, p);
-  }
-  [[nodiscard]] static scalar along(const row& a, const row& way) noexcept {
-    return Body::work(a, way).joules;
   }
 
   struct tick {
@@ -119,6 +116,7 @@ struct body_frame {
       vector arm;       ///< from the handle to it [m]
     };
     stored pose, last;
+    row way;                ///< of the handle in the last tick [m], [rad]
     vector speed, turning;  ///< of the handle [m/s], [rad/s]
 
     [[nodiscard]] spot at(const point& p) const noexcept {
@@ -137,44 +135,48 @@ struct body_frame {
     [[nodiscard]] row row_of(const spot& s, const vector& n) const noexcept {
       return Body::join(n, space::cross(s.arm, n));
     }
+    [[nodiscard]] row moved() const noexcept { return way; }
     [[nodiscard]] stored place() const noexcept { return pose; }
   };
   [[nodiscard]] static tick now(const auto& motion, const auto& port, const stored& last) noexcept {
     stored pose = motion.position;
     pose.orientation = rotation::normalised(pose.orientation);
-    return {pose, last, vector(Body::linear(port.travel) / port.dt),
+    return {pose, last, port.travel, vector(Body::linear(port.travel) / port.dt),
             vector(Body::angular(port.travel) / port.dt)};
   }
 
-  /// C = diag(1/k_v, 1/k_ω) (1 − ε).
+  /// A_ij and A_ii of (S1) for wrenches [m/N]: the forces share min(c_i, c_j), the torques min(γ_i, γ_j).
+  template <class Spring>
   struct proxy {
-    scalar stiffness, turning, together;  ///< k_v, k_ω, 1 − ε
-    [[nodiscard]] scalar turns(const vector& a, const vector& b) const noexcept {
-      return space::dot(a, b) * (stiffness / turning);
+    const Spring& spring;
+    scalar together;  ///< 1 − ε
+    [[nodiscard]] scalar inner(const row& a, const row& b, scalar least) const noexcept {
+      return together * (space::dot(Body::linear(a), Body::linear(b)) * least +
+                         space::dot(Body::angular(a), Body::angular(b)) * spring.yield(least));
     }
-    [[nodiscard]] scalar inner(const row& a, const row& b) const noexcept {
-      return together * (space::dot(Body::linear(a), Body::linear(b)) +
-                         turns(Body::angular(a), Body::angular(b)));
-    }
-    void bring(auto& problem) const noexcept {
-      problem.couple(stiffness);
-      for (std::size_t i = 0; i < problem.count; ++i) {
-        const vector torque = Body::angular(problem.row[i]);
-        problem.own[i] += turns(torque, torque);
-      }
-    }
-    [[nodiscard]] row way(const row& wrench) const noexcept {
-      if (!(stiffness > scalar(0))) return Body::zero();
-      return Body::join(Body::linear(wrench) * (together / stiffness),
-                        Body::angular(wrench) * (together / turning));
+    [[nodiscard]] scalar own(const row& r, scalar compliance) const noexcept {
+      return compliance + space::dot(Body::angular(r), Body::angular(r)) * spring.yield(compliance);
     }
     /// K nᵀC n at most, whatever the direction.
-    [[nodiscard]] scalar most_yield(const point& p) const noexcept {
-      return scalar(1) + turns(p, p);
+    [[nodiscard]] scalar most_yield(const point& p, scalar compliance) const noexcept {
+      return scalar(1) + space::dot(p, p) * spring.yield(compliance) / compliance;
     }
   };
-  [[nodiscard]] static proxy coupling(const auto& spring, scalar stiffest) noexcept {
-    return {stiffest, spring.turning(stiffest), scalar(1) - spring.softness()};
+  template <class Spring>
+  [[nodiscard]] static proxy<Spring> coupling(const Spring& spring) noexcept {
+    return {spring, scalar(1) - spring.softness()};
+  }
+  /// [N], a torque by what it is at the lever.
+  [[nodiscard]] static scalar size(const auto& spring, const row& wrench) noexcept {
+    const vector turning = Body::angular(wrench) * (scalar(1) / spring.lever());
+    return kernels::square_root(space::dot(Body::linear(wrench), Body::linear(wrench)) +
+                                space::dot(turning, turning));
+  }
+  /// [m], a turn by what it moves the lever.
+  [[nodiscard]] static scalar stretch(const auto& spring, const row& way) noexcept {
+    const vector turning = Body::angular(way) * spring.lever();
+    return kernels::square_root(space::dot(Body::linear(way), Body::linear(way)) +
+                                space::dot(turning, turning));
   }
 };
 
@@ -216,6 +218,12 @@ class rigid_tool<Friction, Slots...>::on
   constexpr on() noexcept : on(rigid_tool{}) {}
   constexpr explicit on(const rigid_tool& p) noexcept : engine(p) {}
 
+  /// Where a point of the tool, in the frame of the handle [m], is in the world when the handle is there [m].
+  [[nodiscard]] static auto place(const typename Body::pose& handle, const point& at) noexcept {
+    typename detail::body_frame<Body>::stored pose = handle;
+    pose.orientation = rotation::normalised(pose.orientation);
+    return detail::body_frame<Body>::place(pose, at);
+  }
   /// Slot i, counted among those of its kind: a point of the tool, in the frame of the handle [m], and the
   /// world's newest surface there. False: there is no such slot, or one of them is unusable; the last good
   /// ones stay, and the next tick says so too.
@@ -226,7 +234,7 @@ class rigid_tool<Friction, Slots...>::on
   /// The same point.
   template <class Surface>
   constexpr bool update(int i, const Surface& next) noexcept {
-    return this->put(i, this->template slot<Surface>(i).point, next);
+    return this->put(i, this->template point_of<Surface>(i), next);
   }
 };
 

@@ -8,6 +8,10 @@
 //     D_F = min(D_s, 2ζ√(F m/d))      deeper than F/K_s, where the motors give F [N] and no more, and the
 //                                     spring is the secant F/d: a heavy device is stopped all the way out
 //
+// Where a command is held k ticks late, κ ≤ min(0.2, 0.9/(k+1))/(k+1)² and D_s ≤ 2.25(k+1) T K_s, or 6(k+1) T K_s
+// of a damper that acts on the way out only, or the contact rings for ever; what falls onto it comes back with
+// 0.85 of its speed at most. settles() says which contacts come to rest: docs/design/mathematics.md § 9.
+//
 // Several contacts share one coupling, so K_s of each is (1 − ε) κ m/T² at most (proxy.hpp). Source:
 // docs/design/mathematics.md § 9, and docs/design/settling.md for D_F.
 
@@ -27,7 +31,61 @@ struct sampled_spring {
   }
 };
 
+/// Does what is pressed come to rest? Of a device of mass m or more that nothing damps, on planes at rest which
+/// ask for f(n) = −∇Φ(x(n) + σ Δx(n)), Φ convex and no steeper than K = κ m/T² (contact_set is such a law, σ
+/// = B/(K T)), where a command is held k ticks late, ticks are equal, positions exact, and no bound cuts:
+///     Re (1 − 1/z) z⁻ᵏ G(z) + |1 − 1/z|²/(2κ) > 0 on |z| = 1,   G = ½(z + 1)(1 + σ(1 − 1/z))/(z − 1)²
+/// For k = 0 that is κ (2√σ − √(σ−1))² < 2, σ > 1; for k > 0 it is looked at at 2000 points of the circle.
+/// Source: docs/design/mathematics.md § 9, Theorem 3.
+[[nodiscard]] constexpr bool settles(double kappa, double sigma, int k = 0) noexcept {
+  if (!(kappa > 0.0 && sigma > 1.0 && k >= 0)) return false;
+  if (k == 0) {
+    const double root = 2.0 * kernels::square_root(sigma) - kernels::square_root(sigma - 1.0);
+    return kappa * root * root < 2.0;
+  }
+  constexpr int points = 2000;
+  for (int i = 1; i < points; ++i) {  // z = c + js, t the tangent of half its angle
+    const double u = static_cast<double>(i) / points, t = u / (1.0 - u);
+    const double c = (1.0 - t * t) / (1.0 + t * t), s = 2.0 * t / (1.0 + t * t);
+    // (1 − 1/z) G = −j (1 + σ(1 − 1/z))/(2 t z)
+    double re = sigma * s / (2.0 * t), im = -(1.0 + sigma * (1.0 - c)) / (2.0 * t);
+    for (int n = 0; n <= k; ++n) {
+      const double turned = re * c + im * s;
+      im = im * c - re * s;
+      re = turned;
+    }
+    if (!(re + (1.0 - c) / kappa > 0.0)) return false;
+  }
+  return true;
+}
+
 namespace detail {
+
+/// κ, σ and β = κ σ that a contact may have at most, k > 0 ticks late.
+template <class Scalar>
+struct late_limits {
+  Scalar stiffness = kernels::largest<Scalar>(), damping = kernels::largest<Scalar>();
+  Scalar ticks = Scalar(5);
+  /// `each` is σ/(k + 1): 2.25, and 6 of a damper that acts on the way out only.
+  constexpr explicit late_limits(int k, Scalar each = Scalar(2.25)) noexcept {
+    if (k <= 0) return;
+    const Scalar n = Scalar(1 + k);
+    stiffness = kernels::smaller(Scalar(0.2), Scalar(0.9) / n) / (n * n);
+    ticks = each * n;
+    damping = ticks * stiffness;
+  }
+};
+
+/// σ of a spring at its cap κ: min(2ζ/√κ, β/κ), or min(2/√κ, 5) of one that says nothing of its damping.
+template <class Spring>
+[[nodiscard]] constexpr double ticks_to_settle(const Spring& p) noexcept {
+  double ratio = 1.0, most = 5.0;
+  if constexpr (requires { p.damping_ratio; }) {
+    ratio = p.damping_ratio;
+    most = p.damping_fraction / p.stiffness_fraction;
+  }
+  return kernels::smaller(2.0 * ratio / kernels::square_root(p.stiffness_fraction), most);
+}
 
 /// What is wrong with the parameters that a spring shares with the others; one that it has not is not asked.
 template <class Spring>
@@ -43,6 +101,12 @@ template <class Spring>
     if (!(p.damping_fraction >= 0.0 && p.damping_fraction <= 1.0)) {
       return {"damping_fraction", p.damping_fraction, "in [0, 1]"};
     }
+  }
+  const double ticks = ticks_to_settle(p);  // 0: left to the device's own damper, and asked for
+  if (ticks > 0.0 && !settles(p.stiffness_fraction, ticks)) {
+    return {"stiffness_fraction", p.stiffness_fraction,
+            "smaller: with this damping such a contact rings for ever (settles() in "
+            "sampled_spring.hpp)"};
   }
   if constexpr (requires { p.softness; }) {
     if (!(p.softness >= 0.001 && p.softness < 1.0)) {
@@ -70,14 +134,15 @@ class sampled_mass {
     p.stiffness_fraction = static_cast<double>(fraction_);
   }
 
-  [[nodiscard]] constexpr Scalar mass() const noexcept { return mass_; }          ///< m [kg]
-  [[nodiscard]] constexpr Scalar fraction() const noexcept { return fraction_; }  ///< κ
-  [[nodiscard]] constexpr Scalar stiffness(Scalar K, Scalar T) const noexcept {
-    return kernels::sampled_stiffness(K, fraction_, mass_, T);
+  [[nodiscard]] constexpr Scalar mass() const noexcept { return mass_; }  ///< m [kg]
+  /// K_s, where commands are held `late` ticks after they were given; ε is the softness of what several share.
+  [[nodiscard]] constexpr Scalar stiffness(Scalar K, Scalar softness, Scalar T,
+                                           int late) const noexcept {
+    return kernels::sampled_stiffness(K, fraction(late) * (Scalar(1) - softness), mass_, T);
   }
-  /// Of one of several contacts, ε the softness of their coupling.
-  [[nodiscard]] constexpr Scalar stiffness(Scalar K, Scalar softness, Scalar T) const noexcept {
-    return kernels::sampled_stiffness(K, fraction_ * (Scalar(1) - softness), mass_, T);
+  /// What is left of κ there.
+  [[nodiscard]] constexpr Scalar fraction(int late) const noexcept {
+    return kernels::smaller(fraction_, late_limits<Scalar>(late).stiffness);
   }
 
  private:
@@ -104,8 +169,10 @@ class damped_mass : public sampled_mass<Scalar> {
   }
 
   [[nodiscard]] constexpr Scalar force_limit() const noexcept { return force_limit_; }  ///< F [N]
-  [[nodiscard]] constexpr Scalar damping(Scalar stiffness, Scalar T) const noexcept {
-    return kernels::sampled_damping(stiffness, ratio_, most_, this->mass(), T);
+  [[nodiscard]] constexpr Scalar damping(Scalar stiffness, Scalar T,
+                                         const late_limits<Scalar>& late) const noexcept {
+    const Scalar most = kernels::smaller(most_, late.damping);
+    return kernels::sampled_damping(stiffness, ratio_, most, this->mass(), T);
   }
   /// 2ζ√(K m) [N·s/m], of K m [kg·N/m].
   [[nodiscard]] constexpr Scalar critical(Scalar Km) const noexcept {

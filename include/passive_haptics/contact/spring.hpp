@@ -7,6 +7,7 @@
 //   virtual_coupling  f* = max(0, K_f d − D_c v_out)   (§ 2(g)); 1/K_f = 1/K_c + 1/K: soft, and
 //                                                      passive on a fixed wall with no ledger
 //   capped            any of them, with K ≤ what the device pays for (design/stiffness_budget.hpp)
+//   eased             any of them, whose force does not step when the environment has news
 //
 // Damping on the way in raises the force, and virtual damping costs passivity: Colgate's condition
 // is b > KT/2 + |D|. Only virtual_coupling has it. A law asks; it promises nothing.

@@ -159,6 +159,10 @@ inline constexpr std::string_view compute_again = "delete the file and compute t
     return fault("was made of another mesh, material or other fixed nodes");
   }
   if (header.nodes == 0 || header.block_nodes == 0) return fault("has no nodes");
+  // No product below wraps round where the file has room for 9 M² scalars.
+  if (header.nodes > file.size() / (std::size_t{9} * scalar_bytes) / header.nodes) {
+    return fault(sentence("has ", file.size(), " bytes, too few for ", header.nodes, " nodes"));
+  }
   if (file.size() != header.begin_of(header.blocks())) {
     return fault(sentence("has ", file.size(), " bytes of ", header.begin_of(header.blocks())));
   }

@@ -35,10 +35,26 @@ template <class Part>
   return false;
 }
 
-/// T [s] or a parameter is another: what a source has made of them, it makes anew.
+/// T [s] or a parameter is another: what a source has made of them and of the ticks that a command is `late`,
+/// it makes anew.
 template <class Source, class Scalar>
-constexpr void tell(Source& source, Scalar longest_tick) noexcept {
-  if constexpr (requires { source.adopt(longest_tick); }) source.adopt(longest_tick);
+constexpr void tell(Source& source, Scalar longest_tick, int late) noexcept {
+  if constexpr (requires { source.adopt(longest_tick, late); }) {
+    source.adopt(longest_tick, late);
+  } else if constexpr (requires { source.adopt(longest_tick); }) {
+    source.adopt(longest_tick);
+  }
+}
+
+/// A contact law is for a stiffness K [N/m], ticks of T [s] and commands that are held `late` ticks after they
+/// were given.
+template <class Law, class Scalar>
+constexpr void tell(Law& law, Scalar K, Scalar T, int late) noexcept {
+  if constexpr (requires { law.adopt(K, T, late); }) {
+    law.adopt(K, T, late);
+  } else {
+    law.adopt(K, T);
+  }
 }
 
 /// Does an observer book what is unsure of a turn?

@@ -64,8 +64,10 @@ inline namespace v0 {
 //   apply(f, states…)       sequence of parts    applied()             limit() or shape() answers
 //   only_reduces<States…>   sequence of parts    passive_port          what limit() or shape() returns says it
 //   stateless<States…>      sequence of parts    passive_port          it is, if that is const
-//   adopt(T)                source               passive_port, when T  nothing that it keeps depends on T or
-//                                                or a parameter is new on a parameter
+//   adopt(K, T, k)          law                  local_contact         it is called as adopt(K, T): latency is
+//                                                                      nothing to it
+//   adopt(T), adopt(T, k)   source               passive_port, when T  nothing that it keeps depends on T, on the
+//                                                or a parameter is new k ticks of latency or on a parameter
 //   update(effort)          source               tick(…, wanted)       there is no such tick
 //   needs_ledger            source, law          passive_port          false: spends nothing of the ledger
 //   depth                   result of a source   contacts, scope       there is no contact to be deep in
@@ -440,41 +442,39 @@ concept shaper_for = plain_value<part_at<H, Space>, Space> &&
 };
 
 namespace detail {
-/// What the coupling of a frame asks of a spring, and of the contacts of a tick.
+/// What a frame asks of a spring.
 template <class Scalar>
 struct some_spring {
-  [[nodiscard]] Scalar turning(Scalar K) const noexcept;
+  [[nodiscard]] Scalar yield(Scalar compliance) const noexcept;
   [[nodiscard]] Scalar softness() const noexcept;
-};
-template <class Row, class Scalar>
-struct some_contacts {
-  Row row[1];
-  Scalar own[1];
-  std::size_t count;
-  void couple(Scalar K) noexcept;
+  [[nodiscard]] Scalar lever() const noexcept;
 };
 }  // namespace detail
 
 /// Where contacts are on a device, and what their forces do to it: what contact_set and rigid_tool differ in.
 ///     space, row, point, stored   where surfaces are; a force or a wrench; where on the device a contact is;
 ///                                 where the device was
+///     naps                        surfaces out of reach may be left out of ticks; then apart(now, was) [m]
 ///     is_point(p), place(was, p)  is p usable; where it was [m]
-///     along(row, way)             the work of a row on the way that the proxy is off
 ///     now(motion, state, was)     a tick: at(p), a spot with its `position` [m]; velocity(spot) [m/s], and
-///                                 along(spot, n) of it; travel(p, spot) [m]; row_of(spot, n); place()
-///     coupling(spring, K)         C of the proxy (contact/proxy.hpp), K the stiffest contact [N/m]: inner(row,
-///                                 row), bring(contacts), way(row), most_yield(p)
+///                                 along(spot, n) of it; travel(p, spot) [m]; row_of(spot, n); place(); and
+///                                 moved(), of the whole device, as a row is laid out
+///     coupling(spring)            A of the proxy (contact/proxy.hpp) [m/N]: inner(row, row, min(c_i, c_j)),
+///                                 own(row, c); most_yield(p, c), K nᵀC n at most
+///     size(spring, row)           of a force [N]
+///     stretch(spring, row)        of a motion [m]
 template <class F, class P, class State = port_state<P, detail::some_damping<P>>>
 concept frame_for = plain_value<typename F::stored, P> &&
     std::default_initializable<typename F::point> &&
     requires(const typename F::point p, const typename F::stored was, const typename F::row row,
              const detail::some_estimate<P> motion, const State state,
              const detail::some_spring<typename P::scalar> spring, typename P::scalar s,
-             const typename F::space::vector n,
-             detail::some_contacts<typename F::row, typename P::scalar> contacts) {
+             const typename F::space::vector n) {
+  { F::naps } -> std::convertible_to<bool>;
   { F::is_point(p) } -> std::same_as<bool>;
   { F::place(was, p) } -> std::convertible_to<typename F::space::vector>;
-  { F::along(row, row) } -> std::same_as<typename P::scalar>;
+  { F::size(spring, row) } -> std::same_as<typename P::scalar>;
+  { F::stretch(spring, row) } -> std::same_as<typename P::scalar>;
   { F::now(motion, state, was).at(p).position } -> std::convertible_to<typename F::space::vector>;
   requires requires(const decltype(F::now(motion, state, was)) now,
                     const decltype(F::now(motion, state, was).at(p)) spot) {
@@ -482,13 +482,13 @@ concept frame_for = plain_value<typename F::stored, P> &&
     { now.along(spot, n) } -> std::same_as<typename P::scalar>;
     { now.travel(p, spot) } -> std::convertible_to<typename F::space::vector>;
     { now.row_of(spot, n) } -> std::convertible_to<typename F::row>;
+    { now.moved() } -> std::convertible_to<typename F::row>;
     { now.place() } -> std::convertible_to<typename F::stored>;
   };
-  requires requires(const decltype(F::coupling(spring, s)) C) {
-    { C.inner(row, row) } -> std::same_as<typename P::scalar>;
-    { C.bring(contacts) } -> std::same_as<void>;
-    { C.way(row) } -> std::convertible_to<typename F::row>;
-    { C.most_yield(p) } -> std::same_as<typename P::scalar>;
+  requires requires(const decltype(F::coupling(spring)) C) {
+    { C.inner(row, row, s) } -> std::same_as<typename P::scalar>;
+    { C.own(row, s) } -> std::same_as<typename P::scalar>;
+    { C.most_yield(p, s) } -> std::same_as<typename P::scalar>;
   };
 };
 

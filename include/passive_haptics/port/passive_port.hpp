@@ -353,12 +353,12 @@ class passive_port {
   /// The longest tick is the longest so far, up to what the driver lets a force be held for.
   [[gnu::cold, gnu::noinline]] constexpr void learn(scalar dt) noexcept {
     limits_.longest_tick = limits_.held_for(dt);
-    detail::tell(source_, limits_.longest_tick);
+    detail::tell(source_, limits_.longest_tick, latency);
   }
   /// The parameters may be others.
   constexpr void begin() noexcept {
     sound_ = !check();
-    detail::tell(source_, limits_.longest_tick);
+    detail::tell(source_, limits_.longest_tick, latency);
   }
 
   source_type source_;

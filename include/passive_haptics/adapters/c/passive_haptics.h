@@ -135,13 +135,14 @@ PH_API uint32_t ph_version(void) PH_NOTHROW;
 ///   "quantised_touch"  mass, hand_force, quantum                        conditional
 ///   "encoder_touch"    mass, hand_force, quantum, friction, presliding  conditional
 ///   "strict_touch"                                                      strict
-///   "force_guard"                                                       strict
+///   "force_guard"      mass, hand_force                                 conditional
+///   "strict_guard"                                                      strict
 ///   "encoder_guard"    quantum, friction, presliding                    strict
 ///
 /// A touch presses back from the plane that is published. A guard bounds a force that the caller has.
 /// "touch" is the library's make_touch, "encoder_touch" its make_encoder_touch, which alone takes
-/// continuous_force and winding_time; "force_guard" is make_force_guard behind whose bound the motors'
-/// limit stands. Those that do not take `quantum` take positions as exact, and refuse one that is stated.
+/// continuous_force and winding_time; "force_guard" is make_force_guard, and lets what a renderer leaves ringing
+/// settle; "strict_guard" is make_strict_guard behind whose bound the motors' limit stands, and is soft. Those that do not take `quantum` take positions as exact, and refuse one that is stated.
 /// What a composition does not take it does not look at.
 PH_API int32_t ph_create(const char* composition, const ph_parameters* parameters, ph_port** port,
                          char* why, size_t room) PH_NOTHROW;

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What the sections on quiet share: the hands, a point in one of them, and what many scenes come to.
+//
+// A device has to be quiet (simulation/quiet.hpp) from `in_time` after the last news, on.
+
+#include "program.hpp"
+#include <passive_haptics/base/samples.hpp>
+#include <passive_haptics/simulation/quiet.hpp>
+
+#include <array>
+#include <numeric>
+#include <span>
+
+namespace contacts {
+
+inline constexpr double in_time = 5.0;           // t_s [s]
+inline constexpr double watched = 6.0;           // from the news on [s]
+inline constexpr double watched_longest = 30.0;  // where it is not quiet in time [s]
+inline constexpr double probe_by =
+    1e-6;  // how far a resting contact is pressed for its stiffness [m]
+
+/// A hand that holds still: a spring to where it is, and a damper. Off: none, but what loads the device.
+struct still_hand {
+  const char* name;
+  double stiffness;  ///< [N/m]
+  double damping;    ///< [N·s/m]
+};
+inline constexpr std::array<still_hand, 3> still_hands{
+    {{"off", 0.0, 0.0}, {"relaxed", 100.0, 1.0}, {"stiff", 400.0, 6.0}}};
+
+/// Random numbers of a scene, by what they are for.
+class draws {
+ public:
+  explicit draws(std::uint64_t seed) noexcept : random_(seed) {}
+  [[nodiscard]] double between(double low, double high) noexcept {
+    return low + (high - low) * (random_.number<double>() + 1.0) / 2.0;
+  }
+  /// Evenly in the logarithm.
+  [[nodiscard]] double scale(double low, double high) noexcept {
+    return low * std::exp(between(0.0, std::log(high / low)));
+  }
+  [[nodiscard]] bool chance(double p) noexcept { return between(0.0, 1.0) < p; }
+  [[nodiscard]] int count(int low, int high) noexcept {
+    return std::min(high, static_cast<int>(between(low, high + 1)));
+  }
+  [[nodiscard]] vector direction() noexcept { return random_.direction<d3>(); }
+  /// Of a wall [N/m].
+  [[nodiscard]] double stiffness() noexcept { return scale(300.0, 80e3); }
+  /// Of the true mass, what is told.
+  [[nodiscard]] double told() noexcept { return chance(0.5) ? 1.0 : between(0.3, 1.0); }
+
+ private:
+  ph::laws::samples random_;
+};
+
+/// m ẍ + (b + b_h) ẋ + k (x − goal) = f + load, f held for T: exact, by the power series of its solution.
+/// The energy at the port is what the device's own damper took less what f brought in.
+class held_point {
+ public:
+  struct parameters {
+    double mass = 0.1;  ///< [kg]
+    double damping = contacts::damping;
+    still_hand hand = still_hands[0];
+    vector load = vector::Zero(), goal = vector::Zero(), start = vector::Zero();
+  };
+  explicit held_point(const parameters& p) noexcept : p_(p), x_(p.start) {
+    const double rate = (p.damping + p.hand.damping) / p.mass, spring = p.hand.stiffness / p.mass;
+    double term = 1.0, before = 0.0;  // s(t) = Σ aₙ tⁿ, s(0) = 0, s'(0) = 1; as aₙ Tⁿ⁻¹
+    for (int n = 1; n < 40; ++n) {
+      slope_ += n * term;
+      reach_ += term * T;
+      swing_ += term * T * T / (n + 1);
+      const double next = -(rate * T * n * term + spring * T * T * before) / ((n + 1) * n);
+      before = term;
+      term = next;
+    }
+  }
+  /// A tick under the force f [N].
+  void step(const vector& f) noexcept {
+    const double k = p_.hand.stiffness, damped = p_.damping + p_.hand.damping;
+    const vector push = f + p_.load, from = x_ - p_.goal;
+    const vector a = (push - k * from) / p_.mass;
+    const vector travel = v_ * reach_ + a * swing_, speed = v_ * slope_ + a * reach_;
+    const double spent = push.dot(travel) - k * travel.dot(from + travel / 2.0) -
+                         p_.mass * (speed - v_).dot(speed + v_) / 2.0;  // in both dampers
+    meter_.book(
+        {.damping = damped > 0.0 ? spent * p_.damping / damped : 0.0, .actuator = f.dot(travel)});
+    x_ += travel;
+    v_ = speed;
+  }
+  [[nodiscard]] const vector& position() const noexcept { return x_; }
+  [[nodiscard]] const vector& velocity() const noexcept { return v_; }
+  [[nodiscard]] const sim::port_energy_meter& meter() const noexcept { return meter_; }
+  /// The most the hand can push with [N].
+  [[nodiscard]] static double most(const parameters& p) noexcept {
+    return p.load.norm() + p.hand.stiffness * (p.start - p.goal).norm();
+  }
+
+ private:
+  parameters p_;
+  vector x_, v_ = vector::Zero();
+  double slope_ = 0.0, reach_ = 0.0, swing_ = 0.0;
+  sim::port_energy_meter meter_;
+};
+
+/// One scene.
+struct quiet_run {
+  bool gone = false;            ///< the device has slid away
+  double seconds = watched;     ///< of the run
+  double touched = -1.0;        ///< when something has pressed last [s]
+  double settling = 0.0;        ///< from the news on until it is quiet [s]; NaN: it is not
+  sim::quiet_bar missed{};      ///< by the last window that was not quiet
+  sim::quiet_figures last{};    ///< of the last window
+  double free = 0.0;            ///< the speed at the end along whatever direction [m/s]
+  double least_energy = 0.0;    ///< [J]
+  double loss_allowed = 1e-12;  ///< what the integration may have lost [J]
+  double asked = std::nan(""), shown = std::nan("");  ///< stiffness of the resting contact [N/m]
+  double can_be = std::nan("");  ///< of `asked`, what the sampling leaves [N/m]
+
+  /// It has pressed in the last second: what hops counts, what hovers does not.
+  [[nodiscard]] bool counts() const noexcept { return !gone && touched >= seconds - 1.0; }
+};
+
+/// The stiffness that is asked for: the mean K of what presses, by how much it presses.
+class asked_stiffness {
+ public:
+  void add(double lambda, double K, double most) noexcept {
+    total_ += lambda;
+    asked_ += lambda * K;
+    can_be_ += lambda * std::min(K, most);
+  }
+  void tell(quiet_run& r) const noexcept {
+    r.asked = asked_ / total_;
+    r.can_be = can_be_ / total_;
+  }
+
+ private:
+  double total_ = 0.0, asked_ = 0.0, can_be_ = 0.0;
+};
+
+/// What many scenes of one kind come to.
+struct quiet_row {
+  std::string scene, hand;
+  int cases = 0;
+  double in_time = contacts::in_time;  ///< t_s [s]
+  int judged = 0, unsettled = 0;
+  int slides = 0;                   ///< quiet later than t_s, at last
+  std::array<int, 5> missed{};      ///< of the unsettled, by bar
+  double slowest = 0.0;             ///< of those that are quiet in time [s]
+  double median = 0.0;              ///< [s]
+  double step = 0.0;                ///< the largest of the last window [N] a tick
+  double fastest = 0.0;             ///< at the end, free directions included [m/s]
+  double least_energy = 0.0;        ///< [J]
+  int lost = 0;                     ///< runs with less than nothing
+  int first_unsettled = -1;         ///< its number
+  double asked = 0.0, shown = 0.0;  ///< medians [N/m]
+  double least_share = std::nan(""), share = std::nan("");  ///< shown of what the sampling leaves
+
+  [[nodiscard]] std::string bars() const {
+    std::string all;
+    for (std::size_t i = 0; i < missed.size(); ++i) {
+      if (missed[i] == 0) continue;
+      all += (all.empty() ? "" : ", ") + std::to_string(missed[i]) + " by " +
+             sim::to_string(static_cast<sim::quiet_bar>(i));
+    }
+    return all.empty() ? "-" : all;
+  }
+};
+inline ex::record record_of(const quiet_row& r) {
+  return {{"scene", r.scene},
+          {"hand", r.hand},
+          {"cases", r.judged},
+          {"left_out", r.cases - r.judged},
+          {"unsettled", r.unsettled},
+          {"slides", r.slides},
+          {"missed", r.bars()},
+          {"median_s", r.median, "%.2f"},
+          {"slowest_s", r.slowest, "%.2f"},
+          {"step_N", r.step, "%.4f"},
+          {"free_mm_per_s", r.fastest * 1e3, "%.1f"},
+          {"least_energy_J", r.least_energy},
+          {"asked_N_per_m", r.asked, "%.0f"},
+          {"shown_N_per_m", r.shown, "%.0f"},
+          {"shown_of_possible", r.share, "%.2f"},
+          {"least_of_possible", r.least_share, "%.2f"}};
+}
+
+[[nodiscard]] inline double median_of(std::vector<double> all) {
+  if (all.empty()) return std::nan("");
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
+
+/// Runs one(i) for so many scenes into the row.
+inline quiet_row judged(quiet_row row, auto one) {
+  std::vector<double> times, asked, shown, share;
+  for (int i = 0; i < row.cases; ++i) {
+    const quiet_run r = one(i);
+    row.least_energy = std::min(row.least_energy, r.least_energy);
+    row.lost += r.least_energy >= -r.loss_allowed ? 0 : 1;
+    if (!r.counts()) continue;
+    ++row.judged;
+    row.step = std::max(row.step, r.last.step);
+    row.fastest = std::max(row.fastest, r.free);
+    if (r.settling > row.in_time) {
+      ++row.slides;
+    } else if (!(r.settling <= row.in_time)) {
+      if (row.unsettled++ == 0) row.first_unsettled = i;
+      ++row.missed[static_cast<std::size_t>(r.missed)];
+      continue;
+    }
+    times.push_back(r.settling);
+    asked.push_back(r.asked);
+    shown.push_back(r.shown);
+    share.push_back(r.shown / r.can_be);
+  }
+  row.median = median_of(times);
+  row.slowest = times.empty() ? 0.0 : *std::max_element(times.begin(), times.end());
+  row.asked = median_of(asked);
+  row.shown = median_of(shown);
+  row.share = median_of(share);
+  if (!share.empty()) row.least_share = *std::min_element(share.begin(), share.end());
+  return row;
+}
+
+/// A sentence for each bar that a row misses.
+inline void expect_quiet(std::vector<std::string>& found, const quiet_row& r) {
+  const std::string name = r.scene + ", hand " + r.hand + ": ";
+  expect(found, r.unsettled == 0,
+         name + std::to_string(r.unsettled) + " of " + std::to_string(r.judged) +
+             " are not quiet after " + ex::format("%g", r.in_time) + " s (" + r.bars() +
+             "; the first is number " + std::to_string(r.first_unsettled) + ")");
+  const bool held = r.hand == still_hands[1].name || r.hand == still_hands[2].name;
+  expect(found, held ? r.slides == 0 : 20 * r.slides <= std::max(r.judged, 20),
+         name + std::to_string(r.slides) + " slide for longer than 5 s");
+  expect(found, r.lost == 0, name + std::to_string(r.lost) + " lose energy");
+  expect(found, 2 * r.judged > r.cases, name + "most of the scenes are left out");
+}
+
+}  // namespace contacts

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A contact law whose force does not step when the environment has news (the menu is in spring.hpp).
+//
+//   eased      the law it wraps, told the depth in a surface that follows the world's smoothly
+//
+//     ph::eased{ph::damped_spring{.mass = 0.1}}
+
+#include <passive_haptics/contact/lag.hpp>
+#include <passive_haptics/port/composing.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// The law, and the pace at which a local_contact makes up for news of what is pressed: a new place, another
+/// stiffness, what appears under the device and what vanishes. Between news, and for what is not pressed, it
+/// is the law itself. A device held still feels steps of (K|u| + R_most) dt at most, u the speed of the
+/// surface itself (lag.hpp). A surface that no longer covers the device ends at once.
+template <class Law>
+struct eased {
+  Law law{};
+  news_pace pace{};
+
+  constexpr eased() noexcept = default;
+  constexpr explicit eased(const Law& l, const news_pace& p = {}) noexcept : law(l), pace(p) {}
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    const auto fault = detail::fault_in(law);
+    return fault ? fault : pace.check();
+  }
+  template <class Space>
+  class on;
+};
+
+template <class Law>
+template <class Space>
+class eased<Law>::on : public part_at<Law, Space> {
+  using law_part = part_at<Law, Space>;
+
+ public:
+  using scalar = typename Space::scalar;
+  template <class Parameters>
+  static constexpr int takers = detail::takers<Parameters, Law, Space> +
+                                int(std::same_as<Parameters, news_pace>);
+
+  constexpr explicit on(const eased& p) noexcept : law_part(p.law), pace_(p.pace) {}
+  /// The new ones count from the next adopt() on, the pace from the next news.
+  constexpr void set(const eased& p) noexcept {
+    detail::take<Law, Space>(*this, p.law);
+    pace_ = news_pace::at<scalar>(p.pace);
+  }
+  [[nodiscard]] constexpr eased parameters() const noexcept {
+    eased p;
+    if constexpr (detail::has_parameters<law_part>) p.law = law_part::parameters();
+    p.pace = pace_.parameters();
+    return p;
+  }
+  template <class Parameters>
+  constexpr void take(const Parameters& p) noexcept {
+    if constexpr (std::same_as<Parameters, news_pace>) {
+      pace_ = news_pace::at<scalar>(p);
+    } else {
+      detail::take<Law, Space>(*this, p);
+    }
+  }
+  /// How fast news are made up for.
+  [[nodiscard]] constexpr const news_pace::at<scalar>& pace() const noexcept { return pace_; }
+
+ private:
+  news_pace::at<scalar> pace_;
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

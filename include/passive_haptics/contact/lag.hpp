@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// How what is felt of one surface follows its news, so that they do not step. The news are limited, the
+// motion never: with d the depth of the device in the newest surface,
+//
+//     own depth = d − ℓ + p
+//     news       own depth stays as it is, so the lag ℓ takes up the jump, and p = 0
+//     each tick  |ℓ| falls by ρ dt,   ρ = 2|ℓ₀|/P, within [R_least, R_most]/K
+//                p grows by u dt for the time P, but not longer than `ahead`; where no news have come for twice
+//                as long, the surface may have stopped, and p is made up for as ℓ is
+//
+// ℓ₀ is the lag [m] at the last news, P the time [s] that news usually take and u [m/s] how fast they move the
+// surface where the device is: as fast as the last ones, but not more than twice as fast as those before, and
+// not at all if those went the other way. So a surface that jumps once is not thrown further, and one that
+// goes on is not late. Source: docs/design/contacts.md § 6.
+
+#include <passive_haptics/base/parameter.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// How fast what is felt catches up with news of a surface that is pressed.
+struct news_pace {
+  double least_force_rate = 5.0;  ///< R_least, of what is made up for [N/s]
+  double most_force_rate = 50.0;  ///< R_most [N/s]
+  double longest_interval = 0.3;  ///< what counts as a time between news, at most [s]
+  double ahead = 0.05;            ///< for which u is believed after the last news, at most [s]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(least_force_rate)) {
+      return {"least_force_rate", least_force_rate, "finite and > 0 N/s"};
+    }
+    if (!(most_force_rate >= least_force_rate)) {
+      return {"most_force_rate", most_force_rate, "≥ least_force_rate"};
+    }
+    if (!detail::positive(longest_interval)) {
+      return {"longest_interval", longest_interval, "finite and > 0 s"};
+    }
+    if (!detail::not_negative(ahead)) return {"ahead", ahead, "finite and ≥ 0 s"};
+    return {};
+  }
+  template <class Scalar>
+  class at;
+};
+
+template <class Scalar>
+class news_pace::at {
+ public:
+  constexpr explicit at(const news_pace& p) noexcept
+      : least_(detail::number<Scalar>(p.least_force_rate)),
+        most_(detail::number<Scalar>(p.most_force_rate)),
+        longest_(detail::number<Scalar>(p.longest_interval)),
+        ahead_(detail::number<Scalar>(p.ahead)) {}
+  [[nodiscard]] constexpr news_pace parameters() const noexcept {
+    return {.least_force_rate = static_cast<double>(least_),
+            .most_force_rate = static_cast<double>(most_),
+            .longest_interval = static_cast<double>(longest_),
+            .ahead = static_cast<double>(ahead_)};
+  }
+
+  /// ρ for a lag [m], the time between news [s] and 1/K [m/N].
+  [[nodiscard]] constexpr Scalar speed_for(Scalar lag, Scalar interval,
+                                           Scalar compliance) const noexcept {
+    const Scalar wanted = Scalar(2) * kernels::magnitude(lag) / interval;
+    return kernels::smaller(kernels::larger(wanted, least_ * compliance), most_ * compliance);
+  }
+  [[nodiscard]] constexpr Scalar most() const noexcept { return most_; }        ///< R_most [N/s]
+  [[nodiscard]] constexpr Scalar longest() const noexcept { return longest_; }  ///< [s]
+  [[nodiscard]] constexpr Scalar ahead() const noexcept { return ahead_; }      ///< [s]
+
+ private:
+  Scalar least_, most_, longest_, ahead_;
+};
+
+/// ℓ, p, and what is known of the news.
+template <class Scalar>
+class lag {
+ public:
+  /// ℓ − p [m]: how much less deep the own surface is than the newest.
+  [[nodiscard]] constexpr Scalar offset() const noexcept { return behind_ - lead_; }
+  /// Nothing is left to make up for, and nothing moves.
+  [[nodiscard]] constexpr bool settled() const noexcept { return settled_; }
+
+  /// Time goes by [s].
+  constexpr void grow_older(Scalar dt) noexcept { since_ += dt; }
+  /// And what is not settled follows.
+  constexpr void follow(Scalar dt) noexcept {
+    const Scalar step = speed_ * dt;
+    if (kernels::magnitude(behind_) <= step) {
+      behind_ = Scalar(0);
+    } else {
+      behind_ += behind_ < Scalar(0) ? step : -step;
+    }
+    if (since_ <= ahead_) {
+      lead_ += goes_on_ * dt;
+    } else if (since_ > Scalar(2) * ahead_) {
+      behind_ -= lead_;  // no news when there should have been some: it may have stopped
+      lead_ = goes_on_ = Scalar(0);
+    }
+    settled_ = behind_ == Scalar(0) && goes_on_ == Scalar(0);
+  }
+  /// News: the device is `now` deep in them, they have moved by `moved` where it is, and it was `own` deep in
+  /// what was felt, or is to begin so deep; 0 for what was not felt [m].
+  constexpr void hear(Scalar own, Scalar now, Scalar moved, Scalar compliance,
+                      const news_pace::at<Scalar>& pace) noexcept {
+    const Scalar took = kernels::larger(since_, kernels::rounding<Scalar>());
+    const Scalar interval = kernels::smaller(took, pace.longest());
+    // Longer ones count at once, shorter ones little by little: a network that drops some stays smooth.
+    if (!(usual_ > Scalar(0))) usual_ = pace.longest();
+    usual_ = kernels::larger(interval, usual_ + (interval - usual_) / Scalar(8));
+    const Scalar speed = moved / took;
+    goes_on_ = believed(speed, last_speed_);
+    last_speed_ = speed;
+    since_ = Scalar(0);
+    lead_ = Scalar(0);
+    behind_ =
+        own > Scalar(0) || now > Scalar(0) ? now - kernels::larger(own, Scalar(0)) : Scalar(0);
+    if (!kernels::is_finite(behind_ + goes_on_)) behind_ = goes_on_ = last_speed_ = Scalar(0);
+    speed_ = pace.speed_for(behind_, usual_, compliance);
+    ahead_ = kernels::smaller(usual_, pace.ahead());
+    settled_ = behind_ == Scalar(0) && goes_on_ == Scalar(0);
+  }
+  /// Neither the own surface nor the newest is touched: no force can step.
+  constexpr void let_go() noexcept {
+    behind_ = lead_ = goes_on_ = Scalar(0);
+    settled_ = true;
+  }
+
+ private:
+  /// The newer of two speeds, but not more than twice the older; 0 if they go opposite ways.
+  [[nodiscard]] static constexpr Scalar believed(Scalar newer, Scalar older) noexcept {
+    if (!(newer * older > Scalar(0))) return Scalar(0);
+    const Scalar most = Scalar(2) * older;
+    return kernels::magnitude(newer) < kernels::magnitude(most) ? newer : most;
+  }
+
+  Scalar behind_{}, lead_{};         ///< ℓ, p [m]
+  Scalar speed_{};                   ///< ρ [m/s]
+  Scalar goes_on_{}, last_speed_{};  ///< u, and the speed of the last news alone [m/s]
+  Scalar usual_{}, ahead_{};         ///< P, and for how long p grows [s]
+  Scalar since_{};                   ///< since the last news [s]
+  bool settled_ = true;
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

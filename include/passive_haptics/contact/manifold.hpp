@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Surfaces as a collision search finds them: another number of them each time, in any order. A set of contacts
+// has slots, and what is felt of a slot is what it has been told since it was filled; so each surface has to
+// come back to the slot that it was in.
+//
+//     ph::contact_manifold<ph::half_space<scene>, 8> seen;        // beside the port, in the haptic thread
+//     seen.show(port.source(), surfaces, position);               // whenever there are news; all that there are
+//     seen.show(port.source(), surfaces, position, ids);          // where the search has names for them
+//     seen.show(tool.source(), surfaces, points, pose);           // a rigid_tool: a point for each surface
+//
+// Who is who is decided where the device is, x:
+//
+//     c = |d_told(x) − d_slot(x)| + ℓ |n_told(x) − n_slot(x)|  [m]        the same if c ≤ the gate          (M1)
+//
+// an equal id first, whatever c; then pairs in the order of rising c (a stable matching, so the order of what is
+// told has no say); what is left over takes a slot that is free, or else the one that presses least; and a slot
+// that nobody has claimed is released. One that is still receding may be claimed. Of more surfaces than slots
+// the deepest are kept. Each surface is looked at once, and compared with each slot at most twice before m are
+// chosen; those claim their slots in m² comparisons, and as many again for each that has to give way.
+// Source: ours, docs/design/contacts.md.
+
+#include <passive_haptics/contact/contact_engine.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// Which surfaces are the same at two times.
+struct same_surface {
+  double within = 0.01;  ///< the gate: c of (M1) at most [m]
+  double lever = 0.02;   ///< ℓ: a normal that turns by 1 rad counts as a depth of so much [m]
+  double stay = 1e-3;    ///< of more surfaces than slots, what one in no slot must be deeper by [m]
+  double twin = 1e-6;    ///< and c of two that count as one [m]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(within)) return {"within", within, "finite and > 0 m"};
+    if (!detail::positive(lever)) return {"lever", lever, "finite and > 0 m"};
+    if (!detail::not_negative(stay)) return {"stay", stay, "finite and ≥ 0 m"};
+    if (!detail::not_negative(twin)) return {"twin", twin, "finite and ≥ 0 m"};
+    return {};
+  }
+};
+
+/// What has become of the surfaces of a frame. The first five add up to what was told.
+struct manifold_news {
+  int matched = 0;   ///< found the slot that they were in
+  int added = 0;     ///< have a slot from now on
+  int refused = 0;   ///< unusable; the next tick says so, too (event::rejected_target)
+  int merged = 0;    ///< equal to one that has a slot, where there was no slot left for a second
+  int left_out = 0;  ///< shallower than all that have a slot, where there was none left
+  int released = 0;  ///< slots whose surface is no longer there
+
+  /// How many surfaces have a slot.
+  [[nodiscard]] constexpr int taken() const noexcept { return matched + added; }
+};
+
+namespace detail {
+
+/// How many slots for that surface a source has.
+template <class Surface, class Spring, class Friction, class... Groups>
+[[nodiscard]] constexpr int room_for(
+    const contact_parameters<Spring, Friction, Groups...>* /*p*/) noexcept {
+  return (0 + ... + (std::same_as<Surface, typename Groups::surface_type> ? Groups::count : 0));
+}
+
+}  // namespace detail
+
+/// Brings surfaces that have no numbers into the first `Count` slots of their kind of a contact_set or a
+/// rigid_tool. The slots after them, if there are any, are left to their owner.
+template <class Surface, int Count, class Space = typename Surface::space_type>
+requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+  using id_type = std::uint64_t;                ///< a face, a feature, a pair of bodies
+  static constexpr id_type no_id = ~id_type{};  ///< of a surface that has no name
+
+  constexpr contact_manifold() noexcept : contact_manifold(same_surface{}) {}
+  constexpr explicit contact_manifold(const same_surface& rule) noexcept
+      : rule_(rule),
+        within_(detail::number<scalar>(rule.within)),
+        lever_(detail::number<scalar>(rule.lever)),
+        stay_(detail::number<scalar>(rule.stay)),
+        twin_(detail::number<scalar>(rule.twin)) {
+    ids_.fill(no_id);
+  }
+  [[nodiscard]] constexpr same_surface parameters() const noexcept { return rule_; }
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return rule_.check(); }
+
+  /// All surfaces that there are now, in any order, for a contact_set whose device is at x [m]; ids as many as
+  /// surfaces, or none. A surface that is unusable is left out, but if its id is known, its slot keeps the last
+  /// good one; where x is no number, every surface is refused and the slots keep what they have.
+  template <class Source>
+  constexpr manifold_news show(Source& source, std::span<const Surface> surfaces, const vector& x,
+                               std::span<const id_type> ids = {}) noexcept {
+    return match(source, surfaces, at_device{x}, ids);
+  }
+  /// The same for a rigid_tool: each surface is for a point of the tool, in the frame of the handle [m], and
+  /// `pose` is the handle's. Surfaces without a point are refused. Points that are c apart count as c in (M1).
+  template <class Source, class Pose>
+  manifold_news show(Source& source, std::span<const Surface> surfaces,
+                     std::span<const typename Source::point> points, const Pose& pose,
+                     std::span<const id_type> ids = {}) noexcept {
+    return match(source, surfaces, on_tool<Source, Pose>{points, pose}, ids);
+  }
+
+ private:
+  static constexpr auto cells = static_cast<std::size_t>(Count);
+  static constexpr std::size_t nobody = ~std::size_t{};
+
+  /// A contact_set feels every surface where the device is.
+  struct at_device {
+    static constexpr bool apart = false;
+    const vector& x;
+    [[nodiscard]] constexpr bool is_finite() const noexcept { return Space::is_finite(x); }
+    [[nodiscard]] constexpr bool has(std::size_t /*k*/) const noexcept { return true; }
+    [[nodiscard]] constexpr vector told(std::size_t /*k*/) const noexcept { return x; }
+    [[nodiscard]] constexpr vector of(const auto& /*slot*/) const noexcept { return x; }
+    static constexpr void refuse(auto& source) noexcept { (void)source.update(-1, Surface{}); }
+    constexpr bool put(auto& source, int i, std::size_t /*k*/, const Surface& s) const noexcept {
+      return source.update(i, s);
+    }
+  };
+  /// A rigid_tool feels each at a point of its own.
+  template <class Tool, class Pose>
+  struct on_tool {
+    static constexpr bool apart = true;
+    std::span<const typename Tool::point> points;
+    const Pose& pose;
+    [[nodiscard]] bool is_finite() const noexcept {
+      return Space::is_finite(Tool::place(pose, {}));
+    }
+    [[nodiscard]] bool has(std::size_t k) const noexcept { return k < points.size(); }
+    [[nodiscard]] vector told(std::size_t k) const noexcept { return Tool::place(pose, points[k]); }
+    [[nodiscard]] vector of(const auto& slot) const noexcept {
+      return Tool::place(pose, slot.point);
+    }
+    static void refuse(auto& source) noexcept {
+      (void)source.update(-1, typename Tool::point{}, Surface{});
+    }
+    bool put(auto& source, int i, std::size_t k, const Surface& s) const noexcept {
+      return source.update(i, points[k], s);
+    }
+  };
+
+  /// A surface where the device is.
+  struct view {
+    vector normal = Space::zero();
+    vector place = Space::zero();  ///< [m]
+    scalar depth{};                ///< [m]
+    scalar stiffness{};            ///< [N/m]
+    bool covers = false;
+
+    constexpr view() noexcept = default;
+    constexpr view(const Surface& surface, const vector& x) noexcept
+        : place(x), stiffness(surface.stiffness) {
+      const auto shown = surface.at(x);
+      normal = shown.outward();
+      depth = shown.depth;
+      covers = shown.covered();
+    }
+    [[nodiscard]] constexpr bool is_finite() const noexcept {
+      return kernels::is_finite(depth) && Space::is_finite(normal);
+    }
+  };
+  /// One that is told and may get a slot.
+  struct candidate {
+    view seen;
+    std::size_t number{};  ///< among those told
+    scalar rank{};         ///< its depth, less what it is away from what is in the slots [m]
+    bool twin = false;     ///< equal to another candidate
+    bool placed = false;
+  };
+  struct frame_state {
+    std::array<view, cells> slot;       ///< what is in each slot
+    std::array<bool, cells> filled{};   ///< there is something in it
+    std::array<candidate, cells> told;  ///< the candidates
+    std::array<std::size_t, cells> by;  ///< the candidate that each slot belongs to
+    std::array<scalar, cells> bar;      ///< below which c has to be to take a slot [m]
+    std::array<bool, cells> kept{};     ///< its surface was told, and unusable
+    std::size_t count = 0;              ///< of the candidates
+    std::size_t worst = 0;              ///< which of them is the first to go
+  };
+
+  /// c of (M1), as far as it is below `most` [m]. Of two in one place the stiffness says which is which.
+  template <bool Apart>
+  [[nodiscard]] constexpr scalar cost(const view& a, const view& b, scalar most) const noexcept {
+    scalar c = kernels::magnitude(a.depth - b.depth);
+    if constexpr (Apart) c += Space::norm(vector(a.place - b.place));
+    if (c < most) {
+      c += lever_ * Space::norm(vector(a.normal - b.normal));
+      c += twin_ * kernels::magnitude(a.stiffness - b.stiffness) / (a.stiffness + b.stiffness);
+    }
+    return c;
+  }
+
+  template <class Source, class Where>
+  constexpr manifold_news match(Source& source, std::span<const Surface> surfaces,
+                                const Where& where, std::span<const id_type> ids) noexcept {
+    static_assert(
+        detail::room_for<Surface>(static_cast<typename Source::parameters_type*>(nullptr)) >= Count,
+        "passive_haptics: contact_manifold has more places than the source has slots for a surface "
+        "of this kind");
+    manifold_news news;
+    if (!where.is_finite()) {
+      where.refuse(source);  // there is no such slot: the next tick says so
+      news.refused = static_cast<int>(surfaces.size());
+      return news;
+    }
+    const auto id_of = [&](std::size_t k) { return k < ids.size() ? ids[k] : no_id; };
+    const auto slot_at = [&](std::size_t i) -> const auto& {
+      return source.template slot<Surface>(static_cast<int>(i));
+    };
+    frame_state now;
+    for (std::size_t i = 0; i < cells; ++i) {
+      const auto& slot = slot_at(i);
+      now.by[i] = nobody;
+      if (slot.taken()) {
+        now.slot[i] = view(slot.target(), where.of(slot));
+        now.filled[i] = now.slot[i].is_finite();
+      } else {
+        told_[i] = false;
+        ids_[i] = no_id;
+      }
+    }
+
+    // Which of them may have a slot: O(surfaces · slots).
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+      Surface usable = surfaces[k];
+      candidate next;
+      next.number = k;
+      bool good = where.has(k) && usable.prepare();
+      if (good) {
+        const vector x = where.told(k);
+        next.seen = view(usable, x);
+        good = Space::is_finite(x) && next.seen.is_finite();
+      }
+      if (good) {
+        choose<Where::apart>(now, next, surfaces.size() > cells, id_of(k), news);
+      } else {
+        ++news.refused;
+        for (std::size_t i = 0; i < cells;
+             ++i) {  // the slot of that id keeps its last good surface
+          now.kept[i] = now.kept[i] || (ids_[i] != no_id && ids_[i] == id_of(k));
+        }
+        where.refuse(source);
+      }
+    }
+
+    const auto same_id = [&](std::size_t i, std::size_t k) {
+      return ids_[i] != no_id && ids_[i] == id_of(now.told[k].number);
+    };
+    open(now, kernels::largest<scalar>());
+    if (!ids.empty()) claim_all<Where::apart>(now, same_id);
+    open(now, within_);
+    claim_all<Where::apart>(now, [](std::size_t, std::size_t) { return true; });
+
+    for (std::size_t i = 0; i < cells; ++i) {
+      if (now.by[i] != nobody) {
+        news.matched += put(source, where, surfaces, now, i, id_of, news);
+      } else if (told_[i] && !now.kept[i]) {
+        source.template release<Surface>(static_cast<int>(i));
+        told_[i] = false;
+        ++news.released;
+      }
+    }
+    for (std::size_t k = 0; k < now.count; ++k) {
+      if (now.told[k].placed) continue;
+      std::size_t i = nobody;  // that which presses least
+      for (std::size_t j = 0; j < cells; ++j) {
+        if (now.by[j] != nobody || now.kept[j]) continue;
+        if (i == nobody || slot_at(j).pressed() < slot_at(i).pressed()) i = j;
+      }
+      if (i == nobody) {
+        ++news.left_out;
+        continue;
+      }
+      now.by[i] = k;
+      news.added += put(source, where, surfaces, now, i, id_of, news);
+    }
+    return news;
+  }
+
+  /// Among the candidates, if there is room; else in place of one that is told twice, or of the shallowest.
+  template <bool Apart>
+  constexpr void choose(frame_state& now, candidate& next, bool crowded, id_type id,
+                        manifold_news& news) const noexcept {
+    if (!crowded) {
+      now.told[now.count++] = next;
+      return;
+    }
+    next.rank = next.seen.depth;
+    const bool full = now.count == cells;
+    if (full && before(next, now.told[now.worst])) {  // however near it is to what is in the slots
+      ++news.left_out;
+      return;
+    }
+    scalar away = stay_;
+    for (std::size_t i = 0; i < cells; ++i) {
+      if (!now.filled[i]) continue;
+      away = kernels::smaller(away, cost<Apart>(now.slot[i], next.seen, away));
+      if (id != no_id && ids_[i] == id) away = scalar(0);
+    }
+    next.rank -= away;
+    for (std::size_t k = 0; k < now.count; ++k) {
+      next.twin = next.twin || cost<Apart>(now.told[k].seen, next.seen, twin_) <= twin_;
+    }
+    if (full) {
+      ++(next.twin || now.told[now.worst].twin ? news.merged : news.left_out);
+      if (!before(now.told[now.worst], next)) return;
+    }
+    now.told[full ? now.worst : now.count++] = next;
+    now.worst = 0;
+    for (std::size_t k = 1; k < now.count; ++k) {
+      if (before(now.told[k], now.told[now.worst])) now.worst = k;
+    }
+  }
+  /// Is a the first to go? What is told twice, then what does not cover the device, then the shallower.
+  [[nodiscard]] static constexpr bool before(const candidate& a, const candidate& b) noexcept {
+    if (a.twin != b.twin) return a.twin;
+    if (a.seen.covers != b.seen.covers) return b.seen.covers;
+    return a.rank < b.rank;
+  }
+  /// Slots that have no owner yet are open to what is nearer than `gate` [m].
+  constexpr void open(frame_state& now, scalar gate) const noexcept {
+    for (std::size_t i = 0; i < cells; ++i) {
+      const bool vacant = now.filled[i] && !now.kept[i] && now.by[i] == nobody;
+      now.bar[i] = vacant ? gate : scalar(-1);
+    }
+  }
+  /// Who has no slot yet takes the nearest of those it may have whose owner is farther from it; that one goes on
+  /// to its next nearest.
+  template <bool Apart>
+  constexpr void claim_all(frame_state& now, const auto& may) const noexcept {
+    for (std::size_t first = 0; first < now.count; ++first) {
+      std::size_t k = now.told[first].placed ? nobody : first;
+      while (k != nobody) {
+        std::size_t mine = nobody;
+        scalar least = kernels::largest<scalar>();
+        for (std::size_t i = 0; i < cells; ++i) {
+          const scalar most = kernels::smaller(now.bar[i], least);
+          if (!(most > scalar(0)) || !may(i, k)) continue;
+          const scalar c = cost<Apart>(now.slot[i], now.told[k].seen, most);
+          if (!(c < most)) continue;
+          mine = i;
+          least = c;
+        }
+        if (mine == nobody) break;
+        now.bar[mine] = least;
+        now.told[k].placed = true;
+        k = std::exchange(now.by[mine], k);
+        if (k != nobody) now.told[k].placed = false;
+      }
+    }
+  }
+  /// Tells slot i what it is now: 1 if it takes it.
+  constexpr int put(auto& source, const auto& where, std::span<const Surface> surfaces,
+                    const frame_state& now, std::size_t i, const auto& id_of,
+                    manifold_news& news) noexcept {
+    const std::size_t k = now.told[now.by[i]].number;
+    if (!where.put(source, static_cast<int>(i), k, surfaces[k])) {
+      ++news.refused;
+      return 0;
+    }
+    told_[i] = true;
+    ids_[i] = id_of(k);
+    return 1;
+  }
+
+  same_surface rule_;
+  scalar within_, lever_, stay_, twin_;  ///< [m]
+  std::array<id_type, cells> ids_{};     ///< of what each slot was told last
+  std::array<bool, cells> told_{};       ///< it shows a surface of the last frame
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A device is held still and only the world moves: what steps then is the news.
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/contact/eased.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+using eased_damper = ph::eased<ph::damped_spring>;
+static_assert(ph::contact_law_for<eased_damper, d1> && ph::contact_law_for<eased_damper, f3>);
+static_assert(ph::contact_law_for<ph::capped<eased_damper>, d1>);
+
+constexpr ph::damped_spring damper{.mass = 0.1};
+
+/// Unbounded, so that every step of a wanted force is felt.
+template <class Law>
+auto touching(const Law& law, const ph::freshness& rule = {}) {
+  return ph::local_model{d1{},
+                         ph::followed<ph::half_space<d1>>{rule},
+                         ph::turn_limited{.rate = 2.0},
+                         law,
+                         thesis_ledger(),
+                         ph::no_bound{},
+                         thesis_loop};
+}
+
+struct felt {
+  double largest_step = 0.0;  ///< [N] in a tick
+  double rms = 0.0;           ///< off the truth [N]
+  double last = 0.0;          ///< [N]
+};
+
+/// For 8 s, of which the first does not count: the surface is `height`(t) [m] and `stiffness`(t) [N/m], the
+/// device `depth` [m] below 0, and every `each` ticks it is told.
+template <class Law>
+felt held(const Law& law, double depth, const auto& height, const auto& stiffness,
+          const auto& told) {
+  auto model = touching(law);
+  felt result;
+  for (int n = 0; n < 8000; ++n) {
+    const double t = 1e-3 * n;
+    if (told(n)) REQUIRE(model.update({height(t), 1.0, stiffness(t)}));
+    const double force = model.tick(-depth, 1ms).force;
+    const double truth = stiffness(t) * std::max(0.0, depth + height(t));
+    if (n >= 1000) {
+      result.largest_step = std::max(result.largest_step, std::abs(force - result.last));
+      result.rms += (force - truth) * (force - truth) / 7000;
+    }
+    result.last = force;
+  }
+  result.rms = std::sqrt(result.rms);
+  return result;
+}
+
+const auto at_30_hz = [](int n) { return n % 33 == 0; };
+constexpr auto always(double value) {
+  return [value](double) { return value; };
+}
+
+}  // namespace
+
+TEST_CASE("news of a surface that heaves do not step, and nothing of it is lost", "[contact]") {
+  const auto heaving = [](double t) { return 1e-3 * std::sin(6.911504 * t); };  // 1.1 Hz
+  const felt smooth = held(ph::eased{damper}, 2e-3, heaving, always(2000.0), at_30_hz);
+  const felt stepping = held(damper, 2e-3, heaving, always(2000.0), at_30_hz);  // the control
+  CHECK(stepping.largest_step > 0.45);
+  CHECK(smooth.largest_step < 0.02);  // the surface itself moves by 0.014 N a tick
+  CHECK(smooth.rms < 0.4 * stepping.rms);
+
+  // Each third is told, at random: 33 ms to some 400 ms
+  const auto dropping = [](int n) { return n % 33 == 0 && (n / 33 * 7919) % 31 < 10; };
+  const felt patient = held(ph::eased{damper}, 2e-3, heaving, always(2000.0), dropping);
+  const felt startled = held(damper, 2e-3, heaving, always(2000.0), dropping);
+  CHECK(startled.largest_step > 1.0);
+  CHECK(patient.largest_step < 0.05);
+  CHECK(patient.rms < 1.2 * startled.rms);
+}
+
+TEST_CASE("what appears under a device, jumps or changes its stiffness grows at a limited rate",
+          "[contact]") {
+  const double K = GENERATE(500.0, 2000.0, 8000.0);
+  const auto jump = [&](const auto& law) {
+    return held(
+        law, 1e-3, [](double t) { return t < 4.0 ? 0.0 : 1e-3; }, always(K), at_30_hz);
+  };
+  const auto appear = [&](const auto& law) {
+    return held(
+        law, 1e-3, [](double t) { return t < 4.0 ? -5e-3 : 1e-3; }, always(K), at_30_hz);
+  };
+  const auto stiffen = [&](const auto& law) {
+    return held(
+        law, 1e-3, always(0.0), [K](double t) { return t < 4.0 ? K : 300.0; }, at_30_hz);
+  };
+  const ph::eased smooth{damper};
+  CHECK(jump(smooth).largest_step < 0.051);  // 50 N/s
+  CHECK(appear(smooth).largest_step < 0.051);
+  CHECK(stiffen(smooth).largest_step < 0.051);
+  CHECK_THAT(jump(smooth).last, WithinRel(2e-3 * K, 1e-9));
+  CHECK_THAT(appear(smooth).last, WithinRel(2e-3 * K, 1e-9));
+  CHECK_THAT(stiffen(smooth).last, WithinRel(0.3, 1e-9));
+  CHECK(jump(damper).largest_step > 0.9e-3 * K);  // the controls
+  CHECK(appear(damper).largest_step > 1.9e-3 * K);
+  CHECK(stiffen(damper).largest_step > 0.9e-3 * (K - 300.0));
+}
+
+TEST_CASE("what vanishes or grows stale under a device fades at a limited rate, and comes back so",
+          "[contact]") {
+  const bool silent = GENERATE(false, true);
+  const auto largest_step = [silent](const auto& law) {
+    auto model = touching(law, {.stale_after = silent ? 0.1 : 1e3});
+    REQUIRE(model.update({0.0, 1.0, 4000.0}));
+    double last = 0.0, step = 0.0, least = 1e9;
+    for (int n = 0; n < 4000; ++n) {
+      const bool told = n < 1000 || n >= 2000;
+      if (told && n % 33 == 0) REQUIRE(model.update({0.0, 1.0, 4000.0}));
+      if (!told && !silent) model.source().release();
+      const double force = model.tick(-2e-3, 1ms).force;
+      if (n > 500) step = std::max(step, std::abs(force - last));
+      if (n > 500) least = std::min(least, force);
+      last = force;
+    }
+    CHECK(least == 0.0);
+    CHECK_THAT(last, WithinRel(8.0, 1e-9));
+    return step;
+  };
+  CHECK(largest_step(ph::eased{damper}) < 0.051);
+  CHECK(largest_step(damper) > 7.0);  // the control
+}
+
+TEST_CASE(
+    "where nothing is pressed news count at once, and where there are none an eased law is the law",
+    "[contact]") {
+  auto smooth = touching(ph::eased{damper});
+  auto plain = touching(damper);
+  for (int n = 0; n < 3000; ++n) {
+    const double height = n < 1000 ? 0.0 : 2e-3;  // moved in the air
+    if (n == 0 || (n >= 1000 && n % 33 == 0)) {
+      REQUIRE(smooth.update({height, 1.0, 2000.0}));
+      REQUIRE(plain.update({height, 1.0, 2000.0}));
+    }
+    const double x = 1.5e-3 - 2.5e-3 * std::sin(0.01 * n) + (n < 1000 ? 0.0 : 2e-3);
+    REQUIRE(smooth.tick(x, 1ms).force == plain.tick(x, 1ms).force);
+  }
+}
+
+TEST_CASE("a surface that moved and falls silent is felt where it is", "[contact]") {
+  const auto rising = [](double t) { return 5e-3 * std::min(t, 2.0); };
+  const auto until_it_stops = [](int n) { return n % 33 == 0 && n <= 2000; };
+  const felt end = held(ph::eased{damper}, 1e-3, rising, always(500.0), until_it_stops);
+  CHECK_THAT(end.last, WithinRel(500.0 * (1e-3 + rising(1.98)), 1e-9));
+  CHECK(end.largest_step < 2.2 * 500.0 * 5e-6);
+}
+
+TEST_CASE("a sphere that beats under a device that slides does not step either", "[contact]") {
+  const auto largest_step = [](const auto& law) {
+    ph::local_model model{d3{},
+                          ph::followed<ph::sphere<d3>>{},
+                          ph::turn_limited{.rate = 2.0},
+                          law,
+                          thesis_ledger(),
+                          ph::no_bound{},
+                          thesis_loop};
+    double step = 0.0;
+    d3::vector last = d3::zero();
+    for (int n = 0; n < 3000; ++n) {
+      const double t = 1e-3 * n, angle = 0.8 * t;
+      if (n % 33 == 0) {
+        REQUIRE(model.update(
+            {.centre = {0, 0, 0}, .radius = 0.05 + 1e-3 * std::sin(7.0 * t), .stiffness = 1000.0}));
+      }
+      const d3::vector x = 0.047 * d3::vector(std::cos(angle), 0.0, std::sin(angle));
+      const d3::vector force = model.tick(x, 1ms).force;
+      if (n > 500) step = std::max(step, (force - last).norm());
+      last = force;
+    }
+    return step;
+  };
+  CHECK(largest_step(ph::eased{damper}) < 0.02);
+  CHECK(largest_step(damper) > 0.2);  // the control
+}
+
+TEST_CASE("eased forgets at a reset, and changes live", "[contact]") {
+  auto model = touching(ph::eased{damper});
+  REQUIRE(model.update({0.0, 1.0, 1000.0}));
+  for (int n = 0; n < 100; ++n) (void)model.tick(1e-3, 1ms);
+  CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(1.0, 1e-12));
+  REQUIRE(model.update({1e-3, 1.0, 1000.0}));
+  CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(1.0, 1e-9));
+  CHECK(model.tick(-1e-3, 1ms).force < 1.06);
+  model.reset();
+  REQUIRE(model.update({1e-3, 1.0, 1000.0}));
+  (void)model.tick(2e-3, 1ms);
+  CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(2.0, 1e-9));
+
+  REQUIRE_FALSE(model.set(ph::news_pace{.least_force_rate = 1e6, .most_force_rate = 1e9}));
+  REQUIRE(model.update({2e-3, 1.0, 1000.0}));
+  (void)model.tick(-1e-3, 1ms);
+  CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(3.0, 1e-9));
+  REQUIRE_FALSE(model.set(ph::damped_spring{.mass = 0.01}));
+  CHECK(model.law().stiffness() == 1000.0);
+
+  const auto refused = [](const ph::news_pace& pace) {
+    const auto fault = ph::eased{damper, pace}.check();
+    return std::string(fault ? fault.parameter : "");
+  };
+  CHECK(refused({}).empty());
+  CHECK(refused({.least_force_rate = 0.0}) == "least_force_rate");
+  CHECK(refused({.most_force_rate = 1.0}) == "most_force_rate");
+  CHECK(refused({.longest_interval = 0.0}) == "longest_interval");
+  CHECK(refused({.ahead = std::numeric_limits<double>::quiet_NaN()}) == "ahead");
+  CHECK(std::string(ph::eased{ph::damped_spring{}}.check().parameter) == "mass");
+}
+
+TEST_CASE("no news make an eased force that is no number", "[contact][fault]") {
+  auto model = touching(ph::eased{damper});
+  const double largest = std::numeric_limits<double>::max();
+  for (const double height : {0.0, 1.0, largest, -largest, 1e-3, largest, 1.0}) {
+    for (const double K : {1e-300, 1000.0, largest}) {
+      (void)model.update({height, 1.0, K});
+      for (int n = 0; n < 3; ++n) CHECK(std::isfinite(model.tick(-1e-3, 1ms).force));
+    }
+  }
+  REQUIRE(model.update({0.0, 1.0, 1000.0}));
+  for (int n = 0; n < 100; ++n) (void)model.tick(1e-3, 1ms);
+  CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(1.0, 1e-9));
+}
+
+TEST_CASE("a surface that stops is not believed to go on for longer than news take", "[contact]") {
+  auto model = touching(ph::eased{damper});
+  double most = 0.0;
+  for (int n = 0; n < 2000; ++n) {  // 10 mm/s, told every 10 ms, till 1 s
+    if (n % 10 == 0 && n <= 1000) REQUIRE(model.update({1e-5 * n, 1.0, 500.0}));
+    most = std::max(most, model.tick(-1e-3, 1ms).force);
+  }
+  CHECK(most < 500.0 * (11e-3 + 1.5e-4));
+  CHECK(most > 500.0 * (11e-3 + 0.5e-4));  // the control: it is believed for some time
+}
+
+TEST_CASE("two news between two ticks are one", "[contact]") {
+  auto model = touching(ph::eased{damper});
+  REQUIRE(model.update({0.0, 1.0, 1000.0}));
+  (void)model.tick(1e-3, 1ms);
+  (void)model.tick(-1e-3, 1ms);
+  REQUIRE(model.update({5e-3, 1.0, 1000.0}));
+  REQUIRE(model.update({6e-3, 1.0, 2000.0}));
+  CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(1.0, 1e-9));
+}
+
+TEST_CASE("news of a contact that fades begin with the force that there is", "[contact]") {
+  auto model = touching(ph::eased{damper});
+  REQUIRE(model.update({0.0, 1.0, 500.0}));
+  (void)model.tick(1e-3, 1ms);
+  (void)model.tick(-2e-3, 1ms);
+  model.source().release();
+  double force = 1.0;
+  for (int n = 0; n < 25; ++n) force = model.tick(-2e-3, 1ms).force;
+  CHECK(force < 0.6);
+  REQUIRE(model.update({0.0, 1.0, 500.0}));
+  CHECK_THAT(model.tick(-2e-3, 1ms).force, WithinAbs(force, 0.051));
+}
+
+TEST_CASE("the local model is where its force says, while it follows", "[contact]") {
+  auto model = touching(ph::eased{damper});
+  REQUIRE(model.update({0.0, 1.0, 1000.0}));
+  (void)model.tick(1e-3, 1ms);
+  (void)model.tick(-1e-3, 1ms);
+  REQUIRE(model.update({2e-3, 1.0, 1000.0}));
+  for (int n = 0; n < 20; ++n) {
+    const auto out = model.tick(-1e-3, 1ms);
+    REQUIRE(out.depth < 3e-3);
+    CHECK_THAT(out.force, WithinRel(1000.0 * out.depth, 1e-9));
+    CHECK_THAT(model.local().at(-1e-3).depth, WithinRel(out.depth, 1e-9));
+  }
+}
+
+TEST_CASE("what has been let go is met at once, whatever it lagged by", "[contact]") {
+  auto model = touching(ph::eased{damper});
+  REQUIRE(model.update({-1.0, 1.0, 1000.0}));
+  (void)model.tick(0.0, 1ms);
+  REQUIRE(model.update({2e-3, 1.0, 1000.0}));  // appears 2 mm above the device
+  CHECK(model.tick(0.0, 1ms).force == 0.0);
+  CHECK(model.tick(0.0, 1ms).force < 0.11);
+  CHECK(model.tick(3e-3, 1ms).force == 0.0);
+  CHECK_THAT(model.tick(0.0, 1ms).force, WithinRel(2.0, 1e-9));
+}
+
+TEST_CASE("a triangle that comes over a device is not taken for one that was there", "[contact]") {
+  ph::local_model model{d3{},
+                        ph::followed<ph::triangle<d3>>{},
+                        ph::turn_at_once{},
+                        ph::eased{damper},
+                        thesis_ledger(),
+                        ph::no_bound{},
+                        thesis_loop};
+  const d3::vector here(0.005, 0.005, -2e-3);
+  const auto at_x = [](double x) {
+    return ph::triangle<d3>{
+        .a = {x, 0, 0}, .b = {x + 0.02, 0, 0}, .c = {x, 0.02, 0}, .stiffness = 1000};
+  };
+  REQUIRE(model.update(at_x(1.0)));
+  for (int n = 0; n < 5; ++n) CHECK(model.tick(here, 1ms).force == d3::zero());
+  REQUIRE(model.update(at_x(0.0)));
+  CHECK(model.tick(here, 1ms).force.norm() < 0.051);
+  for (int n = 0; n < 400; ++n) (void)model.tick(here, 1ms);
+  CHECK_THAT(model.tick(here, 1ms).force.norm(), WithinRel(2.0, 1e-9));
+}

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/base/samples.hpp>
+#include <passive_haptics/contact/settled_force.hpp>
+#include <passive_haptics/simulation/device.hpp>
+
+#include <deque>
+
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace sim = ph::simulation;
+
+namespace {
+
+constexpr ph::settled_force rule{.mass = 0.1};
+constexpr double B = 0.25 * 0.1 / 1e-3;  // of that rule at 1 kHz [N·s/m]
+constexpr ph::given_force as_given{};
+constexpr ph::settled_force no_slide = [] {
+  ph::settled_force p = rule;
+  p.slide_fraction = 0.0;
+  return p;
+}();
+
+template <class Space, class Source, class Motion = ph::last_difference>
+auto guard_of(const Source& source, const Motion& motion = {}) {
+  return ph::passive_port{Space{}, source, ph::no_observer{}, ph::no_bound{}, thesis_loop, motion};
+}
+
+/// How fast a device of 0.1 kg without friction or hand still is, in the last tenth of a run, behind a
+/// renderer that is `late` ticks late [m/s].
+template <class Space, class Source, class Renderer>
+double swings(const Source& source, const Renderer& renderer,
+              const typename Space::coordinates& load, double seconds, std::size_t late = 0) {
+  auto guard = guard_of<Space>(source);
+  sim::device<Space> device{{.mass = 0.1, .damping = 0.0, .load = load}};
+  auto sample = device.exchange(Space::zero());
+  std::deque<typename Space::coordinates> rendered(late, renderer(sample.position));
+  double fastest = 0.0;
+  for (int n = 0; n < int(seconds * 1e3); ++n) {
+    rendered.push_back(renderer(sample.position));
+    const auto force = guard.tick(sample, rendered.front()).force;
+    rendered.pop_front();
+    sample = device.exchange(force);
+    if (n > int(seconds * 900)) fastest = std::max(fastest, Space::norm(device.velocity()));
+  }
+  return fastest;
+}
+
+/// A renderer: a floor of K [N/m], which presses with `pressed` [N] at 0.
+auto floor_of(double K, double pressed = 0.0) {
+  return [K, pressed](double x) { return std::max(0.0, pressed - K * x); };
+}
+/// And one of two planes that meet in a trough along y, whose floor rises along it with `slope` [N/m].
+auto trough_of(double K, double slope) {
+  return [K, slope](const d3::vector& x) {
+    d3::vector f(0.0, 0.0, 0.0);
+    for (const double side : {-0.3, 0.3}) {
+      const d3::vector n = d3::vector(side, 0.0, 1.0).normalized();
+      if (const double depth = -n.dot(x); depth > 0.0) f += n * (K * depth);
+    }
+    if (f(2) > 0.0) f(1) = -slope * (x(1) - 0.02);
+    return f;
+  };
+}
+
+}  // namespace
+
+TEST_CASE("a settled force is the given one at rest, and none in the air", "[settled_force]") {
+  auto guard = guard_of<d3>(rule);
+  for (int n = 0; n < 3; ++n) {
+    CHECK(guard.tick({0, 0, 0}, 1ms, {1, 2, 3}).force == d3::vector(1, 2, 3));
+  }
+  CHECK(guard.tick({0, 0, 0}, 1ms, {1, 2, 2.5}).force == d3::vector(1, 2, 2.5));
+  CHECK_FALSE(guard.tick({0, 0, 1e-4}, 1ms, {1, 2, 2.5}).force == d3::vector(1, 2, 2.5));
+  CHECK(guard.tick({0.003, 0, 0}, 1ms, {0, 0, 0}).force == d3::zero());
+}
+
+TEST_CASE("along the force it is damped, but never pulls and never steps at the touch",
+          "[settled_force]") {
+  const auto out = [](double moved, double wanted) {
+    auto guard = guard_of<d1>(rule);
+    (void)guard.tick(0.0, 1ms, 0.0);
+    return guard.tick(moved, 1ms, wanted).force;
+  };
+  CHECK_THAT(out(1e-5, 2.0), WithinAbs(2.0 - B * 0.01, 1e-12));
+  CHECK_THAT(out(-1e-5, 2.0), WithinAbs(2.0 + B * 0.01, 1e-12));
+  CHECK(out(1e-3, 2.0) == 0.0);
+  CHECK_THAT(out(-1e-3, 2.0), WithinAbs(6.0, 1e-12));
+  CHECK_THAT(out(-1e-3, 1e-6), WithinAbs(3e-6, 1e-15));
+  CHECK_THAT(out(1e-5, -2.0), WithinAbs(-2.0 - B * 0.01, 1e-12));  // the other way round
+}
+
+TEST_CASE("what settled_force adds to a force only brakes", "[settled_force]") {
+  ph::laws::samples random(7);
+  auto guard = guard_of<d3>(rule);
+  d3::vector x = d3::zero(), w = d3::zero();
+  double most = 0.0, least = 0.0;
+  for (int n = 0; n < 20000; ++n) {
+    const d3::vector travel = random.vector<d3>() * 2e-4;
+    w = n % 50 == 0 ? d3::vector(random.vector<d3>() * 3.0)
+                    : d3::vector(w + random.vector<d3>() * 0.1);
+    if (n % 331 == 0) w = d3::zero();
+    x += travel;
+    const d3::vector added = guard.tick(x, 1ms, w).force - w;
+    if (n == 0) continue;
+    most = std::max(most, added.dot(travel));
+    least = std::min(least, added.dot(travel));
+    REQUIRE(added.norm() <= (std::sqrt(5.0) + 1e-9) * w.norm());
+  }
+  CHECK(most < 1e-15);   // [J]
+  CHECK(least < -1e-4);  // and it does
+}
+
+TEST_CASE("a renderer that rings behind a given_force rests behind a settled_force",
+          "[settled_force]") {
+  for (const double K : {300.0, 2000.0, 8000.0}) {
+    CAPTURE(K);
+    CHECK(swings<d1>(rule, floor_of(K), -1.0, 1.0) < 1e-4);
+    CHECK(swings<d1>(as_given, floor_of(K), -1.0, 1.0) > 0.05);
+  }
+  const d3::coordinates down(0.3, 0.0, -1.0);
+  CHECK(swings<d3>(rule, trough_of(2000.0, 20.0), down, 4.0) < 1e-3);
+  CHECK(swings<d3>(as_given, trough_of(2000.0, 20.0), down, 4.0) > 0.05);
+}
+
+TEST_CASE("most_stiffness settles however late the renderer is, and four times that does not",
+          "[settled_force]") {
+  for (const double fraction : {0.1, 0.25, 0.5}) {
+    for (const int late : {0, 1, 3, 10}) {
+      ph::settled_force p = rule;
+      p.damping_fraction = fraction;
+      CAPTURE(fraction, late);
+      const double K = p.most_stiffness(1e-3, late);
+      CHECK_THAT(K, WithinRel(fraction * 0.1 * 1e6 / (late + 1.5), 1e-12));
+      CHECK(swings<d1>(p, floor_of(K, 5.0), -5.1, 2.0, std::size_t(late)) < 1e-4);
+      CHECK(swings<d1>(p, floor_of(4.0 * K, 5.0), -5.1, 2.0, std::size_t(late)) > 1e-2);
+    }
+  }
+}
+
+TEST_CASE("a slide brakes what swings along a trough, and its lead what is stiff there",
+          "[settled_force]") {
+  const d3::coordinates down(0.0, 0.0, -1.0);
+  ph::settled_force no_lead = rule;
+  no_lead.lead = no_lead.slide_fraction = 0.0;
+  CHECK(swings<d3>(rule, trough_of(2000.0, 5.0), down, 4.0) < 0.01);
+  CHECK(swings<d3>(no_slide, trough_of(2000.0, 5.0), down, 4.0) > 0.02);
+  CHECK(swings<d3>(no_slide, trough_of(2000.0, 300.0), down, 4.0) < 1e-3);
+  CHECK(swings<d3>(no_lead, trough_of(2000.0, 300.0), down, 4.0) > 0.02);
+}
+
+TEST_CASE("where a facet ends the damper turns smoothly", "[settled_force]") {
+  const auto step = [](const ph::settled_force& p) {  // 0.1 m/s over an edge of 15 degrees
+    auto guard = guard_of<d3>(p);
+    d3::vector x = d3::zero(), last = d3::zero();
+    const d3::vector before(0.0, 0.0, 2.0), after(2.0 * std::sin(0.26), 0.0, 2.0 * std::cos(0.26));
+    double largest = 0.0;
+    for (int n = 0; n < 200; ++n) {
+      x(0) += 1e-4;
+      const d3::vector f = guard.tick(x, 1ms, n < 100 ? before : after).force;
+      if (n > 10) largest = std::max(largest, (f - last).norm());
+      last = f;
+    }
+    return largest / (after - before).norm();
+  };
+  ph::settled_force at_once = rule;
+  at_once.turn_time = 0.0;
+  CHECK(step(rule) < 1.1);
+  CHECK(step(at_once) > 1.3);
+}
+
+TEST_CASE("what the motors cannot hold lets a device out at a speed that it can be stopped from",
+          "[settled_force]") {
+  ph::settled_force limited = rule;
+  limited.force_limit = 2.0;
+  const auto out = [&](double moved, double wanted) {
+    auto guard = guard_of<d1>(limited);
+    (void)guard.tick(0.0, 1ms, 0.0);
+    return guard.tick(moved, 1ms, wanted).force;
+  };
+  CHECK(out(0.0, 18.0) == 2.0);
+  CHECK_THAT(out(1e-5, 2.0), WithinAbs(2.0 - B * 0.01, 1e-12));
+  CHECK_THAT(out(1e-5, 18.0), WithinAbs(2.0 - B / 3.0 * 0.01, 1e-12));
+  CHECK_THAT(out(-1e-5, -18.0), WithinAbs(B / 3.0 * 0.01 - 2.0, 1e-12));
+}
+
+TEST_CASE("a late loop is damped less, and rests", "[settled_force]") {
+  ph::passive_port late{d1{}, rule, ph::no_observer{}, ph::no_bound{},
+                        ph::late_loop_limits<1>{.longest_tick = 1e-3}};
+  (void)late.tick(0.0, 1ms, 0.0);
+  CHECK_THAT(late.tick(1e-5, 1ms, 2.0).force, WithinAbs(2.0 - B / 2.0 * 0.01, 1e-12));
+  static_assert(rule.most_stiffness(1e-3, 2, 1) == rule.most_stiffness(1e-3, 3) / 2.0);
+}
+
+TEST_CASE("the damper is that of the longest tick, as the port knows it", "[settled_force]") {
+  ph::passive_port port{d1{}, rule, ph::no_observer{}, ph::no_bound{},
+                        ph::loop_limits{.longest_tick = 2e-3}};
+  const auto brake = [&](double from) {
+    (void)port.tick(from, 1ms, 2.0);
+    return 2.0 - port.tick(from + 1e-5, 1ms, 2.0).force;
+  };
+  CHECK_THAT(brake(0.0), WithinAbs(B / 2.0 * 0.01, 1e-12));
+  REQUIRE_FALSE(port.set(ph::loop_limits{.longest_tick = 1e-3}));
+  CHECK_THAT(brake(1e-4), WithinAbs(B * 0.01, 1e-12));
+  ph::settled_force half = rule;
+  half.damping_fraction /= 2.0;
+  REQUIRE_FALSE(port.set(half));
+  CHECK_THAT(brake(2e-4), WithinAbs(B / 2.0 * 0.01, 1e-12));
+}
+
+TEST_CASE("the speed is the motion estimator's", "[settled_force]") {
+  const auto step = [](auto motion) {  // pressed at rest, between two steps of an encoder
+    auto guard = guard_of<d1>(rule, motion);
+    double last = 2.0, largest = 0.0;
+    for (int n = 0; n < 400; ++n) {
+      const double f = guard.tick(n % 40 < 20 ? 0.0 : 6e-5, 1ms, 2.0).force;
+      if (n > 100) largest = std::max(largest, std::abs(f - last));
+      last = f;
+    }
+    return largest;
+  };
+  CHECK(step(ph::last_difference{}) > 1.4);
+  CHECK(step(ph::mass_observer{.mass = 0.1, .quantum = 6e-5}) < 0.5);
+}
+
+TEST_CASE("a settled force fades, is refused and is forgotten as a given one", "[settled_force]") {
+  auto guard = guard_of<d1>(rule);
+  CHECK(guard.tick(0.0, 1ms).what == ph::event::no_target);
+  (void)guard.tick(0.0, 1ms, 3.0);
+  CHECK(guard.tick(0.0, 1ms, std::nan("")).force == 3.0);
+  for (int n = 0; n < 125; ++n) (void)guard.tick(0.0, 1ms);
+  const auto fading = guard.tick(0.0, 1ms);
+  CHECK(fading.what == ph::event::stale_target);
+  CHECK_THAT(fading.force, WithinAbs(1.4, 0.1));
+  guard.reset();
+  CHECK(guard.tick(0.0, 1ms).what == ph::event::no_target);
+}
+
+TEST_CASE("a direction is forgotten in the air and where the force has turned round",
+          "[settled_force]") {
+  const auto brake_along = [](const d3::vector& first, int ticks_of_air) {
+    auto guard = guard_of<d3>(rule);
+    (void)guard.tick({0, 0, 0}, 1ms, first);
+    for (int n = 0; n < ticks_of_air; ++n) (void)guard.tick({0, 0, 0}, 1ms, {0, 0, 0});
+    return 2.0 - guard.tick({0, 0, 1e-5}, 1ms, {0, 0, 2}).force(2);
+  };
+  CHECK_THAT(brake_along({0, 0, 2}, 0), WithinAbs(B * 0.01, 1e-9));
+  CHECK_THAT(brake_along({2, 0, 0.1}, 1), WithinAbs(B * 0.01, 1e-9));
+  CHECK_THAT(brake_along({2, 0, -0.1}, 0), WithinAbs(B * 0.01, 1e-9));
+  CHECK(brake_along({2, 0, 0.1}, 0) < 0.5 * B * 0.01);  // the control: it is kept
+}
+
+TEST_CASE("a lead brakes no more than the damper of its speed, and is none where it would push",
+          "[settled_force]") {
+  const auto added = [](double moved, double change) {  // across the force
+    auto guard = guard_of<d3>(no_slide);
+    (void)guard.tick({0, 0, 0}, 1ms, {0, 0, 2});
+    return guard.tick({moved, 0, 0}, 1ms, {change, 0, 2}).force(0) - change;
+  };
+  CHECK_THAT(added(1e-4, -1e-3), WithinAbs(-5e-3, 1e-4));     // 5 ticks of it
+  CHECK_THAT(added(1e-6, -0.1), WithinAbs(-B * 1e-3, 1e-3));  // B times the speed
+  CHECK_THAT(added(0.0, -0.1), WithinAbs(0.0, 1e-12));        // at rest it is what is given
+  CHECK_THAT(added(1e-6, 0.1), WithinAbs(0.0, 2e-3));         // it would push
+}
+
+TEST_CASE("a reset forgets the force and its direction", "[settled_force]") {
+  const auto next = [](bool tilted_first) {
+    auto guard = guard_of<d3>(rule);
+    if (tilted_first) (void)guard.tick({0, 0, 0}, 1ms, {1.5, 0.0, 0.5});
+    guard.reset();
+    (void)guard.tick({0, 0, 0}, 1ms, {0, 0, 2});
+    return d3::vector(guard.tick({1e-5, 0, 1e-5}, 1ms, {0, 0, 2}).force);
+  };
+  CHECK(next(true) == next(false));
+}
+
+TEST_CASE("an absurd force goes out as it is, and the next one is damped again",
+          "[settled_force]") {
+  auto guard = guard_of<f3>(rule);
+  for (const float absurd : {3e38F, 1e-44F}) {
+    (void)guard.tick({0, 0, 0}, 1ms, {1, 0, 0});
+    CHECK(f3::is_finite(guard.tick({1e-5F, 1e-5F, 0}, 1ms, {absurd, absurd, -absurd}).force));
+    (void)guard.tick({1e-5F, 1e-5F, 0}, 1ms, {0, 0, 2});
+    const auto f = guard.tick({1e-5F, 1e-5F, 1e-5F}, 1ms, {0, 0, 2}).force;
+    CHECK_THAT(double(f(2)), WithinAbs(2.0 - B * 0.01, 1e-3));
+  }
+}
+
+TEST_CASE("what a settled force may not be told is refused with its name", "[settled_force]") {
+  const auto refused = [](auto change) {
+    ph::settled_force p = rule;
+    change(p);
+    const auto fault = p.check();
+    return std::string(fault ? fault.parameter : "");
+  };
+  CHECK(refused([](auto&) {}).empty());
+  CHECK(std::string(ph::settled_force{}.check().parameter) == "mass");
+  const double nan = std::nan("");
+  for (const double bad : {0.0, -0.1, 0.51, nan}) {
+    CHECK(refused([&](auto& p) { p.damping_fraction = bad; }) == "damping_fraction");
+  }
+  for (const double bad : {-1.0, 10.1, nan}) {
+    CHECK(refused([&](auto& p) { p.lead = bad; }) == "lead");
+    CHECK(refused([&](auto& p) { p.slide_fraction = bad; }) == "slide_fraction");
+  }
+  CHECK(refused([&](auto& p) { p.turn_time = -1e-3; }) == "turn_time");
+  CHECK(refused([&](auto& p) { p.force_limit = 0.0; }) == "force_limit");
+  CHECK(refused([&](auto& p) { p.fade = 0.0; }) == "fade");
+  CHECK(refused([&](auto& p) {
+          p.damping_fraction = 0.5, p.lead = 0, p.slide_fraction = 0;
+        }).empty());
+}
