@@ -306,11 +306,18 @@ TEST_CASE("no news steps a device that holds still, and the truth is there withi
     parts.spring = {.mass = 0.1};
     parts.pace = {.force_rate = rate};
     auto port = open_port<d3>(parts);
-    const d3::vector x = d3::vector::Zero();
-    d3::vector last = port.tick(x, ph::seconds{T}).force;
+    const d3::vector x{0.02, -0.03, 0.01};  // inside of what it meets before its first tick
+    REQUIRE(
+        port.source().update(0, ph::half_space<d3>{x + d3::vector(0, 0, 2e-3), {0, 0, 1}, 2e3}));
+    d3::vector last = d3::zero();
     double widest = 0.0, off = 0.0;
     for (int n = 0; n < 6000; ++n) {
-      if (n % 33 == 0 && n % 3000 < 2000) {
+      if (n % 3000 == 2300) {
+        REQUIRE_FALSE(port.set(ph::loop_limits{.longest_tick = 4.0 * T}));
+      } else if (n % 3000 == 2400) {
+        REQUIRE_FALSE(port.set(ph::loop_limits{.longest_tick = T}));
+      }
+      if (n % 33 == 32 && n % 3000 < 2000) {
         const auto normal = random.direction<d3>();
         const double depth = 1.5e-3 + 1.5e-3 * random.number<double>();
         const double K = std::pow(10.0, 3.0 + random.number<double>());
@@ -318,9 +325,9 @@ TEST_CASE("no news steps a device that holds still, and the truth is there withi
         if (n % 5 == 0) {
           port.source().release(slot);
         } else if (n % 7 == 0) {
-          (void)port.source().update(slot / 2, ball{normal * (depth - 0.02), 0.02, K});
+          (void)port.source().update(slot / 2, ball{x + normal * (depth - 0.02), 0.02, K});
         } else {
-          (void)port.source().update(slot, ph::half_space<d3>{normal * depth, normal, K});
+          (void)port.source().update(slot, ph::half_space<d3>{x + normal * depth, normal, K});
         }
       }
       const d3::vector f = port.tick(x, ph::seconds{T}).force;

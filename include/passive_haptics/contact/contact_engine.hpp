@@ -104,7 +104,7 @@ class contact_engine {
     let_go();
     asked_ = moved_ = Port::zero();
     steepest_ = {};
-    refused_ = told_ = chased_ = false;
+    refused_ = told_ = chased_ = placed_ = false;
   }
 
   /// Nothing is there any more: the contact recedes until it presses no longer, and ends.
@@ -130,6 +130,8 @@ class contact_engine {
   template <bool Shortcut>
   [[nodiscard]] constexpr request ask(const auto& motion, const auto& port, event& what) noexcept {
     if (std::exchange(refused_, false)) what = worse(what, event::rejected_target);
+    if (!std::exchange(placed_, true)) [[unlikely]]
+      last_ = frame::now(motion, port, last_).place();
     const auto now = frame::now(motion, port, last_);
     const auto coupling = frame::coupling(spring_);
     gathered all;
@@ -373,6 +375,7 @@ class contact_engine {
   bool told_ = false;     ///< there are news, or what is asked is not yet what they ask for
   bool chased_ = false;   ///< a surface was not yet what has been told, in the last tick
   bool refused_ = false;  ///< news, since the last tick
+  bool placed_ = false;   ///< it knows last_: the first sample is no motion
 };
 
 }  // namespace detail
