@@ -100,7 +100,7 @@ class settled_force::on : private part_at<given_force, P> {
             .stale_after = rule.stale_after,
             .fade = rule.fade};
   }
-  constexpr void adopt(scalar T) noexcept { per_tick_ = mass_ / T; }
+  constexpr void adopt(scalar T, int late) noexcept { per_tick_ = mass_ / (T * scalar(1 + late)); }
   constexpr void reset() noexcept {
     given::reset();
     last_ = n_ = P::zero();
@@ -109,13 +109,11 @@ class settled_force::on : private part_at<given_force, P> {
   template <bool Shortcut>
   [[nodiscard, gnu::always_inline]] constexpr request ask(const auto& motion, const auto& port,
                                                           event& what) noexcept {
-    using state = std::remove_cvref_t<decltype(port)>;
     const request asked = given::template ask<Shortcut>(motion, port, what);
     const scalar share = within(asked.wanted, most_);
     const scalar secant = share < scalar(1) ? kernels::square_root(share) : scalar(1);
     const effort w = P::scaled(asked.wanted, share);
-    const effort f =
-        settled(w, velocity(motion), per_tick_ * secant / scalar(1 + state::latency), port.dt);
+    const effort f = settled(w, velocity(motion), per_tick_ * secant, port.dt);
     return {P::is_finite(f) ? f : w};  // f of an absurd force, or of next to none, is no number
   }
 
