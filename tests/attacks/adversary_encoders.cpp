@@ -2,7 +2,7 @@
 // The adversaries that are smaller than encoders show or friction resists: what they draw from a ledger
 // that takes positions as exact or friction as rigid, and that they draw nothing where it is told.
 // More of it is in full/simulation_encoders.cpp.
-#include "simulation/challenged.hpp"
+#include "attacks/challenged.hpp"
 #include <passive_haptics/simulation/search.hpp>
 
 #include <algorithm>

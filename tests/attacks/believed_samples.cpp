@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What it costs to believe a sample that is not true: an encoder that is wrong once, and a sensor that
 // is slower than the loop. loop_limits::top_speed and watched_loop_limits are there for it.
-#include "simulation/challenged.hpp"
+#include "attacks/challenged.hpp"
 #include "support/scripted_device.hpp"
 #include <passive_haptics/simulation/adversary.hpp>
 #include <passive_haptics/simulation/loop.hpp>

@@ -2,7 +2,7 @@
 // The adversaries that anyone can call: each must be able to hurt what is not bounded, and none may
 // draw 1e-12 J from strict_bound while its assumptions hold. Where one of them is dropped, the loss
 // must show. The judge is the true port energy. More of it is in full/simulation_challenge.cpp.
-#include "simulation/challenged.hpp"
+#include "attacks/challenged.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/challenged.hpp"
+#include "attacks/challenged.hpp"
 
 template sim::detail::run_outcome sim::detail::attack(const sim::subject<d1>&, sim::adversary,
                                                       const sim::circumstances&, std::uint64_t,

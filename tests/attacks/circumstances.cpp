@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/challenged.hpp"
+#include "attacks/challenged.hpp"
 #include <passive_haptics/simulation/search.hpp>
 
 #include <cmath>

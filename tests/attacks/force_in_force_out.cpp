@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Force in, force out: somebody's renderer behind a port, on time and late, and what becomes of those
 // who do without one or keep the books by hand.
-#include "simulation/challenged.hpp"
+#include "attacks/challenged.hpp"
 #include <passive_haptics/compositions.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Real loops are never even. A wall stays where it is under jitter, whether the longest tick was stated
 // honestly or as the mean; what the second costs in energy is in numbers here.
-#include "simulation/challenged.hpp"
+#include "attacks/challenged.hpp"
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/contact/contact_set.hpp>
 #include <passive_haptics/motion_estimator/mass_observer.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several walls on one device: in one port they spend its damping once, in a port each they spend it
 // as often as there are walls. More runs, and numbers, are in full/simulation_several_walls.cpp.
-#include "simulation/several_walls.hpp"
+#include "attacks/several_walls.hpp"
 
 using namespace simulated;
 

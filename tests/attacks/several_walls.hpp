@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Several walls on one device, in one port or in a port each.
-#include "simulation/challenged.hpp"
+#include "attacks/challenged.hpp"
 
 #include <algorithm>
 #include <array>

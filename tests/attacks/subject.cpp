@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which models a challenge takes, and how surfaces are laid on them.
-#include "simulation/challenged.hpp"
+#include "attacks/challenged.hpp"
 
 using namespace simulated;
 using Catch::Matchers::WithinAbs;

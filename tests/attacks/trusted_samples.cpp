@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What bad samples cost a loop that trusts them all, trusted_loop_limits, and that good ones cost it
 // nothing.
-#include "simulation/challenged.hpp"
+#include "attacks/challenged.hpp"
 #include "support/scripted_device.hpp"
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 

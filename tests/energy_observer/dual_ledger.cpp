@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // dual_ledger alone, against the true energy of devices with steps and elastic friction. Bounds on it
-// against adversaries: simulation/adversary_encoders.cpp, full/bounds_dual.cpp.
+// against adversaries: attacks/adversary_encoders.cpp, full/bounds_dual.cpp.
 #include "force_bound/upkeep.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/device/joint_space.hpp>

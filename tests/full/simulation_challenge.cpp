@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// simulation/challenge.cpp at length.
-#include "simulation/challenged.hpp"
+// attacks/challenge.cpp at length.
+#include "attacks/challenged.hpp"
 
 using namespace simulated;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// simulation/adversary_encoders.cpp at length.
-#include "simulation/challenged.hpp"
+// attacks/adversary_encoders.cpp at length.
+#include "attacks/challenged.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// simulation/passivity.cpp at length. PASSIVE_HAPTICS_RUNS sets the number of adversarial runs (default
+// attacks/passivity.cpp at length. PASSIVE_HAPTICS_RUNS sets the number of adversarial runs (default
 // 10 000).
 #include "simulation/attacks.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/several_walls.hpp"
+#include "attacks/several_walls.hpp"
 #include <passive_haptics/simulation/search.hpp>
 
 #include <algorithm>

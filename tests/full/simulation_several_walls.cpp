@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// simulation/several_walls.cpp at length, and how much it costs to do it otherwise.
-#include "simulation/several_walls.hpp"
+// attacks/several_walls.cpp at length, and how much it costs to do it otherwise.
+#include "attacks/several_walls.hpp"
 
 using namespace simulated;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a trusted loop keeps: every bit of an ordinary one while its samples are good. What bad ones cost
-// it: simulation/trusted_samples.cpp.
+// it: attacks/trusted_samples.cpp.
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 
