@@ -22,8 +22,11 @@ int main() {
       body{},
       ph::rigid_tool{ph::tool_spring{.mass = 0.15, .least_inertia = 1e-4, .lever = 0.03},
                      ph::pursuit{}, ph::slots<plane, 20>{}},  // kg, kg·m², m
-      ph::basic_reduced_energy<ph::rigid_damping>{.damping = {.linear = 0.03, .angular = 1e-4}},
-      ph::rigid_reachable_bound{{.mass = 0.15, .least = 1e-4, .spread = 2e-4}, 5, 0.1, 0.06, 2e-4},
+      ph::forgiving{ph::basic_reduced_energy<ph::rigid_damping>{{.linear = 0.03, .angular = 1e-4}},
+                    0.02},  // J
+      ph::bound_chain{ph::rigid_reachable_bound{
+                          {.mass = 0.15, .least = 1e-4, .spread = 2e-4}, 5, 0.1, 0.06, 2e-4},
+                      ph::rigid_actuator_limit{.force = 9, .torque = 0.5}},
       ph::loop_limits{.longest_tick = 1e-3}};
 
   const double half = 0.01, length = 0.04, room = half + 0.00025;  // m

@@ -55,7 +55,7 @@ TEST_CASE("a model that is a member ticks with force zero until one is assigned 
 TEST_CASE("a composition by name is the one that is spelt out", "[local_model]") {
   using touch = ph::touch<d1>;
   using spelt = ph::local_model<d1, ph::followed<ph::half_space<d1>>, ph::turn_limited,
-                                ph::eased<ph::damped_spring>, ph::reduced_energy,
+                                ph::eased<ph::damped_spring>, ph::forgiving<ph::reduced_energy>,
                                 ph::bound_chain<ph::reachable_bound, ph::actuator_limit>>;
   static_assert(std::same_as<touch, spelt>);
   static_assert(touch::passivity == ph::guarantee::conditional);

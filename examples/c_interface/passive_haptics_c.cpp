@@ -168,6 +168,11 @@ template <int Latency>
 [[nodiscard]] ph::actuator_limit motors(const ph_parameters& p) noexcept {
   return {.most = p.force_limit};
 }
+template <class Ledger>
+[[nodiscard]] ph::forgiving<Ledger> forgiven(const ph_parameters& p,
+                                             const Ledger& ledger) noexcept {
+  return {ledger, ph::known_device{.force_limit = p.force_limit}.amends()};
+}
 [[nodiscard]] ph::dual_ledger frictional(const ph_parameters& p) noexcept {
   return {.damping = {.coefficient = p.damping, .coulomb = p.friction, .presliding = p.presliding},
           .quantum = p.quantum};
@@ -181,7 +186,7 @@ struct touch {
         surface(p),
         turning(p),
         settling(p),
-        ph::reduced_energy{.damping = p.damping},
+        forgiven(p, ph::reduced_energy{.damping = p.damping}),
         ph::bound_chain{reachable(p), motors(p)},
         limits<Latency>(p)};
   }
@@ -189,14 +194,15 @@ struct touch {
 struct quantised_touch {
   template <int Latency>
   static auto make(const ph_parameters& p) noexcept {
-    return ph::local_model{scene{},
-                           surface(p),
-                           turning(p),
-                           settling(p),
-                           ph::quantised_energy{.damping = {p.damping}, .quantum = p.quantum},
-                           ph::bound_chain{reachable(p), motors(p)},
-                           limits<Latency>(p),
-                           ph::mass_observer{.mass = p.mass, .quantum = p.quantum}};
+    return ph::local_model{
+        scene{},
+        surface(p),
+        turning(p),
+        settling(p),
+        forgiven(p, ph::quantised_energy{.damping = {p.damping}, .quantum = p.quantum}),
+        ph::bound_chain{reachable(p), motors(p)},
+        limits<Latency>(p),
+        ph::mass_observer{.mass = p.mass, .quantum = p.quantum}};
   }
 };
 struct encoder_touch {
@@ -227,7 +233,7 @@ struct force_guard {
   template <int Latency>
   static auto make(const ph_parameters& p) noexcept {
     return ph::force_guard<scene, ph::isotropic_damping, ph::late_loop_limits<Latency>>{
-        scene{}, settled(p), ph::reduced_energy{.damping = p.damping},
+        scene{}, settled(p), forgiven(p, ph::reduced_energy{.damping = p.damping}),
         ph::bound_chain{reachable(p), motors(p)}, limits<Latency>(p)};
   }
 };

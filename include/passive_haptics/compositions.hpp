@@ -23,6 +23,7 @@
 #include <passive_haptics/contact/settled_force.hpp>
 #include <passive_haptics/design/stiffness_budget.hpp>
 #include <passive_haptics/energy_observer/dual_ledger.hpp>
+#include <passive_haptics/energy_observer/forgiving.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/force_bound/bound_chain.hpp>
@@ -42,12 +43,18 @@ struct known_device {
   double damping{};      ///< b, a lower bound: half of what you identified [N·s/m]
   double hand_force{};   ///< the most that hand, load and dry friction push with [N]
   double force_limit{};  ///< the most that the motors hold [N]
+
+  /// What a fault is made up for with [J]: ½F²/K of a contact that F presses 5 mm deep.
+  [[nodiscard]] constexpr double amends() const noexcept {
+    return detail::positive(force_limit) ? 2.5e-3 * force_limit : 0.0;
+  }
 };
 
 /// What we recommend for a device of known mass. It is conditional, like reachable_bound.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
-using touch = local_model<Space, followed<Constraint>, turn_limited, eased<damped_spring>,
-                          reduced_energy, bound_chain<reachable_bound, actuator_limit>, Limits>;
+using touch =
+    local_model<Space, followed<Constraint>, turn_limited, eased<damped_spring>,
+                forgiving<reduced_energy>, bound_chain<reachable_bound, actuator_limit>, Limits>;
 
 /// The normal turns by at most `turn_rate` [rad/s]; the longest tick is that of YOUR loop [s].
 template <class Space, class Constraint = half_space<Space>>
@@ -58,7 +65,7 @@ template <class Space, class Constraint = half_space<Space>>
           followed<Constraint>{},
           turn_limited{.rate = turn_rate},
           eased{damped_spring{.mass = device.mass, .force_limit = device.force_limit}},
-          reduced_energy{.damping = device.damping},
+          forgiving{reduced_energy{.damping = device.damping}, device.amends()},
           bound_chain{reachable_bound{.mass = device.mass, .hand_force = device.hand_force},
                       actuator_limit{.most = device.force_limit}},
           loop_limits{.longest_tick = longest_tick}};
@@ -70,7 +77,8 @@ template <class Space, class Constraint = half_space<Space>>
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
 using encoder_touch =
     local_model<Space, followed<Constraint>, turn_limited, capped<eased<damped_spring>>,
-                dual_ledger, bound_chain<reachable_bound, thermal_limit>, Limits, edge_observer>;
+                forgiving<dual_ledger>, bound_chain<reachable_bound, thermal_limit>, Limits,
+                edge_observer>;
 
 /// `hand_force` is the most that hand, load and dry friction push with [N]. The stiffness is the budget for
 /// the `latency` that the device states. If that is less than the latency of Limits, the contact is as
@@ -87,10 +95,11 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
           turn_limited{.rate = turn_rate},
           capped{eased{damped_spring{.mass = device.mass, .force_limit = device.force_limit}},
                  stiffness},
-          dual_ledger{.damping = {.coefficient = device.damping,
-                                  .coulomb = device.friction,
-                                  .presliding = device.presliding},
-                      .quantum = device.quantum},
+          forgiving{dual_ledger{.damping = {.coefficient = device.damping,
+                                            .coulomb = device.friction,
+                                            .presliding = device.presliding},
+                                .quantum = device.quantum},
+                    known_device{.force_limit = device.force_limit}.amends()},
           bound_chain{reachable_bound{.mass = device.mass, .hand_force = hand_force},
                       thermal_limit{.peak = device.force_limit,
                                     .continuous = device.continuous_force,
@@ -103,14 +112,14 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
 /// For a force that you compute yourself, or that a renderer, a simulator, an SDK does. It is conditional, like
 /// reachable_bound, and rests when the hand does: of a renderer up to source().parameters().most_stiffness(T).
 template <class Space, class Damping = isotropic_damping, class Limits = loop_limits>
-using force_guard = passive_port<Space, settled_force, basic_reduced_energy<Damping>,
+using force_guard = passive_port<Space, settled_force, forgiving<basic_reduced_energy<Damping>>,
                                  bound_chain<reachable_bound, actuator_limit>, Limits>;
 
 template <class Space, class Limits = loop_limits>
 [[nodiscard]] constexpr force_guard<Space, isotropic_damping, Limits> make_force_guard(
     const known_device& device, double longest_tick) noexcept {
   return {Space{}, settled_force{.mass = device.mass, .force_limit = device.force_limit},
-          reduced_energy{.damping = device.damping},
+          forgiving{reduced_energy{.damping = device.damping}, device.amends()},
           bound_chain{reachable_bound{.mass = device.mass, .hand_force = device.hand_force},
                       actuator_limit{.most = device.force_limit}},
           Limits{.longest_tick = longest_tick}};

@@ -19,6 +19,7 @@
 #include <passive_haptics/contact/spring.hpp>
 #include <passive_haptics/contact/virtual_coupling.hpp>
 #include <passive_haptics/energy_observer/dual_ledger.hpp>
+#include <passive_haptics/energy_observer/forgiving.hpp>
 #include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>

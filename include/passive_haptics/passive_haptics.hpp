@@ -45,6 +45,7 @@
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/device/joint_space.hpp>
 #include <passive_haptics/energy_observer/dual_ledger.hpp>
+#include <passive_haptics/energy_observer/forgiving.hpp>
 #include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>

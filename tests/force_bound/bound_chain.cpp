@@ -110,3 +110,33 @@ TEST_CASE("a chain takes new parameters for its parts, refuses bad ones and star
   const ph::bound_chain other{little, motors{.most = 0.5}}, bad{unlimited, motors{.most = -0.5}};
   check_upkeep(following_half_space<d1>(ph::spring{}, thesis_ledger(), chain), chain, other, bad);
 }
+
+TEST_CASE("a device is not believed to hold more than twice what its motors can",
+          "[bound][faults]") {
+  const auto refuses = [](auto&& bound, double held) {
+    ph::passive_port port{d3{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03}, bound,
+                          thesis_loop};
+    (void)port.tick(d3::vector(0, 0, 0), ph::seconds{1e-3});
+    const double before = port.energy();
+    const auto out = port.tick({.position = d3::vector(-1e-4, 0, 0),
+                                .held = d3::vector(held, 0, 0),
+                                .dt = 1e-3,
+                                .valid = true});
+    CHECK((out.what == ph::event::rejected_sample) == !(port.energy() > before));
+    return out.what == ph::event::rejected_sample;
+  };
+  const auto try_all = [&refuses](const auto& bound) {
+    for (const double held : {0.0, 9.0, 17.9}) CHECK_FALSE(refuses(bound, held));
+    for (const double held : {18.1, 1e3, 1e160, std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+      CHECK(refuses(bound, held));
+    }
+  };
+  try_all(ph::actuator_limit{9.0});
+  try_all(ph::motor_limits<3>{{9.0, 9.0, 9.0}});
+  try_all(ph::thermal_limit{.peak = 9.0, .continuous = 9.0, .time_constant = 10.0});
+  try_all(ph::bound_chain{ph::strict_bound{}, ph::actuator_limit{9.0}});
+  try_all(ph::bound_chain{ph::actuator_limit{9.0}, ph::strict_bound{}});
+  CHECK_FALSE(
+      refuses(ph::strict_bound{}, 1e3));  // who is not told of motors asks for a number only
+  CHECK(refuses(ph::strict_bound{}, HUGE_VAL));
+}

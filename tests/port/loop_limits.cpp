@@ -75,6 +75,20 @@ TEST_CASE("a loop that learns its longest tick says so in its type, and goes by 
   CHECK_THAT(more / less, Catch::Matchers::WithinRel(std::sqrt(1.5), 1e-6));
 }
 
+TEST_CASE("a loop learns from ticks up to ten times as long as its longest, and from no other",
+          "[loop_limits]") {
+  ph::passive_port port{d1{}, ph::given_force{}, thesis_ledger(), ph::strict_bound{},
+                        ph::learning_loop_limits<>{.longest_tick = 1e-3}};
+  (void)port.tick(0.0, 1ms, 0.0);
+  for (const double dt :
+       {0.0101, 1.0, 1e160}) {  // a debugger, a laptop that slept, no number of a clock
+    CHECK(port.tick(0.0, ph::seconds{dt}, 0.0).what == ph::event::late_tick);
+    CHECK(port.longest_tick() == 1e-3);
+  }
+  CHECK(port.tick(0.0, 9ms, 0.0).what == ph::event::late_tick);
+  CHECK(port.longest_tick() == 9e-3);
+}
+
 TEST_CASE("the tick that a loop learns from is late for its bound, too", "[loop_limits]") {
   const auto pushed_in = [](const auto& limits) {
     ph::passive_port port{d1{}, ph::given_force{}, thesis_ledger(), ph::memoryless_bound{}, limits};

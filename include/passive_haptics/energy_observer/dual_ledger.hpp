@@ -153,6 +153,11 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     begin_window();
     take_stock();
   }
+  /// `joules` ≥ 0 that nobody has paid in.
+  constexpr void lend(scalar joules) noexcept {
+    detail::book(energy_, joules);
+    take_stock();
+  }
   constexpr void reset() noexcept {
     energy_ = loan_;
     last_held_ = P::zero();

@@ -98,6 +98,8 @@ class basic_reduced_energy<Damping, Sum>::on {
     energy_ = detail::written_off(value(), damping_.worst_outflow(held, T));
   }
 
+  /// `joules` ≥ 0 that nobody has paid in.
+  constexpr void lend(scalar joules) noexcept { detail::book(energy_, joules); }
   /// Sets E1 to the loan, as at the start.
   constexpr void reset() noexcept { energy_ = loan_; }
 

@@ -30,7 +30,8 @@ struct no_bound {
 };
 
 /// |f| ≤ `most` [N], direction kept: what the motors can hold. Without it (or a device that reports
-/// the force it held) the ledger would book a force that was never there (A28).
+/// the force it held) the ledger would book a force that was never there (A28). A force that a device reports and
+/// that is over twice as large was not held either: such a sample is refused.
 struct actuator_limit {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
@@ -59,6 +60,9 @@ struct actuator_limit {
                                                 const auto& /*state*/) const noexcept {
       const scalar force = Space::norm(desired);
       return {force > most_ ? most_ / force : scalar(1)};
+    }
+    [[nodiscard]] constexpr bool can_hold(const typename Space::effort& held) const noexcept {
+      return Space::norm(held) * scalar(0.5) <= most_;
     }
 
    private:
@@ -105,6 +109,14 @@ struct motor_limits {
         if (f * least > allowed) least = allowed / f;
       }
       return {least};
+    }
+    [[nodiscard]] constexpr bool can_hold(const typename P::effort& held) const noexcept {
+      bool all = true;
+      for (int i = 0; i < Dof; ++i) {
+        all = all && kernels::magnitude(P::component(held, i)) * scalar(0.5) <=
+                         most_[static_cast<std::size_t>(i)];
+      }
+      return all;
     }
 
    private:

@@ -195,6 +195,11 @@ struct rigid_actuator_limit {
       if (t * least > torque_) least = torque_ / t;
       return {least};
     }
+    [[nodiscard]] constexpr bool can_hold(const typename P::effort& held) const noexcept {
+      using lengths = part_at<rigid_inertia, P>;
+      return lengths::template length<0>(held) * scalar(0.5) <= force_ &&
+             lengths::template length<3>(held) * scalar(0.5) <= torque_;
+    }
 
    private:
     scalar force_, torque_;

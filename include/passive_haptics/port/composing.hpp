@@ -176,6 +176,12 @@ constexpr void take(part_at<Spec, P>& part, const Parameters& p) noexcept {
   }
 }
 
+/// A bound that knows what the motors hold: no device reports more than that.
+template <class Part, class Effort>
+concept says_what_it_holds = requires(const Part p, const Effort f) {
+  { p.can_hold(f) } -> std::same_as<bool>;
+};
+
 /// Parts, one after the other: each is shown what those before it have left.
 template <class... Parts>
 struct sequence {
@@ -261,6 +267,17 @@ class sequence<First, Rest...>::on {
       detail::take<First, P>(first_, p);
     } else {
       detail::take<others, P>(rest_, p);
+    }
+  }
+
+  /// Where a part says so.
+  [[nodiscard]] constexpr bool can_hold(const effort& held) const noexcept
+      requires(says_what_it_holds<part_at<First, P>, effort> ||
+               says_what_it_holds<part_at<others, P>, effort>) {
+    if constexpr (!says_what_it_holds<part_at<First, P>, effort>) {
+      return rest_.can_hold(held);
+    } else {
+      return first_.can_hold(held);
     }
   }
 

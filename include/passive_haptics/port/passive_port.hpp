@@ -167,7 +167,7 @@ class passive_port {
   /// The same for a device that reports the effort it really held.
   [[nodiscard, gnu::flatten]] constexpr result_type tick(const device_sample<P>& sample) noexcept {
     if constexpr (!trusting) {
-      if (!sample.valid || !P::is_finite(sample.held)) {
+      if (!sample.valid || !can_hold(sample.held)) {
         return refuse(event::rejected_sample, sample.dt);
       }
     }
@@ -248,7 +248,8 @@ class passive_port {
     const bool late = is_late(dt, limits_.longest_tick);
     event what = booked_as(travel, dt, late);
     if constexpr (Limits::traits.learns) {
-      if (late) learn(dt);
+      if (late && dt <= scalar(10) * limits_.longest_tick)
+        learn(dt);  // else it was no tick of a loop
     }
     const state_type state{.damping = observer_.damping(),
                            .commanded = guard_.commanded(),
@@ -285,7 +286,10 @@ class passive_port {
                                                               [[maybe_unused]] bool late) noexcept {
     if constexpr (!trusting) {
       if (watch_.repeats(travel, dt, limits_.top_speed)) return event::repeated_sample;
-      if (late) return event::late_tick;
+      if (late) {
+        disturbed();
+        return event::late_tick;
+      }
     }
     return observer_.value() < scalar(0) ? event::debt : event::nominal;
   }
@@ -344,12 +348,25 @@ class passive_port {
     const scalar passed = lasted ? dt : limits_.longest_tick;
     if constexpr (!trusting) {
       if (sound_) observer_.forfeit(guard_.commanded().back(), limits_.held_for(passed));
+      disturbed();
     }
     guard_.lose_sight(passed);
     guard_.command(P::zero());
     return source_.refused({P::zero(), observer_.value(), why, false}, passed);
   }
 
+  /// There was a fault: for an observer that mends what it has done.
+  constexpr void disturbed() noexcept {
+    if constexpr (requires { observer_.disturbed(); }) observer_.disturbed();
+  }
+  /// A force that the device may have held: finite, and no more than motors can, where the bound knows that.
+  [[nodiscard]] constexpr bool can_hold(const effort& held) const noexcept {
+    if constexpr (requires { bound_.can_hold(held); }) {
+      return bound_.can_hold(held);
+    } else {
+      return P::is_finite(held);
+    }
+  }
   /// The longest tick is the longest so far, up to what the driver lets a force be held for.
   [[gnu::cold, gnu::noinline]] constexpr void learn(scalar dt) noexcept {
     limits_.longest_tick = limits_.held_for(dt);
