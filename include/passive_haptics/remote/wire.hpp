@@ -159,7 +159,7 @@ inline constexpr std::array<std::uint32_t, 256> crc_of_byte = [] {
 }
 
 template <class Word>
-constexpr void put(datagram& bytes, std::size_t at, Word word) noexcept {
+constexpr void put(std::span<std::byte> bytes, std::size_t at, Word word) noexcept {
   for (std::size_t i = 0; i < sizeof(Word); ++i) {
     bytes[at + i] = static_cast<std::byte>(word >> 8 * i & 255);
   }
