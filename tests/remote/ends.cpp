@@ -244,6 +244,51 @@ TEST_CASE("a server that is restarted is greeted anew, and its count begins anew
                             ms(83)) == verdict::untrue_stamp);
 }
 
+TEST_CASE("a server whose answers cannot be used is greeted anew after a silence", "[remote]") {
+  enum class says { good, unusable, too_old };
+  for (const auto what : {says::good, says::unusable, says::too_old}) {
+    pair_of_ends ends;
+    ends.greet(ms(0));
+    bool talked = true;
+    for (int n = 1; n <= 1000; ++n) {
+      const auto bytes = ends.answer(ms(n), what == says::unusable ? -1.0 : 1.0);
+      (void)ends.client.receive(bytes, ms(what == says::too_old ? n + 201 : n));
+      talked = talked && ends.client.where() == remote::client::state::talking;
+    }
+    CHECK(talked);
+    (void)ends.client.ask({}, ms(1001));
+    CHECK((ends.client.where() == remote::client::state::talking) == (what == says::good));
+    CHECK((ends.client.latest() != nullptr) == (what == says::good));
+  }
+}
+
+TEST_CASE("an old reply neither opens a session nor ends one", "[remote]") {
+  using state = remote::client::state;
+  pair_of_ends ends;
+  const auto hello = ends.client.ask({}, ms(0));
+  const auto welcome = *ends.server.receive(hello, ms(0)).reply;
+  const auto busy = changed(welcome, [](auto& m) { m.kind = remote::kind::busy, m.session = 0; });
+  const auto stamped = [](const remote::datagram& bytes, remote::nanoseconds t) {
+    return changed(bytes, [t](auto& m) { m.stamp = t; });
+  };
+  CHECK(ends.client.receive(stamped(welcome, ms(1)), ms(1)) == verdict::untrue_stamp);
+  CHECK(ends.client.receive(stamped(busy, ms(-1)), ms(1)) == verdict::untrue_stamp);
+  CHECK(ends.client.where() == state::greeting);
+  CHECK(ends.client.receive(welcome, ms(1)) == verdict::accepted);
+  CHECK(ends.client.receive(welcome, ms(1)) == verdict::repeated);
+  CHECK(ends.client.receive(busy, ms(1)) == verdict::repeated);
+  CHECK(ends.client.sessions() == 1);
+  (void)ends.client.ask({}, ms(1002));  // after a silence
+  CHECK(ends.client.where() == state::greeting);
+  CHECK(ends.client.receive(welcome, ms(1003)) == verdict::untrue_stamp);
+  CHECK(ends.client.receive(busy, ms(1003)) == verdict::untrue_stamp);
+  CHECK(ends.client.where() == state::greeting);
+  CHECK(ends.client.receive(stamped(busy, ms(1002)), ms(1003)) == verdict::accepted);  // controls
+  CHECK(ends.client.where() == state::waiting);
+  CHECK(ends.client.receive(stamped(welcome, ms(1002)), ms(1003)) == verdict::accepted);
+  CHECK(ends.client.where() == state::talking);
+}
+
 TEST_CASE("after a silence both ends begin anew, whoever it was that fell silent", "[remote]") {
   pair_of_ends ends;
   ends.greet(ms(0));
@@ -348,6 +393,10 @@ TEST_CASE("settings out of their range are named, and accept nothing", "[remote]
     CHECK(bad.receive(hello, ms(0)).what == verdict::stranger);
     CHECK(device.receive(*good.receive(hello, ms(0)).reply, ms(0)) == verdict::stranger);
   }
+  remote::client nobody({}, 0);
+  CHECK(std::string(nobody.check().parameter) == "key");
+  remote::server good({}, other_each_time);
+  CHECK(good.receive(nobody.ask({}, ms(0)), ms(0)).what == verdict::malformed);
   for (const double x : {1e300, HUGE_VAL}) {  // for ever
     pair_of_ends ends;
     ends.client = remote::client({.silence = x, .most_age = x}, 77);

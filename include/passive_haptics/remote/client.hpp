@@ -46,7 +46,8 @@ struct news {
 
 /// The client accepts an answer that has its key, is of its session, is newer than the last one, echoes a
 /// stamp that was sent and is no older than the last that was answered, is young enough and can be used.
-/// Everything else is counted by its verdict, and no surface comes of it.
+/// Everything else is counted by its verdict, no surface comes of it, and it does not keep the session up: a
+/// server that only says what cannot be used is greeted anew after `silence`.
 ///
 /// The stale rule is that of the local model (port/freshness.hpp) and begins anew with every update, so a
 /// surface fades at the latest when its question is `most_age` + `stale_after` old.
@@ -58,17 +59,21 @@ class client {
     waiting,   ///< greeting, while the server says that it has another client
   };
 
-  /// A client whose check() names a fault sends hello and accepts nothing.
+  /// A client whose check() names a fault sends hello and accepts nothing. `key` is 64 bits that nobody can
+  /// guess and that no client had before; 0 is none.
   explicit client(const client_settings& settings = {}, std::uint64_t key = draw_number()) noexcept
-      : settings_(settings), key_(key), sound_(!settings.check()) {}
+      : settings_(settings), key_(key), sound_(!check()) {}
 
-  [[nodiscard]] constexpr parameter_fault check() const noexcept { return settings_.check(); }
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (key_ == 0) return {"key", 0.0, "not 0: what draw_number() gives"};
+    return settings_.check();
+  }
 
   /// What to send now: a question, or a hello as long as nobody answers. Call it as often as you want answers,
   /// 50 to 200 Hz.
   [[nodiscard]] datagram ask(const probe& where, nanoseconds now) noexcept {
     if (state_ == state::talking && now - heard_ > detail::span_of(settings_.silence)) {
-      state_ = state::greeting;
+      greet_anew();
     }
     if (!asked_) oldest_ = now;
     asked_ = asked_ && *asked_ > now ? *asked_ : now;
@@ -78,6 +83,8 @@ class client {
       m.session = session_;
       m.sequence = ++number_;
       m.content = content_of(where);
+    } else if (!greeted_) {
+      greeted_ = now;
     }
     return encode(m);
   }
@@ -110,23 +117,35 @@ class client {
     if (m.key != key_ || !sound_ || !asked_) return verdict::stranger;
     if (m.kind == kind::welcome) return welcomed(m, now);
     if (m.kind == kind::busy) {
-      if (state_ == state::talking) return verdict::repeated;
+      if (const auto fits = judged_reply(m); fits != verdict::accepted) return fits;
       state_ = state::waiting;
       return verdict::accepted;
     }
     if (session_ == 0 || m.session != session_) return verdict::stranger;
     if (m.kind == kind::lost) {
-      state_ = state::greeting;
+      greet_anew();
       session_ = 0;
       return verdict::accepted;
     }
     return answered(m, now);
   }
 
+  void greet_anew() noexcept {
+    state_ = state::greeting;
+    greeted_.reset();
+  }
+
+  /// A welcome or a busy has to reply to a hello of this greeting, and to one that waits for a reply.
+  [[nodiscard]] verdict judged_reply(const message& m) const noexcept {
+    if (state_ == state::talking) return verdict::repeated;
+    const bool true_stamp = greeted_ && m.stamp >= *greeted_ && m.stamp <= *asked_;
+    return true_stamp ? verdict::accepted : verdict::untrue_stamp;
+  }
+
   /// A welcome to the same session goes on where that was, so what it has sent before stays old.
   verdict welcomed(const message& m, nanoseconds now) noexcept {
     if (m.session == 0) return verdict::malformed;
-    if (state_ == state::talking) return verdict::repeated;
+    if (const auto fits = judged_reply(m); fits != verdict::accepted) return fits;
     if (m.session != session_) {
       session_ = m.session;
       order_ = {};
@@ -141,10 +160,10 @@ class client {
   verdict answered(const message& m, nanoseconds now) noexcept {
     if (const auto order = order_.judge(m.sequence); order != verdict::accepted) return order;
     if (m.stamp > *asked_ || m.stamp < oldest_) return verdict::untrue_stamp;
-    heard_ = now;
-    state_ = state::talking;
     if (now - m.stamp > detail::span_of(settings_.most_age)) return verdict::too_old;
     if (!usable(m.content)) return verdict::unusable;
+    heard_ = now;
+    state_ = state::talking;
     order_.passed(m.sequence);
     oldest_ = m.stamp;
     news_ = news{m.content, m.stamp, m.sequence, sessions_};
@@ -159,9 +178,10 @@ class client {
   std::uint32_t number_ = 0;    // number of the last question
   std::uint32_t sessions_ = 0;  // number of sessions so far
   detail::in_order order_;
-  nanoseconds heard_{0};              // when the last good datagram of the server came
+  nanoseconds heard_{0};              // when the welcome came, or the last answer that was accepted
   std::optional<nanoseconds> asked_;  // the newest stamp that was sent
-  nanoseconds oldest_{0};             // the oldest stamp that may still be echoed
+  std::optional<nanoseconds> greeted_;  // the stamp of the first hello since it talked last
+  nanoseconds oldest_{0};               // the oldest stamp that an answer may still echo
   std::optional<news> news_;
   bool fresh_ = false;
   tally tally_;

@@ -91,8 +91,9 @@ class server {
     std::uint64_t key = 0, session = 0;  // 0: nobody
   };
 
-  [[nodiscard]] static datagram said(kind what, std::uint64_t key, std::uint64_t session) noexcept {
-    return encode({.kind = what, .key = key, .session = session});
+  /// A reply to m, of which it echoes key and stamp.
+  [[nodiscard]] static datagram said(kind what, const message& m, std::uint64_t session) noexcept {
+    return encode({.kind = what, .key = m.key, .session = session, .stamp = m.stamp});
   }
 
   heard judged(received_bytes bytes, nanoseconds now) {
@@ -111,9 +112,9 @@ class server {
   }
 
   heard greeted(const message& m, nanoseconds now) {
-    if (is_rival(m.key, now)) return {verdict::turned_away, false, said(kind::busy, m.key, 0)};
+    if (is_rival(m.key, now)) return {verdict::turned_away, false, said(kind::busy, m, 0)};
     const partner& guest = invited(m.key);
-    return {verdict::accepted, false, said(kind::welcome, guest.key, guest.session)};
+    return {verdict::accepted, false, said(kind::welcome, m, guest.session)};
   }
 
   /// A guest with the session that it was offered before, or with a new one in place of the oldest offer.
@@ -132,7 +133,7 @@ class server {
     };
     if (const auto guest = std::find_if(guests_.begin(), guests_.end(), is);
         guest != guests_.end()) {
-      if (is_rival(m.key, now)) return {verdict::turned_away, false, said(kind::busy, m.key, 0)};
+      if (is_rival(m.key, now)) return {verdict::turned_away, false, said(kind::busy, m, 0)};
       if (m.content.form != form::probe) return {verdict::malformed};
       client_ = *guest;
       *guest = {};
@@ -140,7 +141,7 @@ class server {
       number_ = 0;
       ++sessions_;
     }
-    if (!is(client_)) return {verdict::stranger, false, said(kind::lost, m.key, m.session)};
+    if (!is(client_)) return {verdict::stranger, false, said(kind::lost, m, m.session)};
     if (m.content.form != form::probe) return {verdict::malformed};
     if (const auto order = order_.judge(m.sequence); order != verdict::accepted) return {order};
     order_.passed(m.sequence);
