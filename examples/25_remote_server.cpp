@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   while (!stop) {
     (void)line.wait(std::chrono::milliseconds(5));
     (void)line.for_each_received([&](auto bytes, const auto& from) {
-      const auto heard = server.receive(bytes, now());
+      const auto heard = server.receive(bytes, from, now());
       if (heard.reply) (void)line.send(*heard.reply, from);
       if (heard.asked) client = from;
     });

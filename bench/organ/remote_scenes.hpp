@@ -77,7 +77,7 @@ struct connection {
     if (asked) to_client.send(server.answer(what, *asked), t);
   }
   void serve(remote::received_bytes bytes, double t) {
-    const auto heard = server.receive(bytes, clock_of(t));
+    const auto heard = server.receive(bytes, {}, clock_of(t));
     if (heard.reply) to_client.send(*heard.reply, t);
     if (const auto* newest = server.take()) asked = *newest;
   }
@@ -90,7 +90,7 @@ struct connection {
     asked.reset();
   }
 
-  /// Other ones for each server, the same ones in each run.
+  /// Other ones for each server.
   static std::uint64_t session_number() {
     static std::uint64_t last = 0;
     return ++last;

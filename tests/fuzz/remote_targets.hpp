@@ -41,7 +41,7 @@ inline const char* remote_ends(input bytes) noexcept {
   const auto talk = [&](bool disturbed) -> const char* {
     now += std::chrono::milliseconds(disturbed ? script.one() : 10);
     const auto passes = [&](remote::datagram d) { return disturbed ? replaced(d) : d; };
-    const auto heard = world.receive(passes(device.ask({}, now)), now);
+    const auto heard = world.receive(passes(device.ask({}, now)), {}, now);
     if (heard.reply) (void)device.receive(passes(*heard.reply), now);
     if (const auto* asked = world.take()) {
       (void)device.receive(passes(world.answer(plane, *asked)), now);

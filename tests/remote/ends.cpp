@@ -3,6 +3,8 @@
 #include "remote/messages.hpp"
 #include "support/catch.hpp"
 
+#include <deque>
+#include <random>
 #include <set>
 
 using namespace remote_test;
@@ -15,6 +17,8 @@ std::uint64_t other_each_time() {
   return ++last;
 }
 
+constexpr remote::sender away{{5, 6, 7}, 8};  // another client's place
+
 /// A client and a server with nothing in between.
 struct pair_of_ends {
   remote::client client{{.silence = 1.0, .most_age = 0.2}, 77};
@@ -22,7 +26,7 @@ struct pair_of_ends {
 
   /// The server hears it; its reply, if there is one, comes back.
   remote::server::heard carry(const remote::datagram& bytes, remote::nanoseconds now) {
-    const auto heard = server.receive(bytes, now);
+    const auto heard = server.receive(bytes, home, now);
     if (heard.reply) (void)client.receive(*heard.reply, now);
     return heard;
   }
@@ -108,11 +112,11 @@ TEST_CASE("only what is newer is taken, also where the count wraps round", "[rem
     const auto as = [&](std::uint32_t n) {
       return changed(question, [&](auto& m) { m.sequence = base + 100 + n; });
     };
-    CHECK(ends.server.receive(as(2), ms(3)).asked);
-    CHECK(ends.server.receive(as(2), ms(3)).what == verdict::repeated);
-    CHECK(ends.server.receive(as(1), ms(3)).what == verdict::overtaken);
-    CHECK(ends.server.receive(as(30), ms(3)).asked);
-    CHECK(ends.server.receive(as(29), ms(3)).what == verdict::overtaken);
+    CHECK(ends.server.receive(as(2), home, ms(3)).asked);
+    CHECK(ends.server.receive(as(2), home, ms(3)).what == verdict::repeated);
+    CHECK(ends.server.receive(as(1), home, ms(3)).what == verdict::overtaken);
+    CHECK(ends.server.receive(as(30), home, ms(3)).asked);
+    CHECK(ends.server.receive(as(29), home, ms(3)).what == verdict::overtaken);
   }
 }
 
@@ -149,7 +153,7 @@ TEST_CASE("without the key and the session nothing is accepted, and the last goo
     for (const bool key : {true, false}) {
       const auto heard = ends.server.receive(
           changed(question, [=](auto& m) { (key ? m.key : m.session) ^= std::uint64_t(1) << bit; }),
-          ms(20));
+          home, ms(20));
       CHECK(heard.what == verdict::stranger);
       CHECK_FALSE(heard.asked);
       REQUIRE(heard.reply);  // lost, for a client of a server that was restarted
@@ -157,7 +161,7 @@ TEST_CASE("without the key and the session nothing is accepted, and the last goo
     }
   }
   CHECK(ends.server.take() == nullptr);
-  CHECK(ends.server.receive(question, ms(20)).asked);
+  CHECK(ends.server.receive(question, home, ms(20)).asked);
 }
 
 TEST_CASE("a surface that no local model takes is refused, and the last good one stays",
@@ -266,7 +270,7 @@ TEST_CASE("an old reply neither opens a session nor ends one", "[remote]") {
   using state = remote::client::state;
   pair_of_ends ends;
   const auto hello = ends.client.ask({}, ms(0));
-  const auto welcome = *ends.server.receive(hello, ms(0)).reply;
+  const auto welcome = *ends.server.receive(hello, home, ms(0)).reply;
   const auto busy = changed(welcome, [](auto& m) { m.kind = remote::kind::busy, m.session = 0; });
   const auto stamped = [](const remote::datagram& bytes, remote::nanoseconds t) {
     return changed(bytes, [t](auto& m) { m.stamp = t; });
@@ -319,7 +323,7 @@ TEST_CASE("one client at a time: another waits until the first is silent", "[rem
   (void)ends.answer(ms(1));
   remote::client other({}, 78);
   const auto tries = [&](remote::nanoseconds now) {
-    const auto heard = ends.server.receive(other.ask({}, now), now);
+    const auto heard = ends.server.receive(other.ask({}, now), away, now);
     if (heard.reply) (void)other.receive(*heard.reply, now);
     return heard.what;
   };
@@ -336,7 +340,9 @@ TEST_CASE("one client at a time: another waits until the first is silent", "[rem
   SECTION("unless the first is back before it asks") {
     ends.greet(ms(1003));
     (void)ends.answer(ms(1004));
-    CHECK(tries(ms(1005)) == verdict::turned_away);
+    CHECK(tries(ms(1005)) == verdict::stranger);  // its offer is over, and it says hello
+    CHECK(tries(ms(1006)) == verdict::turned_away);
+    CHECK(other.where() == remote::client::state::waiting);
   }
 }
 
@@ -346,13 +352,142 @@ TEST_CASE("a hello alone takes nobody's place, however many there are", "[remote
   (void)ends.answer(ms(1));
   for (std::uint64_t key = 1000; key < 2000; ++key) {  // while the client is silent, too
     const auto hello = remote::encode({.kind = remote::kind::hello, .key = key});
-    const auto heard = ends.server.receive(hello, ms(key < 1500 ? 2 : 1500));
+    const auto heard = ends.server.receive(hello, home, ms(key < 1500 ? 2 : 1500));
     CHECK(heard.what == (key < 1500 ? verdict::turned_away : verdict::accepted));
     REQUIRE(heard.reply);
     CHECK(heard.reply->size() == hello.size());  // no amplifier
     CHECK(ends.client.receive(*heard.reply, ms(2)) == verdict::stranger);
   }
   CHECK(ends.carry(ends.client.ask({}, ms(900)), ms(900)).asked);
+  CHECK(ends.server.sessions() == 1);
+}
+
+TEST_CASE("hellos from addresses that are not their own keep nobody out", "[remote]") {
+  // 100 000 strangers a second, and a client that asks every 10 ms and hears of it one round trip later.
+  for (const double rtt : {2e-4, 5e-3, 0.1}) {
+    INFO("a round trip of " << rtt << " s");
+    remote::server server({}, other_each_time);
+    remote::client client({}, 12345);
+    std::mt19937_64 random(9);
+    struct on_its_way {
+      double at;
+      remote::datagram bytes;
+    };
+    std::deque<on_its_way> up, down;
+    double first = 0.0;
+    for (int n = 0; n < 20'000 && first == 0.0; ++n) {
+      const double t = 5e-5 * n;
+      const remote::nanoseconds now(50'000 * n);
+      if (n % 200 == 0) up.push_back({t + rtt / 2, client.ask({}, now)});
+      for (int k = 0; k < 5; ++k) {
+        remote::sender nobody{.port = static_cast<std::uint16_t>(random())};
+        for (auto& byte : nobody.address) byte = static_cast<std::uint8_t>(random());
+        const auto hello = remote::encode({.kind = remote::kind::hello, .key = random() | 1});
+        (void)server.receive(hello, nobody, now);
+      }
+      for (; !up.empty() && up.front().at <= t; up.pop_front()) {
+        const auto heard = server.receive(up.front().bytes, home, now);
+        if (heard.reply) down.push_back({t + rtt / 2, *heard.reply});
+        const auto* asked = server.take();
+        if (asked == nullptr) continue;
+        down.push_back({t + rtt / 2, server.answer(remote::content_of(floor_at_1mm), *asked)});
+      }
+      for (; !down.empty() && down.front().at <= t; down.pop_front()) {
+        (void)client.receive(down.front().bytes, now);
+        if (client.take() != nullptr) first = t;
+      }
+    }
+    CHECK(first > 0.0);
+    CHECK(first < 2 * rtt + 0.011);
+  }
+}
+
+TEST_CASE("a session begins where it was offered, in time, and once", "[remote]") {
+  remote::server server({}, other_each_time);
+  const auto hello = [](std::uint64_t key) {
+    return remote::encode({.kind = remote::kind::hello, .key = key, .stamp = ms(5)});
+  };
+  const auto offer = [&](std::uint64_t key, const remote::sender& to, remote::nanoseconds now) {
+    const auto reply = server.receive(hello(key), to, now).reply;
+    REQUIRE(reply);
+    const auto read = remote::decode(*reply);
+    CHECK(read.value.kind == remote::kind::welcome);
+    CHECK(read.value.stamp == ms(5));
+    CHECK(read.value.session != 0);
+    return read.value.session;
+  };
+  const auto ask = [&](std::uint64_t key, std::uint64_t session, const remote::sender& from,
+                       remote::nanoseconds now) {
+    return server.receive(remote::encode({.kind = remote::kind::question,
+                                          .key = key,
+                                          .session = session,
+                                          .sequence = 1,
+                                          .content = remote::content_of(remote::probe{})}),
+                          from, now);
+  };
+  auto other_port = home;
+  ++other_port.port;
+  const auto offered = offer(77, home, ms(4000));
+  CHECK(offered == offer(77, home, ms(7999)));  // it keeps nothing, so it says the same
+  CHECK(std::set<std::uint64_t>{offered, offer(78, home, ms(4000)), offer(77, away, ms(4000)),
+                                offer(77, other_port, ms(4000)), offer(77, home, ms(8000)),
+                                offer(77, home, ms(3999))}
+            .size() == 6);
+  SECTION("not elsewhere, and not by another") {
+    for (const auto& [key, session, from] : {std::tuple{std::uint64_t(77), offered, away},
+                                             {77, offered, other_port},
+                                             {78, offered, home},
+                                             {77, offered + 1, home},
+                                             {77, 0, home},
+                                             {77, 1, home}}) {
+      const auto heard = ask(key, session, from, ms(4001));
+      CHECK(heard.what == verdict::stranger);
+      CHECK_FALSE(heard.asked);
+    }
+    for (int bit = 0; bit < 64; ++bit) {
+      CHECK_FALSE(ask(77, offered ^ std::uint64_t(1) << bit, home, ms(4001)).asked);
+    }
+    CHECK(server.sessions() == 0);
+    CHECK_FALSE(server.has_client(ms(4001)));
+    CHECK(ask(77, offered, home, ms(4001)).asked);  // the control
+  }
+  SECTION("in the slot of the offer and in the next") {
+    CHECK(ask(77, offered, home, ms(11'999)).asked);
+  }
+  SECTION("not after it") {
+    CHECK(ask(77, offered, home, ms(12'000)).what == verdict::stranger);
+  }
+  SECTION("not before it") {
+    CHECK(ask(77, offered, home, ms(3999)).what == verdict::stranger);
+  }
+  SECTION("once: what was sent in it begins nothing when another was there") {
+    const auto rival = offer(78, away, ms(4000));
+    CHECK(ask(77, offered, home, ms(4001)).asked);
+    CHECK(ask(78, rival, away, ms(5500)).what == verdict::stranger);  // of before that session
+    CHECK(ask(78, offer(78, away, ms(5501)), away, ms(5502)).asked);
+    CHECK(ask(77, offered, home, ms(5503)).what == verdict::stranger);
+    CHECK(ask(77, offered, home, ms(6600)).what == verdict::stranger);
+    CHECK(server.sessions() == 2);
+  }
+  SECTION("not with a server that was restarted") {
+    server = remote::server({}, other_each_time);
+    CHECK(ask(77, offered, home, ms(4001)).what == verdict::stranger);
+    CHECK(ask(77, offer(77, home, ms(4001)), home, ms(4002)).asked);
+  }
+}
+
+TEST_CASE("a question that is sent from elsewhere neither moves a session nor ends it",
+          "[remote]") {
+  pair_of_ends ends;
+  ends.greet(ms(0));
+  (void)ends.answer(ms(1));
+  const auto question = ends.client.ask({}, ms(2));
+  const auto heard = ends.server.receive(question, away, ms(2));  // by who has read it
+  CHECK(heard.what == verdict::stranger);
+  CHECK_FALSE(heard.asked);  // answers do not go there
+  CHECK_FALSE(heard.reply);  // a `lost` that could be handed on to the client
+  CHECK(ends.server.take() == nullptr);
+  CHECK(ends.server.receive(question, home, ms(3)).asked);
   CHECK(ends.server.sessions() == 1);
 }
 
@@ -370,7 +505,7 @@ TEST_CASE("two clients that come at once do not keep each other out", "[remote]"
       back.erase(back.begin());
     }
     for (remote::client* c : {&a, &b}) {
-      const auto heard = server.receive(c->ask({}, now), now);
+      const auto heard = server.receive(c->ask({}, now), c == &a ? home : away, now);
       if (heard.reply) back.emplace_back(now + ms(50), *heard.reply);
       asked += heard.asked;
     }
@@ -390,13 +525,20 @@ TEST_CASE("settings out of their range are named, and accept nothing", "[remote]
     remote::server good({}, other_each_time), bad({.silence = x}, other_each_time);
     remote::client device(silence, 5);
     const auto hello = device.ask({}, ms(0));
-    CHECK(bad.receive(hello, ms(0)).what == verdict::stranger);
-    CHECK(device.receive(*good.receive(hello, ms(0)).reply, ms(0)) == verdict::stranger);
+    CHECK(bad.receive(hello, home, ms(0)).what == verdict::stranger);
+    CHECK(device.receive(*good.receive(hello, home, ms(0)).reply, ms(0)) == verdict::stranger);
   }
   remote::client nobody({}, 0);
   CHECK(std::string(nobody.check().parameter) == "key");
+  for (const auto draw : {+[] { return std::uint64_t(0); }, +[] { return std::uint64_t(5); }}) {
+    remote::server guessed({}, draw);
+    CHECK(std::string(guessed.check().parameter) == "draw");
+    CHECK(guessed.receive(remote::client({}, 5).ask({}, ms(0)), home, ms(0)).what ==
+          verdict::stranger);
+  }
   remote::server good({}, other_each_time);
-  CHECK(good.receive(nobody.ask({}, ms(0)), ms(0)).what == verdict::malformed);
+  CHECK_FALSE(good.check());
+  CHECK(good.receive(nobody.ask({}, ms(0)), home, ms(0)).what == verdict::malformed);
   for (const double x : {1e300, HUGE_VAL}) {  // for ever
     pair_of_ends ends;
     ends.client = remote::client({.silence = x, .most_age = x}, 77);
@@ -405,7 +547,7 @@ TEST_CASE("settings out of their range are named, and accept nothing", "[remote]
   }
 }
 
-TEST_CASE("numbers of sessions are drawn, never zero, never twice", "[remote]") {
+TEST_CASE("numbers are drawn, never zero, never twice", "[remote]") {
   std::set<std::uint64_t> drawn;
   for (int n = 0; n < 1000; ++n) drawn.insert(remote::draw_number());
   CHECK(drawn.size() == 1000);

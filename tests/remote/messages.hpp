@@ -42,6 +42,9 @@ inline remote::message message_of(remote::form form) {
           .content = content_of_form(form)};
 }
 
+/// Where the client is, as far as a test has no sockets.
+inline constexpr remote::sender home{{1, 2, 3}, 4};
+
 constexpr remote::nanoseconds ms(std::int64_t n) {
   return std::chrono::milliseconds(n);
 }

@@ -144,7 +144,7 @@ TEST_CASE("datagrams without the session change nothing at all", "[remote]") {
         bytes[random.bits() % 152] ^= std::byte{4};
         (void)line.client.receive(bytes, t);
         m.kind = remote::kind::question;
-        (void)line.server.receive(remote::encode(m), t);
+        (void)line.server.receive(remote::encode(m), {}, t);
         refused = line.client.counted().refused();
       });
   CHECK(refused >= 3 * ticks_of_a_run);

@@ -63,7 +63,7 @@ TEST_CASE("a surface crosses real sockets, also after the server was restarted",
         REQUIRE(device.send(client.ask({.position = {0, 0, 1e-3}}, now()), there));
         REQUIRE(world.wait(std::chrono::milliseconds(20)));
         REQUIRE(world.for_each_received([&](auto bytes, const auto& from) {
-          const auto heard = server->receive(bytes, now());
+          const auto heard = server->receive(bytes, from, now());
           if (heard.reply) REQUIRE(world.send(*heard.reply, from));
           const auto* asked = server->take();
           if (asked == nullptr) return;

@@ -15,6 +15,8 @@
 #include <passive_haptics/remote/content.hpp>
 #include <passive_haptics/remote/session.hpp>
 
+#include <algorithm>
+
 namespace passive_haptics {
 inline namespace v0 {
 namespace remote {
@@ -75,16 +77,16 @@ class client {
     if (state_ == state::talking && now - heard_ > detail::span_of(settings_.silence)) {
       greet_anew();
     }
-    if (!asked_) oldest_ = now;
-    asked_ = asked_ && *asked_ > now ? *asked_ : now;
+    if (asked_ == never) oldest_ = now;
+    asked_ = std::max(asked_, now);
     message m{.kind = kind::hello, .key = key_, .stamp = now};
     if (state_ == state::talking) {
       m.kind = kind::question;
       m.session = session_;
       m.sequence = ++number_;
       m.content = content_of(where);
-    } else if (!greeted_) {
-      greeted_ = now;
+    } else {
+      greeted_ = std::min(greeted_, now);
     }
     return encode(m);
   }
@@ -114,7 +116,7 @@ class client {
     if (!found) return found.what;
     const message& m = found.value;
     if (m.kind == kind::hello || m.kind == kind::question) return verdict::misdirected;
-    if (m.key != key_ || !sound_ || !asked_) return verdict::stranger;
+    if (m.key != key_ || !sound_ || asked_ == never) return verdict::stranger;
     if (m.kind == kind::welcome) return welcomed(m, now);
     if (m.kind == kind::busy) {
       if (const auto fits = judged_reply(m); fits != verdict::accepted) return fits;
@@ -132,14 +134,14 @@ class client {
 
   void greet_anew() noexcept {
     state_ = state::greeting;
-    greeted_.reset();
+    greeted_ = nanoseconds::max();
   }
 
   /// A welcome or a busy has to reply to a hello of this greeting, and to one that waits for a reply.
   [[nodiscard]] verdict judged_reply(const message& m) const noexcept {
     if (state_ == state::talking) return verdict::repeated;
-    const bool true_stamp = greeted_ && m.stamp >= *greeted_ && m.stamp <= *asked_;
-    return true_stamp ? verdict::accepted : verdict::untrue_stamp;
+    const bool is_true = m.stamp >= greeted_ && m.stamp <= asked_;
+    return is_true ? verdict::accepted : verdict::untrue_stamp;
   }
 
   /// A welcome to the same session goes on where that was, so what it has sent before stays old.
@@ -159,7 +161,7 @@ class client {
 
   verdict answered(const message& m, nanoseconds now) noexcept {
     if (const auto order = order_.judge(m.sequence); order != verdict::accepted) return order;
-    if (m.stamp > *asked_ || m.stamp < oldest_) return verdict::untrue_stamp;
+    if (m.stamp > asked_ || m.stamp < oldest_) return verdict::untrue_stamp;
     if (now - m.stamp > detail::span_of(settings_.most_age)) return verdict::too_old;
     if (!usable(m.content)) return verdict::unusable;
     heard_ = now;
@@ -171,6 +173,8 @@ class client {
     return verdict::accepted;
   }
 
+  static constexpr nanoseconds never = nanoseconds::min();
+
   client_settings settings_;
   std::uint64_t key_, session_ = 0;  // 0: none
   bool sound_;
@@ -178,10 +182,10 @@ class client {
   std::uint32_t number_ = 0;    // number of the last question
   std::uint32_t sessions_ = 0;  // number of sessions so far
   detail::in_order order_;
-  nanoseconds heard_{0};              // when the welcome came, or the last answer that was accepted
-  std::optional<nanoseconds> asked_;  // the newest stamp that was sent
-  std::optional<nanoseconds> greeted_;  // the stamp of the first hello since it talked last
-  nanoseconds oldest_{0};               // the oldest stamp that an answer may still echo
+  nanoseconds heard_{0};       // when the welcome came, or the last answer that was accepted
+  nanoseconds asked_ = never;  // the newest stamp that was sent
+  nanoseconds greeted_ = nanoseconds::max();  // the stamp of the first hello since it talked last
+  nanoseconds oldest_{0};                     // the oldest stamp that an answer may still echo
   std::optional<news> news_;
   bool fresh_ = false;
   tally tally_;

@@ -3,7 +3,7 @@
 // The environment's end of a session: it hears where the device is and tells what the device touches. It knows
 // no socket; bytes go in and out, and the clock is yours.
 //
-//     const auto heard = server.receive(bytes, now);
+//     const auto heard = server.receive(bytes, from, now);
 //     if (heard.reply) socket.send(*heard.reply, from);         // welcome, lost, busy
 //     if (heard.asked) client = from;                           // whom to answer
 //     if (const auto* question = server.take())
@@ -11,8 +11,7 @@
 
 #include <passive_haptics/remote/content.hpp>
 #include <passive_haptics/remote/session.hpp>
-
-#include <algorithm>
+#include <passive_haptics/remote/siphash.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -34,29 +33,38 @@ struct question {
   std::uint64_t session = 0;  ///< the random number of the session
 };
 
-/// A server has one client at a time; take one server object for each socket. A hello does not replace the
-/// client: a session begins with the first question that carries its number, so whoever says hello under a
-/// false address gets no further. While one client asks, others are told that the server is busy.
+/// A server has one client at a time; take one server object for each socket. While one client asks, others
+/// are told that the server is busy.
+///
+/// It keeps nothing of a hello. The number of the session that its welcome offers is a cookie, a keyed hash of
+/// whom it goes to and when; a session begins with the first question that brings it back from there, within 4
+/// to 8 s. So whoever says hello under false addresses, however often, gets no further and is in nobody's way.
+/// Each session ends all other offers, so no number begins a session twice.
 class server {
  public:
   using source = std::uint64_t (*)();
 
-  /// A server whose check() names a fault accepts nothing. `draw` gives the numbers of sessions, which must
-  /// differ from those of any server that ran before, and from 0.
-  explicit server(const server_settings& settings = {}, source draw = draw_number) noexcept
-      : settings_(settings), draw_(draw), sound_(!settings.check()) {}
+  /// A server whose check() names a fault accepts nothing. `draw` is called twice, for the 128 bits of a secret:
+  /// nobody may guess them, and no server may have had them before. Throws only what `draw` throws.
+  explicit server(const server_settings& settings = {}, source draw = draw_number)
+      : settings_(settings), secret_{draw(), draw()}, sound_(!check()) {}
 
-  [[nodiscard]] constexpr parameter_fault check() const noexcept { return settings_.check(); }
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (secret_.low == 0 || secret_.high == 0 || secret_.low == secret_.high) {
+      return {"draw", 0.0, "numbers at random: not 0, and others each time"};
+    }
+    return settings_.check();
+  }
 
   struct heard {
     verdict what = verdict::accepted;
-    bool asked = false;               ///< it was a question: send answers to its sender
+    bool asked = false;  ///< it was a question: answers go to its sender, and nobody else
     std::optional<datagram> reply{};  ///< to be sent to the sender at once
   };
 
-  /// Takes any bytes that have come, and says what became of them. Throws only what `draw` throws.
-  heard receive(received_bytes bytes, nanoseconds now) {
-    const heard found = judged(bytes, now);
+  /// Takes any bytes that have come from there, and says what became of them.
+  heard receive(received_bytes bytes, const sender& from, nanoseconds now) noexcept {
+    const heard found = judged(bytes, from, now);
     tally_.book(found.what);
     return found;
   }
@@ -89,6 +97,7 @@ class server {
  private:
   struct partner {
     std::uint64_t key = 0, session = 0;  // 0: nobody
+    sender place{};
   };
 
   /// A reply to m, of which it echoes key and stamp.
@@ -96,14 +105,14 @@ class server {
     return encode({.kind = what, .key = m.key, .session = session, .stamp = m.stamp});
   }
 
-  heard judged(received_bytes bytes, nanoseconds now) {
+  heard judged(received_bytes bytes, const sender& from, nanoseconds now) noexcept {
     const auto found = decode(bytes);
     if (!found) return {found.what};
     const message& m = found.value;
     if (m.kind != kind::hello && m.kind != kind::question) return {verdict::misdirected};
     if (!sound_) return {verdict::stranger};
     if (m.key == 0) return {verdict::malformed};
-    return m.kind == kind::hello ? greeted(m, now) : asked(m, now);
+    return m.kind == kind::hello ? greeted(m, from, now) : asked(m, from, now);
   }
 
   /// True if the key is of another client than the one that asks.
@@ -111,37 +120,46 @@ class server {
     return key != client_.key && has_client(now);
   }
 
-  heard greeted(const message& m, nanoseconds now) {
+  heard greeted(const message& m, const sender& from, nanoseconds now) const noexcept {
     if (is_rival(m.key, now)) return {verdict::turned_away, false, said(kind::busy, m, 0)};
-    const partner& guest = invited(m.key);
-    return {verdict::accepted, false, said(kind::welcome, m, guest.session)};
+    return {verdict::accepted, false, said(kind::welcome, m, cookie(m.key, from, slot(now)))};
   }
 
-  /// A guest with the session that it was offered before, or with a new one in place of the oldest offer.
-  const partner& invited(std::uint64_t key) {
-    for (const partner& p : guests_) {
-      if (p.key == key) return p;
-    }
-    partner& newest = guests_[invitations_++ % guests_.size()];
-    newest = {key, draw_()};
-    return newest;
+  [[nodiscard]] static constexpr std::int64_t slot(nanoseconds now) noexcept {
+    return now / std::chrono::seconds(4);
+  }
+  /// The number of the session that this key at this place is offered in this slot of time.
+  [[nodiscard]] std::uint64_t cookie(std::uint64_t key, const sender& to,
+                                     std::int64_t when) const noexcept {
+    std::array<std::byte, 38> bytes{};
+    detail::put(bytes, 0, key);
+    detail::put(bytes, 8, static_cast<std::uint64_t>(when));
+    for (std::size_t i = 0; i < 16; ++i) bytes[16 + i] = std::byte{to.address[i]};
+    detail::put(bytes, 32, to.port);
+    detail::put(bytes, 34, sessions_);
+    const std::uint64_t hash = siphash(secret_, bytes);
+    return hash == 0 ? 1 : hash;  // 0 is no session
+  }
+  [[nodiscard]] bool was_offered(const message& m, const sender& from,
+                                 nanoseconds now) const noexcept {
+    return m.session == cookie(m.key, from, slot(now)) ||
+           m.session == cookie(m.key, from, slot(now) - 1);
   }
 
-  heard asked(const message& m, nanoseconds now) noexcept {
-    const auto is = [&m](const partner& p) {
-      return p.session != 0 && m.session == p.session && m.key == p.key;
-    };
-    if (const auto guest = std::find_if(guests_.begin(), guests_.end(), is);
-        guest != guests_.end()) {
+  heard asked(const message& m, const sender& from, nanoseconds now) noexcept {
+    if (client_.session == 0 || m.session != client_.session || m.key != client_.key) {
+      if (!was_offered(m, from, now)) {
+        return {verdict::stranger, false, said(kind::lost, m, m.session)};
+      }
       if (is_rival(m.key, now)) return {verdict::turned_away, false, said(kind::busy, m, 0)};
       if (m.content.form != form::probe) return {verdict::malformed};
-      client_ = *guest;
-      *guest = {};
+      client_ = {m.key, m.session, from};
       order_ = {};
       number_ = 0;
       ++sessions_;
     }
-    if (!is(client_)) return {verdict::stranger, false, said(kind::lost, m, m.session)};
+    // No reply: who has read the client's datagrams must not get a `lost` for it by sending one of them.
+    if (from != client_.place) return {verdict::stranger};
     if (m.content.form != form::probe) return {verdict::malformed};
     if (const auto order = order_.judge(m.sequence); order != verdict::accepted) return {order};
     order_.passed(m.sequence);
@@ -152,11 +170,9 @@ class server {
   }
 
   server_settings settings_;
-  source draw_;
+  siphash_key secret_;
   bool sound_;
-  partner client_;                   // the client that asks
-  std::array<partner, 8> guests_{};  // those who were welcomed and have not asked yet
-  std::uint32_t invitations_ = 0;    // number of sessions offered so far
+  partner client_;  // the client that asks
   detail::in_order order_;
   std::uint32_t number_ = 0;    // number of the last answer
   std::uint32_t sessions_ = 0;  // number of sessions begun so far

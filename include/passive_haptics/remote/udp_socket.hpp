@@ -101,6 +101,19 @@ class endpoint {
 #endif
     return 0;
   }
+  /// The same for a server, which knows no sockets; all zero where there is no address.
+  [[nodiscard]] operator sender() const noexcept {
+    sender same{.port = port()};
+#ifdef PASSIVE_HAPTICS_HAS_SOCKETS
+    if (family() == AF_INET) {
+      same.address[10] = same.address[11] = 0xFF;
+      std::memcpy(&same.address[12], &four_.sin_addr, 4);
+    } else if (family() == AF_INET6) {
+      std::memcpy(same.address.data(), &six_.sin6_addr, 16);
+    }
+#endif
+    return same;
+  }
   /// "127.0.0.1:47600", "[::1]:47600".
   [[nodiscard]] std::string text() const {
 #ifdef PASSIVE_HAPTICS_HAS_SOCKETS

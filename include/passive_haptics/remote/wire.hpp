@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // What crosses the network between a device and its environment on another machine: datagrams of 152 bytes,
-// the same size for every kind and both ways, so that no reply is larger than what it replies to.
+// the same size for every kind and both ways, so that no reply is larger than what it replies to. A seal may
+// add bytes of its own at the end (seal.hpp), also the same number for every kind.
 //
 //   offset  bytes
 //        0      4   'P' 'H' 'R' 'C'
-//        4      1   version, 1
+//        4      1   version, 2
 //        5      1   kind
 //        6      1   form of the content
 //        7      1   0
 //        8      8   key       drawn by the client, in every datagram
-//       16      8   session   drawn by the server, in every datagram but a hello and its busy
+//       16      8   session   the server's cookie for this client, in every datagram but a hello and its busy
 //       24      4   sequence  counted by the sender from 1; 0 in what is neither question nor answer
 //       28      4   CRC-32 of the other 148 bytes (IEEE 802.3)
-//       32      8   stamp     the client's clock when it asked [ns]; an answer echoes it
+//       32      8   stamp     the client's clock when it asked [ns]; whatever replies to that echoes it
 //       40    112   content   14 numbers of binary64; those that a form does not use are 0
 //
 //   content       0-2        3-5          6             7-9      10   11   12         13
@@ -45,9 +46,18 @@ inline constexpr std::size_t datagram_size = 152;
 using datagram = std::array<std::byte, datagram_size>;
 using received_bytes = std::span<const std::byte>;
 
+/// Whose datagram it is, as the carrier says: an IPv6 address, most significant byte first, or an IPv4 address
+/// mapped into it (::ffff:a.b.c.d, RFC 4291, 2.5.5.2), and a port. All zero on a carrier without addresses.
+struct sender {
+  std::array<std::uint8_t, 16> address{};
+  std::uint16_t port = 0;
+
+  bool operator==(const sender&) const = default;
+};
+
 enum class kind : std::uint8_t {
   hello = 1,  ///< client: asks for a session under its key
-  welcome,    ///< server: offers a session
+  welcome,    ///< server: offers a session; it begins when a question brings its number back
   question,   ///< client: says where the device is
   answer,     ///< server: says what the device touches
   lost,       ///< server: knows no such session; the client has to say hello again
@@ -175,7 +185,7 @@ template <class Word>
 }
 
 inline constexpr std::uint32_t magic = 0x43524850;  // 'P' 'H' 'R' 'C'
-inline constexpr std::uint8_t version = 1;
+inline constexpr std::uint8_t version = 2;
 inline constexpr std::size_t magic_at = 0, version_at = 4, kind_at = 5, form_at = 6, zero_at = 7,
                              key_at = 8, session_at = 16, sequence_at = 24, crc_at = 28,
                              stamp_at = 32, content_at = 40;
