@@ -6,6 +6,8 @@
 //   remote/wire.hpp         the datagram: 152 bytes, little-endian, versioned, checked; encode, decode
 //   remote/content.hpp      plane, quadric and probe to numbers and back
 //   remote/session.hpp      what both ends share: two random numbers, order, counts
+//   remote/siphash.hpp      SipHash-2-4, a keyed hash
+//   remote/seal.hpp         authenticates every datagram, where both ends share a key
 //   remote/client.hpp       the device's end: asks, keeps the last good answer
 //   remote/server.hpp       the environment's end: hears, answers, one client at a time
 //   remote/udp_socket.hpp   carries the bytes on POSIX systems
@@ -23,7 +25,9 @@
 
 #include <passive_haptics/remote/client.hpp>
 #include <passive_haptics/remote/content.hpp>
+#include <passive_haptics/remote/seal.hpp>
 #include <passive_haptics/remote/server.hpp>
 #include <passive_haptics/remote/session.hpp>
+#include <passive_haptics/remote/siphash.hpp>
 #include <passive_haptics/remote/udp_socket.hpp>
 #include <passive_haptics/remote/wire.hpp>

@@ -12,7 +12,9 @@
 // Nothing that is received is credited to a ledger: the ledger of the local model books the force that was
 // held over the motion that was measured. What crosses the network only decides which force is wanted.
 
+#include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/remote/content.hpp>
+#include <passive_haptics/remote/seal.hpp>
 #include <passive_haptics/remote/session.hpp>
 
 #include <algorithm>
@@ -53,8 +55,11 @@ struct news {
 ///
 /// The stale rule is that of the local model (port/freshness.hpp) and begins anew with every update, so a
 /// surface fades at the latest when its question is `most_age` + `stale_after` old.
-class client {
+template <datagram_seal Seal = no_seal>
+class client_with {
  public:
+  using datagram = std::array<std::byte, datagram_size + Seal::size>;
+
   enum class state : std::uint8_t {
     greeting,  ///< no session, or none that answers: the client says hello
     talking,   ///< in a session
@@ -63,8 +68,9 @@ class client {
 
   /// A client whose check() names a fault sends hello and accepts nothing. `key` is 64 bits that nobody can
   /// guess and that no client had before; 0 is none.
-  explicit client(const client_settings& settings = {}, std::uint64_t key = draw_number()) noexcept
-      : settings_(settings), key_(key), sound_(!check()) {}
+  explicit client_with(const client_settings& settings = {}, std::uint64_t key = draw_number(),
+                       const Seal& seal = Seal{}) noexcept
+      : settings_(settings), seal_(seal), key_(key), sound_(!check()) {}
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (key_ == 0) return {"key", 0.0, "not 0: what draw_number() gives"};
@@ -88,7 +94,7 @@ class client {
     } else {
       greeted_ = std::min(greeted_, now);
     }
-    return encode(m);
+    return detail::encode_sealed(m, seal_);
   }
 
   /// Takes any bytes that have come, and says what became of them.
@@ -112,7 +118,7 @@ class client {
 
  private:
   verdict judged(received_bytes bytes, nanoseconds now) noexcept {
-    const auto found = decode(bytes);
+    const auto found = detail::decode_sealed(bytes, seal_);
     if (!found) return found.what;
     const message& m = found.value;
     if (m.kind == kind::hello || m.kind == kind::question) return verdict::misdirected;
@@ -176,6 +182,7 @@ class client {
   static constexpr nanoseconds never = nanoseconds::min();
 
   client_settings settings_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS Seal seal_;
   std::uint64_t key_, session_ = 0;  // 0: none
   bool sound_;
   state state_ = state::greeting;
@@ -190,6 +197,9 @@ class client {
   bool fresh_ = false;
   tally tally_;
 };
+
+/// A client without a seal.
+using client = client_with<>;
 
 }  // namespace remote
 }  // namespace v0

@@ -9,9 +9,10 @@
 //     if (const auto* question = server.take())
 //       socket.send(server.answer(content_of(plane), *question), client);
 
+#include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/remote/content.hpp>
+#include <passive_haptics/remote/seal.hpp>
 #include <passive_haptics/remote/session.hpp>
-#include <passive_haptics/remote/siphash.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -40,14 +41,17 @@ struct question {
 /// whom it goes to and when; a session begins with the first question that brings it back from there, within 4
 /// to 8 s. So whoever says hello under false addresses, however often, gets no further and is in nobody's way.
 /// Each session ends all other offers, so no number begins a session twice.
-class server {
+template <datagram_seal Seal = no_seal>
+class server_with {
  public:
+  using datagram = std::array<std::byte, datagram_size + Seal::size>;
   using source = std::uint64_t (*)();
 
   /// A server whose check() names a fault accepts nothing. `draw` is called twice, for the 128 bits of a secret:
   /// nobody may guess them, and no server may have had them before. Throws only what `draw` throws.
-  explicit server(const server_settings& settings = {}, source draw = draw_number)
-      : settings_(settings), secret_{draw(), draw()}, sound_(!check()) {}
+  explicit server_with(const server_settings& settings = {}, source draw = draw_number,
+                       const Seal& seal = Seal{})
+      : settings_(settings), seal_(seal), secret_{draw(), draw()}, sound_(!check()) {}
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (secret_.low == 0 || secret_.high == 0 || secret_.low == secret_.high) {
@@ -79,7 +83,7 @@ class server {
   /// What to send to the client: what there is to be touched, and for which question that was computed.
   /// Call it as often as there is news, any number of times for a question.
   [[nodiscard]] datagram answer(const content& what, const question& of) noexcept {
-    return encode({.kind = kind::answer,
+    return sealed({.kind = kind::answer,
                    .key = client_.key,
                    .session = client_.session,
                    .sequence = ++number_,
@@ -101,12 +105,15 @@ class server {
   };
 
   /// A reply to m, of which it echoes key and stamp.
-  [[nodiscard]] static datagram said(kind what, const message& m, std::uint64_t session) noexcept {
-    return encode({.kind = what, .key = m.key, .session = session, .stamp = m.stamp});
+  [[nodiscard]] datagram said(kind what, const message& m, std::uint64_t session) noexcept {
+    return sealed({.kind = what, .key = m.key, .session = session, .stamp = m.stamp});
+  }
+  [[nodiscard]] datagram sealed(const message& m) noexcept {
+    return detail::encode_sealed(m, seal_);
   }
 
   heard judged(received_bytes bytes, const sender& from, nanoseconds now) noexcept {
-    const auto found = decode(bytes);
+    const auto found = detail::decode_sealed(bytes, seal_);
     if (!found) return {found.what};
     const message& m = found.value;
     if (m.kind != kind::hello && m.kind != kind::question) return {verdict::misdirected};
@@ -120,7 +127,7 @@ class server {
     return key != client_.key && has_client(now);
   }
 
-  heard greeted(const message& m, const sender& from, nanoseconds now) const noexcept {
+  heard greeted(const message& m, const sender& from, nanoseconds now) noexcept {
     if (is_rival(m.key, now)) return {verdict::turned_away, false, said(kind::busy, m, 0)};
     return {verdict::accepted, false, said(kind::welcome, m, cookie(m.key, from, slot(now)))};
   }
@@ -170,6 +177,7 @@ class server {
   }
 
   server_settings settings_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS Seal seal_;
   siphash_key secret_;
   bool sound_;
   partner client_;  // the client that asks
@@ -181,6 +189,9 @@ class server {
   bool fresh_ = false;
   tally tally_;
 };
+
+/// A server without a seal.
+using server = server_with<>;
 
 }  // namespace remote
 }  // namespace v0

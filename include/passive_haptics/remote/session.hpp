@@ -2,10 +2,10 @@
 #pragma once
 // Who talks to whom: what both ends of a session have in common.
 //
-// Each end draws 64 bits at random, and questions and answers carry both numbers, so strays are refused, and
-// datagrams of a sender who cannot see the numbers, too. But whoever can READ the traffic can forge it, and
-// whoever can stop it can stop the session. This is no cryptography: where the network is not yours, put both
-// machines into an encrypted tunnel (WireGuard, IPsec).
+// The client draws 64 bits at random, the server hashes 64, and questions and answers carry both numbers, so
+// strays are refused, and datagrams of a sender who cannot see the numbers, too. But whoever can READ the traffic
+// can forge it, unless the datagrams are sealed (seal.hpp), and whoever can stop it can stop the session. Where
+// the network is not yours, seal them, or put both machines into an encrypted tunnel (WireGuard, IPsec).
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/remote/wire.hpp>

@@ -267,11 +267,12 @@ class udp_socket {
   }
 
   /// Calls act(bytes, from) for each datagram that has come, up to 256: the rest wait for the next call, so
-  /// that a flood does not keep the thread. A datagram that is too long is cut to 153 bytes, one too many.
+  /// that a flood does not keep the thread. A datagram that is too long is cut to 217 bytes, one more than the
+  /// longest seal makes of it.
   template <class Act>
   udp_result for_each_received(Act act) {
     for (int n = 0; n < 256; ++n) {
-      std::array<std::byte, datagram_size + 1> room{};
+      std::array<std::byte, datagram_size + longest_seal + 1> room{};
       sockaddr_storage there{};
       socklen_t length = sizeof there;
       const auto size = ::recvfrom(file_, room.data(), room.size(), 0,

@@ -43,6 +43,7 @@ namespace remote {
 using nanoseconds = std::chrono::nanoseconds;
 
 inline constexpr std::size_t datagram_size = 152;
+inline constexpr std::size_t longest_seal = 64;  ///< a seal may add so many bytes
 using datagram = std::array<std::byte, datagram_size>;
 using received_bytes = std::span<const std::byte>;
 
@@ -95,7 +96,8 @@ struct message {
 /// server the rest.
 enum class verdict : std::uint8_t {
   accepted,
-  wrong_length,   ///< not 152 bytes
+  wrong_length,   ///< not 152 bytes, and those of the seal
+  forged,         ///< the seal does not open
   foreign,        ///< it does not begin with PHRC
   other_version,  ///< another version of this format
   damaged,        ///< the checksum differs
@@ -110,14 +112,16 @@ enum class verdict : std::uint8_t {
   unusable,       ///< a surface that no local model takes
   turned_away,    ///< from another client, while the present one still asks
 };
-inline constexpr std::size_t verdicts = 15;
+inline constexpr std::size_t verdicts = 16;
 
 [[nodiscard]] constexpr const char* to_string(verdict v) noexcept {
   switch (v) {
     case verdict::accepted:
       return "accepted";
     case verdict::wrong_length:
-      return "not 152 bytes long";
+      return "not 152 bytes long, or has not the bytes of this end's seal";
+    case verdict::forged:
+      return "not sealed by the other end: have both the same key?";
     case verdict::foreign:
       return "no datagram of this format";
     case verdict::other_version:
