@@ -23,10 +23,14 @@ remote::nanoseconds now() {
 void ask(remote::udp_socket& line, const remote::endpoint& there) {
   remote::client client;
   bool said = false;
-  for (remote::probe probe; !over; (void)line.wait(std::chrono::milliseconds(10))) {
+  auto due = now();
+  for (remote::probe probe; !over; (void)line.wait(std::chrono::milliseconds(5))) {
     if (const auto* newest = from_loop.take()) probe = *newest;
-    const auto sent = line.send(client.ask(probe, now()), there);
-    if (!sent && !std::exchange(said, true)) std::cout << describe(sent, there) << std::endl;
+    if (now() >= due) {  // whatever else arrives, and however often that wakes this thread
+      due = now() + std::chrono::milliseconds(10);
+      const auto sent = line.send(client.ask(probe, now()), there);
+      if (!sent && !std::exchange(said, true)) std::cout << describe(sent, there) << std::endl;
+    }
     (void)line.for_each_received([&](auto b, const auto&) { (void)client.receive(b, now()); });
     const auto* news = client.take();
     if (news != nullptr) to_loop.publish(remote::half_space_of<scene>(news->content));

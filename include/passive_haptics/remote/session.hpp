@@ -54,13 +54,17 @@ namespace detail {
 class in_order {
  public:
   [[nodiscard]] constexpr verdict judge(std::uint32_t number) const noexcept {
-    if (!newest_ || later(number, *newest_)) return verdict::accepted;
-    return number == *newest_ ? verdict::repeated : verdict::overtaken;
+    if (!any_ || later(number, newest_)) return verdict::accepted;
+    return number == newest_ ? verdict::repeated : verdict::overtaken;
   }
-  constexpr void passed(std::uint32_t number) noexcept { newest_ = number; }
+  constexpr void passed(std::uint32_t number) noexcept {
+    any_ = true;
+    newest_ = number;
+  }
 
  private:
-  std::optional<std::uint32_t> newest_;
+  bool any_ = false;
+  std::uint32_t newest_ = 0;
 };
 
 [[nodiscard]] constexpr nanoseconds span_of(double seconds) noexcept {
