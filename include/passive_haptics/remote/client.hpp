@@ -106,10 +106,12 @@ class client_with {
   [[nodiscard]] const news* take() noexcept {
     if (!fresh_) return nullptr;
     fresh_ = false;
-    return &*news_;
+    return &news_;
   }
   /// The last good answer, or null before the first. It stays, whatever happens to the session.
-  [[nodiscard]] const news* latest() const noexcept { return news_ ? &*news_ : nullptr; }
+  [[nodiscard]] const news* latest() const noexcept {
+    return news_.session != 0 ? &news_ : nullptr;
+  }
 
   [[nodiscard]] state where() const noexcept { return state_; }
   /// How many sessions there have been: 2 when the server has been restarted once.
@@ -193,7 +195,7 @@ class client_with {
   nanoseconds asked_ = never;  // the newest stamp that was sent
   nanoseconds greeted_ = nanoseconds::max();  // the stamp of the first hello since it talked last
   nanoseconds oldest_{0};                     // the oldest stamp that an answer may still echo
-  std::optional<news> news_;
+  news news_{};
   bool fresh_ = false;
   tally tally_;
 };
