@@ -17,7 +17,7 @@ std::uint64_t other_each_time() {
   return ++last;
 }
 
-constexpr remote::sender away{{5, 6, 7}, 8};  // another client's place
+constexpr remote::sender away{{5, 6, 7}, home.port};  // another client's place
 
 /// A client and a server with nothing in between.
 struct pair_of_ends {
@@ -321,6 +321,7 @@ TEST_CASE("one client at a time: another waits until the first is silent", "[rem
   pair_of_ends ends;
   ends.greet(ms(0));
   (void)ends.answer(ms(1));
+  const auto late = ends.client.ask({}, ms(900));
   remote::client other({}, 78);
   const auto tries = [&](remote::nanoseconds now) {
     const auto heard = ends.server.receive(other.ask({}, now), away, now);
@@ -336,6 +337,11 @@ TEST_CASE("one client at a time: another waits until the first is silent", "[rem
     CHECK(tries(ms(1003)) == verdict::accepted);
     CHECK(ends.server.sessions() == 2);
     CHECK(ends.carry(ends.client.ask({}, ms(1004)), ms(1004)).what == verdict::turned_away);
+  }
+  SECTION("unless a question of the first was on its way") {
+    CHECK(ends.server.receive(late, home, ms(1003)).asked);
+    CHECK(tries(ms(1004)) == verdict::turned_away);
+    CHECK(ends.server.sessions() == 1);
   }
   SECTION("unless the first is back before it asks") {
     ends.greet(ms(1003));

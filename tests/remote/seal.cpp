@@ -12,7 +12,7 @@ using remote::verdict;
 namespace {
 
 constexpr remote::siphash_key shared{0x0706050403020100, 0x0F0E0D0C0B0A0908};
-constexpr remote::sender away{{5, 6, 7}, 8};
+constexpr remote::sender away{{5, 6, 7}, home.port};
 
 std::uint64_t other_each_time() {
   static std::uint64_t last = 500;
@@ -112,6 +112,17 @@ TEST_CASE("the tag of a sealed datagram is the SipHash of the 152 bytes before i
   static_assert(std::is_same_v<remote::server::datagram, remote::datagram>);
   static_assert(sizeof(remote::client_with<stream>) > sizeof(remote::client));
   static_assert(std::is_empty_v<remote::no_seal>);
+}
+
+TEST_CASE("ends with a key of their own find each other", "[remote]") {
+  const std::uint64_t low = shared.low, high = shared.high;
+  const remote::siphash_seal seal({low, high});                 // of a file that both machines have
+  remote::server_with server({}, remote::draw_number, seal);    // at one
+  remote::client_with client({}, remote::draw_number(), seal);  // at the other
+  const auto welcome = server.receive(client.ask({}, ms(0)), home, ms(0)).reply;
+  REQUIRE(welcome);
+  CHECK(client.receive(*welcome, ms(1)) == verdict::accepted);
+  CHECK(server.receive(client.ask({}, ms(2)), home, ms(2)).asked);
 }
 
 TEST_CASE("what is sealed by another, altered or cut off is refused at both ends", "[remote]") {
