@@ -536,7 +536,13 @@ TEST_CASE("settings out of their range are named, and accept nothing", "[remote]
   }
   remote::client nobody({}, 0);
   CHECK(std::string(nobody.check().parameter) == "key");
-  for (const auto draw : {+[] { return std::uint64_t(0); }, +[] { return std::uint64_t(5); }}) {
+  const auto half_of_one = [] {  // 0 for one half of the secret
+    static std::uint64_t last = 0;
+    return last++ % 2;
+  };
+  static std::uint64_t next = 1;
+  for (const auto draw : {+[] { return std::uint64_t(0); }, +[] { return std::uint64_t(5); },
+                          +half_of_one, +[] { return next++ % 2; }}) {
     remote::server guessed({}, draw);
     CHECK(std::string(guessed.check().parameter) == "draw");
     CHECK(guessed.receive(remote::client({}, 5).ask({}, ms(0)), home, ms(0)).what ==
