@@ -15,8 +15,8 @@ struct siphash_key {
   std::uint64_t low = 0, high = 0;
 };
 
-/// SipHash-2-4 of any number of bytes. As eight bytes of a published vector it is little-endian. It takes
-/// about a nanosecond a byte, in a time that depends on the number of bytes alone.
+/// SipHash-2-4 of any number of bytes, in a time that depends on their number alone. Little-endian, its eight
+/// bytes are those of the published vectors.
 [[nodiscard]] constexpr std::uint64_t siphash(const siphash_key& key,
                                               received_bytes bytes) noexcept {
   // "somepseudorandomlygeneratedbytes" in ASCII, as in section 2.1.
