@@ -17,9 +17,9 @@ inline namespace v0 {
 /// writes a debt off, once, and lends for τ = ½ s
 ///     E1 += min(A dt/τ, A − E1)  where E1 < A.
 /// A fault is a sample that is refused, a late tick, or a debt, of A/64 where positions are known to a step only: the
-/// bounds here leave none unless something that was stated is not so. θ is 0.1 s, twice as long each time that there is a fault
-/// after amends, and 0.1 s again when there was none for 10 s. So with D, what the faults themselves have done,
-/// after t seconds of whatever faults
+/// bounds here leave none unless something that was stated is not so. θ is 0.1 s, twice as long each time that there
+/// is a fault after amends, and 0.1 s again when there was none for 10 s. So with D, what the faults themselves have
+/// done, after t seconds of whatever faults
 ///     E ≥ −D − A (8 + t/2.5 s),
 /// and without a fault it is all that the ledger itself promises (docs/design/mathematics.md § 11).
 template <class Ledger = reduced_energy>
