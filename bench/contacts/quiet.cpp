@@ -227,19 +227,14 @@ quiet_run run_of(Port port, const point_scene& s) {
     device.step(due.front());
     std::rotate(due.begin(), due.begin() + 1, due.end());
     if (presses > 0) run.touched = tick * T;
-    if (tick + 1 == until && !(judge.settling() <= in_time)) {
-      until = static_cast<int>(watched_longest / T);
-    }
+    until = ticks_of(until, tick, judge);
     run.seconds = (tick + 1) * T;
     if (!(device.position().norm() < 0.5)) {
       run.gone = true;
       break;
     }
   }
-  run.settling = judge.settling();
-  run.missed = judge.missed();
-  run.last = judge.figures();
-  run.free = device.velocity().norm();
+  run.end(judge, device.velocity().norm());
   run.least_energy = device.meter().minimum();
   if (run.counts() && judge.quiet()) probe(run, port, s, device.position());
   return run;

@@ -120,7 +120,19 @@ struct quiet_run {
 
   /// It has pressed in the last second: what hops counts, what hovers does not.
   [[nodiscard]] bool counts() const noexcept { return !gone && touched >= seconds - 1.0; }
+  /// The end of it, at that speed [m/s].
+  void end(const auto& judge, double speed) noexcept {
+    settling = judge.settling();
+    missed = judge.missed();
+    last = judge.figures();
+    free = speed;
+  }
 };
+/// How many ticks a run has: more where, at the last of them, it has not been quiet in time.
+[[nodiscard]] inline int ticks_of(int until, int tick, const auto& judge) noexcept {
+  const bool more = tick + 1 == until && !(judge.settling() <= in_time);
+  return more ? static_cast<int>(watched_longest / T) : until;
+}
 
 /// The stiffness that is asked for: the mean K of what presses, by how much it presses.
 class asked_stiffness {

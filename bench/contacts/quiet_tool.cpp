@@ -143,19 +143,14 @@ quiet_run run_of(const tool_scene& scene, const drawn_tool& tool, const grip& he
       run.least_energy = std::min(run.least_energy, device.energy());
     }
     if (!pressing.empty()) run.touched = tick * T;
-    if (tick + 1 == until && !(judge.settling() <= in_time)) {
-      until = static_cast<int>(watched_longest / T);
-    }
+    until = ticks_of(until, tick, judge);
     run.seconds = (tick + 1) * T;
     if (!(vector(device.at().position).norm() < 0.4)) {
       run.gone = true;
       break;
     }
   }
-  run.settling = judge.settling();
-  run.missed = judge.missed();
-  run.last = judge.figures();
-  run.free = device.velocity().norm();
+  run.end(judge, device.velocity().norm());
   run.loss_allowed += std::abs(device.residual());
   if (!run.counts() || !judge.quiet()) return run;
   auto at = device.at();
