@@ -5,7 +5,9 @@
 #include <passive_haptics/contact/rigid_tool.hpp>
 #include <passive_haptics/device/rigid_damping.hpp>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 using Catch::Matchers::WithinRel;
 
@@ -155,6 +157,81 @@ TEST_CASE("every rough point of a tool pushes inside its cone, with the torque t
     if (normal > 0.0) closest = std::max(closest, f.head<2>().norm() / normal);
   }
   CHECK(closest > 0.59);
+}
+
+namespace {
+
+/// The bristle of a contact of stiffness K at an arm r from the handle, one of `slots`:
+///     k = K/N / (1 + r² γ K),   γ = max(1/(K ℓ²), T²/(κ I)),   B = k min(2√(m/K), 2√(I γ), 5T)
+/// so that all of them together are no stiffer at a point of the tool than one contact is there.
+struct stated_bristle {
+  double stiffness{};  ///< [N/m]
+  double damping{};    ///< [N·s/m]
+};
+stated_bristle bristle_of(const ph::tool_spring& s, double K, double arm_squared, int slots) {
+  const double per_turn =
+      std::max(1.0 / (K * s.lever * s.lever), T * T / (s.stiffness_fraction * s.least_inertia));
+  const double k = K / slots / (1.0 + arm_squared * per_turn * K);
+  const double settles =
+      std::min(2.0 * std::sqrt(std::min(s.mass / K, s.least_inertia * per_turn)), 5.0 * T);
+  return {k, k * settles};
+}
+
+/// A tool with `Count` rough slots, of which the first `arms.size()` press, is moved across by `aside`: what it
+/// feels in that tick and when it has come to rest.
+template <int Count>
+void check_bristles(const ph::tool_spring& spring, double K, const std::vector<vector>& arms) {
+  INFO(Count << " slots, " << arms.size() << " pressed, K " << K << ", I " << spring.least_inertia);
+  ph::passive_port port{
+      ph::rigid_body<double>{},
+      ph::rigid_tool{spring, ph::pursuit{}, ph::stick_slip{}, ph::slots<plane_of<double>, Count>{}},
+      ph::no_observer{}, ph::no_bound{}, thesis_loop};
+  int slot = 0;
+  for (const vector& arm : arms) {  // a floor for each, under its point
+    REQUIRE(port.source().update(slot++, arm, plane{vector(0, 0, arm.z()), vector(0, 0, 1), K}));
+  }
+  (void)port.tick({{0, 0, 1e-3}, {}}, ph::seconds{T});
+  const pose pressed{{0, 0, -1e-3}, {}};
+  for (int i = 0; i < 2000; ++i) (void)port.tick(pressed, ph::seconds{T});
+  const body::effort before = port.tick(pressed, ph::seconds{T}).force;
+
+  const vector aside(3e-6, -2e-6, 0.0);
+  const pose moved{{aside.x(), aside.y(), -1e-3}, {}};
+  const body::effort moving = port.tick(moved, ph::seconds{T}).force - before;
+  for (int i = 0; i < 20; ++i) (void)port.tick(moved, ph::seconds{T});
+  const body::effort held = port.tick(moved, ph::seconds{T}).force - before;
+
+  vector held_force(0, 0, 0), held_torque(0, 0, 0), moving_force(0, 0, 0);
+  for (const vector& arm : arms) {
+    const stated_bristle own = bristle_of(spring, K, arm.squaredNorm(), Count);
+    const vector f = aside * -own.stiffness;
+    held_force += f;
+    held_torque += d3::cross(arm, f);
+    moving_force += f + aside * (-own.damping / T);
+  }
+  CHECK((body::linear(held) - held_force).norm() <= 1e-6 * held_force.norm());
+  CHECK((body::angular(held) - held_torque).norm() <= 1e-6 * held_force.norm() * 0.05);
+  CHECK((body::linear(moving) - moving_force).norm() <= 1e-6 * moving_force.norm());
+}
+
+}  // namespace
+
+TEST_CASE("a bristle of a rough tool is as stiff as its contact's share there", "[rigid_tool]") {
+  // By hand, one point 0.05 m and 0.02 m off: 1/K + r²/(K ℓ²) = 1/1000 + 0.0029/0.9 m/N.
+  CHECK_THAT(bristle_of(light, 1000.0, 0.0029, 1).stiffness, WithinRel(236.842105, 1e-8));
+  constexpr ph::tool_spring turns_easily{.mass = 0.15, .least_inertia = 1e-5};  // κ I/T² < K ℓ²
+  const vector none(0, 0, 0), far(0.05, 0.0, -0.02);
+  const std::vector<vector> several{none, far, vector(-0.01, 0.03, 0.01)};
+  for (const ph::tool_spring& spring : {light, turns_easily}) {
+    for (const double K : {1000.0, 4000.0}) {
+      check_bristles<1>(spring, K, {none});
+      check_bristles<1>(spring, K, {far});
+      check_bristles<4>(spring, K, {far});
+      check_bristles<4>(spring, K, several);
+      check_bristles<16>(spring, K, several);
+      check_bristles<16>(spring, K, std::vector<vector>(16, far));
+    }
+  }
 }
 
 TEST_CASE("a tool_spring out of range is refused by name", "[rigid_tool]") {
