@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <random>
 
 using Catch::Matchers::WithinAbs;
@@ -119,6 +120,15 @@ TEMPLATE_TEST_CASE("a patch that cannot be used is refused", "[geometry][curved]
   CHECK(refused([](auto& p) { p.triangle_count = 7; }));
   CHECK(refused([](auto& p) { p.node_count = 9; }));
   CHECK(refused([](auto& p) { p.triangles[2][1] = 5; }));  // nodes 0 to 4 exist
+  const auto numbered_5 = [](auto& p) {  // a sound patch, if only node 5 is counted
+    p.nodes[5] = p.nodes[4];
+    for (auto& triangle : p.triangles) std::replace(triangle.begin(), triangle.end(), 4, 5);
+  };
+  CHECK(refused(numbered_5));
+  CHECK_FALSE(refused([&](auto& p) {
+    numbered_5(p);
+    p.node_count = 6;
+  }));
   CHECK(refused([](auto& p) { p.triangles[2][1] = p.triangles[2][0]; }));
   CHECK(refused([](auto& p) { p.nodes[1] = p.nodes[0]; }));
   CHECK(refused([](auto& p) { std::swap(p.triangles[2][1], p.triangles[2][2]); }));
@@ -135,6 +145,9 @@ TEMPLATE_TEST_CASE("a patch that cannot be used is refused", "[geometry][curved]
                            std::numeric_limits<scalar>::infinity(), scalar(0), scalar(-1)}) {
     CHECK(refused([&](auto& p) { p.stiffness = bad; }));
     CHECK(refused([&](auto& p) { p.thickness = bad; }));
+    CHECK(refused([&](auto& p) {  // a node of no triangle, which around() counts
+            p.nodes[p.node_count++] = {scalar(0.002), scalar(0.01), bad};
+          }) == !std::isfinite(bad));
     CHECK(refused([&](auto& p) {
             p.nodes[2] = {scalar(0.002), scalar(0.01), bad};
           }) == !std::isfinite(bad));

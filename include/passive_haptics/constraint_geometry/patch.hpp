@@ -67,9 +67,8 @@ requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
     std::array<vector, node_capacity> around{};
     around.fill(Space::zero());
     for (std::size_t i = 0; i < triangle_count; ++i) {
-      for (const std::uint8_t node : triangles[i]) {
+      for (const std::uint8_t node : triangles[i])
         if (node >= node_count) return false;
-      }
       const detail::facing<Space> outside =
           detail::facing_of<Space>(corner(i, 0), corner(i, 1), corner(i, 2));
       if (!outside.usable) return false;
@@ -83,6 +82,7 @@ requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
       }
     }
     for (std::size_t node = 0; node < node_count; ++node) {
+      if (!Space::is_finite(nodes[node])) return false;
       pseudo_normals[node] =
           detail::polar_form<Space>(around[node], detail::some_direction<Space>()).direction;
     }
