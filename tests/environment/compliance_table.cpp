@@ -323,6 +323,11 @@ TEST_CASE("a table that is not what it should be is refused with a sentence",
   const auto few = env::load_table<float>(s.path, s.id, 50);
   REQUIRE(few.fault);
   CHECK(contains(few.fault->what(), "of 50; give the number of nodes of the mesh"));
+  const int last = s.patch.back();  // in ascending order
+  const auto one_too_few = env::load_table<float>(s.path, s.id, std::size_t(last));
+  REQUIRE(one_too_few.fault);
+  CHECK(contains(one_too_few.fault->what(), env::sentence("names node ", last, " of ", last)));
+  CHECK_FALSE(env::load_table<float>(s.path, s.id, std::size_t(last) + 1).fault);
   const auto on = [&](const env::tetrahedral_mesh& mesh) {
     using body = env::basic_deformable_body<env::compliance_table<float>>;
     return text_of<std::invalid_argument>(
