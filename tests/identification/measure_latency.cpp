@@ -133,6 +133,32 @@ TEST_CASE("measure_latency tells a sensor that is slower than the loop", "[laten
   CHECK(ph::measure_latency<d1>(control).problem == nullptr);
 }
 
+TEST_CASE("measure_latency tells a slow sensor whatever its phase is, and no other one",
+          "[latency]") {
+  for (int every = 2; every <= 16; ++every) {
+    for (int phase = 0; phase < every; ++phase) {
+      for (const int ticks : {500, 4000}) {
+        INFO("new every " << every << " ticks, from tick " << phase << " on, in " << ticks);
+        repeating device{{.device = device_of(1), .ticks = every - phase}, every};
+        const auto found = ph::measure_latency<d1>(device, {.ticks = ticks});
+        CHECK(found.sensor_ticks == every);
+        CHECK(found.problem != nullptr);
+      }
+    }
+  }
+  for (const double quantum : {0.0, 10e-6, 60e-6}) {  // the control: standing still is no period
+    for (const double mass : {0.05, 0.5}) {
+      for (const double friction : {0.0, 0.2}) {
+        for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+          CAPTURE(quantum, mass, friction, seed);
+          auto device = device_of(1, quantum, mass, 0.03, friction);
+          CHECK(ph::measure_latency<d1>(device, {.ticks = 500, .seed = seed}).sensor_ticks == 1);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("measure_latency tells a force that changes in mid-tick", "[latency]") {
   for (const int latency : {0, 2}) {  // in half-ticks
     half_late device{{.device = device_of(latency, 0.0, 0.1, 0.03, 0.0, 0.5e-3)}};

@@ -13,6 +13,7 @@
 #include <passive_haptics/port/concepts.hpp>
 
 #include <array>
+#include <limits>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -149,26 +150,30 @@ class sensor_clock {
  public:
   void book(int tick, double place) noexcept {
     if (place == place_) return;
-    const int passed = tick - changed_;
-    for (std::size_t k = 2; k < divisible_.size(); ++k) {
-      divisible_[k] += passed % static_cast<int>(k) == 0 ? 1 : 0;
+    if (changed_ >= 0) {
+      const int passed = tick - changed_;
+      for (std::size_t k = 2; k < divisible_.size(); ++k) {
+        divisible_[k] += passed % static_cast<int>(k) == 0 ? 1 : 0;
+      }
+      ++intervals_;
     }
-    ++changes_;
-    changed_ = tick;
+    const bool is_first = !(place_ == place_);  // of which nobody knows when it came
+    changed_ = is_first ? -1 : tick;
     place_ = place;
   }
-  /// [ticks]; the longest that 19 of 20 changes keep to.
+  /// [ticks]; the longest that 19 of 20 intervals keep to.
   [[nodiscard]] int period() const noexcept {
-    for (std::size_t k = divisible_.size() - 1; k > 1 && changes_ >= 50; --k) {
-      if (divisible_[k] * 20 >= changes_ * 19) return static_cast<int>(k);
+    for (std::size_t k = divisible_.size() - 1; k > 1 && intervals_ >= enough; --k) {
+      if (divisible_[k] * 20 >= intervals_ * 19) return static_cast<int>(k);
     }
     return 1;
   }
 
  private:
+  static constexpr int enough = 20;  // the slowest has 30 in the shortest measurement
   std::array<int, 17> divisible_{};  // intervals between two changes that k divides
-  int changes_ = 0, changed_ = 0;
-  double place_ = 0.0;
+  int intervals_ = 0, changed_ = -1;
+  double place_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace detail
