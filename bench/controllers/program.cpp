@@ -34,6 +34,7 @@ std::vector<std::string> judge(const session& s) {
 const std::vector<ex::section<session>>& sections() {
   static const std::vector<ex::section<session>> all{{"wall", run_wall},
                                                      {"adversaries", run_adversaries},
+                                                     {"assumptions", run_assumptions},
                                                      {"stiffness", run_stiffness},
                                                      {"settling", run_settling},
                                                      {"z_width", run_z_width}};

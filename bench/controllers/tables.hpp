@@ -90,6 +90,23 @@ struct attack_row {
 
 [[nodiscard]] std::vector<std::string> run_adversaries(const session& s);
 
+// ------------------------------------------------------------------------------------ assumptions
+// Every assumption that a named composition states, kept and made untrue.
+
+struct assumption_row {
+  std::string composition{}, assumption{}, stated{}, in_truth{};
+  std::string by{};       ///< the hand that created most
+  int runs = 0;           ///< of each hand
+  double kept = 0.0;      ///< most that was created while all that is stated is true [J]
+  double violated = 0.0;  ///< most that was created while this is not [J]
+};
+
+/// What fails, a sentence each: joules that are created while an assumption is kept, and an assumption of
+/// which the violation creates none.
+[[nodiscard]] std::vector<std::string> unfounded(const std::vector<assumption_row>& rows);
+
+[[nodiscard]] std::vector<std::string> run_assumptions(const session& s);
+
 // -------------------------------------------------------------------------------------- stiffness
 // The closed loop with a hand on walls of 0.5 to 16 kN/m, as measured on other libraries.
 //

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program that judges the controllers: it must find a liar, lose no row, and understand its
 // arguments.
+#include "../bench/controllers/tables.hpp"
 #include "controllers.hpp"
 #include "programs.hpp"
 #include "support/catch.hpp"
+
+#include <limits>
 
 using namespace controllers;
 using namespace programs;
@@ -47,6 +50,24 @@ TEST_CASE("no controller of the catalogue loses what it promises in a first look
       run_quietly({"--only", "adversaries", "--quick", "--out", out / "r"}, catalogue());
   INFO(all.complaint);
   CHECK(all.code == 0);
+}
+
+TEST_CASE("an assumption that creates while it is kept, or nothing once it is violated, is named",
+          "[controllers]") {
+  assumption_row sound{.composition = "make_touch", .assumption = "mass", .in_truth = "1 g"};
+  sound.violated = 1e-3;
+  CHECK(unfounded({sound}).empty());
+  assumption_row untrue = sound;
+  untrue.kept = 1e-11;
+  assumption_row idle = sound;
+  idle.violated = 0.0;
+  assumption_row no_number = sound;
+  no_number.kept = std::numeric_limits<double>::quiet_NaN();
+  const auto found = unfounded({sound, untrue, idle, no_number});
+  REQUIRE(found.size() == 3);
+  CHECK(mentions(found[0], "make_touch, mass: created 1e-11 J while it is kept"));
+  CHECK(mentions(found[1], "make_touch, mass: nothing is created at 1 g"));
+  CHECK(mentions(found[2], "while it is kept"));
 }
 
 TEST_CASE("parts of a Z-width sweep join to the run that was not split", "[controllers]") {

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every assumption that a named composition states, made untrue one at a time: what the hands draw out of it
+// while the statement holds, and what once it does not.
+#include "tables.hpp"
+#include <passive_haptics/compositions.hpp>
+#include <passive_haptics/simulation/loop.hpp>
+#include <passive_haptics/simulation/prescribed_motion.hpp>
+#include <passive_haptics/simulation/presets.hpp>
+#include <passive_haptics/simulation/search.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <initializer_list>
+
+namespace controllers {
+
+namespace {
+
+constexpr double accepted_loss = 1e-12;  // [J], of a statement that holds: rounding
+constexpr double shown_loss = 1e-9;      // [J], no rounding any more
+
+// -------------------------------------------------------------------------------- what is attacked
+
+/// A contact whose driver does not say which force it held, as most do not: the port has to take its
+/// own command for it.
+template <class Model>
+struct unreported {
+  using space_type = d1;
+  Model model;
+  auto tick(const ph::device_sample<d1>& sample) noexcept {
+    if (!sample.valid) return model.tick(sample);
+    return model.tick(sample.position, ph::seconds{sample.dt});
+  }
+};
+constexpr auto lay_on_contact = [](auto& loop, const auto& surface) {
+  return loop.model.update({surface.point, surface.normal, surface.stiffness});
+};
+
+/// The same of a guard, in front of a renderer of spring walls.
+template <class Guard>
+struct rendered {
+  using space_type = d1;
+  Guard guard;
+  sim::surface_state<d1> wall{};
+  auto tick(const ph::device_sample<d1>& sample) noexcept {
+    if (!sample.valid) return guard.tick(sample);
+    const double deep = std::max(0.0, wall.depth(sample.position));
+    return guard.tick(sample.position, ph::seconds{sample.dt},
+                      wall.normal * (wall.stiffness * deep));
+  }
+};
+constexpr auto lay_on_guard = [](auto& loop, const auto& surface) {
+  loop.wall = surface;
+  return true;
+};
+
+/// What the worst of these hands has drawn [J], and who that was.
+struct drawn {
+  double joules = 0.0;
+  std::string by{};
+};
+
+/// A velocity source presses against a world that resists with `pressed` newtons, and lets itself be pushed
+/// out farther by one that asks for `pushed`: what motors of less than `pressed` have not taken in.
+template <class Loop, class Lay>
+double load_and_unload(Loop loop, const Lay& lay, const sim::circumstances& world, double pressed,
+                       double pushed) {
+  constexpr int in = 300, out = 300;  // [ticks]
+  constexpr double stiffness = 1e4;   // [N/m]
+  sim::prescribed_motion<d1> device(world.device_of<d1>());
+  const auto press = [&](const auto& now) {
+    const double force = now.tick < in ? pressed : pushed;
+    lay(loop, sim::surface_state<d1>{now.position + force / stiffness, 1.0, stiffness});
+  };
+  const auto move = [&](const auto& now) {
+    device.move_to(now.position + (now.tick < in ? -1e-3 : 3e-3));
+  };
+  return sim::run(device, loop, in + out, press, move).least_energy;
+}
+
+/// All of them: a challenge of `runs` runs each, and a search of five times as many.
+template <class Loop, class Lay>
+drawn most_drawn(const Loop& loop, const Lay& lay, const sim::circumstances& world,
+                 const std::vector<sim::adversary>& hands, int runs) {
+  drawn most;
+  const auto count = [&most](double least_energy, const char* by) {
+    if (-least_energy <= most.joules || std::isnan(most.joules)) return;  // NaN counts, and stays
+    most = {-least_energy, by};
+  };
+  bool any_motion = false;
+  for (const auto by : hands) {
+    count(sim::challenge(loop, by, world, runs, 1, lay).least_energy, to_string(by));
+    any_motion = any_motion || !sim::is_force_limited(by);
+  }
+  if (any_motion) {
+    count(sim::worst_motion(loop, world, 5 * runs, 1, lay).energy, "worst motion");
+    for (const double pushed : {0.3, 1.0, 3.0}) {
+      count(load_and_unload(loop, lay, world, 12.0, pushed), "load and unload");
+    }
+  } else {
+    count(sim::worst_push(loop, world, 5 * runs, 1, lay).energy, "worst push");
+  }
+  return most;
+}
+
+/// A named composition, told of a device, and the hands that its promise covers.
+struct subject {
+  std::string name;
+  std::function<drawn(const sim::circumstances&, const std::vector<sim::adversary>&, int)> attack;
+  std::vector<sim::adversary> covered;
+};
+
+const std::vector<sim::adversary> limited_hands{
+    sim::adversary::tapping, sim::adversary::random_tapping, sim::adversary::trembling};
+
+/// All but the two that hold a force for longer than the longest tick.
+std::vector<sim::adversary> steady_adversaries() {
+  std::vector<sim::adversary> all;
+  for (const auto by : sim::all_adversaries) {
+    if (by != sim::adversary::overruns && by != sim::adversary::kitchen_sink) all.push_back(by);
+  }
+  return all;
+}
+
+template <class Loop, class Lay>
+subject attacked(const char* name, const Loop& loop, const Lay& lay,
+                 const std::vector<sim::adversary>& covered) {
+  return {name,
+          [loop, lay](const sim::circumstances& world, const std::vector<sim::adversary>& hands,
+                      int runs) { return most_drawn(loop, lay, world, hands, runs); },
+          covered};
+}
+
+// ------------------------------------------------------------------------- what is stated and true
+
+/// The device is what is stated of it, with nothing to spare, and its driver drops no force.
+sim::circumstances just_as(const ph::known_device& d) {
+  return {.damping = d.damping,
+          .mass = d.mass,
+          .hand_force = d.hand_force,
+          .force_limit = d.force_limit,
+          .watchdog = false};
+}
+sim::circumstances just_as(const ph::design::stated_device& d, double hand_force) {
+  return {.damping = d.damping,
+          .mass = d.mass,
+          .friction = d.friction,
+          .presliding = d.presliding,
+          .hand_force = hand_force,
+          .quantum = d.quantum,
+          .force_limit = d.force_limit,
+          .longest_tick = d.longest_tick,
+          .watchdog = false};
+}
+
+/// A soft wall that moves far gives out more than weak motors have taken in.
+sim::circumstances soft_and_restless(sim::circumstances world) {
+  world.softest = 200.0;
+  world.stiffest = 600.0;
+  world.jump = 20e-3;
+  world.ticks = 2000;
+  return world;
+}
+
+/// Something that is stated of the circumstances, and untruths of it, the smallest first.
+struct statement {
+  std::string what;
+  std::function<std::string(const sim::circumstances&)> show;  ///< what is so there, with its unit
+  std::vector<sim::circumstances> untrue;
+  std::vector<sim::adversary> untold{};  ///< or hands that are none of those covered
+};
+
+/// The same times each factor; `member` is in SI units, and shown in units of `unit`.
+statement scaled(const char* what, double sim::circumstances::*member, const char* pattern,
+                 double unit, const sim::circumstances& world, const std::vector<double>& factors) {
+  statement s{
+      what, [=](const sim::circumstances& w) { return ex::format(pattern, w.*member / unit); }, {}};
+  for (const double factor : factors) {
+    s.untrue.push_back(world);
+    s.untrue.back().*member *= factor;
+  }
+  return s;
+}
+const std::vector<double> less{1.0 / 3.0, 0.1, 0.01}, more{3.0, 10.0, 100.0};
+
+statement mass(const sim::circumstances& w) {
+  return scaled("mass, at least", &sim::circumstances::mass, "%.3g kg", 1.0, w, less);
+}
+statement damping(const sim::circumstances& w) {
+  return scaled("damping, at least", &sim::circumstances::damping, "%.3g N·s/m", 1.0, w, less);
+}
+statement friction(const sim::circumstances& w) {
+  return scaled("dry friction, at least", &sim::circumstances::friction, "%.3g N", 1.0, w, less);
+}
+statement presliding(const sim::circumstances& w) {
+  return scaled("presliding, at most", &sim::circumstances::presliding, "%.3g µm", 1e-6, w, more);
+}
+statement hand_force(const sim::circumstances& w) {
+  return scaled("hand's force, at most", &sim::circumstances::hand_force, "%.3g N", 1.0, w, more);
+}
+statement encoder_step(const sim::circumstances& w) {
+  return scaled("encoder step, at most", &sim::circumstances::quantum, "%.3g µm", 1e-6, w, more);
+}
+statement longest_tick(const sim::circumstances& w) {
+  return scaled("longest tick", &sim::circumstances::longest_tick, "%.3g ms", 1e-3, w,
+                {2.0, 3.0, 10.0});
+}
+statement motors_limit(const sim::circumstances& w) {
+  return scaled("motors hold, at least", &sim::circumstances::force_limit, "%.3g N", 1.0, w, less);
+}
+statement exact_positions(const sim::circumstances& w) {
+  statement s{"positions exact: steps of",
+              [](const sim::circumstances& x) { return ex::format("%g µm", x.quantum * 1e6); },
+              {}};
+  for (const double step : {10e-6, 100e-6, 1e-3}) {
+    s.untrue.push_back(w);
+    s.untrue.back().quantum = step;
+  }
+  return s;
+}
+statement latency(const sim::circumstances& w) {
+  statement s{"ticks of latency",
+              [](const sim::circumstances& x) { return std::to_string(x.latency); },
+              {}};
+  for (const int late : {1, 2, 5}) {
+    s.untrue.push_back(w);
+    s.untrue.back().latency = w.latency + late;
+  }
+  return s;
+}
+/// No limit of the motors is stated, so that they are to have none.
+statement unlimited_motors(const sim::circumstances& w) {
+  statement s{"motors hold what is commanded",
+              [](const sim::circumstances& x) {
+                return std::isinf(x.force_limit) ? "all" : ex::format("%g N", x.force_limit);
+              },
+              {}};
+  for (const double most : {3.0, 1.0, 0.3}) {
+    s.untrue.push_back(w);
+    s.untrue.back().force_limit = most;
+  }
+  return s;
+}
+statement limited_hand(const sim::circumstances& w) {
+  return {"hand limited in force",
+          [](const sim::circumstances&) { return std::string("yes"); },
+          {w},
+          {sim::adversary::greedy}};
+}
+
+struct trial {
+  subject who;
+  sim::circumstances stated;
+  statement number;
+};
+
+std::vector<trial> trials() {
+  std::vector<trial> all;
+  const auto add = [&all](const subject& who, const sim::circumstances& stated,
+                          std::initializer_list<statement (*)(const sim::circumstances&)> list) {
+    for (const auto make : list) all.push_back({who, stated, make(stated)});
+  };
+
+  const ph::known_device ideal{.mass = 0.1, .damping = 0.03, .hand_force = 5.0, .force_limit = 9.0};
+  const auto world = just_as(ideal);
+  const subject touch =
+      attacked("make_touch", unreported<ph::touch<d1>>{ph::make_touch<d1>(ideal, 1e-3)},
+               lay_on_contact, limited_hands);
+  add(touch, world,
+      {mass, damping, hand_force, limited_hand, motors_limit, longest_tick, latency,
+       exact_positions});
+  const subject guard = attacked(
+      "make_force_guard", rendered<ph::force_guard<d1>>{ph::make_force_guard<d1>(ideal, 1e-3)},
+      lay_on_guard, limited_hands);
+  add(guard, world,
+      {mass, damping, hand_force, limited_hand, motors_limit, longest_tick, latency,
+       exact_positions});
+
+  auto strict_world = world;
+  strict_world.force_limit = sim::circumstances::infinity;
+  const subject strict =
+      attacked("make_strict_guard",
+               rendered<ph::strict_guard<d1>>{ph::make_strict_guard<d1>(ideal.damping, 1e-3)},
+               lay_on_guard, steady_adversaries());
+  add(strict, strict_world, {damping, unlimited_motors, longest_tick, latency, exact_positions});
+
+  const auto on_encoders = [](const char* name, const ph::design::stated_device& d, double hand) {
+    return attacked(
+        name, unreported<ph::encoder_touch<d1>>{ph::make_encoder_touch<d1>(d, hand + d.friction)},
+        lay_on_contact, limited_hands);
+  };
+  const auto& light = sim::touch_like;
+  const ph::design::stated_device stated{.mass = light.mass,
+                                         .damping = light.damping / 2,
+                                         .friction = light.friction / 2,
+                                         .presliding = 15e-6,
+                                         .quantum = light.quantum,
+                                         .force_limit = light.force_limit};
+  const auto stepped = just_as(stated, 5.0);
+  const subject encoders = on_encoders("make_encoder_touch", stated, 5.0);
+  add(encoders, stepped,
+      {mass, friction, presliding, hand_force, limited_hand, encoder_step, longest_tick, latency});
+  add(encoders, soft_and_restless(stepped), {motors_limit});
+  // Dry friction pays for so much that nothing is left for the damper to pay, unless there is much of it.
+  const ph::design::stated_device damped{.mass = 0.05,
+                                         .damping = 4.0,
+                                         .friction = 0.05,
+                                         .presliding = 1e-6,
+                                         .quantum = 10e-6,
+                                         .force_limit = 12.0};
+  add(on_encoders("make_encoder_touch, much damped", damped, 10.0), just_as(damped, 10.0),
+      {damping});
+  return all;
+}
+
+assumption_row judged(const trial& t, int runs) {
+  const auto& of = t.number;
+  const bool other_hands = !of.untold.empty();
+  assumption_row row;
+  row.composition = t.who.name;
+  row.assumption = of.what;
+  row.stated = of.show(t.stated);
+  row.runs = runs;
+  row.kept = t.who.attack(t.stated, t.who.covered, runs).joules;
+  for (const auto& world : of.untrue) {
+    const drawn most = t.who.attack(world, other_hands ? of.untold : t.who.covered, runs);
+    row.in_truth = other_hands ? "a velocity source" : of.show(world);
+    row.violated = most.joules;
+    row.by = most.by;
+    if (row.violated > shown_loss) break;
+  }
+  return row;
+}
+
+}  // namespace
+
+static ex::record record_of(const assumption_row& r) {
+  return {{"composition", r.composition},
+          {"assumption", r.assumption},
+          {"stated", r.stated},
+          {"true", r.in_truth},
+          {"J created with it kept", r.kept, "%.1e"},
+          {"J created with it violated", r.violated, "%.1e"},
+          {"by", r.by},
+          {"runs of each hand", r.runs}};
+}
+
+std::vector<std::string> unfounded(const std::vector<assumption_row>& rows) {
+  std::vector<std::string> found;
+  for (const auto& r : rows) {
+    const std::string cell = r.composition + ", " + r.assumption + ": ";
+    if (!(r.kept <= accepted_loss)) {
+      found.push_back(cell + "created " + ex::format("%.3g", r.kept) + " J while it is kept");
+    }
+    if (!(r.violated > shown_loss)) {
+      found.push_back(cell + "nothing is created at " + r.in_truth +
+                      "; find the hand, or state the assumption no longer");
+    }
+  }
+  return found;
+}
+
+std::vector<std::string> run_assumptions(const session& s) {
+  const int runs = std::max(30, s.chosen.runs / 10);
+  const auto rows = s.rows("assumptions.csv", "assumptions", trials(),
+                           [runs](const trial& t) { return judged(t, runs); });
+  s.out.section("Assumptions",
+                "The most that any hand has drawn out of a named composition, in one dimension, on "
+                "a device that is just as stated and has nothing to spare, and on one of which one "
+                "statement is untrue: a little, and if that creates nothing, much. No driver "
+                "reports the force it held. The hands of conditional compositions: tapping, random "
+                "tapping and trembling, limited in force, and a search for the worst push; of the "
+                "strict one: the ten adversaries that keep to the longest tick, a search for the "
+                "worst motion, and one that is pushed out by less than it has pressed against. A "
+                "kept cell above 1e-12 J fails the run, and so does a violated one below 1e-9 J.");
+  s.out.show(ex::table_of(rows, [](const assumption_row& r) {
+    auto line = record_of(r);
+    line.pop_back();
+    return line;
+  }));
+  s.out.member("assumptions", ex::json_of(rows));
+  return unfounded(rows);
+}
+
+}  // namespace controllers
