@@ -239,7 +239,7 @@ def main():
     practice = [entry for entry in practice if entry[0] not in named]
     design = [(p.relative_to(root).as_posix(), "design_" + p.stem)
               for p in sorted((root / "docs" / "design").glob("*.md"))]
-    project = [("CHANGELOG.md", "changelog"), ("CONTRIBUTING.md", "contributing")]
+    project = [("CHANGELOG.md", "changelog"), ("CONTRIBUTING.md", "contributing"), ("SECURITY.md", "security")]
     for path, label in [("README.md", "index"), *guide, *practice, *design, *project]:
         site.add(path, label)
     examples = [p for p in sorted((root / "examples").rglob("*.cpp"))
