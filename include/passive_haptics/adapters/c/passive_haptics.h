@@ -24,6 +24,15 @@
 // port has ticked, and the force in it is what must be commanded: zero, with an event, if anything was
 // wrong. Where no result can be written (NULL, a wrong size) the port has not ticked.
 //
+// A pointer that is not NULL is taken at its word: it leads to what the type says, and lives as long as the
+// call. A ph_port* is valid from the ph_create that wrote it until its first ph_destroy. Whatever is done with
+// it after that, a second ph_destroy included, is undefined behaviour and not noticed: set your pointer to NULL
+// there, because every function answers that.
+//
+// Threads: of one port, ph_publish_* belong to one thread and ph_tick, ph_tick_wanted and ph_held to one, the
+// same or another. Two threads in functions of one of these groups at once, or ph_destroy while one is in any,
+// are a data race, undefined as well. ph_guarantee_of is for any thread, and different ports share nothing.
+//
 // Before 1.0 a minor version may change this interface, as it may the library's.
 
 #include <stddef.h>
@@ -146,7 +155,8 @@ PH_API uint32_t ph_version(void) PH_NOTHROW;
 /// What a composition does not take it does not look at.
 PH_API int32_t ph_create(const char* composition, const ph_parameters* parameters, ph_port** port,
                          char* why, size_t room) PH_NOTHROW;
-/// Ends a port; nobody may be in another function with it. NULL is no port, and nothing happens.
+/// Ends a port, once; nobody may be in another function with it, then or later. NULL is no port, and nothing
+/// happens.
 PH_API void ph_destroy(ph_port* port) PH_NOTHROW;
 /// A ph_guarantee; PH_NONE for NULL.
 PH_API int32_t ph_guarantee_of(const ph_port* port) PH_NOTHROW;
