@@ -48,7 +48,7 @@ using datagram = std::array<std::byte, datagram_size>;
 using received_bytes = std::span<const std::byte>;
 
 /// Whose datagram it is, as the carrier says: an IPv6 address, most significant byte first, or an IPv4 address
-/// mapped into it (::ffff:a.b.c.d, RFC 4291, 2.5.5.2), and a port. All zero on a carrier without addresses.
+/// mapped into it (RFC 4291, 2.5.5.2), and a port. All zero on a carrier without addresses.
 struct sender {
   std::array<std::uint8_t, 16> address{};
   std::uint16_t port = 0;
