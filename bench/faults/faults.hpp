@@ -6,7 +6,9 @@
 #include <passive_haptics/simulation/device.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
@@ -29,7 +31,9 @@ struct fault {
   std::string name;
   int lasts = 1;  ///< [ticks]
   std::function<void(sample&)> spoil = [](sample&) {};
-  int held = 1;  ///< for how many ticks the device goes on with its last command
+  int held = 1;        ///< for how many ticks the device goes on with its last command
+  bool stuck = false;  ///< it shows where it was before
+  double dt = T;       ///< what the loop is told of that tick [s]
 };
 
 /// Every kind, with the signs and sizes that hurt most; z is the way out of the wall.
@@ -62,8 +66,28 @@ struct fault {
   for (const int n : {1, 20, 300}) {
     all.push_back({"lost " + std::to_string(n) + " ticks", n, [](sample& s) { s.valid = false; }});
   }
+  for (const int n : {1, 5, 50}) {
+    all.push_back({"stuck for " + std::to_string(n) + " ticks", n, [](sample&) {}, 1, true});
+  }
+  const auto flipped = [](double x, int bit) {
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ (std::uint64_t{1} << bit));
+  };
+  for (const int bit : {40, 46, 49, 50, 51, 52, 53, 54, 56, 60, 61, 62, 63}) {
+    const std::string name = "bit " + std::to_string(bit) + " of ";
+    all.push_back({name + "z", 1, [=](sample& s) {
+                     const vector x = s.position;
+                     s.position = vector(x.x(), x.y(), flipped(x.z(), bit));
+                   }});
+    all.push_back({name + "dt", 1, [=](sample& s) { s.dt = flipped(s.dt, bit); }});
+    all.back().dt = flipped(T, bit);
+    all.push_back({name + "held", 1, [=](sample& s) {
+                     const vector f = s.held;
+                     s.held = vector(f.x(), f.y(), flipped(f.z(), bit));
+                   }});
+  }
   for (const int n : {2, 5, 20, 100, 300}) {
     all.push_back({"late " + std::to_string(n) + " ms", 1, [](sample&) {}, n});
+    all.back().dt = n * T;
   }
   return all;
 }
@@ -102,9 +126,15 @@ struct course {
   const controller loop = who.make(amends);
   course all;
   sample s = device.exchange(vector::Zero());
+  auto before = s.position;
   for (int n = 0; n < ticks;) {
     sample shown = s;
-    if (f && n >= at && n < at + f->lasts) f->spoil(shown);
+    if (f && n >= at && n < at + f->lasts) {
+      f->spoil(shown);
+      if (f->stuck) shown.position = before;
+    } else {
+      before = shown.position;
+    }
     const answer a = loop(shown);
     all.finite = all.finite && a.force.allFinite();
     all.largest = std::max(all.largest, a.force.norm());
