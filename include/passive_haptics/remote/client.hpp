@@ -142,7 +142,7 @@ class client_with {
 
   void greet_anew() noexcept {
     state_ = state::greeting;
-    greeted_ = nanoseconds::max();
+    greeted_ = (nanoseconds::max)();
   }
 
   /// A welcome or a busy has to reply to a hello of this greeting, and to one that waits for a reply.
@@ -181,7 +181,7 @@ class client_with {
     return verdict::accepted;
   }
 
-  static constexpr nanoseconds never = nanoseconds::min();
+  static constexpr nanoseconds never = (nanoseconds::min)();
 
   client_settings settings_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS Seal seal_;
@@ -193,8 +193,8 @@ class client_with {
   detail::in_order order_;
   nanoseconds heard_{0};       // when the welcome came, or the last answer that was accepted
   nanoseconds asked_ = never;  // the newest stamp that was sent
-  nanoseconds greeted_ = nanoseconds::max();  // the stamp of the first hello since it talked last
-  nanoseconds oldest_{0};                     // the oldest stamp that an answer may still echo
+  nanoseconds greeted_ = (nanoseconds::max)();  // the stamp of the first hello since it talked last
+  nanoseconds oldest_{0};                       // the oldest stamp that an answer may still echo
   news news_{};
   bool fresh_ = false;
   tally tally_;
