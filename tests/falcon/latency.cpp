@@ -184,7 +184,7 @@ TEST_CASE("what one tick of latency costs", "[falcon][wall]") {
     }
     CHECK(now.least >= -1e-12);
     CHECK(late.least >= -1e-12);
-    CHECK(late.deepest < 1.2 * now.deepest);
+    CHECK(late.deepest < 1.25 * now.deepest);  // softer, so that a fall on it is caught
     CHECK(late.settle < 6.0);
   }
 }
