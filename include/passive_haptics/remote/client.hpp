@@ -84,7 +84,7 @@ class client_with {
       greet_anew();
     }
     if (asked_ == never) oldest_ = now;
-    asked_ = std::max(asked_, now);
+    asked_ = (std::max)(asked_, now);
     message m{.kind = kind::hello, .key = key_, .stamp = now};
     if (state_ == state::talking) {
       m.kind = kind::question;
@@ -92,7 +92,7 @@ class client_with {
       m.sequence = ++number_;
       m.content = content_of(where);
     } else {
-      greeted_ = std::min(greeted_, now);
+      greeted_ = (std::min)(greeted_, now);
     }
     return detail::encode_sealed(m, seal_);
   }
