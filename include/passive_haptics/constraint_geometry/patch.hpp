@@ -67,8 +67,9 @@ requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
     std::array<vector, node_capacity> around{};
     around.fill(Space::zero());
     for (std::size_t i = 0; i < triangle_count; ++i) {
-      for (const std::uint8_t node : triangles[i])
+      for (const std::uint8_t node : triangles[i]) {
         if (node >= node_count) return false;
+      }
       const detail::facing<Space> outside =
           detail::facing_of<Space>(corner(i, 0), corner(i, 1), corner(i, 2));
       if (!outside.usable) return false;
