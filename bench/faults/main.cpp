@@ -60,7 +60,7 @@ auto touch_of(const auto& limits) {
       ph::followed<plane>{},
       ph::turn_limited{.rate = 2.0},
       ph::eased{ph::damped_spring{.mass = told.mass, .force_limit = told.force_limit}},
-      ph::forgiving{ph::reduced_energy{.damping = told.damping}, told.amends()},
+      ph::forgiving{ph::reduced_energy{.damping = told.damping}, ph::amends_for(told.force_limit)},
       ph::bound_chain{ph::reachable_bound{.mass = told.mass, .hand_force = told.hand_force},
                       ph::actuator_limit{.most = told.force_limit}},
       limits};
@@ -68,7 +68,7 @@ auto touch_of(const auto& limits) {
 
 std::vector<subject> subjects() {
   const sim::device_parameters<d3> free{.mass = told.mass, .damping = 2.0 * told.damping};
-  const double A = told.amends();
+  const double A = ph::amends_for(told.force_limit);
   std::vector<subject> all;
   for (const double K : {800.0, 3000.0}) {
     all.push_back(

@@ -171,7 +171,7 @@ template <int Latency>
 template <class Ledger>
 [[nodiscard]] ph::forgiving<Ledger> forgiven(const ph_parameters& p,
                                              const Ledger& ledger) noexcept {
-  return {ledger, ph::known_device{.force_limit = p.force_limit}.amends()};
+  return {ledger, ph::amends_for(p.force_limit)};
 }
 [[nodiscard]] ph::dual_ledger frictional(const ph_parameters& p) noexcept {
   return {.damping = {.coefficient = p.damping, .coulomb = p.friction, .presliding = p.presliding},

@@ -43,11 +43,6 @@ struct known_device {
   double damping{};      ///< b, a lower bound: half of what you identified [N·s/m]
   double hand_force{};   ///< the most that hand, load and dry friction push with [N]
   double force_limit{};  ///< the most that the motors hold [N]
-
-  /// What a fault is made up for with [J]: ½F²/K of a contact that F presses 5 mm deep.
-  [[nodiscard]] constexpr double amends() const noexcept {
-    return detail::positive(force_limit) ? 2.5e-3 * force_limit : 0.0;
-  }
 };
 
 /// What we recommend for a device of known mass. It is conditional, like reachable_bound.
@@ -65,7 +60,7 @@ template <class Space, class Constraint = half_space<Space>>
           followed<Constraint>{},
           turn_limited{.rate = turn_rate},
           eased{damped_spring{.mass = device.mass, .force_limit = device.force_limit}},
-          forgiving{reduced_energy{.damping = device.damping}, device.amends()},
+          forgiving{reduced_energy{.damping = device.damping}, amends_for(device.force_limit)},
           bound_chain{reachable_bound{.mass = device.mass, .hand_force = device.hand_force},
                       actuator_limit{.most = device.force_limit}},
           loop_limits{.longest_tick = longest_tick}};
@@ -99,7 +94,7 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
                                             .coulomb = device.friction,
                                             .presliding = device.presliding},
                                 .quantum = device.quantum},
-                    known_device{.force_limit = device.force_limit}.amends()},
+                    amends_for(device.force_limit)},
           bound_chain{reachable_bound{.mass = device.mass, .hand_force = hand_force},
                       thermal_limit{.peak = device.force_limit,
                                     .continuous = device.continuous_force,
@@ -119,7 +114,7 @@ template <class Space, class Limits = loop_limits>
 [[nodiscard]] constexpr force_guard<Space, isotropic_damping, Limits> make_force_guard(
     const known_device& device, double longest_tick) noexcept {
   return {Space{}, settled_force{.mass = device.mass, .force_limit = device.force_limit},
-          forgiving{reduced_energy{.damping = device.damping}, device.amends()},
+          forgiving{reduced_energy{.damping = device.damping}, amends_for(device.force_limit)},
           bound_chain{reachable_bound{.mass = device.mass, .hand_force = device.hand_force},
                       actuator_limit{.most = device.force_limit}},
           Limits{.longest_tick = longest_tick}};

@@ -159,7 +159,7 @@ TEST_CASE("no single fault takes a wall away for longer than a second",
           "[forgiving][faults][long]") {
   // All of them, on seven compositions and at more moments: the preset `faults`.
   const faults::subject touch{
-      "touch", {.mass = 0.1, .damping = 0.1}, 9.0, 2.5e-3 * 9.0, 0, [](double amends) {
+      "touch", {.mass = 0.1, .damping = 0.1}, 9.0, ph::amends_for(9.0), 0, [](double amends) {
         auto port = ph::make_touch<d3>(
             {.mass = 0.1, .damping = 0.05, .hand_force = 5.0, .force_limit = 9.0}, T);
         (void)port.set(ph::forgiving{ph::reduced_energy{.damping = 0.05}, amends});

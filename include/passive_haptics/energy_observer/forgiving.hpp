@@ -42,6 +42,11 @@ struct forgiving {
 template <class Ledger>
 forgiving(Ledger, double) -> forgiving<Ledger>;
 
+/// A [J] of motors that hold `force_limit` F [N]: ½F²/K of a contact that F presses 5 mm deep; 0 if F is no limit.
+[[nodiscard]] constexpr double amends_for(double force_limit) noexcept {
+  return detail::positive(force_limit) ? 2.5e-3 * force_limit : 0.0;
+}
+
 template <class Ledger>
 template <port P>
 class forgiving<Ledger>::on : public part_at<Ledger, P> {
