@@ -136,6 +136,8 @@ TEST_CASE("a device is not believed to hold more than twice what its motors can"
   try_all(ph::thermal_limit{.peak = 9.0, .continuous = 9.0, .time_constant = 10.0});
   try_all(ph::bound_chain{ph::strict_bound{}, ph::actuator_limit{9.0}});
   try_all(ph::bound_chain{ph::actuator_limit{9.0}, ph::strict_bound{}});
+  try_all(
+      ph::bound_chain{ph::actuator_limit{90.0}, ph::actuator_limit{9.0}});  // whichever is first
   CHECK_FALSE(
       refuses(ph::strict_bound{}, 1e3));  // who is not told of motors asks for a number only
   CHECK(refuses(ph::strict_bound{}, HUGE_VAL));

@@ -62,7 +62,7 @@ struct actuator_limit {
       return {force > most_ ? most_ / force : scalar(1)};
     }
     [[nodiscard]] constexpr bool can_hold(const typename Space::effort& held) const noexcept {
-      return Space::norm(held) * scalar(0.5) <= most_;
+      return detail::can_be_held(Space::norm(held), most_);
     }
 
    private:
@@ -113,8 +113,8 @@ struct motor_limits {
     [[nodiscard]] constexpr bool can_hold(const typename P::effort& held) const noexcept {
       bool all = true;
       for (int i = 0; i < Dof; ++i) {
-        all = all && kernels::magnitude(P::component(held, i)) * scalar(0.5) <=
-                         most_[static_cast<std::size_t>(i)];
+        all &= detail::can_be_held(kernels::magnitude(P::component(held, i)),
+                                   most_[static_cast<std::size_t>(i)]);
       }
       return all;
     }

@@ -197,8 +197,8 @@ struct rigid_actuator_limit {
     }
     [[nodiscard]] constexpr bool can_hold(const typename P::effort& held) const noexcept {
       using lengths = part_at<rigid_inertia, P>;
-      return lengths::template length<0>(held) * scalar(0.5) <= force_ &&
-             lengths::template length<3>(held) * scalar(0.5) <= torque_;
+      return detail::can_be_held(lengths::template length<0>(held), force_) &&
+             detail::can_be_held(lengths::template length<3>(held), torque_);
     }
 
    private:

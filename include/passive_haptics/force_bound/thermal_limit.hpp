@@ -64,7 +64,7 @@ class thermal_limit::on {
   constexpr void reset() noexcept { mean_square_ = held_square_ = scalar(0); }
 
   [[nodiscard]] constexpr bool can_hold(const typename Space::effort& held) const noexcept {
-    return Space::norm(held) * scalar(0.5) <= peak_;
+    return detail::can_be_held(Space::norm(held), peak_);
   }
   [[nodiscard]] constexpr share<scalar> limit(const typename Space::effort& desired,
                                               const auto& state) noexcept {

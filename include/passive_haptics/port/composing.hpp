@@ -176,7 +176,7 @@ constexpr void take(part_at<Spec, P>& part, const Parameters& p) noexcept {
   }
 }
 
-/// A bound that knows what the motors hold: no device reports more than that.
+/// A bound that knows what the motors hold.
 template <class Part, class Effort>
 concept says_what_it_holds = requires(const Part p, const Effort f) {
   { p.can_hold(f) } -> std::same_as<bool>;
@@ -270,15 +270,14 @@ class sequence<First, Rest...>::on {
     }
   }
 
-  /// Where a part says so.
+  /// What all parts that know it say.
   [[nodiscard]] constexpr bool can_hold(const effort& held) const noexcept
       requires(says_what_it_holds<part_at<First, P>, effort> ||
                says_what_it_holds<part_at<others, P>, effort>) {
-    if constexpr (!says_what_it_holds<part_at<First, P>, effort>) {
-      return rest_.can_hold(held);
-    } else {
-      return first_.can_hold(held);
-    }
+    bool all = true;
+    if constexpr (says_what_it_holds<part_at<First, P>, effort>) all = first_.can_hold(held);
+    if constexpr (says_what_it_holds<part_at<others, P>, effort>) all &= rest_.can_hold(held);
+    return all;
   }
 
   template <class... States>

@@ -60,6 +60,9 @@ inline namespace v0 {
 //   update(Δx, effort and   observer             passive_port          it fits no port that reports work
 //     work, dt)
 //   travel_error()          observer, not exact  passive_port          the motion shown is exact
+//   disturbed()             observer             passive_port, at a    faults are nothing to it
+//                                                refusal or a late tick
+//   can_hold(f)             bound                tick(device_sample)   any force that is a number may have been held
 //   passivity               bound, on its port   passive_port          its `on<Port>` says it
 //   apply(f, states…)       sequence of parts    applied()             limit() or shape() answers
 //   only_reduces<States…>   sequence of parts    passive_port          what limit() or shape() returns says it
@@ -197,6 +200,14 @@ struct bound_traits {
       false;  ///< it reads nothing of a tick but the ledger: the work may be reported
 };
 inline constexpr int any_latency = kernels::largest<int>();
+
+namespace detail {
+/// Can motors that hold `most` have held a force of that size? Twice as much, for what is not known of them; no NaN.
+template <class Scalar>
+[[nodiscard]] constexpr bool can_be_held(Scalar size, Scalar most) noexcept {
+  return size * Scalar(0.5) <= most;
+}
+}  // namespace detail
 
 /// What its promise rests on. One that promises nothing rests on nothing.
 template <class Bound>
