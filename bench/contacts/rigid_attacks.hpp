@@ -11,6 +11,7 @@
 // Each run returns the least true energy and the least of the ledger; a bench may ask for more runs.
 
 #include "rigid_hand.hpp"
+#include <passive_haptics/base/seconds.hpp>
 
 #include <cmath>
 #include <cstdint>
