@@ -45,7 +45,7 @@ struct known_device {
   double force_limit{};  ///< the most that the motors hold [N]
 };
 
-/// What we recommend for a device of known mass. It is conditional, like reachable_bound.
+/// What we recommend for a device of known mass. It is conditional, like reachable_bound, and gets over faults.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
 using touch =
     local_model<Space, followed<Constraint>, turn_limited, eased<damped_spring>,
@@ -67,8 +67,8 @@ template <class Space, class Constraint = half_space<Space>>
 }
 
 /// What we recommend where the steps of the encoders are felt and dry friction is sure. It is conditional,
-/// like reachable_bound, with E ≥ −½ c p for ever. A surface stiffer than the device can pay for is
-/// displayed softer; law().is_capped() is true then.
+/// like reachable_bound, with E ≥ −½ c p for ever where there is no fault, else as forgiving says. A surface
+/// stiffer than the device can pay for is displayed softer; law().is_capped() is true then.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
 using encoder_touch =
     local_model<Space, followed<Constraint>, turn_limited, capped<eased<damped_spring>>,

@@ -82,8 +82,11 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
   }
   /// There was a fault: the port says so.
   constexpr void disturbed() noexcept {
-    if (!shaken_) pause_ = first_pause;
-    if (shaken_ && quiet_ > pause_) pause_ *= scalar(2);
+    if (!shaken_) {
+      pause_ = first_pause;
+    } else if (quiet_ > pause_) {
+      pause_ *= scalar(2);
+    }
     shaken_ = true;
     quiet_ = scalar(0);
   }

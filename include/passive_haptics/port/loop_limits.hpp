@@ -5,7 +5,7 @@
 //   loop_limits               a command is held from the moment it is given
 //   late_loop_limits<k>       it is held k ticks later, as every device that talks in packets does
 //   watched_loop_limits<k>    the same, and a sensor that is slower than the loop is reported
-//   learning_loop_limits<k>   the longest tick is the longest so far: conditional
+//   learning_loop_limits<k>   the longest tick is the longest so far, tenfold at most at once: conditional
 //   trusted_loop_limits<k>    somebody else answers for every sample: conditional, half the code
 //
 // The delay is a property of the loop, so it is stated once, here. Every force bound honours it, or is
@@ -21,7 +21,7 @@ inline namespace v0 {
 /// What a loop has besides its numbers, known to the compiler.
 struct loop_traits {
   bool watched = false;  ///< event::repeated_sample tells of a sensor that is slower than the loop
-  bool learns = false;   ///< the longest tick so far is the longest tick
+  bool learns = false;   ///< the longest tick is the longest so far, tenfold at most at once
 };
 
 /// A guarantee holds while the loop keeps to these; a tick that does not is reported. What a late tick
