@@ -144,6 +144,25 @@ TEST_CASE("whenever the faults come, no more is lent than the promise says", "[f
   CHECK(worst > 0.4);  // it is not far from what can be had
 }
 
+TEST_CASE("a refused sample and a late tick are faults, and reset() forgets them", "[forgiving]") {
+  const auto lent_after = [](auto&& happens) {
+    ph::passive_port port{d1{}, ph::given_force{}, mild, ph::strict_bound{}, thesis_loop};
+    (void)port.tick(0.0, ph::seconds{T});
+    happens(port);
+    for (int n = 0; n < 1000; ++n) (void)port.tick(0.0, ph::seconds{T});
+    return port.energy();
+  };
+  const auto refused = [](auto& port) { (void)port.tick(std::nan(""), ph::seconds{T}); };
+  CHECK(lent_after([](auto&) {}) == 0.0);
+  CHECK_THAT(lent_after(refused), WithinRel(A, 1e-9));
+  CHECK_THAT(lent_after([](auto& port) { (void)port.tick(0.0, ph::seconds{0.1}); }),
+             WithinRel(A, 1e-9));
+  CHECK(lent_after([&](auto& port) {
+          refused(port);
+          port.reset();
+        }) == 0.0);
+}
+
 TEST_CASE("new parameters reach a forgiving ledger and what it keeps", "[forgiving]") {
   auto touch =
       ph::make_touch<d1>({.mass = 0.1, .damping = 0.1, .hand_force = 5.0, .force_limit = 9.0}, T);
