@@ -17,6 +17,7 @@ int main() {
   const double dt = 1e-3;  // s
   // The surface is at 0 m, the object below it: outward is +1.
   const ph::half_space<scene> surface{.point = 0.0, .normal = 1.0, .stiffness = 2500.0};
+  // By hand: the strict bound alone, to see what it cuts.
   ph::local_model wall{scene{},
                        ph::fixed{surface},
                        ph::turn_at_once{},                    // a flat wall never turns

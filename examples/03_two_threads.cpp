@@ -31,13 +31,8 @@ void environment(ph::exchange<plane>& to_loop, ph::exchange<position>& from_loop
 int main() {
   ph::exchange<plane> to_loop;
   ph::exchange<position> from_loop;
-  ph::local_model touch{scene{},
-                        ph::followed<plane>{},
-                        ph::turn_limited{.rate = 4},
-                        ph::spring{},
-                        ph::reduced_energy{.damping = 0.5},
-                        ph::strict_bound{},
-                        ph::loop_limits{.longest_tick = 2e-3}};
+  auto touch = ph::make_touch<scene>(
+      {.mass = 0.1, .damping = 0.5, .force_limit = 9, .longest_tick = 2e-3}, {.force = 5});
   std::thread world([&] { environment(to_loop, from_loop); });
   scene::vector x(0, 0, -0.001F);
   bool good = true;

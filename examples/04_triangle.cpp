@@ -16,6 +16,7 @@ using scene = ph::space<double, 3>;
 using vector = scene::vector;
 
 int main() {
+  // By hand: the thesis's own rule, which no composition of ours has.
   ph::local_model touch{scene{},
                         ph::followed<ph::triangle<scene>>{},
                         ph::turn_limited{.rate = 4.0},  // rad/s

@@ -32,6 +32,7 @@ void attack(const char* name, const auto& law, const auto& bound, const auto& to
   const ph::half_space<scene> surface{.point = 0.0, .normal = 1.0, .stiffness = 1e4};
   const ph::reduced_energy ledger{.damping = damping};
   const ph::followed piece{surface};
+  // By hand: one bound after the other.
   ph::local_model wall{scene{}, piece, ph::turn_at_once{}, law, ledger, bound, told};
   double x = 0.0, energy = 0.0, largest = 0.0;
   double next = wall.tick(x, ph::seconds{dt}).force, held = next;

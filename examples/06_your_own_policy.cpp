@@ -44,6 +44,7 @@ static_assert(ph::promise_of<decltype(chain), scene>() == ph::guarantee::strict)
 
 int main() {
   const ph::half_space<scene> surface{.point = 0.0, .normal = 1.0, .stiffness = 1000.0};
+  // By hand: a part of your own among the others.
   ph::local_model wall{scene{},
                        ph::fixed{surface},
                        ph::turn_at_once{},

@@ -14,6 +14,7 @@ using wall = ph::half_space<scene>;
 int main() {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float ms = 1e-3F;
+  // By hand: a spring without damping and a loan, so that every force is round.
   ph::local_model touch{
       scene{},
       // Silent for more than 4.5 ms is stale; the contact then fades out over another 4 ms.

@@ -16,6 +16,7 @@
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;
 
+// By hand: the smallest there is, as a constant expression.
 constexpr ph::local_model knob{
     scene{},
     ph::fixed{ph::half_space<scene>{.point = 0.0F, .normal = 1.0F, .stiffness = 1000.0F}},

@@ -13,6 +13,7 @@ namespace ph = passive_haptics;
 using scene = ph::space<float, 3>;
 
 auto make(double damping) {
+  // By hand: few parts, so that what is stored is short.
   return ph::local_model{scene{},
                          ph::followed<ph::half_space<scene>>{},
                          ph::turn_limited{.rate = 4.0},

@@ -28,6 +28,7 @@ struct trusting_bound {
 };
 
 auto wall_with(const auto& bound) {
+  // By hand: any bound, to be attacked.
   return ph::local_model{
       scene{},
       ph::followed<ph::half_space<scene>>{},

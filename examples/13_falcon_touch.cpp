@@ -14,16 +14,16 @@ template <class Device>
 int touch(Device& grip) {
   // What nobody has published of a Falcon: identify your own, and state less damping and friction than
   // it has, and more presliding.
-  constexpr ph::design::stated_device stated{.mass = 0.1,         // kg
-                                             .damping = 0.2,      // N·s/m
-                                             .friction = 0.15,    // N
-                                             .presliding = 1e-5,  // m
-                                             .quantum = 1.03e-4,  // m, a count of every leg
-                                             .force_limit = 8.0,  // N
-                                             .longest_tick = 2.5e-3};
-  constexpr double strongest_hand = 5;  // N
+  constexpr ph::encoder_device stated{.mass = 0.1,         // kg
+                                      .damping = 0.2,      // N·s/m
+                                      .friction = 0.15,    // N
+                                      .presliding = 1e-5,  // m
+                                      .quantum = 1.03e-4,  // m, a count of every leg
+                                      .force_limit = 8.0,  // N
+                                      .longest_tick = 2.5e-3,
+                                      .latency = 1};  // ticks: a force leaves with the next packet
   using plane = ph::half_space<scene>;
-  auto wall = ph::make_encoder_touch<scene, plane, ph::late_loop_limits<1>>(stated, strongest_hand);
+  auto wall = ph::make_touch<scene, plane, ph::late_loop_limits<1>>(stated, {.force = 5});  // N
   wall.update({{0, 0, 0.12}, {0, 0, 1}, 800.0});
 
   scene::vector force = scene::zero();

@@ -24,8 +24,9 @@ double renderer(double x) {
 
 int main() {
   for (const bool guarded : {false, true}) {
-    auto port = ph::make_force_guard<scene>(
-        {.mass = 0.1, .damping = damping, .hand_force = 12.0, .force_limit = 9.0}, 1e-3);
+    auto port = ph::make_guard<scene>(
+        {.mass = 0.1, .damping = damping, .force_limit = 9.0, .longest_tick = 1e-3},
+        {.force = 12.0});
     static_assert(decltype(port)::passivity == ph::guarantee::conditional);
 
     // A simulated device, and a hand that comes down from 30 mm and presses.

@@ -48,6 +48,7 @@ int main() {
   const ph::strict_bound bound;
   const ph::loop_limits limits{.longest_tick = dt};
 
+  // By hand: the sum of two and of three local models, against a port each.
   const ph::passive_port edge{scene{}, ph::contacts{floor, side}, ledger, bound, limits};
   const ph::passive_port corner{scene{}, ph::contacts{floor, side, back}, ledger, bound, limits};
   const auto alone = [&](const auto& one) {

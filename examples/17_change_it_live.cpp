@@ -32,7 +32,7 @@ class session {
   simulated& device_;
   ph::device_sample<scene> sample_ = device_.exchange(0.0);
   ph::touch<scene> touch_ = ph::make_touch<scene>(
-      {.mass = 0.1, .damping = 0.03, .hand_force = 5.0, .force_limit = 9.0}, 1e-3);
+      {.mass = 0.1, .damping = 0.03, .force_limit = 9.0, .longest_tick = 1e-3}, {.force = 5.0});
 };
 
 int main() {

@@ -22,11 +22,9 @@ using plane = ph::half_space<scene>;
 
 int main() {
   const double mass = 0.1, damping = 0.1;  // of the device, kg and N·s/m
-  ph::passive_port corner{
-      scene{},
-      ph::contact_set{ph::proxy_spring{.mass = mass}, ph::pursuit{}, ph::slots<plane, 3>{}},
-      ph::reduced_energy{.damping = damping}, ph::reachable_bound{.mass = mass, .hand_force = 5},
-      ph::loop_limits{.longest_tick = 1e-3}};
+  auto corner = ph::make_contacts<scene>(
+      {.mass = mass, .damping = damping, .force_limit = 9, .longest_tick = 1e-3}, {.force = 5},
+      ph::slots<plane, 3>{});
   plane floor{{0, 0, 0}, {0, 0, 1}, 800};  // N/m
   const plane side{{0, 0, 0}, {1, 0, 0}, 800}, back{{0, 0, 0}, {0, 1, 0}, 800};
   corner.source().update(1, side);

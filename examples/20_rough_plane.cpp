@@ -17,13 +17,10 @@ using vector = scene::vector;
 
 int main() {
   const double mass = 0.1, damping = 0.03;  // of the device, kg and N·s/m
-  ph::passive_port port{
-      scene{},
-      ph::contact_set{ph::proxy_spring{.mass = mass}, ph::pursuit{},
-                      ph::stick_slip{.static_coefficient = 0.6, .kinetic_coefficient = 0.4},
-                      ph::slots<ph::half_space<scene>, 1>{}},
-      ph::reduced_energy{.damping = damping}, ph::reachable_bound{.mass = mass, .hand_force = 5},
-      ph::loop_limits{.longest_tick = 1e-3}};
+  auto port = ph::make_contacts<scene>(
+      {.mass = mass, .damping = damping, .force_limit = 9, .longest_tick = 1e-3}, {.force = 5},
+      ph::stick_slip{.static_coefficient = 0.6, .kinetic_coefficient = 0.4},
+      ph::slots<ph::half_space<scene>, 1>{});
   port.source().update(0, ph::half_space<scene>{{0, 0, 0}, {0, 0, 1}, 1000});  // N/m
 
   sim::device<scene, sim::impedance_hand<scene>> device{

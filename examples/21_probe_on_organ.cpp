@@ -23,11 +23,9 @@ using vector = scene::vector;
 template <class Surface>
 void pull(const char* name, const env::tetrahedral_mesh& organ, auto told) {
   const auto surface = env::boundary(organ);
-  ph::passive_port touch{
-      scene{},
-      ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::slots<Surface, 1>{}},
-      ph::reduced_energy{.damping = 0.1}, ph::reachable_bound{.mass = 0.1, .hand_force = 5},
-      ph::loop_limits{.longest_tick = 1e-3}};
+  auto touch = ph::make_contacts<scene>(
+      {.mass = 0.1, .damping = 0.1, .force_limit = 9, .longest_tick = 1e-3}, {.force = 5},
+      ph::slots<Surface, 1>{});
   sim::device<scene, sim::impedance_hand<scene>> device{
       {.mass = 0.1, .damping = 0.1, .start = {-0.03, 0.003, 0.021}}, {.stiffness = 100}};
   auto sample = device.exchange(vector::Zero());

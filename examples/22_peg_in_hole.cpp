@@ -18,16 +18,13 @@ using vector = body::triple;
 using plane = ph::half_space<ph::space<double, 3>>;
 
 int main() {
-  ph::passive_port peg{
-      body{},
-      ph::rigid_tool{ph::tool_spring{.mass = 0.15, .least_inertia = 1e-4, .lever = 0.03},
-                     ph::pursuit{}, ph::slots<plane, 20>{}},  // kg, kg·m², m
-      ph::forgiving{ph::basic_reduced_energy<ph::rigid_damping>{{.linear = 0.03, .angular = 1e-4}},
-                    0.02},  // J
-      ph::bound_chain{ph::rigid_reachable_bound{
-                          {.mass = 0.15, .least = 1e-4, .spread = 2e-4}, 5, 0.1, 0.06, 2e-4},
-                      ph::rigid_actuator_limit{.force = 9, .torque = 0.5}},
-      ph::loop_limits{.longest_tick = 1e-3}};
+  auto peg = ph::make_tool({.inertia = {.mass = 0.15, .least = 1e-4, .spread = 2e-4},  // kg, kg·m²
+                            .damping = {.linear = 0.03, .angular = 1e-4},  // N·s/m, N·m·s/rad
+                            .damping_most = {.linear = 0.06, .angular = 2e-4},
+                            .force_limit = 9,     // N
+                            .torque_limit = 0.5,  // N·m
+                            .longest_tick = 1e-3},
+                           {.force = 5, .torque = 0.1}, ph::slots<plane, 20>{});
 
   const double half = 0.01, length = 0.04, room = half + 0.00025;  // m
   int slot = 0;

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A steering wheel with end stops: one degree of freedom that turns. Nothing in the library knows a metre
-// from a radian, so one stands for the other in every parameter, and a default that is a length or a speed
-// must be looked at again: here pursuit::speed, top_speed and workspace.
+// from a radian, so one stands for the other in every parameter; `rotary` chooses the defaults that are a
+// length or a speed.
 //
 //   position m → rad     speed m/s → rad/s            force N → N·m
 //   mass kg → kg·m²      damping N·s/m → N·m·s/rad    stiffness N/m → N·m/rad
 //
 // Joules stay joules, and so do the promises. No Eigen is needed.
 
-#include <passive_haptics/constraint_geometry/half_space.hpp>
-#include <passive_haptics/contact/contact_set.hpp>
-#include <passive_haptics/energy_observer/reduced_energy.hpp>
-#include <passive_haptics/force_bound/actuator_limit.hpp>
-#include <passive_haptics/force_bound/bound_chain.hpp>
-#include <passive_haptics/force_bound/reachable_bound.hpp>
-#include <passive_haptics/port/passive_port.hpp>
+#include <passive_haptics/compositions.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
 #include <cstdio>
@@ -29,14 +23,12 @@ constexpr double driver_most = 6, motor_most = 20;  // N·m
 constexpr double degree = 3.14159265358979 / 180;
 
 int main() {
-  ph::passive_port wheel{
-      joint{},
-      ph::contact_set{ph::proxy_spring{.mass = inertia, .force_limit = motor_most},  // kg·m², N·m
-                      ph::pursuit{.speed = 0.5}, ph::slots<stop, 2>{}},              // rad/s
-      ph::reduced_energy{.damping = damping},
-      ph::bound_chain{ph::reachable_bound{.mass = inertia, .hand_force = driver_most},
-                      ph::actuator_limit{.most = motor_most}},
-      ph::loop_limits{.longest_tick = 1e-3, .top_speed = 50, .workspace = 20}};  // s, rad/s, rad
+  auto wheel = ph::make_contacts<joint>({.mass = inertia,
+                                         .damping = damping,
+                                         .force_limit = motor_most,
+                                         .longest_tick = 1e-3,  // s
+                                         .rotary = true},
+                                        {.force = driver_most}, ph::slots<stop, 2>{});
   wheel.source().update(0, stop{.point = 140 * degree, .normal = -1, .stiffness = 400});  // N·m/rad
   wheel.source().update(1, stop{.point = -140 * degree, .normal = 1, .stiffness = 400});
 

@@ -27,13 +27,10 @@ struct my_device {
 int main(int argc, char**) {
   bool figures = argc > 1, felt = false;
   my_device device;
-  ph::local_model wall{scene{},
-                       ph::fixed{ph::half_space<scene>{0, 1, 500}},
-                       ph::turn_at_once{},
-                       ph::damped_spring{.mass = 0.1},
-                       ph::reduced_energy{.damping = 0.3},
-                       ph::reachable_bound{.mass = 0.1, .hand_force = 5},
-                       ph::late_loop_limits<1>{.longest_tick = 2e-3}};
+  auto wall = ph::make_touch<scene, ph::half_space<scene>, ph::late_loop_limits<1>>(
+      {.mass = 0.1, .damping = 0.3, .force_limit = 9, .longest_tick = 2e-3, .latency = 1},
+      {.force = 5});
+  wall.update({.point = 0, .normal = 1, .stiffness = 500});
   static ph::scope<scene, 2000> seen{ph::event::late_tick};
   ph::runner touch{device, [&](const auto& sample) {
                      const auto out = wall.tick(sample);

@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   if (const auto done = line.open(here); !done) return std::cout << describe(done, here) << '\n', 1;
 
   auto touch = ph::make_touch<scene>(
-      {.mass = 0.1, .damping = 0.5, .hand_force = 5.0, .force_limit = 9.0}, 0.002);
+      {.mass = 0.1, .damping = 0.5, .force_limit = 9.0, .longest_tick = 0.002}, {.force = 5.0});
   (void)touch.set(ph::freshness{.stale_after = 0.3});
   std::thread network([&] { ask(line, there); });
   auto last = now();

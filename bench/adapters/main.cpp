@@ -62,9 +62,9 @@ std::vector<vec> motion() {
 
 struct sides {
   enum { proxy, guard, touch, bare, decorated, count };
-  static constexpr std::array<const char*, count> names{
-      "finger proxy on a sphere", "make_force_guard", "make_touch", "device, set and get",
-      "the same through passive_device"};
+  static constexpr std::array<const char*, count> names{"finger proxy on a sphere", "make_guard",
+                                                        "make_touch", "device, set and get",
+                                                        "the same through passive_device"};
 };
 
 class stopwatch {
@@ -107,13 +107,14 @@ int run(const std::vector<std::string>& arguments) {
   chai3d::cWorld world{.radius = radius, .stiffness = 1000.0};
   chai3d::cAlgorithmFingerProxy proxy;
   proxy.initialize(&world, {0.06, 0.0, 0.0});
-  constexpr ph::known_device facts{
-      .mass = 0.1, .damping = 0.1, .hand_force = 5.0, .force_limit = 8.0};
-  auto guard = ph::make_force_guard<scene>(facts, 1.1 * T);
-  auto touch = ph::make_touch<scene>(facts, 1.1 * T);
+  constexpr ph::exact_device facts{
+      .mass = 0.1, .damping = 0.1, .force_limit = 8.0, .longest_tick = 1.1 * T};
+  constexpr ph::known_hand hand{.force = 5.0};
+  auto guard = ph::make_guard<scene>(facts, hand);
+  auto touch = ph::make_touch<scene>(facts, hand);
   touch.update({.point = {radius, 0.0, 0.0}, .normal = {1.0, 0.0, 0.0}, .stiffness = 1000.0});
   const auto bare = std::make_shared<still>();
-  const auto decorated = ad::make_passive_device(bare, ph::make_force_guard<scene>(facts, 1.1 * T));
+  const auto decorated = ad::make_passive_device(bare, ph::make_guard<scene>(facts, hand));
   if (!decorated->open()) throw std::runtime_error("the device in between does not open");
   const vec wanted(0.5, 0.0, 0.0);
   const auto send = [&bare](chai3d::cGenericHapticDevice& device, const vec& x) {

@@ -24,14 +24,15 @@ using place = std::array<double, 3>;
 
 constexpr double T = 1e-3;
 constexpr double allowed = 20.0;  // [ns]
-constexpr ph::known_device device{
-    .mass = 0.045, .damping = 0.05, .hand_force = 5.0, .force_limit = 3.3};
-constexpr ph::design::stated_device stated{.mass = 0.045,
-                                           .damping = 0.05,
-                                           .friction = 0.13,
-                                           .presliding = 15e-6,
-                                           .quantum = 20e-6,
-                                           .force_limit = 3.3};
+constexpr ph::exact_device device{
+    .mass = 0.045, .damping = 0.05, .force_limit = 3.3, .longest_tick = T};
+constexpr ph::known_hand hand{.force = 5.0};
+constexpr ph::encoder_device stated{.mass = 0.045,
+                                    .damping = 0.05,
+                                    .friction = 0.13,
+                                    .presliding = 15e-6,
+                                    .quantum = 20e-6,
+                                    .force_limit = 3.3};
 
 /// Into the surface and out again, half of the time inside, on steps of 20 µm.
 std::vector<place> motion() {
@@ -92,7 +93,7 @@ ph_port* open(const char* composition, double friction) {
   p.size = sizeof p;
   p.mass = stated.mass;
   p.damping = stated.damping;
-  p.hand_force = device.hand_force;
+  p.hand_force = hand.force;
   p.force_limit = stated.force_limit;
   p.longest_tick = T;
   if (friction > 0.0) {
@@ -129,7 +130,7 @@ cost of_touch(int rounds, Touch touch, const char* composition, double friction)
 }
 
 cost of_guard(int rounds) {
-  auto guard = ph::make_force_guard<scene>(device, T);
+  auto guard = ph::make_guard<scene>(device, hand);
   ph_port* const port = open("force_guard", 0.0);
   const auto wanted = [](const place& x) { return x[2] < 0.0 ? -800.0 * x[2] : 0.0; };
   const cost found = compare(
@@ -164,9 +165,9 @@ int run(const std::vector<std::string>& arguments) {
     experiments::expect(found, c.more <= allowed,
                         name + format(": %.1f ns more, ", c.more) + format("over %.0f", allowed));
   };
-  row("touch", of_touch(rounds, ph::make_touch<scene>(device, T), "touch", 0.0));
-  row("encoder_touch", of_touch(rounds, ph::make_encoder_touch<scene>(stated, device.hand_force),
-                                "encoder_touch", stated.friction));
+  row("touch", of_touch(rounds, ph::make_touch<scene>(device, hand), "touch", 0.0));
+  row("encoder_touch",
+      of_touch(rounds, ph::make_touch<scene>(stated, hand), "encoder_touch", stated.friction));
   row("force_guard", of_guard(rounds));
   table.print(std::cout);
   return experiments::ended("c_interface_cost", found);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a run has found wrong, a sentence each, and how every program ends with them.
+// The failures of a run, a sentence for each, and the end of a program that has them.
 
 #include <iostream>
 #include <string>
@@ -10,12 +10,12 @@ namespace experiments {
 
 using failures = std::vector<std::string>;
 
-/// Adds a sentence unless it holds.
+/// Adds `sentence` unless `holds`.
 inline void expect(failures& found, bool holds, const std::string& sentence) {
   if (!holds) found.push_back(sentence);
 }
 
-/// The last that a program says: what has failed, a line each. Its exit code.
+/// Prints the failures of a program, a line for each; returns its exit code.
 [[nodiscard]] inline int ended(const std::string& program, const failures& found) {
   if (found.empty()) return 0;
   std::cerr << program << ": FAILED, " << found.size() << " in all:\n";

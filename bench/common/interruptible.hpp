@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A program that Ctrl-C stops where it may, so that nothing is half written: the body of a main().
+// The body of a main() that Ctrl-C stops only where it may, so that no file is half written.
 
 #include <atomic>
 #include <csignal>
@@ -12,7 +12,7 @@ namespace experiments {
 inline std::atomic<bool> interrupt_asked = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 
-/// run(arguments, stop): what it returns is the program's.
+/// Calls run(arguments, stop) and returns its result, the exit code of the program.
 template <class Run>
 [[nodiscard]] int interruptible(int argc, char** argv, const Run& run) {
   std::signal(SIGINT, [](int) { interrupt_asked = true; });

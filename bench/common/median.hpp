@@ -7,7 +7,7 @@
 
 namespace experiments {
 
-/// The upper one of the two in the middle if there are two; no number of none.
+/// The median; of an even number of values the larger of the two in the middle, of none NaN.
 inline double median(std::vector<double> values) {
   if (values.empty()) return std::nan("");
   const auto middle = values.begin() + static_cast<long>(values.size() / 2);

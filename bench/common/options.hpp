@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a program can be told, from one list: the parser, its complaints and --help; and the exit codes.
+// The options of a program in one list, from which come the parser, its complaints and --help; and the exit codes.
 
 #include "text.hpp"
 
@@ -21,11 +21,11 @@ struct option {
   std::function<void(const std::string& value)> take;  ///< each value; a switch gives an empty one
 };
 
-/// --help: what() is the usage.
+/// --help was given; what() is the usage.
 struct asked_for_help : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-/// Stopped before the end: what() says what is on disk.
+/// The program was stopped before its end; what() says what is on disk.
 struct interrupted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -61,8 +61,8 @@ inline option a_number(const std::string& name, const std::string& help, int& wh
           }};
 }
 
-/// Gives every value to its option, then calls `last`, which may complain about how they go together.
-/// Throws std::invalid_argument with the value, the remedy and the usage.
+/// Gives every value to its option, then calls `last`, which may refuse their combination. Throws
+/// std::invalid_argument with the value, the remedy and the usage.
 inline void read_options(
     const std::string& program, const std::vector<option>& all,
     const std::vector<std::string>& arguments, const std::function<void()>& last = [] {}) {
@@ -97,8 +97,8 @@ inline void read_options(
   }
 }
 
-/// main() of a program: what `body` returns, or 0 after --help, 2 for a wrong argument, 130 when
-/// stopped, 1 for any other problem, which is said.
+/// The main() of a program. It returns the result of `body`, or 0 after --help, 2 for a wrong argument, 130 if
+/// stopped, and 1 for any other problem, which it prints.
 template <class Body>
 int guarded(const std::string& program, Body body) {
   const auto said = [&program](const std::exception& problem, int code) {

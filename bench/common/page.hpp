@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How the pages of the programs look. One stylesheet, which stands in each page, so that a page is one
-// file beside its plots and asks nobody for anything; start_page.cmake reads it from here as well.
+// The look of the programs' pages. The one stylesheet stands in each page, so that a page is one file beside its
+// plots and loads nothing; start_page.cmake reads the stylesheet from here as well.
 
 #include "text.hpp"
 
@@ -52,14 +52,14 @@ footer{margin-top:3rem;padding-top:1rem;padding-bottom:2.5rem;font-size:.9rem;co
 @media print{nav{display:none}figure,table{break-inside:avoid}}
 )css";
 
-/// What a plot says in words: what is drawn, and what there is to see in it.
+/// The text of a plot.
 struct caption {
   std::string title;  ///< a few words, without a full stop
   std::string see;    ///< whole sentences: where to look, and what it means
 };
 
-/// The plots' own: black is the ink of the scheme and the background that of the page. The colours of the
-/// curves have a contrast of 3 or more against both papers.
+/// The style of the plots: black becomes the text colour of the scheme, and the background that of the page. The
+/// colours of the curves have a contrast of 3 or more in both schemes.
 inline constexpr const char* plot_style = R"css(<style>
 :root{color-scheme:light dark;--ink:#1b1f24;--grid:#8a929b}
 @media (prefers-color-scheme:dark){:root{--ink:#e4e8ec;--grid:#69727c}}
@@ -69,8 +69,8 @@ text{font-family:system-ui,-apple-system,"Segoe UI",Roboto,"Noto Sans",sans-seri
 </style>
 )css";
 
-/// What stands in front of every plot's commands. Line types 1 to 8 are the palette, 9 to 16 the same
-/// dashed; black (`lt -1`) is the ink, grey is 8.
+/// The commands before those of every plot. Line types 1 to 8 are the palette, 9 to 16 the same dashed; black
+/// (`lt -1`) is the text colour, grey is 8.
 inline constexpr const char* plot_preamble =
     "set terminal svg size 760,430 dynamic font 'sans-serif,14'\n"
     "palette = '#3b7dd8 #d4552a #2e9a5b #8a63d2 #b8860b #1a8f9c #c0417a #808890'\n"
@@ -81,7 +81,7 @@ inline constexpr const char* plot_preamble =
     "set key autotitle columnhead\nset key below noenhanced samplen 2\n"
     "set grid\nset border 3\nset tics nomirror\n";
 
-/// The identifier of a heading: its letters and digits, joined by hyphens; distinct from those before.
+/// Makes the identifier of a heading: its letters and digits, joined by hyphens, unlike all identifiers before.
 class anchors {
  public:
   std::string of(const std::string& text) {
@@ -108,7 +108,7 @@ class anchors {
   std::vector<std::string> taken_;
 };
 
-/// A page in the making: sections, tables and figures, and the table of contents over them.
+/// Collects a page: sections, tables and figures, and the table of contents above them.
 class page {
  public:
   void section(const std::string& title, const std::string& text) {
@@ -130,7 +130,7 @@ class page {
              "</b> " + html_text(said.see) + "</figcaption></figure>\n";
   }
 
-  /// The whole of it; `files` are listed at its end.
+  /// The whole page; `files` are listed at its end.
   [[nodiscard]] std::string html(const std::string& title, const std::string& lead, bool drawn,
                                  const std::vector<std::string>& files) const {
     std::string text =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Which of many points nothing beats.
+// The Pareto front of many points.
 
 #include <algorithm>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace experiments {
 
-/// The points (cost, error) that none is better than in both, by cost: their places in the list.
+/// The points (cost, error) than which no other is better in both, sorted by cost: their places in the list.
 [[nodiscard]] inline std::vector<std::size_t> pareto_front(
     const std::vector<std::pair<double, double>>& points) {
   std::vector<std::size_t> order(points.size());

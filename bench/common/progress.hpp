@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How far a long run has come.
+// Shows the progress of a long run.
 
 #include <cstdio>
 #include <string>

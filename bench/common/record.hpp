@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a result is made of, said once: a line of a CSV file, an object of a JSON file, and a row of a
-// table for people are the same fields.
+// The fields of a result, defined once: a line of a CSV file, an object of a JSON file and a row of a table for
+// people are made of the same fields.
 
 #include "text.hpp"
 
@@ -10,8 +10,8 @@
 
 namespace experiments {
 
-/// A value and its name, unit included; `pattern` is how people see a number. In CSV a std::string is a
-/// name, quoted because names hold commas; a plain word stands as it is.
+/// A value and its name, unit included; `pattern` prints a number for people. In CSV a std::string is quoted,
+/// because names have commas; a plain word is not.
 struct field {
   std::string name, shown, json;
   double number = 0.0;
@@ -31,13 +31,13 @@ struct field {
     is = kind::name;
   }
 
-  /// The same under another name: a table for people wants a short one.
+  /// The same field under another name, for a table that needs a short one.
   [[nodiscard]] field renamed(std::string other) const {
     field same = *this;
     same.name = std::move(other);
     return same;
   }
-  /// A number by `pattern`; empty where there is none.
+  /// A number by `pattern`; empty if there is none.
   [[nodiscard]] std::string csv(const char* pattern) const {
     if (is == kind::number) return std::isfinite(number) ? format(pattern, number) : "";
     return is == kind::name ? '"' + shown + '"' : shown;
@@ -76,7 +76,7 @@ inline std::string json_of(const std::vector<std::string>& sentences) {
   return json_array(items);
 }
 
-/// How a row is taken unless it is said otherwise: a record is one.
+/// The default of `as`: the row is a record.
 inline constexpr auto as_it_is = [](const auto& row) {
   if constexpr (std::same_as<std::remove_cvref_t<decltype(row)>, record>) {
     return row;
@@ -85,14 +85,14 @@ inline constexpr auto as_it_is = [](const auto& row) {
   }
 };
 
-/// Rows as `as` sees them.
+/// The rows as records, by `as`.
 template <class Row, class As = decltype(as_it_is)>
 std::string json_of(const std::vector<Row>& rows, As as = {}) {
   std::vector<std::string> items;
   for (const auto& row : rows) items.push_back(json_of(as(row)));
   return json_array(items);
 }
-/// The same for people; a row of which `as` makes nothing is left out.
+/// The same as a table for people; a row for which `as` gives nothing is left out.
 template <class Row, class As = decltype(as_it_is)>
 table table_of(const std::vector<Row>& rows, As as = {}) {
   std::vector<std::string> heading;

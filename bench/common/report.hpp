@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a bench leaves behind: CSV files, one JSON file, SVG plots by gnuplot, one HTML page and, if
-// it has a name, the same page in Markdown.
+// The report of a bench: CSV files, one JSON file, SVG plots by gnuplot, one HTML page and, if it has a name, the
+// same page in Markdown.
 
 #include "page.hpp"
 #include "progress.hpp"
@@ -17,7 +17,7 @@
 
 namespace experiments {
 
-/// A file that is written whole or complained about.
+/// A file that is written whole; if that fails, it throws.
 class output_file {
  public:
   explicit output_file(const std::filesystem::path& path) : path_(path), stream_(path) {
@@ -34,7 +34,7 @@ class output_file {
   std::ofstream stream_;
 };
 
-/// Comma separated, units in the heading.
+/// A file of comma-separated values with units in the heading.
 class csv_file {
  public:
   csv_file(const std::filesystem::path& path, const std::string& heading) : file_(path) {
@@ -47,7 +47,7 @@ class csv_file {
     ((file_.stream() << ',' << rest), ...);
     file_.stream() << '\n';
   }
-  /// A line, or several, without the last line break; on disk when the call returns.
+  /// Writes a line, or several without the last line break. They are on disk when the call returns.
   void line(const std::string& text) { file_.stream() << text << '\n' << std::flush; }
   void close() { file_.close(); }
 
@@ -65,7 +65,7 @@ inline std::string curves(const std::map<std::string, std::string>& points) {
     plots += (plots.empty() ? "plot " : ", \\\n ") + block + " using 1:2 with linespoints title '" +
              name + "'";
   }
-  // Beside the picture, for below it many names would leave it no height.
+  // The key stands beside the picture, because below it many names would leave no height.
   return "set key outside right center vertical maxcols 1 width -5 Left reverse\n" + data + plots;
 }
 
@@ -74,7 +74,7 @@ struct report_files {
   std::string markdown;  ///< empty: none
 };
 
-/// Everything one run of the program writes, under one folder.
+/// All files that one run of the program writes, in one folder.
 class report {
  public:
   explicit report(std::filesystem::path folder, report_files names = {})
@@ -87,7 +87,7 @@ class report {
     }
   }
   [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_ / name; }
-  /// Where to look, for people.
+  /// The path of the results, for people.
   [[nodiscard]] std::string results() const {
     const std::string& first = names_.markdown.empty() ? "index.html" : names_.markdown;
     return path(first).string() + ", " + path(names_.json).string();
@@ -107,7 +107,7 @@ class report {
     members_.emplace_back(name, json);
   }
 
-  /// A plot: the gnuplot commands after `set output`. They read the CSV files of this folder.
+  /// Adds a plot by the gnuplot commands after `set output`, which read the CSV files of this folder.
   void plot(const std::string& name, const caption& said, const std::string& commands) {
     output_file script(path(name + ".gp"));
     script.stream() << plot_preamble << "set output '" << name << ".svg'\n" << commands << '\n';
@@ -118,8 +118,8 @@ class report {
         "![" + said.title + "](" + name + ".svg)\n\n**" + said.title + ".** " + said.see + "\n\n";
   }
 
-  /// Writes the JSON file and the pages and runs gnuplot; `lead` says under the title what the page is
-  /// about. False: gnuplot did not draw every plot.
+  /// Writes the JSON file and the pages and runs gnuplot; `lead` is the text under the title. Returns false if
+  /// gnuplot did not draw every plot.
   bool finish(const std::string& title, const std::string& lead = {}) {
     output_file json(path(names_.json));
     json.stream() << "{";
@@ -146,7 +146,7 @@ class report {
   }
 
  private:
-  /// Runs gnuplot, and gives what it drew its name and both colour schemes.
+  /// Runs gnuplot, and gives its plot a name and both colour schemes.
   [[nodiscard]] bool draw(const std::string& name, const std::string& what) const {
     const std::string command =
         "cd '" + folder_.string() + "' && gnuplot '" + name + ".gp' 2> '" + name + ".log'";

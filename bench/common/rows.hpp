@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A list of jobs, worked through on all cores, whose results are rows of a CSV file.
+// Works through a list of jobs on all cores; the results are rows of a CSV file.
 
 #include "failures.hpp"
 #include "options.hpp"
@@ -12,7 +12,7 @@
 
 namespace experiments {
 
-/// Finishes the report of a program, says where it is and, last, what has failed; the program's exit code.
+/// Finishes the report of a program, prints where it is and then what has failed; returns the exit code.
 [[nodiscard]] inline int conclude(report& out, const std::string& program, const std::string& title,
                                   const std::string& lead, const failures& found) {
   out.member("failures", json_of(found));
@@ -23,7 +23,7 @@ namespace experiments {
   return ended(program, found);
 }
 
-/// Rows that have a record_of(), as a CSV file.
+/// Writes rows that have a record_of() as a CSV file.
 template <class Row>
 void write_csv(const report& out, const std::string& file, const std::vector<Row>& rows,
                const char* pattern = exactly) {
@@ -32,21 +32,21 @@ void write_csv(const report& out, const std::string& file, const std::vector<Row
   csv.close();
 }
 
-/// Rows as a table for people, and under `member` in the JSON file.
+/// Adds rows as a table for people, and under `member` to the JSON file.
 template <class Row>
 void show_rows(report& out, const std::string& member, const std::vector<Row>& rows) {
   out.show(table_of(rows));
   out.member(member, json_of(rows));
 }
 
-/// The same, and in a CSV file of that name.
+/// The same, and as a CSV file of that name.
 template <class Row>
 void publish(report& out, const std::string& member, const std::vector<Row>& rows) {
   write_csv(out, member + ".csv", rows);
   show_rows(out, member, rows);
 }
 
-/// Who works, where it goes, and what can stop it.
+/// The threads that work, the report that takes the results, and the flag that stops the work.
 struct workshop {
   report& out;
   int threads;

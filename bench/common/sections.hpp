@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A program in sections, each of which may be asked for by its name: --only LIST.
+// A program in sections, which `--only LIST` selects by name.
 
 #include "failures.hpp"
 #include "options.hpp"
@@ -9,15 +9,14 @@
 
 namespace experiments {
 
-/// A part of a run. It adds itself to the report and returns a sentence for each promise that was
-/// broken.
+/// A section of a run. It adds its results to the report and returns a sentence for each broken promise.
 template <class Session>
 struct section {
   const char* name;
   failures (*run)(const Session&);
 };
 
-/// What such a program is told; its own settings add to that.
+/// The settings of such a program, to which it may add its own.
 struct section_settings {
   std::string out{};                ///< folder of the results
   std::vector<std::string> only{};  ///< sections; empty: all
@@ -25,7 +24,7 @@ struct section_settings {
   int threads = 0;  ///< 0: as many as the machine has
 };
 
-/// Its options, `more` after them; `quick` says what --quick leaves out.
+/// The options of such a program, followed by `more`; `quick` says what --quick leaves out.
 template <class Session>
 [[nodiscard]] std::vector<option> section_options(const std::vector<section<Session>>& all,
                                                   section_settings& chosen,
@@ -52,7 +51,7 @@ template <class Session>
   return options;
 }
 
-/// Runs the sections that are asked for. Returns what all of them found.
+/// Runs the selected sections and returns the sentences of all.
 template <class Session>
 [[nodiscard]] failures run_sections(const std::vector<section<Session>>& all,
                                     const std::vector<std::string>& only, const Session& s) {

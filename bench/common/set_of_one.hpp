@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A set of one contact, spoken to like a local_model, so that it is judged and timed beside them.
+// A set of one contact with the interface of a local_model, so that both are judged and timed alike.
 
 #include <passive_haptics/passive_haptics.hpp>
 

@@ -6,8 +6,7 @@
 //
 //   (A.1) element  [k −k; −k k]     (A.2) assembled     (A.3)-(A.5) last node struck out, solved
 //
-// Only node 1 is loaded, so all displacements are proportional to its force: factorised and solved
-// once.
+// Only node 1 is loaded, so all displacements are proportional to its force, and the system is solved once.
 
 #include <passive_haptics/environment/refuse.hpp>
 
@@ -25,8 +24,8 @@ class spring_wall {
   /// Two springs of 20 kN/m: 10 kN/m together.
   spring_wall() : spring_wall({20e3, 20e3}) {}
 
-  /// Springs from the surface inwards [N/m]. std::invalid_argument for none, or one that is not a
-  /// finite number above zero.
+  /// Springs from the surface inwards [N/m]. Throws std::invalid_argument for none, or for one that is not
+  /// finite and > 0.
   spring_wall(std::initializer_list<double> springs)
       : spring_wall(std::span<const double>(springs.begin(), springs.size())) {}
 
@@ -66,7 +65,7 @@ class spring_wall {
   [[nodiscard]] double stiffness() const { return 1.0 / compliance_[0]; }
 
  private:
-  Eigen::VectorXd compliance_;  ///< of every free node to a force at node 1 [m/N]
+  Eigen::VectorXd compliance_;  ///< displacement of every free node per force at node 1 [m/N]
 };
 
 }  // namespace experiments

@@ -14,7 +14,7 @@
 
 namespace experiments {
 
-/// A number as JSON knows it: null when there is none.
+/// A number as JSON, null if it is not finite.
 inline std::string json_number(double x) {
   if (!std::isfinite(x)) return "null";
   std::ostringstream text;
@@ -48,7 +48,7 @@ inline std::string json_array(const std::vector<std::string>& items) {
   return text + "\n  ]";
 }
 
-/// What stands between the commas of a line.
+/// The cells between the commas of a line.
 inline std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   std::istringstream rest(line);
@@ -56,7 +56,7 @@ inline std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// printf for one number; "-" for none.
+/// The text of a printf of one number, "-" for none.
 inline std::string format(const char* pattern, double x) {
   if (!std::isfinite(x)) return "-";
   char text[64];
@@ -82,10 +82,10 @@ inline std::string markdown_cell(const std::string& text) {
   return escaped(text, {{'|', "\\|"}});
 }
 
-/// How many columns of a terminal programs write at most.
+/// The most columns of a terminal that programs use.
 inline constexpr std::size_t terminal_columns = 100;
 
-/// The columns that `text` takes on a terminal: characters, not bytes.
+/// The columns that `text` takes on a terminal, in characters and not in bytes.
 inline std::size_t columns_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;  // the first byte of it in UTF-8
@@ -105,7 +105,7 @@ inline std::vector<std::string> broken(const std::string& text, std::size_t most
   return lines;
 }
 
-/// The same as one text, every line after the first behind `indent` blanks.
+/// The same as one text, with `indent` blanks before every line but the first.
 inline std::string paragraph(const std::string& text, std::size_t indent = 0) {
   std::string all;
   for (const auto& line : broken(text, terminal_columns - indent)) {
@@ -121,9 +121,9 @@ class table {
   explicit table(std::vector<std::string> heading) : rows_{std::move(heading)} {}
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
 
-  /// No line is longer than `most` columns: headings break at their blanks, then cells that find no
-  /// room beside the first one do, and columns that still find none stand in a block below, the first
-  /// one in front of them again.
+  /// Prints the table with lines of at most `most` columns. Headings are broken at their blanks, then cells that
+  /// have no room beside the first one. Columns that still have no room stand in a block below, after the first
+  /// column once more.
   void print(std::ostream& out, std::size_t most = terminal_columns) const {
     std::vector<std::size_t> width = widths();
     for (const std::size_t heading : {14U, 10U, 7U, 0U}) {
@@ -142,7 +142,7 @@ class table {
       out << '\n';
     } while (next < width.size());
   }
-  /// Columns of numbers stand to the right.
+  /// The table as HTML, with columns of numbers aligned to the right.
   [[nodiscard]] std::string html() const {
     std::vector<bool> numbers(rows_[0].size(), rows_.size() > 1);
     for (std::size_t r = 1; r < rows_.size(); ++r) {
@@ -177,7 +177,7 @@ class table {
  private:
   static constexpr std::size_t gap = 2;  ///< between columns
 
-  /// One word that begins as a number does, or the dash that stands for none.
+  /// True for one word that begins like a number, and for the dash that stands for none.
   static bool is_number(const std::string& cell) {
     if (cell.empty() || cell == "-") return true;
     const std::size_t sign = cell[0] == '-' || cell[0] == '+' ? 1 : 0;
@@ -185,7 +185,7 @@ class table {
            cell.find(' ') == std::string::npos;
   }
 
-  /// What each column takes.
+  /// The width of each column.
   [[nodiscard]] std::vector<std::size_t> widths() const {
     std::vector<std::size_t> width(rows_[0].size());
     for (const auto& row : rows_) {
@@ -195,7 +195,7 @@ class table {
     }
     return width;
   }
-  /// What it takes with headings of `heading` columns, and cells in the room beside the first one.
+  /// The widths with headings of `heading` columns, and cells in the room beside the first one.
   [[nodiscard]] std::vector<std::size_t> narrow_widths(std::size_t most,
                                                        std::size_t heading) const {
     std::vector<std::size_t> width;
@@ -212,7 +212,7 @@ class table {
     }
     return width;
   }
-  /// The cells of `block`, each in as many lines as its column makes of it.
+  /// Prints the cells of `block`, each broken to the width of its column.
   static void print_row(std::ostream& out, const std::vector<std::string>& row,
                         const std::vector<std::size_t>& block,
                         const std::vector<std::size_t>& width) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The wall of thesis section 3.2: a device is dropped from −61 mm onto a stiff spring and left
-// alone.
+// The wall of thesis section 3.2: a device is dropped from −61 mm onto a stiff spring and left alone.
 //
 //   S0   ideal device, static wall            S1   the wall gives way: surface = F/K, updates at
 //   S2   9 N saturation, 0.2 N dry friction        20-50 Hz, one haptic tick late
@@ -54,19 +53,19 @@ struct wall_result {
   sim::quiet_bar missed{};       ///< by the last window that was not
 };
 
-/// By then a device has to be quiet [s]. What hops is quiet while it is in the air, so a run goes on for longer.
+/// The time by which a device has to be quiet [s]. A run goes on for longer, because a hop is quiet in the air.
 inline constexpr double quiet_in = 5.0;
 
-/// Since when it is quiet [s]; NaN where it is not in time.
+/// The time since which it is quiet [s]; NaN if it is not quiet in time.
 inline double quiet_in_time(const sim::quiet_judge<line>& judge) {
   return judge.since() <= quiet_in ? judge.since() : std::nan("");
 }
-/// "0.40 s", or which bar was missed last.
+/// "0.40 s", or the bar that was missed last.
 inline std::string quiet_since(double since, sim::quiet_bar missed) {
   return std::isfinite(since) ? format("%.2f s", since)
                               : "no: " + std::string(sim::to_string(missed));
 }
-/// The bars for a wall of K shown by a device on its encoders.
+/// The bars for a wall of stiffness K [N/m] on a device with encoders of step `quantum` [m].
 inline sim::quiet_bars quiet_on(double K, double quantum, double mass) {
   const double most = 0.1 * mass / 1e-6;  // of κ m/T², the stiffest that is sampled
   return sim::quiet_bars{}.on_encoders(quantum, std::min(K, most), mass);
@@ -103,7 +102,7 @@ inline sim::device_parameters<line> device_of(const wall_scene& scene) {
           .start = -0.061};
 }
 
-/// The wall answers what the device does for so many ticks; watch(now, surface) sees each.
+/// Runs the wall with the device for so many ticks; watch(now, surface) is called in each.
 template <class Model, class Device, class Watch>
 sim::run_result<line> run_on_wall(Model& model, Device& device, const wall_scene& scene,
                                   std::uint64_t seed, int ticks, Watch watch) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A list of cells on all cores. Results are handed on in the order of the list, whatever the number
-// of threads, so two runs leave the same files.
+// Works through a list of cells on all cores. Results are handed on in the order of the list for any number of
+// threads, so two runs leave the same files.
 
 #include <algorithm>
 #include <atomic>
@@ -20,9 +20,8 @@ inline int threads_of(int asked) {
 }
 
 /// Calls cell(i) for 0 ≤ i < count in `threads` threads, and done(i, result) for each i in
-/// order, one at a time. Once `stop` is set the cells under way are finished and handed on, and no
-/// more are begun. Returns how many were handed on. What a cell throws ends the run and is
-/// thrown here.
+/// order, one at a time. Once `stop` is set the cells under way are finished and handed on, and no others
+/// are begun. Returns how many were handed on. An exception of a cell ends the run and is thrown here.
 template <class Cell, class Done>
 int work_through(int count, int threads, const std::atomic<bool>& stop, Cell cell, Done done) {
   using result = decltype(cell(0));

@@ -24,7 +24,7 @@ namespace ph = passive_haptics;
 using d3 = ph::space<double, 3>;
 using Eigen::Vector3d;
 
-inline constexpr double radius = 0.05;    ///< of the ball that all of them are compared with [m]
+inline constexpr double radius = 0.05;    ///< of the ball that all surfaces are compared with [m]
 inline constexpr double stiffness = 500;  ///< [N/m]
 
 /// In float the numbers are double's, rounded.
@@ -33,8 +33,8 @@ typename S::vector of(const Vector3d& v) {
   return v.template cast<typename S::scalar>();
 }
 
-/// K d push() where there is contact [N]: what a spring asks for. `along_normal` takes outward() in
-/// place of push().
+/// The force of a spring, K d push() where there is contact [N]. With `along_normal` it acts along outward()
+/// in place of push().
 template <class S>
 Vector3d force(const auto& surface, const Vector3d& x, bool along_normal = false) {
   const auto seen = surface.at(of<S>(x));
@@ -88,7 +88,7 @@ struct feel {
   double largest_step = 0.0;  ///< of the force, from tick to tick [N]
   double mean_error = 0.0;    ///< against the ball [N]
 };
-/// What the stroke feels of `force_at(tick, x)`.
+/// The force steps and errors of the force `force_at(tick, x)` along the stroke.
 inline feel stroked(const auto& force_at, int ticks = 10000) {
   const ph::sphere<d3> ball{.centre = {0, 0, 0}, .radius = radius, .stiffness = stiffness};
   feel all;

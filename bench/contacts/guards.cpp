@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Somebody else's renderer behind a guard: does the device rest when the hand holds still, how soft does the
 // guard make it, what does it add where the hand slides? A given force under a reachable bound, the strict
-// guard and make_force_guard, side by side, on renderers written for this page.
+// guard and make_guard, side by side, on renderers written for this page.
 #include "program.hpp"
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/compositions.hpp>
@@ -17,9 +17,10 @@ namespace {
 
 constexpr double pi = 180.0 * degree, mass = 0.1, true_damping = 0.1, radius = 0.05;
 constexpr double calm_speed = 1e-3, calm_step = 0.02;  // [m/s], [N] a tick
-constexpr ph::known_device told{
-    .mass = mass, .damping = 0.05, .hand_force = 8.0, .force_limit = 9.0};
 constexpr double longest = 1.1 * T;
+constexpr ph::exact_device told{
+    .mass = mass, .damping = 0.05, .force_limit = 9.0, .longest_tick = longest};
+constexpr ph::known_hand told_hand{.force = 8.0};
 
 // ---------------------------------------------------------------------------------------- renderers
 
@@ -150,21 +151,22 @@ const char* to_string(guard g) {
     case guard::given:
       return "given_force, reachable";
     case guard::strict:
-      return "make_strict_guard";
+      return "given_force, strict";
     case guard::settled:
-      return "make_force_guard";
+      return "make_guard";
   }
   return "";
 }
 
 /// Calls `run` with the guard for a device as it is told.
 template <class Run>
-auto with(guard g, const ph::known_device& d, const Run& run) {
-  if (g == guard::strict) return run(ph::make_strict_guard<d3>({d.damping}, longest));
-  if (g == guard::settled) return run(ph::make_force_guard<d3>(d, longest));
+auto with(guard g, const ph::exact_device& d, const ph::known_hand& hand, const Run& run) {
+  if (g == guard::strict)
+    return run(ph::make_strict_guard<d3>({d.damping}, ph::actuator_limit{1e3}, longest));
+  if (g == guard::settled) return run(ph::make_guard<d3>(d, hand));
   return run(ph::passive_port{
       d3{}, ph::given_force{}, ph::reduced_energy{.damping = d.damping},
-      ph::bound_chain{ph::reachable_bound{.mass = d.mass, .hand_force = d.hand_force},
+      ph::bound_chain{ph::reachable_bound{.mass = d.mass, .hand_force = hand.force},
                       ph::actuator_limit{.most = d.force_limit}},
       ph::loop_limits{.longest_tick = longest}});
 }
@@ -276,7 +278,7 @@ guard_row judge(guard_row row, double seconds) {
   const ph::settled_force rule{.mass = told.mass};
   row.in_reach = row.stiffness * (row.renders == kind::corner ? 3.0 : 1.0) <=
                  rule.most_stiffness(longest, lateness(row.renders));
-  return with(row.by, told, [&](const auto& port) {
+  return with(row.by, told, told_hand, [&](const auto& port) {
     press(row, port, false, seconds);
     press(row, port, true, std::min(seconds, 6.0));
     return row;
@@ -285,7 +287,7 @@ guard_row judge(guard_row row, double seconds) {
 
 /// Do detents keep their force? The largest sideways force of a slow pass, over the largest asked for.
 double detents_kept(guard g) {
-  return with(g, told, [](auto port) {
+  return with(g, told, told_hand, [](auto port) {
     renderer wanted_at(kind::detents, 1000.0);
     double asked = 0.0, felt = 0.0;
     for (int n = 0; n < 6000; ++n) {  // 20 mm at 5 mm/s, pressed by 2 N, after a second of pressing
@@ -341,9 +343,12 @@ struct scene_of_walls {
     }
     return most;
   }
-  [[nodiscard]] ph::known_device told() const {
-    return {
-        .mass = mass * known, .damping = damping * known, .hand_force = 12.0, .force_limit = 20.0};
+  static constexpr ph::known_hand hand{.force = 12.0};
+  [[nodiscard]] ph::exact_device told() const {
+    return {.mass = mass * known,
+            .damping = damping * known,
+            .force_limit = 20.0,
+            .longest_tick = longest};
   }
 };
 
@@ -425,8 +430,8 @@ sum_row fall_often(sum_row row, std::uint64_t seed, int cases) {
   for (int i = 0; i < cases; ++i) {
     const scene_of_walls s = drawn(seed * 1000003U + static_cast<std::uint64_t>(i));
     if (s.grip != row.grip) continue;
-    const fall f =
-        with(row.by, s.told(), [&](const auto& port) { return let_fall(port, s, seconds); });
+    const fall f = with(row.by, s.told(), s.hand,
+                        [&](const auto& port) { return let_fall(port, s, seconds); });
     row.least_energy = std::min(row.least_energy, f.least_energy);
     if (f.gone) continue;
     ++row.cases;
@@ -466,7 +471,8 @@ drop_row drop(drop_row row) {
                    .start = vector(0.0, 0.0, 0.03)};
   s.walls = {{vector::Zero(), tilted(20.0 * degree, 0.0), row.stiffness},
              {vector::Zero(), tilted(20.0 * degree, pi), row.stiffness}};
-  const fall f = with(row.by, s.told(), [&](const auto& port) { return let_fall(port, s, 15.0); });
+  const fall f =
+      with(row.by, s.told(), s.hand, [&](const auto& port) { return let_fall(port, s, 15.0); });
   row.settles = f.settles;
   row.least_energy = f.least_energy;
   return row;
@@ -601,7 +607,7 @@ std::vector<std::string> run_guards(const session& s) {
   expect(found, rings > 5, "the control does not ring: a given force under a reachable bound");
   expect(found, soft > 5, "the control is not soft: the strict guard");
   const double kept = detents_kept(guard::settled);
-  s.out.section("Guards: detents", "Crossed at 5 mm/s behind make_force_guard they keep " +
+  s.out.section("Guards: detents", "Crossed at 5 mm/s behind make_guard they keep " +
                                        ex::format("%.0f", 100.0 * kept) +
                                        " of 100 of their force.");
   expect(found, kept > 0.95, "detents lose their force");

@@ -10,7 +10,8 @@ const std::vector<ex::section<session>>& sections() {
       {"news", run_news},         {"curved", run_curved},
       {"friction", run_friction}, {"static", run_static},
       {"passive", run_passive},   {"rigid", run_rigid},
-      {"tool", run_tool},         {"guards", run_guards}};
+      {"tool", run_tool},         {"guards", run_guards},
+      {"steep", run_steep}};
   return all;
 }
 

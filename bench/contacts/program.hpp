@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The program, apart from main(), so that a test can run it; and what its sections share.
+// The program without main(), so that a test can run it; and the declarations that its sections share.
 
 #include "../common/rows.hpp"
 #include "../common/sections.hpp"
@@ -36,8 +36,9 @@ struct session : ex::workshop {
 [[nodiscard]] std::vector<std::string> run_rigid(const session& s);
 [[nodiscard]] std::vector<std::string> run_tool(const session& s);
 [[nodiscard]] std::vector<std::string> run_guards(const session& s);
+[[nodiscard]] std::vector<std::string> run_steep(const session& s);
 
-/// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
+/// The settings of a command line. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);
 
 /// 0: all is well. 1: a promise was broken, or something could not be written. 2: an argument is

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What the sections on quiet share: the hands, a point in one of them, and what many scenes come to.
+// The common part of the sections on quiet: the hands, a point mass in a hand, and the results of many scenes.
 //
 // A device has to be quiet (simulation/quiet.hpp) from `in_time` after the last news, on.
 
@@ -15,12 +15,12 @@
 namespace contacts {
 
 inline constexpr double in_time = 5.0;           // t_s [s]
-inline constexpr double watched = 6.0;           // from the news on [s]
-inline constexpr double watched_longest = 30.0;  // where it is not quiet in time [s]
+inline constexpr double watched = 6.0;           // length of a run after the news [s]
+inline constexpr double watched_longest = 30.0;  // the same where it is not quiet in time [s]
 inline constexpr double probe_by =
     1e-6;  // how far a resting contact is pressed for its stiffness [m]
 
-/// A hand that holds still: a spring to where it is, and a damper. Off: none, but what loads the device.
+/// A hand that holds still: a spring to its position, and a damper. With both zero only the load is left.
 struct still_hand {
   const char* name;
   double stiffness;  ///< [N/m]
@@ -29,14 +29,14 @@ struct still_hand {
 inline constexpr std::array<still_hand, 3> still_hands{
     {{"off", 0.0, 0.0}, {"relaxed", 100.0, 1.0}, {"stiff", 400.0, 6.0}}};
 
-/// Random numbers of a scene, by what they are for.
+/// The random numbers of a scene, by their purpose.
 class draws {
  public:
   explicit draws(std::uint64_t seed) noexcept : random_(seed) {}
   [[nodiscard]] double between(double low, double high) noexcept {
     return low + (high - low) * (random_.number<double>() + 1.0) / 2.0;
   }
-  /// Evenly in the logarithm.
+  /// A number between low and high, uniform in its logarithm.
   [[nodiscard]] double scale(double low, double high) noexcept {
     return low * std::exp(between(0.0, std::log(high / low)));
   }
@@ -45,9 +45,9 @@ class draws {
     return std::min(high, static_cast<int>(between(low, high + 1)));
   }
   [[nodiscard]] vector direction() noexcept { return random_.direction<d3>(); }
-  /// Of a wall [N/m].
+  /// The stiffness of a wall [N/m].
   [[nodiscard]] double stiffness() noexcept { return scale(300.0, 80e3); }
-  /// Of the true mass, what is told.
+  /// The mass that is stated, as a share of the true one.
   [[nodiscard]] double told() noexcept { return chance(0.5) ? 1.0 : between(0.3, 1.0); }
 
  private:
@@ -92,7 +92,7 @@ class held_point {
   [[nodiscard]] const vector& position() const noexcept { return x_; }
   [[nodiscard]] const vector& velocity() const noexcept { return v_; }
   [[nodiscard]] const sim::port_energy_meter& meter() const noexcept { return meter_; }
-  /// The most the hand can push with [N].
+  /// The largest force of the hand [N].
   [[nodiscard]] static double most(const parameters& p) noexcept {
     return p.load.norm() + p.hand.stiffness * (p.start - p.goal).norm();
   }
@@ -104,12 +104,12 @@ class held_point {
   sim::port_energy_meter meter_;
 };
 
-/// One scene.
+/// The result of one scene.
 struct quiet_run {
   bool gone = false;            ///< the device has slid away
   double seconds = watched;     ///< of the run
-  double touched = -1.0;        ///< when something has pressed last [s]
-  double settling = 0.0;        ///< from the news on until it is quiet [s]; NaN: it is not
+  double touched = -1.0;        ///< time at which a contact pressed last [s]
+  double settling = 0.0;        ///< time from the news until it is quiet [s]; NaN: it is not
   sim::quiet_bar missed{};      ///< by the last window that was not quiet
   sim::quiet_figures last{};    ///< of the last window
   double free = 0.0;            ///< the speed at the end along whatever direction [m/s]
@@ -118,9 +118,9 @@ struct quiet_run {
   double asked = std::nan(""), shown = std::nan("");  ///< stiffness of the resting contact [N/m]
   double can_be = std::nan("");  ///< of `asked`, what the sampling leaves [N/m]
 
-  /// It has pressed in the last second: what hops counts, what hovers does not.
+  /// True if a contact pressed in the last second: a device that hops counts, one that hovers does not.
   [[nodiscard]] bool counts() const noexcept { return !gone && touched >= seconds - 1.0; }
-  /// The end of it, at that speed [m/s].
+  /// Ends the run at that speed [m/s].
   void end(const auto& judge, double speed) noexcept {
     settling = judge.settling();
     missed = judge.missed();
@@ -128,13 +128,13 @@ struct quiet_run {
     free = speed;
   }
 };
-/// How many ticks a run has: more where, at the last of them, it has not been quiet in time.
+/// The number of ticks of a run, which grows if the device has not been quiet in time at the last of them.
 [[nodiscard]] inline int ticks_of(int until, int tick, const auto& judge) noexcept {
   const bool more = tick + 1 == until && !(judge.settling() <= in_time);
   return more ? static_cast<int>(watched_longest / T) : until;
 }
 
-/// The stiffness that is asked for: the mean K of what presses, by how much it presses.
+/// The stiffness asked for: the mean K of the contacts that press, weighted by their forces.
 class asked_stiffness {
  public:
   void add(double lambda, double K, double most) noexcept {
@@ -151,7 +151,7 @@ class asked_stiffness {
   double total_ = 0.0, asked_ = 0.0, can_be_ = 0.0;
 };
 
-/// What many scenes of one kind come to.
+/// The result of many scenes of one kind.
 struct quiet_row {
   std::string scene, hand;
   int cases = 0;
@@ -205,7 +205,7 @@ inline ex::record record_of(const quiet_row& r) {
   return *middle;
 }
 
-/// Runs one(i) for so many scenes into the row.
+/// Runs one(i) for the scenes of the row and adds their results to it.
 inline quiet_row judged(quiet_row row, auto one) {
   std::vector<double> times, asked, shown, share;
   for (int i = 0; i < row.cases; ++i) {

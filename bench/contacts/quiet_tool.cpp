@@ -14,7 +14,7 @@ using body = ph::rigid_body<double>;
 
 enum class place : std::uint8_t { hole, groove, corner };
 constexpr std::array<const char*, 3> places{"peg in a hole", "V of 60 deg", "box corner"};
-constexpr int slots_of_a_tool = 20;
+constexpr int slots_of_a_tool = 24;
 
 /// How a hand holds a tool: the spring and damper of a point, and the same about the handle. None is off: what
 /// nobody holds tips over, and swings about its points for 20 s. The light one follows and damps.
@@ -86,7 +86,7 @@ int touch(Port& port, const tool_scene& scene, const std::array<double, 3>& K) {
           put(point, {-0.02, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0);
           put(point, {0.0, -0.02, 0.0}, {0.0, 1.0, 0.0}, 1);
         }
-        if (z < 0.0) put(point, vector::Zero(), {0.0, 0.0, 1.0}, 2);
+        put(point, vector::Zero(), {0.0, 0.0, 1.0}, 2);  // of both ends: what tips over lies there
       }
     }
   }

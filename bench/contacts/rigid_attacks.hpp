@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What tries to draw energy out of a port that turns.
+// Attacks that try to draw energy out of a port that turns.
 //
 //   jumping_contact    a point of the handle on a plane that jumps, under any hand: wanted wrenches
 //   run_hand           a rigid_hand in it, on a rigid_device                  for bounds that know the hand
 //   coning_path        a tick's turn along an arc: the paths of lemma C that lose most
 //   run_paths          a velocity source on such arcs, on straight turns and on travels     for any bound
-//   press_and_drain    arcs against one torque for a while, and then all that the ledger believes it has
+//   press_and_drain    arcs against one torque for a while, and then forces that spend all that the ledger holds
 //
 // Each run returns the least true energy and the least of the ledger; a bench may ask for more runs.
 
@@ -18,7 +18,7 @@
 
 namespace rigid {
 
-/// What a run, or many, came to.
+/// The result of a run, or of many.
 struct rigid_outcome {
   double least_energy = 0.0;    ///< true, at the port [J]
   double least_ledger = 0.0;    ///< [J]
@@ -34,7 +34,7 @@ struct rigid_outcome {
   }
 };
 
-/// A point of the handle on a one-sided plane, stiff, that jumps, turns and is deep at once.
+/// A point of the handle on a stiff one-sided plane that jumps and turns, so that it is deep at once.
 class jumping_contact {
  public:
   explicit jumping_contact(std::uint64_t seed) noexcept : random_(seed) {
@@ -73,14 +73,14 @@ class jumping_contact {
   int tick_ = 0;
 };
 
-/// A sample in the words of a port whose poses and efforts are a rigid_body's.
+/// A sample in the types of a port whose poses and efforts are those of a rigid_body.
 template <class Port>
 [[nodiscard]] ph::device_sample<typename Port::port_type> as_told(
     const ph::device_sample<body>& sample) noexcept {
   return {.position = sample.position, .held = sample.held, .dt = sample.dt, .valid = sample.valid};
 }
 
-/// Who runs against a port: a hand on a device. Every fifth spins at first, as fast as `spin` [rad/s].
+/// An attack of a hand on a device. In every fifth run the handle spins at first, at `spin` [rad/s].
 struct rigid_attack {
   sim::rigid_device_parameters device{};
   rigid_hand_parameters hand{};
@@ -127,9 +127,9 @@ template <class Port>
   return all;
 }
 
-/// A world that knows the port, the device and the hand, and asks each time for the wrench that leaves least:
-/// it tries `looks` of them on copies of both. The hand moves the handle against the plan while nothing is
-/// asked for, and along it afterwards.
+/// A world that knows the port, the device and the hand, and asks each time for the wrench that leaves the least
+/// energy: it tries `looks` wrenches on copies of port and device. The hand moves the handle against the plan
+/// while nothing is asked for, and along it afterwards.
 template <class Port>
 [[nodiscard]] rigid_outcome run_schemer(Port port, const rigid_attack& attack, std::uint64_t seed,
                                         int looks = 8) {
@@ -223,14 +223,14 @@ template <class Port>
   return all;
 }
 
-/// A tick's turn: ω(t) = ω₀ turning about the unit vector `axis` at `spin` [rad/s]. Straight where spin is 0.
-/// Everything of it is known in closed form.
+/// The turn of a tick: ω(t) is ω₀ turning about the unit vector `axis` at `spin` [rad/s]; straight if spin is 0.
+/// All its quantities are known in closed form.
 struct coning_path {
   vec3 start = vec3(0, 0, 0);  ///< ω₀ [rad/s]
   vec3 axis = vec3(0, 0, 1);
   double spin = 0.0;
 
-  /// ∫ω dt [rad], with which a torque held in the world frame works.
+  /// ∫ω dt [rad]: a torque τ held in the world frame does the work τ·∫ω dt.
   [[nodiscard]] vec3 integral(double T) const noexcept {
     const double angle = spin * T;
     if (std::fabs(angle) < 1e-9) return start * T;
@@ -239,7 +239,7 @@ struct coning_path {
     return along * T + across * (std::sin(angle) / spin) +
            d3::cross(axis, across) * ((1 - std::cos(angle)) / spin);
   }
-  /// Where it ends.
+  /// The orientation at its end.
   [[nodiscard]] ph::quaternion<double> end(const ph::quaternion<double>& q,
                                            double T) const noexcept {
     const auto inner =
@@ -282,12 +282,12 @@ class path_source {
   body::pose x_{};
 };
 
-/// What a velocity source is told.
+/// The settings of a velocity source.
 struct path_attack {
   double linear = 0.03, angular = 1e-4;  ///< the true damping
   double loan = 0.0;                     ///< [J]
   double period = 1e-3;
-  double shortest = 1.0;  ///< of the ticks, as a share of the period: jitter
+  double shortest = 1.0;  ///< the shortest tick as a share of the period: jitter
   int latency = 0;
   int ticks = 2000;
 };
@@ -298,7 +298,7 @@ template <class Port>
   ph::laws::samples random(seed + 3000);
   const auto unit = [&random] { return vec3(random.direction<d3>()); };
   const auto share = [&random] { return (random.number<double>() + 1) / 2; };
-  const auto at_most = [&](double size) {  // in any direction, as long as that
+  const auto at_most = [&](double size) {  // a vector of any direction, no longer than `size`
     const vec3 direction = unit();
     return vec3(direction * (size * share()));
   };
@@ -367,7 +367,7 @@ template <class Port>
     coning_path path;
     vec3 travel(0, 0, 0);
     if (pressing) {
-      const double turned = 2.4 * n;  // so that it is no turn about one axis
+      const double turned = 2.4 * n;  // so that the arcs do not add up to a turn about one axis
       path = extremal(body::angular(held), attack.angular, T, along, across,
                       {std::cos(turned), std::sin(turned), 0});
     } else {

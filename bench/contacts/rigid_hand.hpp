@@ -7,7 +7,7 @@
 //   swinging  two ticks one way, two ticks back, across the contact
 //   greedy    with the motors while they move it, else against them
 //
-// Each lets go of what it does to bring a handle back that is too far away or spins too fast.
+// Each hand interrupts its pattern to bring back a handle that is too far away or spins too fast.
 
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/simulation/rigid_device.hpp>
@@ -26,10 +26,10 @@ enum class rigid_habit : std::uint8_t { random, tapping, swinging, greedy };
 
 struct rigid_hand_parameters {
   rigid_habit habit = rigid_habit::random;
-  double force = 5.0;     ///< most [N]
-  double torque = 0.2;    ///< most [N·m]
-  double room = 0.05;     ///< how far from the origin it lets the handle go [m]
-  double fastest = 60.0;  ///< how fast it lets it spin [rad/s]
+  double force = 5.0;     ///< largest force [N]
+  double torque = 0.2;    ///< largest torque [N·m]
+  double room = 0.05;     ///< largest distance of the handle from the origin [m]
+  double fastest = 60.0;  ///< largest rate of the handle [rad/s]
 };
 
 class rigid_hand {
@@ -51,7 +51,7 @@ class rigid_hand {
  private:
   [[nodiscard]] double number() noexcept { return random_.number<double>(); }
   [[nodiscard]] vec3 any() noexcept { return random_.direction<d3>(); }
-  /// A length of one along v; along any direction where v is none.
+  /// The unit vector along v, or along any direction if v is zero.
   [[nodiscard]] vec3 along(const vec3& v) noexcept {
     const double length = v.norm();
     return length > 1e-9 ? vec3(v / length) : any();
@@ -59,7 +59,7 @@ class rigid_hand {
   [[nodiscard]] int ticks(int most) noexcept {
     return 1 + static_cast<int>(random_.bits() % static_cast<std::uint64_t>(most));
   }
-  /// Along `force` and `torque`, of length one. Drawn before it is called: the order of arguments is no order.
+  /// Pushes along unit vectors `force` and `torque`. They are drawn before the call, as arguments have no order.
   void push_along(const vec3& force, const vec3& torque, double share) noexcept {
     force_ = force * (share * p_.force);
     torque_ = torque * (share * p_.torque);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Ports of a rigid body, right ones and ones that leave out a term: the controls of every test in six degrees
-// of freedom.
+// Ports of a rigid body, right ones and ones that leave out a term, which are the controls of the tests in six
+// degrees of freedom.
 #include "rigid_attacks.hpp"
 #include <passive_haptics/contact/given_force.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
@@ -36,7 +36,7 @@ template <class P = body, int Latency = 0, class Damping = ph::rigid_damping, cl
                           loop<Latency>};
 }
 
-/// A coning margin of dt|θ × τ|²/(Part b_ω), or none at all for 0; else as rigid_damping.
+/// A rigid_damping whose coning margin is dt|θ × τ|²/(Part b_ω), or 0 for Part = 0.
 template <int Part>
 struct other_margin {
   double linear{}, angular{};
@@ -60,7 +60,7 @@ struct other_margin {
   };
 };
 
-/// The motion as 2 vec(q₁q₀*), which is sin for the angle.
+/// Takes 2 vec(q₁q₀*) for the turn, so it has 2 sin(θ/2) in place of the angle θ.
 struct sine_pairing : body {
   [[nodiscard]] static motion between(const pose& from, const pose& to) noexcept {
     const motion right = body::between(from, to);
@@ -69,7 +69,7 @@ struct sine_pairing : body {
     return angle > 1e-9 ? join(linear(right), turn * (2 * std::sin(angle / 2) / angle)) : right;
   }
 };
-/// The motion as the logarithm of SE(3), about the first handle point.
+/// Takes the logarithm of SE(3), about the first handle point, for the motion.
 struct twist_pairing : body {
   [[nodiscard]] static motion between(const pose& from, const pose& to) noexcept {
     const motion right = body::between(from, to);
@@ -82,7 +82,7 @@ struct twist_pairing : body {
   }
 };
 
-/// Force and torque, each bounded as if the ledger were its own.
+/// Bounds force and torque apart, each as if the ledger were its own.
 struct bounded_apart {
   static constexpr ph::guarantee passivity = ph::guarantee::strict;
   static constexpr ph::bound_traits traits = ph::strict_bound::traits;

@@ -31,7 +31,7 @@ inline constexpr double hand_force = 5.0;  // [N]
 inline constexpr double gravity = 9.81;    // [m/s²]
 inline constexpr double degree = 3.14159265358979323846 / 180.0;
 
-/// A scene: its normals, through the origin, and what is up.
+/// A scene: the normals of its planes, which go through the origin, and the direction up.
 struct planes {
   const char* name;
   std::vector<vector> normals;
@@ -67,7 +67,7 @@ inline const std::vector<planes>& all_planes() {
   return all;
 }
 
-/// What a set may have beside its planes.
+/// The parts that a set may have beside its planes.
 template <class Friction = ph::frictionless, class Observer = ph::reduced_energy,
           class Motion = ph::last_difference>
 struct beside {
@@ -95,10 +95,10 @@ auto port_of(const planes& scene, double mass, double K,
   return port;
 }
 
-/// How a device has come to rest.
+/// The way in which a device has come to rest.
 struct settled {
-  double seconds = 0.0;       ///< until it stays within 0.5 mm of where it ends
-  double swing = 0.0;         ///< twice the farthest in the last two seconds [m]
+  double seconds = 0.0;       ///< time until it stays within 0.5 mm of its end [s]
+  double swing = 0.0;         ///< twice the largest distance in the last two seconds [m]
   double least_energy = 0.0;  ///< at the port [J]
 };
 

@@ -135,14 +135,14 @@ subject attacked(const char* name, const Loop& loop, const Lay& lay,
 // ------------------------------------------------------------------------- what is stated and true
 
 /// The device is what is stated of it, with nothing to spare, and its driver drops no force.
-sim::circumstances just_as(const ph::known_device& d) {
+sim::circumstances just_as(const ph::exact_device& d, double hand_force) {
   return {.damping = d.damping,
           .mass = d.mass,
-          .hand_force = d.hand_force,
+          .hand_force = hand_force,
           .force_limit = d.force_limit,
           .watchdog = false};
 }
-sim::circumstances just_as(const ph::design::stated_device& d, double hand_force) {
+sim::circumstances just_as(const ph::encoder_device& d, double hand_force) {
   return {.damping = d.damping,
           .mass = d.mass,
           .friction = d.friction,
@@ -262,54 +262,55 @@ std::vector<trial> trials() {
     for (const auto make : list) all.push_back({who, stated, make(stated)});
   };
 
-  const ph::known_device ideal{.mass = 0.1, .damping = 0.03, .hand_force = 5.0, .force_limit = 9.0};
-  const auto world = just_as(ideal);
+  const ph::exact_device ideal{.mass = 0.1, .damping = 0.03, .force_limit = 9.0};
+  const ph::known_hand person{.force = 5.0};
+  const auto world = just_as(ideal, person.force);
   const subject touch =
-      attacked("make_touch", unreported<ph::touch<d1>>{ph::make_touch<d1>(ideal, 1e-3)},
+      attacked("make_touch", unreported<ph::touch<d1>>{ph::make_touch<d1>(ideal, person)},
                lay_on_contact, limited_hands);
   add(touch, world,
       {mass, damping, hand_force, limited_hand, motors_limit, longest_tick, latency,
        exact_positions});
-  const subject guard = attacked(
-      "make_force_guard", rendered<ph::force_guard<d1>>{ph::make_force_guard<d1>(ideal, 1e-3)},
-      lay_on_guard, limited_hands);
+  const subject guard =
+      attacked("make_guard", rendered<ph::force_guard<d1>>{ph::make_guard<d1>(ideal, person)},
+               lay_on_guard, limited_hands);
   add(guard, world,
       {mass, damping, hand_force, limited_hand, motors_limit, longest_tick, latency,
        exact_positions});
 
   auto strict_world = world;
   strict_world.force_limit = sim::circumstances::infinity;
-  const subject strict =
-      attacked("make_strict_guard",
-               rendered<ph::strict_guard<d1>>{ph::make_strict_guard<d1>(ideal.damping, 1e-3)},
-               lay_on_guard, steady_adversaries());
+  auto unlimited = ph::make_strict_guard<d1>(ideal.damping, ph::actuator_limit{1e6}, 1e-3);
+  const subject strict = attacked("make_strict_guard", rendered<decltype(unlimited)>{unlimited},
+                                  lay_on_guard, steady_adversaries());
   add(strict, strict_world, {damping, unlimited_motors, longest_tick, latency, exact_positions});
 
-  const auto on_encoders = [](const char* name, const ph::design::stated_device& d, double hand) {
-    return attacked(
-        name, unreported<ph::encoder_touch<d1>>{ph::make_encoder_touch<d1>(d, hand + d.friction)},
-        lay_on_contact, limited_hands);
+  const auto on_encoders = [](const char* name, const ph::encoder_device& d, double hand) {
+    return attacked(name,
+                    unreported<ph::encoder_touch<d1>>{
+                        ph::make_touch<d1>(d, ph::known_hand{.force = hand + d.friction})},
+                    lay_on_contact, limited_hands);
   };
   const auto& light = sim::touch_like;
-  const ph::design::stated_device stated{.mass = light.mass,
-                                         .damping = light.damping / 2,
-                                         .friction = light.friction / 2,
-                                         .presliding = 15e-6,
-                                         .quantum = light.quantum,
-                                         .force_limit = light.force_limit};
+  const ph::encoder_device stated{.mass = light.mass,
+                                  .damping = light.damping / 2,
+                                  .friction = light.friction / 2,
+                                  .presliding = 15e-6,
+                                  .quantum = light.quantum,
+                                  .force_limit = light.force_limit};
   const auto stepped = just_as(stated, 5.0);
-  const subject encoders = on_encoders("make_encoder_touch", stated, 5.0);
+  const subject encoders = on_encoders("make_touch, encoders", stated, 5.0);
   add(encoders, stepped,
       {mass, friction, presliding, hand_force, limited_hand, encoder_step, longest_tick, latency});
   add(encoders, soft_and_restless(stepped), {motors_limit});
   // Dry friction pays for so much that nothing is left for the damper to pay, unless there is much of it.
-  const ph::design::stated_device damped{.mass = 0.05,
-                                         .damping = 4.0,
-                                         .friction = 0.05,
-                                         .presliding = 1e-6,
-                                         .quantum = 10e-6,
-                                         .force_limit = 12.0};
-  add(on_encoders("make_encoder_touch, much damped", damped, 10.0), just_as(damped, 10.0),
+  const ph::encoder_device damped{.mass = 0.05,
+                                  .damping = 4.0,
+                                  .friction = 0.05,
+                                  .presliding = 1e-6,
+                                  .quantum = 10e-6,
+                                  .force_limit = 12.0};
+  add(on_encoders("make_touch, encoders, much damped", damped, 10.0), just_as(damped, 10.0),
       {damping});
   return all;
 }

@@ -20,19 +20,19 @@ using d3 = ph::space<double, 3>;
 using f1 = ph::space<float, 1>;
 using f3 = ph::space<float, 3>;
 
-/// What the designer of a controller knows of the device and the scene; all of it is true there.
+/// The numbers that the designer of a controller knows of the device and the scene; all are true there.
 struct premises {
   double mass = 0.1;           ///< m of the device [kg]
   double damping = 0.03;       ///< b [N·s/m]
   double friction = 0.0;       ///< f_c [N]
-  double hand_force = 5.0;     ///< most of hand, load and friction together [N]
+  double hand_force = 5.0;     ///< largest force of hand, load and friction together [N]
   double load = 0.0;           ///< the largest weight the wall is to carry [N]
   double quantum = 0.0;        ///< q of the encoders [m]
   double longest_tick = 1e-3;  ///< [s]
   double wall_damping = 0.0;   ///< B of the virtual wall [N·s/m]
 };
 
-/// What nobody can ask the type of a controller.
+/// The facts of a controller that its type does not have.
 struct facts {
   std::string name;
   std::string composition;   ///< in the library's terms, one line
@@ -44,7 +44,7 @@ struct facts {
 template <class Space>
 using maker = std::function<model<Space>(const premises&)>;
 
-/// What it promises, and what it takes for granted, are those of its type.
+/// A controller. Its promise and its assumptions are those of its type.
 struct controller : facts {
   ph::guarantee tag{};
   int latency = 0;                ///< ticks: it is built for loops that late, and judged on those

@@ -46,14 +46,14 @@ class model {
   };
   template <class Local>
   static constexpr calls table{
-      [](void* m, const constraint_type& c) { return static_cast<Local*>(m)->update(c); },
+      [](void* m, const constraint_type& c) -> bool { return static_cast<Local*>(m)->update(c); },
       [](void* m, const sample_type& s) -> result_type { return static_cast<Local*>(m)->tick(s); },
       [](const void* m) -> const constraint_type& { return static_cast<const Local*>(m)->local(); },
       [](const void* m) { return static_cast<const Local*>(m)->energy(); },
       [](const void* m) { return static_cast<const Local*>(m)->check(); }};
 
   const calls* calls_;
-  alignas(std::max_align_t) std::byte bytes_[1024];
+  alignas(std::max_align_t) std::byte bytes_[2048];
 };
 
 }  // namespace controllers

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The program, apart from main(), so that a test can run it, and stop it; and what its sections share.
+// The program without main(), so that a test can run and stop it; and the declarations that its sections share.
 
 #include "../common/rows.hpp"
 #include "../common/sections.hpp"
@@ -28,7 +28,7 @@ struct session : ex::workshop {
   const std::vector<controller>& judged;
 };
 
-/// Every controller with everything of a list.
+/// Every controller combined with every element of a list.
 template <class What>
 auto with_each(const std::vector<controller>& judged, const std::vector<What>& list) {
   std::vector<std::pair<const controller*, What>> all;
@@ -41,7 +41,7 @@ auto with_each(const std::vector<controller>& judged, const std::vector<What>& l
 /// They write their rows as they are finished.
 [[nodiscard]] const std::vector<ex::section<session>>& sections();
 
-/// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
+/// The settings of a command line. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);
 
 /// 0: all is well. 1: a cell contradicts a tag, or something could not be written or read.

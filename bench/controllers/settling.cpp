@@ -15,7 +15,7 @@ struct settling_way {
   bool knows_saturation = false;
   bool observes_motion = false;
   bool counts_surely = false;
-  bool is_for_encoders = false;  ///< make_encoder_touch, where there is friction to credit
+  bool is_for_encoders = false;  ///< make_touch, where there is friction to credit
 };
 constexpr std::array ways{settling_way{"damped spring, last difference"},
                           settling_way{"+ secant in saturation", true},
@@ -77,17 +77,17 @@ ex::record record_of(const settling_row& r) {
           {"stiffness error", r.stiffness_error}};
 }
 
-/// What is stated of a device to make_encoder_touch; nothing without friction, which it asks for.
-std::optional<ph::design::stated_device> on_encoders(const settling_way& way,
-                                                     const ex::wall_scene& scene) {
+/// What is stated of a device to make_touch; nothing without friction, which it asks for.
+std::optional<ph::encoder_device> on_encoders(const settling_way& way,
+                                              const ex::wall_scene& scene) {
   if (!way.is_for_encoders || !(scene.friction > 0.0)) return {};
-  return ph::design::stated_device{.mass = scene.mass,
-                                   .damping = premises{}.damping,
-                                   .friction = scene.friction / 2.0,
-                                   .presliding = 0.0,
-                                   .quantum = scene.quantum,
-                                   .force_limit = std::min(scene.force_limit, 1e6),
-                                   .longest_tick = 1e-3};
+  return ph::encoder_device{.mass = scene.mass,
+                            .damping = premises{}.damping,
+                            .friction = scene.friction / 2.0,
+                            .presliding = 0.0,
+                            .quantum = scene.quantum,
+                            .force_limit = std::min(scene.force_limit, 1e6),
+                            .longest_tick = 1e-3};
 }
 
 model<d1> composed(const settling_way& way, const ex::wall_scene& scene, double hand_force) {
@@ -98,7 +98,7 @@ model<d1> composed(const settling_way& way, const ex::wall_scene& scene, double 
   const ph::quantised_energy sure{.damping = p.damping, .quantum = p.quantum};
   const ph::mass_observer observer{.mass = p.mass, .quantum = p.quantum};
   if (const auto grip = on_encoders(way, scene)) {
-    return ph::make_encoder_touch<d1>(*grip, hand_force);
+    return ph::make_touch<d1>(*grip, ph::known_hand{.force = hand_force});
   }
   if (way.counts_surely) return touch<d1>(p, parts{law, sure, bound, observer});
   if (way.observes_motion) return touch<d1>(p, parts{law, ledger(p), bound, observer});

@@ -29,7 +29,7 @@ struct wall_row {
 
 [[nodiscard]] std::vector<ex::wall_scene> wall_scenes();
 
-/// What a controller is told of a scene.
+/// The premises of a controller in a scene.
 [[nodiscard]] premises known_of(const ex::wall_scene& scene);
 
 /// One controller in one scene; S1 and S5 are random and run once per seed.
@@ -77,21 +77,21 @@ struct attack_row {
   std::uint64_t worst_seed = 0;
 };
 
-/// Does the tag of c promise anything against this attack?
+/// True if the tag of c promises anything against this attack.
 [[nodiscard]] bool covers(const controller& c, const attack& a) noexcept;
 
 /// One cell of the table, in one dimension; the controller is told the truth about the attack.
 [[nodiscard]] attack_row judge_under_attack(const controller& c, const attack& a, int dof,
                                             int runs);
 
-/// What contradicts the tags, a sentence each; empty if all is well. A covered cell must lose less
-/// than 1e-12 J and must have pushed; `conditional` and `none` must be seen losing somewhere else.
+/// A sentence for each contradiction of a tag; empty if all is well. A covered cell must lose less than 1e-12 J
+/// and must have pushed; a `conditional` or `none` one must lose somewhere else.
 [[nodiscard]] std::vector<std::string> contradictions(const std::vector<attack_row>& rows);
 
 [[nodiscard]] std::vector<std::string> run_adversaries(const session& s);
 
 // ------------------------------------------------------------------------------------ assumptions
-// Every assumption that a named composition states, kept and made untrue.
+// Every assumption that a named composition states, kept and violated.
 
 struct assumption_row {
   std::string composition{}, assumption{}, stated{}, in_truth{};
@@ -101,8 +101,8 @@ struct assumption_row {
   double violated = 0.0;  ///< most that was created while this is not [J]
 };
 
-/// What fails, a sentence each: joules that are created while an assumption is kept, and an assumption of
-/// which the violation creates none.
+/// A sentence for each failure: energy that is created while an assumption is kept, and an assumption whose
+/// violation creates none.
 [[nodiscard]] std::vector<std::string> unfounded(const std::vector<assumption_row>& rows);
 
 [[nodiscard]] std::vector<std::string> run_assumptions(const session& s);

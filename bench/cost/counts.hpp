@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Instructions per tick: what callgrind wrote, as rows; the rows that are committed; and what has
-// grown.
+// Instructions per tick: the rows that callgrind has counted, the committed rows, and the growth between them.
 
 #include "../common/text.hpp"
 
@@ -54,8 +53,8 @@ using baseline = std::map<std::string, std::map<std::string, double>>;
 [[nodiscard]] baseline read_baseline(std::istream& in);
 void write_baseline(std::ostream& out, const std::vector<counts>& all);
 
-/// What grew by more than `tolerance`, or is gone, a sentence each. Empty and `known` false: there is
-/// no baseline for that compiler.
+/// A sentence for each row that grew by more than `tolerance` or is gone. If `known` is false there is no
+/// baseline for that compiler.
 struct growth {
   bool known = false;
   std::vector<std::string> sentences;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What each part of a scene costs, and what one that the scene has no use for does not: the same wall
-// with one part more each time, in one dimension (float) and in three (double), through the same
-// workload. Everything else about these scenes is as in scenes.hpp.
+// The cost of each part of a scene, and that a part which the scene does not use costs nothing: the same wall
+// with one part more each time, in one dimension (float) and in three (double), through the same workload. All
+// else in these scenes is as in scenes.hpp.
 
 #include "scenes.hpp"
 #include <passive_haptics/base/samples.hpp>

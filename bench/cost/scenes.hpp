@@ -18,7 +18,7 @@ namespace cost {
 
 namespace ph = passive_haptics;
 
-/// What can be set at run time; SI units.
+/// The numbers that are set at run time, in SI units.
 struct settings {
   double damping = 0.03, loan = 0;
   double longest_tick = 1e-3, top_speed = 100, workspace = 2, watchdog = 1e-3;
@@ -34,7 +34,7 @@ struct surface {
   double stiffness = 1000;              ///< [N/m]
 };
 
-/// What a tick returns, whichever side it is from.
+/// The result of a tick of either side.
 template <class Scalar>
 struct outcome {
   std::array<Scalar, 3> force{};
@@ -67,7 +67,7 @@ template <class Scalar>
 [[nodiscard]] constexpr Scalar in(double x) {
   return static_cast<Scalar>(x);
 }
-/// Three numbers, as either side has them.
+/// A vector of either side, from three numbers.
 template <class Vector, class Scalar>
 [[nodiscard]] Vector three(const std::array<double, 3>& v) {
   return {in<Scalar>(v[0]), in<Scalar>(v[1]), in<Scalar>(v[2])};
@@ -81,7 +81,7 @@ template <class Scalar>
   return three<typename ph::space<Scalar, 3>::vector, Scalar>(v);
 }
 
-/// What all scenes have.
+/// The ledger of all scenes.
 [[nodiscard]] inline ph::reduced_energy observer(const settings& s) {
   return {.damping = s.damping, .loan = s.loan};
 }
@@ -196,7 +196,7 @@ template <class Scene, class State>
   }
 }
 
-/// And a time.
+/// A time for either side.
 template <class Scene, class State>
 [[nodiscard]] constexpr auto time_for(double dt) {
   const auto rounded = in<typename Scene::scalar>(dt);

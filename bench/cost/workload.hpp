@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What the counted and timed ticks do: a hand presses a surface and lets go, three times in 4 s, while
-// the environment publishes a tilting triangle 30 times a second. The wall and the half-space see the
-// same motion. One tick in 499 is late, one in 997 brings nonsense.
+// The workload of the counted and timed ticks: a hand presses a surface and lets go, three times in 4 s, while
+// the environment publishes a tilting triangle 30 times a second. The wall and the half-space have the same
+// motion. One tick in 499 is late, and one in 997 has a sample that is no number.
 //
 //   air         no contact
 //   contact     the whole force, the local model where the environment wants it
@@ -57,7 +57,7 @@ inline constexpr settings ordinary{.damping = 0.3, .loan = 0, .stiffness = 2000}
   return s;
 }
 
-/// Where a tick went.
+/// The path that a tick took.
 template <class State, class Scalar>
 [[nodiscard]] path path_of(const State& after, const outcome<Scalar>& o) {
   if (o.what == ph::event::rejected_sample) return path::bad;

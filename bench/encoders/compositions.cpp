@@ -34,7 +34,7 @@ wall with_rigid_friction(const design::stated_device& d, double /*most*/) {
                   observer(d));
 }
 wall encoder_touch(const design::stated_device& d, double most) {
-  auto made = ph::make_encoder_touch<line>(d, hand_force);
+  auto made = ph::make_touch<line>(d, ph::known_hand{.force = hand_force});
   (void)made.set(
       ph::capped{ph::eased{ph::damped_spring{.mass = d.mass, .force_limit = d.force_limit}}, most});
   return made;

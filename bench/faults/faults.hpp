@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What may happen to a haptic loop, once, and what becomes of a wall that a hand is pressing.
+// Single faults of a haptic loop, and their effect on a wall that a hand is pressing.
 
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/simulation/device.hpp>
@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace faults {
@@ -26,17 +28,20 @@ using hand = sim::impedance_hand<d3>;
 
 inline constexpr double T = 1e-3;  // [s]
 
-/// What the loop is shown instead of the truth.
+/// A fault: what the loop is shown in place of the truth.
 struct fault {
   std::string name;
   int lasts = 1;  ///< [ticks]
   std::function<void(sample&)> spoil = [](sample&) {};
-  int held = 1;        ///< for how many ticks the device goes on with its last command
-  bool stuck = false;  ///< it shows where it was before
-  double dt = T;       ///< what the loop is told of that tick [s]
+  int held = 1;        ///< ticks for which the device holds its last command
+  bool stuck = false;  ///< the device shows its position of before
+  double dt = T;       ///< length of the tick that the loop is told [s]
+  int world = 0;       ///< what the world publishes meanwhile, 0: what is there (restarts())
+  bool gives_way =
+      false;  ///< it lets the finger go somewhere else, from where no passive port pushes it back
 };
 
-/// Every kind, with the signs and sizes that hurt most; z is the way out of the wall.
+/// The faults of every kind, with the worst signs and sizes; z points out of the wall.
 [[nodiscard]] inline std::vector<fault> single_faults() {
   std::vector<fault> all;
   constexpr double inf = std::numeric_limits<double>::infinity(),
@@ -92,28 +97,67 @@ struct fault {
   return all;
 }
 
-/// What a loop answers to a sample.
+/// The world's publisher starts anew: for 0.2 s it says what was there when it began, or what another slot is.
+enum world : int { right, higher, lower, tilted, stiffer, other_order, none };
+[[nodiscard]] inline std::vector<fault> restarts() {
+  std::vector<fault> all;
+  const auto restart = [&all](const char* name, world what) {
+    all.push_back({std::string("a world that starts anew ") + name, 200});
+    all.back().world = what;
+  };
+  restart("5 mm higher", higher);
+  for (const auto& [name, what] : {std::pair{"5 mm lower", lower}, {"tilted by 46 deg", tilted}}) {
+    restart(name, what);
+    all.back().gives_way = true;
+  }
+  restart("50 times stiffer", stiffer);
+  restart("in another order", other_order);
+  restart("with no numbers", none);
+  return all;
+}
+
+/// The answer of a loop to a sample.
 struct answer {
   vector force;
   ph::event what;
 };
-using controller = std::function<answer(const sample&)>;
+/// A loop, and who publishes to it, where somebody does.
+class controller {
+ public:
+  template <std::invocable<const sample&> Tick>
+  controller(Tick tick, std::function<void(int)> publish = nullptr)  // NOLINT: a loop is one
+      : tick_(std::move(tick)), publish_(std::move(publish)) {}
+  answer operator()(const sample& s) const { return tick_(s); }
+  void publish(int what) const {
+    if (publish_) publish_(what);
+  }
+
+ private:
+  std::function<answer(const sample&)> tick_;
+  std::function<void(int)> publish_;
+};
 
 /// A device, the hand on it, and the composition that is tried.
 struct subject {
   std::string name;
   sim::device_parameters<d3> device{};
-  double limit = 9.0;   ///< of the force [N]
-  double amends = 0.0;  ///< A [J]
-  int learns = 0;       ///< ticks that are so long are the longest from then on [T]
+  double limit = 9.0;   ///< largest force [N]
+  double amends = 0.0;  ///< A of § 11 [J]
+  int learns = 0;       ///< the loop learns ticks of up to this length [T]
   std::function<controller(double amends)> make;
+  bool world = false;  ///< somebody publishes to it
 };
+
+/// What a port has created so far, at worst [J]; dry friction is a part of the device (simulation/meter.hpp).
+[[nodiscard]] inline double created(const sim::port_energy_meter& meter, double until_now) {
+  return std::max(until_now, -(meter.rubbed() ? meter.with_friction() : meter.minimum()));
+}
 
 /// A run of three seconds: the hand presses 10 mm in within 0.25 s, holds, or taps once a second.
 struct course {
   std::vector<double> force, depth;  ///< outward [N], [m]
   double largest = 0.0;              ///< [N]
-  double created = 0.0;              ///< by the port, out of the true motion [J]
+  double created = 0.0;              ///< energy created at the port, by the true motion [J]
   ph::event worst = ph::event::nominal;
   bool finite = true;
 };
@@ -135,6 +179,8 @@ struct course {
     } else {
       before = shown.position;
     }
+    if (f && f->world != right && n == at) loop.publish(f->world);
+    if (f && f->world != right && n == at + f->lasts) loop.publish(right);
     const answer a = loop(shown);
     all.finite = all.finite && a.force.allFinite();
     all.largest = std::max(all.largest, a.force.norm());
@@ -146,17 +192,17 @@ struct course {
       device.hand().target = vector(0, 0, 4e-3 - 14e-3 * in + tap);
       s = device.exchange(a.force);
       dt += s.dt;
+      all.created = created(device.meter(), all.created);
       all.force.push_back(a.force.z());
       all.depth.push_back(-device.position().z());
     }
     s.dt = dt;
   }
-  all.created = std::max(0.0, -device.meter().minimum());
   return all;
 }
 
-/// How long after the fault the wall was last felt as it would have been not: by a tenth and 0.1 N, or
-/// 0.5 mm, off [s].
+/// The time [s] from the end of the fault until the wall feels for good as it does without the fault: force within
+/// a tenth plus 0.1 N, depth within 0.5 mm.
 [[nodiscard]] inline double back_after(const course& found, const course& right, int at,
                                        const fault& f) {
   const int end = at + std::max(f.lasts, f.held);
@@ -171,7 +217,7 @@ struct course {
   return (last - end) * T;
 }
 
-/// A fault at several times, to a hand that holds still and one that taps.
+/// The effect of a fault at several times, for a hand that holds still and one that taps.
 struct harm {
   int runs = 0, lost = 0;  ///< lost: not back within a second
   double created = 0.0;    ///< at worst [J]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// SuiteSparse's CHOLMOD as a stiffness_solver: what a user who has it writes.
+// SuiteSparse's CHOLMOD as a stiffness_solver, as a user may write it.
 
 #include <passive_haptics/environment/stiffness_solver.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How wrong small strains are when the body is pressed far, and what rotated elements would mend: against a
-// neo-Hookean body of the same mesh (docs/design/large_deflections.md).
+// The error of small strains when the body is pressed far, and of rotated elements, against a neo-Hookean body of
+// the same mesh (docs/design/large_deflections.md).
 
 #include "../common/record.hpp"
 #include <passive_haptics/environment/stiffness_solver.hpp>
@@ -26,7 +26,7 @@ struct large_deflection_row {
 };
 [[nodiscard]] experiments::record record_of(const large_deflection_row& r);
 
-/// What a correction costs beside a solution, CPU time [ms].
+/// The cost of a correction and of a solution, CPU time [ms].
 struct rotation_cost_row {
   std::size_t nodes = 0;
   double solve = 0.0, forces = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Error against run time of a deforming organ: how fine a mesh, how often, and as what it is published.
+// Error against run time of a deforming organ, by the fineness of its mesh, its rate and the published surface.
 
 #include "../common/rows.hpp"
 #include <passive_haptics/environment/stiffness_solver.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The program, apart from main(), so that a test can run it.
+// The program without main(), so that a test can run it.
 
 #include "../common/rows.hpp"
 #include "../common/sections.hpp"
@@ -21,7 +21,7 @@ struct settings : ex::section_settings {
   } chain{};
 };
 
-/// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
+/// The settings of a command line. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);
 
 /// 0: all is well. 1: a figure was missed, or something could not be written. 2: an argument is

@@ -19,7 +19,7 @@ using plane = ph::half_space<volume>;
 using quadric = ph::quadric<volume>;
 using patch = ph::patch<volume, 16>;
 
-/// The radius of what touches [m]: the force is spread over it.
+/// The radius of the fingertip over which the force is spread [m].
 inline constexpr double fingertip = 0.010;
 
 template <class Surface>
@@ -48,7 +48,7 @@ template <class Surface>
                          ph::slots<Surface, 1>{}};
 }
 
-/// How many nodes of the surface a stroke comes near to, its rings of triangles included.
+/// The nodes of the surface that a stroke comes near to, with the rings of triangles around them.
 [[nodiscard]] inline std::vector<int> stroked_patch(const held_mesh& body) {
   constexpr double radius = 0.036;  // [m]
   const auto surface = env::boundary(body.mesh);

@@ -46,11 +46,11 @@ inline constexpr network networks[] = {
     {"100 ms, 20 %", {.delay = 0.100, .jitter = 0.020, .loss = 0.20}},
 };
 
-/// Up and down, as the wall of the whole world: n = +z, at h sin 7t.
+/// A wall that moves up and down, n = +z, at the height h sin 7t [m].
 struct heaving_wall {
   double heave = 0.0;  ///< h [m]
   [[nodiscard]] double height(double t) const { return heave * std::sin(7.0 * t); }
-  /// Of a probe at z [N].
+  /// The force on a probe at z [N].
   [[nodiscard]] double force(double t, double z) const {
     return stiffness * std::max(0.0, height(t) - z);
   }
@@ -97,7 +97,7 @@ struct connection {
   }
 };
 
-/// What the device's end wishes for, by the surfaces that it is told.
+/// The model at the device's end, over the surfaces that it is told.
 inline auto passive_touch(double stale_after = 0.5) {
   return ph::local_model{
       scene{},
@@ -135,7 +135,7 @@ struct outcome {
   std::uint64_t dropped = 0;  ///< doubles and overtaken ones, at the client
 };
 
-/// What one sees at the hand.
+/// Measures the run at the hand.
 class watcher {
  public:
   explicit watcher(const heaving_wall& wall) : wall_(wall) {}

@@ -8,6 +8,7 @@
 #include "touch.hpp"
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
+#include <passive_haptics/simulation/quiet.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
 #include <chrono>
@@ -34,6 +35,34 @@ inline vector3 in_world(const vector3& v) {
   return v;
 }
 
+/// The hand holds still for a second, and the environment goes on answering: since when is the force quiet, and how
+/// stiff is it, pressed by 1 µm along itself?
+template <class Model>
+void hold_still(Model& model, const auto& environment, const typename Model::pose& at,
+                double period, double tick, felt& run) {
+  using space = typename Model::port_type;
+  using scalar = typename space::scalar;
+  sim::quiet_judge<space> judge;
+  typename Model::effort force = space::zero();
+  for (int n = 0; tick * n < 1.0; ++n) {
+    if (std::fmod(tick * n, period) < tick) {
+      const answer said = environment(in_world(at), in_world(force));
+      run.asked = said.stiffness;
+      model.update(constraint_of<typename Model::constraint_type>(said));
+    }
+    force = model.tick(at, ph::seconds{scalar(tick)}).force;
+    judge.add(force, space::zero(), tick, {});
+  }
+  run.quiet = judge.since();
+  const scalar size = space::norm(force), by(1e-6);
+  if (!(size > scalar(0))) return;
+  const typename Model::effort push = space::scaled(force, scalar(1) / size);
+  const typename Model::pose deeper = at - push * by;
+  for (int n = 0; n < 9; ++n) (void)model.tick(deeper, ph::seconds{scalar(tick)});
+  const auto then = model.tick(deeper, ph::seconds{scalar(tick)}).force;
+  run.shown = space::dot(then - force, push) / by;
+}
+
 /// The scene in virtual time: a tick each `tick` [s], an answer of the environment each `period` [s].
 template <class Model>
 felt run_touch(Model model, const touch_scene& scene, double period, double tick) {
@@ -44,6 +73,8 @@ felt run_touch(Model model, const touch_scene& scene, double period, double tick
   sim::update_schedule schedule(1, period, period);
   const int each = static_cast<int>(1e-3 / tick + 0.5);
   felt run;
+  const int last = static_cast<int>(scene.to / tick + 0.5) - 1;
+  Model held = model;  // as it is when the hand comes to hold still
   std::vector<double> spent;
   const auto ask = [&](const auto& now) {
     if (!schedule.due(tick * now.tick + tick / 2.0)) return;
@@ -58,10 +89,12 @@ felt run_touch(Model model, const touch_scene& scene, double period, double tick
       run.force.push_back(in_world(now.force));
       run.depth.push_back(now.out.depth);
     }
+    if (now.tick == last) held = model;
     device.move_to(hand(now.tick + 1));
   };
   sim::run(device, model, static_cast<int>(scene.duration / tick + 0.5), ask, move);
   run.update_ns = median(spent);
+  hold_still(held, environment, hand(last), period, tick, run);
   return run;
 }
 

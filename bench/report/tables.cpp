@@ -198,12 +198,17 @@ failures report_models(report& out, const settings& chosen, figures& figured) {
     const model_error smooth = error_of(scene, truth, truth);
     double strongest = 0.0;
     for (const auto& f : truth.force) strongest = std::max(strongest, f.norm());
-    out.section("Model error: " + scene.name,
-                "Against the environment solved at 10 kHz and no bound: forces up to " +
-                    format("%.2f", strongest) + " N, largest step in a millisecond " +
-                    format("%.3f", smooth.largest_step) + " N; one solution takes " +
-                    format("%.1f", truth.update_ns / 1e3) +
-                    " µs. Run time: a tick, and its share of the environment's work.");
+    out.section(
+        "Model error: " + scene.name,
+        "Against the environment solved at 10 kHz and no bound: forces up to " +
+            format("%.2f", strongest) + " N, largest step in a millisecond " +
+            format("%.3f", smooth.largest_step) + " N; one solution takes " +
+            format("%.1f", truth.update_ns / 1e3) +
+            " µs. Run time: a tick, and its share of the environment's work. Quiet: from "
+            "when the hand holds "
+            "still at the end of that, by the bars of docs/design/settling.md for force and steps; "
+            "the stiffness told "
+            "there, and the one that 1 µm along the force shows.");
     std::vector<record> shown;
     std::vector<std::size_t> fitting;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -232,6 +237,9 @@ failures report_models(report& out, const settings& chosen, figures& figured) {
                            {"largest force N", e.largest_force, "%.4f"},
                            {"rms depth mm", e.rms_depth * 1e3, "%.3f"},
                            {"largest step N", e.largest_step, "%.4f"},
+                           {"quiet after s", run.quiet, "%.1f"},
+                           {"asked N/m", run.asked, "%.0f"},
+                           {"shown N/m", run.shown, "%.0f"},
                            {"ns a tick", ns, "%.1f"}});
           expect(found, std::isfinite(e.rms_force),
                  scene.name + ", " + c.cost.name + ", " + format("%g Hz: no number", rate));

@@ -49,6 +49,9 @@ struct felt {
   std::vector<vector3> force;  ///< [N]
   std::vector<double> depth;   ///< [m]
   double update_ns = 0;        ///< of the environment, median
+  double quiet = std::nan(
+      "");  ///< from when the hand holds still, at `to`, until it is quiet [s]; NaN: it is not
+  double asked = 0, shown = 0;  ///< stiffness there, told and felt along the force [N/m]
 };
 
 struct model_error {

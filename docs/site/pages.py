@@ -226,6 +226,17 @@ def built(builds, site):
     return "\n".join(out) + "\n", "\n".join(live) + "\n"
 
 
+def readable(path):
+    """True of a folder, and of a file that is text."""
+    if path.is_dir():
+        return True
+    try:
+        path.read_text("utf-8")
+    except UnicodeDecodeError:
+        return False
+    return True
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     for name in ("root", "builds", "pages", "site"):
@@ -288,7 +299,11 @@ def main():
         full = root / name
         if full.is_dir():
             lines = []
-            for file in sorted(full.iterdir()):
+            files = sorted(full.iterdir())
+            for file in files:
+                if len(files) > 50 or not readable(file):  # a corpus of bytes
+                    lines.append(f"- {file.name}\n")
+                    continue
                 link = site.target(f"{name}/-", file.name)
                 lines.append(f"- [{file.name}]({link})\n")
             texts.append((label, f"# {name} {{#{label}}}\n\n" + "".join(lines)))

@@ -35,8 +35,8 @@ int main() {
   chai3d::cGenericHapticDevicePtr bare;
   handler.getDevice(bare, 0);
   // State less mass and damping than your device has, and a hand stronger than any that will hold it.
-  const auto port = ph::make_force_guard<scene>(
-      {.mass = 0.1, .damping = 0.1, .hand_force = 5.0, .force_limit = 8.0}, 0.002);
+  const auto port = ph::make_guard<scene>(
+      {.mass = 0.1, .damping = 0.1, .force_limit = 8.0, .longest_tick = 0.002}, {.force = 5.0});
   const auto device = ph::adapters::make_passive_device(bare, port);
   if (const auto fault = device->check()) return complain(fault);
   tool->setHapticDevice(device);  // instead of the bare one; all else as it was

@@ -21,9 +21,11 @@ int main() {
   ph::adapters::force_dimension<scene> omega;
   if (const auto fault = omega.open()) return complain(fault);
   // The SDK knows no damping: state less than your device has, and a hand stronger than any that will hold it.
-  auto touch = ph::make_touch<scene>(
-      {.mass = 0.8 * omega.least_mass(), .damping = 0.1, .hand_force = 10.0, .force_limit = 12.0},
-      0.001);
+  auto touch = ph::make_touch<scene>({.mass = 0.8 * omega.least_mass(),
+                                      .damping = 0.1,
+                                      .force_limit = 12.0,
+                                      .longest_tick = 0.001},
+                                     {.force = 10.0});
   if (const auto fault = touch.check()) return complain(fault);
   touch.update({.point = {0.0, 0.0, 0.0}, .normal = {0.0, 0.0, 1.0}, .stiffness = 4000.0});
   auto sample = omega.exchange(scene::zero());

@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
       ph::turn_limited{.rate = 2.0},
       ph::damped_spring{.mass = 0.1, .force_limit = 8.0},
       ph::reduced_energy{.damping = 0.1},
-      ph::bound_chain{ph::reachable_bound{.mass = 0.1, .hand_force = 5.0},
+      ph::bound_chain{ph::watched{ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}},
                       ph::actuator_limit{.most = 8.0}},
       late{.longest_tick = 0.002}};
   wall.update({.point = {0.0, 0.0, 0.0}, .normal = {0.0, 0.0, 1.0}, .stiffness = 1000.0});

@@ -29,15 +29,16 @@ int main() {
   // A force leaves with the next packet, so it is held one tick late. Encoders with steps: what pays for them
   // is dry friction, stated from below. Identify your own Falcon: examples/18_falcon_identify.cpp.
   using plane = ph::half_space<scene>;
-  auto wall =
-      ph::make_encoder_touch<scene, plane, ph::late_loop_limits<1>>({.mass = 0.1,
-                                                                     .damping = 0.2,
-                                                                     .friction = 0.15,
-                                                                     .presliding = 1e-5,
-                                                                     .quantum = 1.03e-4,
-                                                                     .force_limit = 8.0,
-                                                                     .longest_tick = 2.5e-3},
-                                                                    5.0);
+  auto wall = ph::make_touch<scene, plane, ph::late_loop_limits<1>>(
+      ph::encoder_device{.mass = 0.1,
+                         .damping = 0.2,
+                         .friction = 0.15,
+                         .presliding = 1e-5,
+                         .quantum = 1.03e-4,
+                         .force_limit = 8.0,
+                         .longest_tick = 2.5e-3,
+                         .latency = 1},
+      {.force = 5.0});
   wall.update({.point = {0.0, 0.0, 0.12}, .normal = {0.0, 0.0, 1.0}, .stiffness = 800.0});
 
   ph::stopwatch watch;

@@ -24,8 +24,9 @@ int main() {
   ph::exchange<plane> inbox;
   // State less mass and damping than your device has, and a hand stronger than any that will hold it.
   ph::adapters::open_haptics touch{
-      ph::make_touch<scene>({.mass = 0.045, .damping = 0.05, .hand_force = 5.0, .force_limit = 3.3},
-                            0.002),
+      ph::make_touch<scene>(
+          {.mass = 0.045, .damping = 0.05, .force_limit = 3.3, .longest_tick = 0.002},
+          {.force = 5.0}),
       [&inbox](auto& wall, const auto&) {
         if (const plane* news = inbox.take()) wall.update(*news);
       }};

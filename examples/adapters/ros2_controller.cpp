@@ -56,6 +56,6 @@ class passive_effort_controller : public ci::ChainableControllerInterface {
  private:
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   // State less mass and damping than your device has, and a hand stronger than any that will hold it.
-  ph::force_guard<scene> port_ = ph::make_force_guard<scene>(
-      {.mass = 0.1, .damping = 0.1, .hand_force = 5.0, .force_limit = 8.0}, 0.002);
+  ph::force_guard<scene> port_ = ph::make_guard<scene>(
+      {.mass = 0.1, .damping = 0.1, .force_limit = 8.0, .longest_tick = 0.002}, {.force = 5.0});
 };

@@ -10,10 +10,12 @@ namespace ph = passive_haptics;
 using scene = ph::space<double, 3>;
 
 /// The device is behind Redis, so a force is held a tick late at least: measure it (measure_latency).
-using late_guard = ph::force_guard<scene, ph::isotropic_damping, ph::late_loop_limits<1>>;
+using late_guard = ph::force_guard<scene, ph::late_loop_limits<1>>;
 
-late_guard make_guard(const ph::known_device& device) {
-  return ph::make_force_guard<scene, ph::late_loop_limits<1>>(device, 0.002);
+late_guard guard_of(ph::exact_device device, const ph::known_hand& hand) {
+  device.longest_tick = 0.002;
+  device.latency = 1;
+  return ph::make_guard<scene, ph::late_loop_limits<1>>(device, hand);
 }
 
 SaiPrimitives::HapticControllerOutput command(SaiPrimitives::HapticDeviceController& controller,

@@ -33,7 +33,7 @@ class passive_feedback
   static constexpr double metres = 0.01;  ///< of a unit of the scene, over the driver's scale
   static constexpr double newtons = 1.0;  ///< of a unit of force: the driver's forceScale
   // State less mass and damping than your device has, and a hand stronger than any that will hold it.
-  ph::force_guard<scene> port_ = ph::make_force_guard<scene>(
-      {.mass = 0.045, .damping = 0.05, .hand_force = 5.0, .force_limit = 3.3}, 0.002);
+  ph::force_guard<scene> port_ = ph::make_guard<scene>(
+      {.mass = 0.045, .damping = 0.05, .force_limit = 3.3, .longest_tick = 0.002}, {.force = 5.0});
   ph::stopwatch watch_;
 };

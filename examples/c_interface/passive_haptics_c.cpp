@@ -40,6 +40,7 @@ struct ph_port {
   [[nodiscard]] virtual ph::guarantee promise() const noexcept = 0;
   /// Does a plane, or else a force, tell it what to do?
   [[nodiscard]] virtual bool takes_planes() const noexcept = 0;
+  [[nodiscard]] virtual std::optional<ph::explanation> explain() const noexcept = 0;
   /// Null is a position that could not be read, and a force that is not wanted anew. Fills all of `out`
   /// but its size, in place: copies of a struct just written are dear.
   virtual void tick(const double* position, double dt, const double* wanted,
@@ -76,6 +77,10 @@ class composed final : public ph_port {
   [[nodiscard]] ph::parameter_fault check() const noexcept override { return port_.check(); }
   [[nodiscard]] ph::guarantee promise() const noexcept override { return Port::passivity; }
   [[nodiscard]] bool takes_planes() const noexcept override { return follows; }
+  [[nodiscard]] std::optional<ph::explanation> explain() const noexcept override {
+    if constexpr (requires { port_.explain(); }) return port_.explain();
+    return std::nullopt;
+  }
   void tick(const double* position, double dt, const double* wanted,
             ph_result& result) noexcept override {
     if constexpr (follows) {
@@ -124,17 +129,29 @@ class composed final : public ph_port {
 }
 constexpr double never = ph::loop_limits::never;
 
-[[nodiscard]] ph::design::stated_device device_of(const ph_parameters& p) noexcept {
-  ph::design::stated_device d{.mass = p.mass,
-                              .damping = p.damping,
-                              .friction = p.friction,
-                              .quantum = p.quantum,
-                              .force_limit = p.force_limit,
-                              .longest_tick = p.longest_tick,
-                              .continuous_force = stated(p.continuous_force, never),
-                              .winding_time = p.winding_time};
+[[nodiscard]] ph::encoder_device device_of(const ph_parameters& p) noexcept {
+  ph::encoder_device d{.mass = p.mass,
+                       .damping = p.damping,
+                       .friction = p.friction,
+                       .quantum = p.quantum,
+                       .force_limit = p.force_limit,
+                       .longest_tick = p.longest_tick,
+                       .latency = static_cast<int>(p.latency),
+                       .continuous_force = stated(p.continuous_force, never),
+                       .winding_time = p.winding_time};
   if (p.presliding != 0.0) d.presliding = p.presliding;
   return d;
+}
+
+[[nodiscard]] ph::exact_device exact_device_of(const ph_parameters& p) noexcept {
+  return {.mass = p.mass,
+          .damping = p.damping,
+          .force_limit = p.force_limit,
+          .longest_tick = p.longest_tick,
+          .latency = static_cast<int>(p.latency)};
+}
+[[nodiscard]] ph::known_hand hand_of(const ph_parameters& p) noexcept {
+  return {.force = p.hand_force};
 }
 
 template <int Latency>
@@ -178,22 +195,27 @@ template <class Ledger>
           .quantum = p.quantum};
 }
 
+/// What a composition from the facts of a device leaves to be said: the loop's limits and how data age.
+template <class Port>
+Port with_limits(Port port, const ph_parameters& p) noexcept {
+  // A part that is refused stays as it is, and ph_create has asked these before.
+  (void)port.set(limits<Port::latency>(p));
+  return port;
+}
 struct touch {
   template <int Latency>
   static auto make(const ph_parameters& p) noexcept {
-    return ph::touch<scene, plane, ph::late_loop_limits<Latency>>{
-        scene{},
-        surface(p),
-        turning(p),
-        settling(p),
-        forgiven(p, ph::reduced_energy{.damping = p.damping}),
-        ph::bound_chain{reachable(p), motors(p)},
-        limits<Latency>(p)};
+    using loop = ph::late_loop_limits<Latency>;
+    auto port = ph::make_touch<scene, plane, loop>(exact_device_of(p), hand_of(p),
+                                                   stated(p.turn_rate, 2.0));
+    (void)port.set(ph::freshness{.stale_after = stated(p.stale_after, never)});
+    return with_limits(port, p);
   }
 };
 struct quantised_touch {
   template <int Latency>
   static auto make(const ph_parameters& p) noexcept {
+    // By hand: positions in steps, and no friction to pay for them.
     return ph::local_model{
         scene{},
         surface(p),
@@ -209,12 +231,10 @@ struct encoder_touch {
   template <int Latency>
   static auto make(const ph_parameters& p) noexcept {
     using loop = ph::late_loop_limits<Latency>;
-    auto port = ph::make_encoder_touch<scene, plane, loop>(device_of(p), p.hand_force, {},
-                                                           stated(p.turn_rate, 2.0));
-    // A part that is refused stays as it is, and ph_create has asked these before.
-    (void)port.set(limits<Latency>(p));
+    auto port =
+        ph::make_touch<scene, plane, loop>(device_of(p), hand_of(p), stated(p.turn_rate, 2.0));
     (void)port.set(ph::freshness{.stale_after = stated(p.stale_after, never)});
-    return port;
+    return with_limits(port, p);
   }
 };
 struct strict_touch {
@@ -232,9 +252,10 @@ struct strict_touch {
 struct force_guard {
   template <int Latency>
   static auto make(const ph_parameters& p) noexcept {
-    return ph::force_guard<scene, ph::isotropic_damping, ph::late_loop_limits<Latency>>{
-        scene{}, settled(p), forgiven(p, ph::reduced_energy{.damping = p.damping}),
-        ph::bound_chain{reachable(p), motors(p)}, limits<Latency>(p)};
+    auto port =
+        ph::make_guard<scene, ph::late_loop_limits<Latency>>(exact_device_of(p), hand_of(p));
+    (void)port.set(settled(p));
+    return with_limits(port, p);
   }
 };
 struct strict_guard {
@@ -290,7 +311,7 @@ constexpr std::array compositions{
   if (p.latency > PH_MOST_LATENCY) {
     return {"latency", static_cast<double>(p.latency), "0, 1 or 2 ticks"};
   }
-  ph::design::stated_device device = device_of(p);
+  ph::encoder_device device = device_of(p);
   if (!chosen.knows_hand) device.mass = 1.0;
   if (!chosen.knows_steps) {
     if (p.quantum != 0.0) {
@@ -325,6 +346,7 @@ template <class Struct>
 constexpr std::size_t shortest_parameters = offsetof(ph_parameters, friction);
 constexpr std::size_t shortest_result = offsetof(ph_result, limited);
 static_assert(sizeof(ph_parameters) == 128 && shortest_parameters == 48);
+static_assert(sizeof(ph_explanation) == 48 || sizeof(void*) != 8);
 static_assert(sizeof(ph_result) == 56 && shortest_result == 48);
 
 /// What the caller's struct says; zero, "not stated", where it ends.
@@ -405,7 +427,10 @@ static_assert(same(PH_NOMINAL, ph::event::nominal) && same(PH_DEBT, ph::event::d
               same(PH_STALE_TARGET, ph::event::stale_target) &&
               same(PH_OUTSIDE_WORKSPACE, ph::event::outside_workspace) &&
               same(PH_REJECTED_SAMPLE, ph::event::rejected_sample) &&
-              same(PH_REJECTED_PARAMETERS, ph::event::rejected_parameters));
+              same(PH_REJECTED_PARAMETERS, ph::event::rejected_parameters) &&
+              same(PH_OUTSIDE_FORCE, ph::event::outside_force) &&
+              same(PH_UNTOLD_LATENCY, ph::event::untold_latency) &&
+              same(PH_WRONG_SIGN, ph::event::wrong_sign));
 static_assert(PH_NONE == static_cast<int>(ph::guarantee::none) &&
               PH_CONDITIONAL == static_cast<int>(ph::guarantee::conditional) &&
               PH_STRICT == static_cast<int>(ph::guarantee::strict));
@@ -500,6 +525,21 @@ std::int32_t ph_held(ph_port* port, const double force[3]) noexcept {
   return PH_OK;
 }
 
+std::int32_t ph_explain(const ph_port* port, ph_explanation* explanation) noexcept {
+  if (port == nullptr || explanation == nullptr) return PH_NULL_ARGUMENT;
+  if (explanation->size != sizeof(ph_explanation)) return PH_WRONG_SIZE;
+  const auto said = port->explain();
+  const ph::explanation e = said.value_or(ph::explanation{});
+  *explanation = {.size = sizeof(ph_explanation),
+                  .now = e.now != ph::softened_by::nothing,
+                  .asked = e.asked,
+                  .shown = e.shown,
+                  .depth = e.depth,
+                  .force = e.force,
+                  .because = said ? e.because() : ""};
+  return said ? PH_OK : PH_NOT_OF_THIS_COMPOSITION;
+}
+
 std::int32_t ph_stiffness_budget(const ph_parameters* parameters, double* stiffness,
                                  const char** because) noexcept {
   if (parameters == nullptr || stiffness == nullptr) return PH_NULL_ARGUMENT;
@@ -514,7 +554,7 @@ std::int32_t ph_stiffness_budget(const ph_parameters* parameters, double* stiffn
 }
 
 const char* ph_event_text(std::int32_t event) noexcept {
-  const bool is_one = event >= 0 && event <= static_cast<std::int32_t>(PH_REJECTED_PARAMETERS);
+  const bool is_one = event >= 0 && event <= static_cast<std::int32_t>(PH_WRONG_SIGN);
   return is_one ? ph::to_string(static_cast<ph::event>(event)) : "unknown event";
 }
 

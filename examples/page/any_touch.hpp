@@ -2,6 +2,7 @@
 #pragma once
 // One type for every composition on the page, so that a menu can choose it while the page runs.
 //
+// By hand: a menu of all controllers, to be compared:
 //     constexpr std::array menu{PAGE_CONTROLLER(wall_touch, "strict", "…", ph::local_model{…})};
 //
 // The expression that is compiled is also the text that the page offers to be pasted.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies that give way, solved in the page: the soft ball of the thesis, and a slice of an organ.
+// By hand: a menu of all controllers, to be compared.
 #include "exports.hpp"
 #include <passive_haptics/environment/ball.hpp>
 #include <passive_haptics/environment/deformable_body.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces in the plane: one that heaves and tilts, a corner of two, one that rubs.
+// By hand: a menu of all controllers, to be compared.
 #include "exports.hpp"
 
 #include <utility>

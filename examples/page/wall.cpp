@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A stiff wall on a device that runs on a rail, under every controller of bench/controllers.
+// By hand: a menu of all controllers, to be compared.
 #include "exports.hpp"
 
 namespace {

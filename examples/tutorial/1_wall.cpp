@@ -11,11 +11,11 @@ namespace sim = ph::simulation;
 using scene = ph::space<double, 1>;
 
 int main() {
-  auto touch = ph::make_touch<scene>({.mass = 0.1,        // kg, of the device
-                                      .damping = 0.1,     // N·s/m, of the device: less than it has
-                                      .hand_force = 5,    // N, the most that a hand pushes with
-                                      .force_limit = 9},  // N, the most that the motors hold
-                                     1e-3);               // s, the longest tick of the loop
+  auto touch = ph::make_touch<scene>({.mass = 0.1,       // kg, of the device
+                                      .damping = 0.1,    // N·s/m, of the device: less than it has
+                                      .force_limit = 9,  // N, the most that the motors hold
+                                      .longest_tick = 1e-3},  // s, of the loop
+                                     {.force = 5});           // N, the most that a hand pushes with
   if (!touch.update({.point = 0, .normal = 1, .stiffness = 2000})) return 1;
 
   sim::device<scene, sim::impedance_hand<scene>> device{

@@ -47,8 +47,8 @@ int main() {
     return told.stiffness * std::max(told.at(now.position).depth, 0.0);
   });
 
-  auto touch =
-      ph::make_touch<scene>({.mass = 0.1, .damping = 0.1, .hand_force = 5, .force_limit = 9}, 1e-3);
+  auto touch = ph::make_touch<scene>(
+      {.mass = 0.1, .damping = 0.1, .force_limit = 9, .longest_tick = 1e-3}, {.force = 5});
   press("touch:", [&](const auto& now, const plane* news) {
     if (news != nullptr) touch.update(*news);
     return touch.tick(now).force;

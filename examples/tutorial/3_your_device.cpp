@@ -6,7 +6,6 @@
 #include <passive_haptics/runner/haptic_device.hpp>
 
 #include <cstdio>
-#include <utility>
 
 namespace ph = passive_haptics;
 using scene = ph::space<double, 1>;
@@ -30,21 +29,20 @@ struct my_device {
   static constexpr double metres_per_count = 5e-6;
 
   ph::device_sample<scene> exchange(const double& force) noexcept {
+    vendor::set_motor(force);  // at once: set after the sample, it would be held a tick late
     double counts = 0;
-    const bool there = vendor::read_counts(counts);
-    vendor::set_motor(force);
+    const bool there = vendor::read_counts(counts);         // when the next period begins
     return {.position = metres_per_count * (counts - 800),  // m, the surface at 0
-            .held = std::exchange(held, force),             // N, what the motor held until now
+            .held = force,                                  // N, what the motor held until now
             .dt = vendor::seconds_since_last(),             // s, measured
             .valid = there};
   }
-  double held = 0;
 };
 static_assert(ph::haptic_device<my_device>);
 
 int main() {
   auto touch = ph::make_touch<scene>(
-      {.mass = 0.1, .damping = 0.1, .hand_force = 5, .force_limit = 9}, 1.2e-3);
+      {.mass = 0.1, .damping = 0.1, .force_limit = 9, .longest_tick = 1.2e-3}, {.force = 5});
   if (const auto fault = touch.check()) {
     std::printf("%s = %g: it must be %s\n", fault.parameter, fault.value, fault.remedy);
     return 1;

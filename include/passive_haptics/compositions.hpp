@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Compositions with a name, for the first hour and for class members:
+// From the facts of a device, and of the hand on it, to the best that we know:
 //
-//   touch<Space>   make_touch(device, longest_tick)   a surface that the environment publishes: it settles and
-//                                                     is stiff, passive for the device and hand stated
-//   encoder_touch<Space>  make_encoder_touch(device, hand)   the same on encoders whose steps are felt: as
-//                                                     stiff as dry friction can pay for, so that it lasts
-//   force_guard<Space>    make_force_guard(device, longest_tick)   force in, force out: what somebody else's
-//                                                     renderer leaves ringing settles, and stays stiff
-//   strict_guard<Port>    make_strict_guard(damping, T)   the same, strictly passive: any port, and soft
+//   make_touch<Space>(device, hand)               a surface that the environment publishes
+//   make_contacts<Space>(device, hand, slots…)    several: a corner, a groove, surfaces that come and go
+//   make_guard<Space>(device, hand)               your own force, or a renderer's: it settles, and stays stiff
+//   make_tool(device, hand, slots…)               six degrees of freedom: six_dof.hpp
+//
+// `device` is an exact_device, whose positions are taken for exact, or an encoder_device, whose steps are felt
+// and whose dry friction pays for them (design/described_device.hpp). `hand` is a known_hand, for conditional
+// and stiff, or any_hand, for strict, and soft while the ledger is empty. All of them keep to the motors' limit,
+// get over faults where they are conditional, and explain() themselves.
 //
 //     class hand_loop {
-//       ph::touch<scene> touch_ = ph::make_touch<scene>({.mass = 0.1, .damping = 0.03,
-//                                                        .hand_force = 5.0, .force_limit = 9.0}, 0.0011);
+//       ph::touch<scene> touch_ = ph::make_touch<scene>(
+//           {.mass = 0.1, .damping = 0.03, .force_limit = 9.0, .longest_tick = 0.0011}, {.force = 5.0});
 
 #include <passive_haptics/constraint_geometry/followed.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/contact/capped.hpp>
+#include <passive_haptics/contact/contact_set.hpp>
 #include <passive_haptics/contact/damped_spring.hpp>
 #include <passive_haptics/contact/eased.hpp>
-#include <passive_haptics/contact/given_force.hpp>
 #include <passive_haptics/contact/settled_force.hpp>
 #include <passive_haptics/design/stiffness_budget.hpp>
 #include <passive_haptics/energy_observer/dual_ledger.hpp>
@@ -30,107 +32,248 @@
 #include <passive_haptics/force_bound/reachable_bound.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/force_bound/thermal_limit.hpp>
+#include <passive_haptics/force_bound/watched.hpp>
 #include <passive_haptics/local_model.hpp>
 #include <passive_haptics/motion_estimator/edge_observer.hpp>
+#include <passive_haptics/motion_estimator/mass_observer.hpp>
 #include <passive_haptics/normal_interpolation/turn_limited.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What a promise rests on: the device and the hand on it.
-struct known_device {
-  double mass{};         ///< smallest apparent mass, over all directions and poses [kg]
-  double damping{};      ///< b, a lower bound: half of what you identified [N·s/m]
-  double hand_force{};   ///< the most that hand, load and dry friction push with [N]
-  double force_limit{};  ///< the most that the motors hold [N]
+/// Hand, load and dry friction push with no more than `force`. Where the motion refutes that, or what was stated of
+/// the device, the composition says so and falls back (force_bound/watched.hpp).
+struct known_hand {
+  double force{};              ///< [N], > 0
+  design::intended_use use{};  ///< what a wall on encoders is to last for
 };
+/// The same, and nobody looks: a kilobyte and 3 % of a tick less.
+struct trusted_hand : known_hand {};
+/// Nothing is known of the hand.
+struct any_hand_t {};
+inline constexpr any_hand_t any_hand{};
 
-/// What we recommend for a device of known mass. It is conditional, like reachable_bound, and gets over faults.
-template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
-using touch =
-    local_model<Space, followed<Constraint>, turn_limited, eased<damped_spring>,
-                forgiving<reduced_energy>, bound_chain<reachable_bound, actuator_limit>, Limits>;
+namespace detail {
+/// A device of design/described_device.hpp.
+template <class Device>
+concept described = std::same_as<Device, exact_device> || std::same_as<Device, encoder_device>;
+/// A hand of this page.
+template <class Hand>
+concept stated_hand = std::derived_from<Hand, known_hand> || std::same_as<Hand, any_hand_t>;
+inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
 
-/// The normal turns by at most `turn_rate` [rad/s]; the longest tick is that of YOUR loop [s].
+// What pays, what holds, and what sees, of either device.
+[[nodiscard]] constexpr reduced_energy ledger_of(const exact_device& d) noexcept {
+  return {.damping = d.damping};
+}
+[[nodiscard]] constexpr dual_ledger ledger_of(const encoder_device& d) noexcept {
+  return {.damping = {.coefficient = d.damping, .coulomb = d.friction, .presliding = d.presliding},
+          .quantum = d.quantum};
+}
+[[nodiscard]] constexpr actuator_limit motors_of(const exact_device& d) noexcept {
+  return {.most = positive(d.force_limit) ? d.force_limit : unstated};
+}
+[[nodiscard]] constexpr thermal_limit motors_of(const encoder_device& d) noexcept {
+  return {.peak = positive(d.force_limit) ? d.force_limit : unstated,
+          .continuous = d.continuous_force,
+          .time_constant = d.winding_time};
+}
+[[nodiscard]] constexpr last_difference eyes_of(const exact_device& /*d*/) noexcept {
+  return {};
+}
+[[nodiscard]] constexpr mass_observer eyes_of(const encoder_device& d) noexcept {
+  return {.mass = d.mass, .quantum = d.quantum};
+}
+[[nodiscard]] constexpr last_difference eyes_of_touch(const exact_device& /*d*/,
+                                                      double /*most*/) noexcept {
+  return {};
+}
+/// Where friction's spring is stiffer than the wall it holds the device alone, and the observer rests.
+[[nodiscard]] constexpr edge_observer eyes_of_touch(const encoder_device& d, double most) noexcept {
+  return {.quantum = d.quantum,
+          .presliding = d.friction > most * d.presliding ? d.presliding : 0.0};
+}
+
+/// What the dry friction of a device pays for [N/m], as late as the loop is. The mass is the law's to see to.
+[[nodiscard]] constexpr double budget_of(const exact_device& /*d*/, const auto& /*hand*/,
+                                         int /*late*/) noexcept {
+  return std::numeric_limits<double>::infinity();
+}
+[[nodiscard]] constexpr double budget_of(encoder_device d, const auto& hand, int late) noexcept {
+  d.latency = d.latency < late ? late : d.latency;
+  design::intended_use use{};
+  if constexpr (requires { hand.use; }) use = hand.use;
+  const auto [mass, slow, fast, holding] = design::stiffness_budget(d, use).limits;
+  return kernels::smaller(holding, kernels::smaller(slow, fast));
+}
+
+// What is conditional gets over faults; what is strict forgives none.
+[[nodiscard]] constexpr auto sums_of(const auto& d, const known_hand& /*hand*/) noexcept {
+  return forgiving{ledger_of(d), amends_for(d.force_limit)};
+}
+[[nodiscard]] constexpr auto sums_of(const auto& d, any_hand_t /*hand*/) noexcept {
+  return ledger_of(d);
+}
+[[nodiscard]] constexpr reachable_bound reach_of(const auto& d, const known_hand& hand) noexcept {
+  return {.mass = d.mass, .hand_force = positive(hand.force) ? hand.force : unstated};
+}
+[[nodiscard]] constexpr auto bounds_of(const auto& d, const known_hand& hand) noexcept {
+  return bound_chain{watched{reach_of(d, hand)}, motors_of(d)};
+}
+[[nodiscard]] constexpr auto bounds_of(const auto& d, const trusted_hand& hand) noexcept {
+  return bound_chain{reach_of(d, hand), motors_of(d)};
+}
+[[nodiscard]] constexpr auto bounds_of(const auto& d, any_hand_t /*hand*/) noexcept {
+  return bound_chain{strict_bound{}, motors_of(d)};
+}
+
+/// A device that states another latency than the type of the limits is not theirs.
+template <class Limits>
+[[nodiscard]] constexpr Limits limits_of(const auto& d) noexcept {
+  Limits limits{.longest_tick = d.latency == Limits::latency ? d.longest_tick : unstated};
+  if constexpr (requires { limits.top_speed; }) {
+    double q = 0.0;
+    if constexpr (requires { d.quantum; }) q = d.quantum;
+    limits.top_speed = top_speed_of(d.top_speed, d.rotary, q, d.longest_tick);
+    if (d.rotary) limits.workspace = std::numeric_limits<double>::infinity();
+  }
+  return limits;
+}
+
+/// f* of one surface, and at what pace news are made up for: 50 N/s, or of what turns as much of its torque.
+[[nodiscard]] constexpr eased<damped_spring> settling(const auto& d) noexcept {
+  const damped_spring law{.mass = d.mass, .force_limit = d.force_limit};
+  if (!d.rotary) return eased{law};
+  return eased{law, news_pace{.least_force_rate = 0.55 * d.force_limit,
+                              .usual_force_rate = 2.2 * d.force_limit,
+                              .most_force_rate = 5.5 * d.force_limit}};
+}
+[[nodiscard]] constexpr auto law_of(const exact_device& d, double /*most*/) noexcept {
+  return settling(d);
+}
+[[nodiscard]] constexpr auto law_of(const encoder_device& d, double most) noexcept {
+  return capped{settling(d), most};
+}
+}  // namespace detail
+
+/// One surface: touch.update(plane), touch.tick(sample). Its normal turns by at most `turn_rate` [rad/s]. On
+/// encoders it is no stiffer than what dry friction pays for, so that it lasts; without dry friction nothing does,
+/// and check() refuses `most`. E ≥ 0 as long as the device and the hand are as they were stated and there is no
+/// fault, on encoders E ≥ −½ c p.
+template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
+          detail::described Device = exact_device, detail::stated_hand Hand = known_hand>
+[[nodiscard]] constexpr auto make_touch(const Device& device, const Hand& hand,
+                                        double turn_rate = 2.0) noexcept {
+  const double most = detail::budget_of(device, hand, Limits::latency);
+  return local_model{Space{},
+                     followed<Constraint>{},
+                     turn_limited{.rate = turn_rate},
+                     detail::law_of(device, most),
+                     detail::sums_of(device, hand),
+                     detail::bounds_of(device, hand),
+                     detail::limits_of<Limits>(device),
+                     detail::eyes_of_touch(device, most)};
+}
+
+/// Several surfaces, that rub or not, in slots: port.source().update(i, plane), release(i); contact/manifold.hpp
+/// fills them from whatever a collision search finds.
+///     auto corner = ph::make_contacts<scene>(device, hand, ph::slots<ph::half_space<scene>, 3>{});
+///     auto rough = ph::make_contacts<scene>(device, hand, ph::stick_slip{}, ph::slots<plane, 3>{});
+template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
+          detail::stated_hand Hand = known_hand, class... Room>
+[[nodiscard]] constexpr auto make_contacts(const Device& device, const Hand& hand,
+                                           const Room&... room) noexcept {
+  const double T = device.longest_tick;
+  proxy_spring spring{.mass = device.mass, .force_limit = device.force_limit};
+  const double most = detail::budget_of(device, hand, Limits::latency) * T * T / device.mass;
+  spring.stiffness_fraction =
+      kernels::smaller(spring.stiffness_fraction, most / (1.0 - spring.softness));
+  pursuit pace{};
+  if (device.rotary) pace = {.speed = 0.5, .force_rate = 5.5 * device.force_limit};
+  return passive_port{Space{},
+                      contact_set{spring, pace, room...},
+                      detail::sums_of(device, hand),
+                      detail::bounds_of(device, hand),
+                      detail::limits_of<Limits>(device),
+                      detail::eyes_of(device)};
+}
+
+/// For a force that you compute yourself, or that a renderer, a simulator, an SDK does: port.tick(sample, wanted).
+/// It rests when the hand does, of a renderer up to port.explain().shown. After any_hand it promises that for any
+/// hand, and is soft: 2b/T, pressed slowly from an empty ledger.
+template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
+          detail::stated_hand Hand = known_hand>
+[[nodiscard]] constexpr auto make_guard(const Device& device, const Hand& hand) noexcept {
+  return passive_port{Space{},
+                      settled_force{.mass = device.mass, .force_limit = device.force_limit},
+                      detail::sums_of(device, hand),
+                      detail::bounds_of(device, hand),
+                      detail::limits_of<Limits>(device),
+                      detail::eyes_of(device)};
+}
+
+// What they return, for members of a class.
+template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
+          class Device = exact_device, class Hand = known_hand>
+using touch = decltype(make_touch<Space, Constraint, Limits>(Device{}, Hand{}));
+template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
+          class Hand = known_hand>
+using encoder_touch = touch<Space, Constraint, Limits, encoder_device, Hand>;
+template <class Space, class Limits = loop_limits, class Device = exact_device,
+          class Hand = known_hand>
+using force_guard = decltype(make_guard<Space, Limits>(Device{}, Hand{}));
+
+/// The one for a port of any kind, joints among them, of which only the damping and the motors are known
+/// (actuator_limit, motor_limits): strict, so it is soft while the ledger is empty, 2b/T pressed slowly.
+template <port P, class Motors, class Damping = isotropic_damping, class Limits = loop_limits>
+using strict_guard = passive_port<P, given_force, basic_reduced_energy<Damping>,
+                                  bound_chain<strict_bound, Motors>, Limits>;
+template <port P, class Damping = isotropic_damping, class Motors = actuator_limit>
+[[nodiscard]] constexpr strict_guard<P, Motors, Damping> make_strict_guard(
+    const std::type_identity_t<Damping>& damping, const Motors& motors,
+    double longest_tick) noexcept {
+  return {P{}, given_force{}, basic_reduced_energy<Damping>{.damping = damping},
+          bound_chain{strict_bound{}, motors}, loop_limits{.longest_tick = longest_tick}};
+}
+
+// The names of 0.1 and their arguments, for one version more.
+
+struct known_device {
+  double mass{};         ///< [kg]
+  double damping{};      ///< [N·s/m]
+  double hand_force{};   ///< [N]
+  double force_limit{};  ///< [N]
+
+  [[nodiscard]] constexpr exact_device described(double longest_tick) const noexcept {
+    return {
+        .mass = mass, .damping = damping, .force_limit = force_limit, .longest_tick = longest_tick};
+  }
+};
 template <class Space, class Constraint = half_space<Space>>
-[[nodiscard]] constexpr touch<Space, Constraint> make_touch(const known_device& device,
-                                                            double longest_tick,
-                                                            double turn_rate = 2.0) noexcept {
-  return {Space{},
-          followed<Constraint>{},
-          turn_limited{.rate = turn_rate},
-          eased{damped_spring{.mass = device.mass, .force_limit = device.force_limit}},
-          forgiving{reduced_energy{.damping = device.damping}, amends_for(device.force_limit)},
-          bound_chain{reachable_bound{.mass = device.mass, .hand_force = device.hand_force},
-                      actuator_limit{.most = device.force_limit}},
-          loop_limits{.longest_tick = longest_tick}};
+[[nodiscard, deprecated("write make_touch<Space>({.mass, .damping, .force_limit, "
+                        ".longest_tick}, {.force = hand_force})")]]  //
+constexpr auto
+make_touch(const known_device& device, double longest_tick, double turn_rate = 2.0) noexcept {
+  return make_touch<Space, Constraint>(device.described(longest_tick),
+                                       known_hand{.force = device.hand_force}, turn_rate);
 }
-
-/// What we recommend where the steps of the encoders are felt and dry friction is sure. It is conditional,
-/// like reachable_bound, with E ≥ −½ c p for ever where there is no fault, else as forgiving says. A surface
-/// stiffer than the device can pay for is displayed softer; law().is_capped() is true then.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
-using encoder_touch =
-    local_model<Space, followed<Constraint>, turn_limited, capped<eased<damped_spring>>,
-                forgiving<dual_ledger>, bound_chain<reachable_bound, thermal_limit>, Limits,
-                edge_observer>;
-
-/// `hand_force` is the most that hand, load and dry friction push with [N]. The stiffness is the budget for
-/// the `latency` that the device states. If that is less than the latency of Limits, the contact is as
-/// passive, but stiffer than what is sure to last. A device without dry friction has no budget, and check()
-/// refuses `most`: take quantised_energy with a mass_observer there, which is soft at first.
-template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
-[[nodiscard]] constexpr encoder_touch<Space, Constraint, Limits> make_encoder_touch(
-    const design::stated_device& device, double hand_force, const design::intended_use& use = {},
-    double turn_rate = 2.0) noexcept {
-  const double stiffness = design::stiffness_budget(device, use).stiffness;
-  const bool friction_is_stiffer = device.friction > stiffness * device.presliding;
-  return {Space{},
-          followed<Constraint>{},
-          turn_limited{.rate = turn_rate},
-          capped{eased{damped_spring{.mass = device.mass, .force_limit = device.force_limit}},
-                 stiffness},
-          forgiving{dual_ledger{.damping = {.coefficient = device.damping,
-                                            .coulomb = device.friction,
-                                            .presliding = device.presliding},
-                                .quantum = device.quantum},
-                    amends_for(device.force_limit)},
-          bound_chain{reachable_bound{.mass = device.mass, .hand_force = hand_force},
-                      thermal_limit{.peak = device.force_limit,
-                                    .continuous = device.continuous_force,
-                                    .time_constant = device.winding_time}},
-          Limits{.longest_tick = device.longest_tick},
-          edge_observer{.quantum = device.quantum,
-                        .presliding = friction_is_stiffer ? device.presliding : 0.0}};
+[[nodiscard, deprecated("write make_touch<Space>(encoder_device{…}, "
+                        "{.force = hand_force, .use = …})")]]  //
+constexpr auto
+make_encoder_touch(encoder_device device, double hand_force, const design::intended_use& use = {},
+                   double turn_rate = 2.0) noexcept {
+  device.latency = Limits::latency;
+  return make_touch<Space, Constraint, Limits>(device, known_hand{hand_force, use}, turn_rate);
 }
-
-/// For a force that you compute yourself, or that a renderer, a simulator, an SDK does. It is conditional, like
-/// reachable_bound, and rests when the hand does: of a renderer up to source().parameters().most_stiffness(T).
-template <class Space, class Damping = isotropic_damping, class Limits = loop_limits>
-using force_guard = passive_port<Space, settled_force, forgiving<basic_reduced_energy<Damping>>,
-                                 bound_chain<reachable_bound, actuator_limit>, Limits>;
-
 template <class Space, class Limits = loop_limits>
-[[nodiscard]] constexpr force_guard<Space, isotropic_damping, Limits> make_force_guard(
-    const known_device& device, double longest_tick) noexcept {
-  return {Space{}, settled_force{.mass = device.mass, .force_limit = device.force_limit},
-          forgiving{reduced_energy{.damping = device.damping}, amends_for(device.force_limit)},
-          bound_chain{reachable_bound{.mass = device.mass, .hand_force = device.hand_force},
-                      actuator_limit{.most = device.force_limit}},
-          Limits{.longest_tick = longest_tick}};
-}
-
-/// The same for a device of which only the damping is known, joints among them. It is strict, so it is soft
-/// while the ledger is empty, 2b/T pressed slowly; and it settles what it makes soft, no more.
-template <port P, class Damping = isotropic_damping, class Limits = loop_limits>
-using strict_guard =
-    passive_port<P, given_force, basic_reduced_energy<Damping>, strict_bound, Limits>;
-
-template <port P, class Damping = isotropic_damping>
-[[nodiscard]] constexpr strict_guard<P, Damping> make_strict_guard(
-    const std::type_identity_t<Damping>& damping, double longest_tick) noexcept {
-  return {P{}, given_force{}, basic_reduced_energy<Damping>{.damping = damping}, strict_bound{},
-          loop_limits{.longest_tick = longest_tick}};
+[[nodiscard, deprecated("write make_guard<Space>({.mass, .damping, .force_limit, "
+                        ".longest_tick}, {.force = hand_force})")]]  //
+constexpr auto
+make_force_guard(const known_device& device, double longest_tick) noexcept {
+  exact_device described = device.described(longest_tick);
+  described.latency = Limits::latency;
+  return make_guard<Space, Limits>(described, known_hand{.force = device.hand_force});
 }
 
 }  // namespace v0

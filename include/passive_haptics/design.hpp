@@ -17,7 +17,7 @@
 // changes breaks every one of them, and needs a bound.
 //
 // How stiff a wall behind a bound may be before its ledger runs dry: design/stiffness_budget.hpp. What is
-// known of devices: design/device_facts.hpp.
+// known of devices: identification/device_facts.hpp.
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/design/frequency.hpp>

@@ -8,6 +8,16 @@
 namespace passive_haptics {
 inline namespace v0 {
 
+/// What has come of news. It is true if they were taken; a surface that is refused leaves the last good one.
+template <class Scalar>
+struct news_taken {
+  bool taken = false;
+  Scalar
+      stiffness{};  ///< what is shown of the surface's, at rest [N/m]; explain() says why no more
+
+  constexpr operator bool() const noexcept { return taken; }  // NOLINT(google-explicit-constructor)
+};
+
 /// Compose by value; class template argument deduction finds the type:
 ///     ph::local_model wall{scene{},
 ///                          ph::fixed{ph::half_space<scene>{0.0, -1.0, 1e4}},
@@ -39,8 +49,10 @@ class local_model : public passive_port<Space, local_contact<Space, Supply, Norm
 
   /// The environment's newest constraint, and the end of it: see local_contact.
   template <class Owner = Supply>
-  requires(Owner::moves) constexpr bool update(const constraint_type& next) noexcept {
-    return this->source().update(next);
+  requires(Owner::moves) constexpr news_taken<typename Space::scalar> update(
+      const constraint_type& next) noexcept {
+    if (!this->source().update(next)) return {};
+    return {true, this->source().shown_stiffness(this->longest_tick(), base::latency)};
   }
   template <class Owner = Supply>
   requires(Owner::moves) constexpr void release() noexcept { this->source().release(); }
@@ -52,6 +64,20 @@ class local_model : public passive_port<Space, local_contact<Space, Supply, Norm
     return this->source().target();
   }
   [[nodiscard]] constexpr const auto& law() const noexcept { return this->source().law(); }
+
+  /// By what the force steps [N] where a surface of K [N/m] is pressed on the encoders that the ledger knows of: K_s q
+  /// for a step q of one axis, K_s the stiffness shown; √dof of that where all axes step at once, which this is. At rest,
+  /// too: no law of a depth is quieter (docs/design/settling.md). 0 where the ledger takes positions as exact.
+  [[nodiscard]] constexpr typename Space::scalar force_step(
+      typename Space::scalar K) const noexcept {
+    if constexpr (Observer::exact) {
+      return 0;
+    } else {
+      auto shown = law();
+      detail::tell(shown, K, this->longest_tick(), base::latency);
+      return this->observer().travel_error() / shown.depth(1, 0);
+    }
+  }
 };
 
 /// One that lacks its limits or its law, so that the compiler says which.

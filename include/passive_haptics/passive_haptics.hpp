@@ -59,6 +59,7 @@
 #include <passive_haptics/force_bound/sector_bound.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/force_bound/thermal_limit.hpp>
+#include <passive_haptics/force_bound/watched.hpp>
 #include <passive_haptics/local_model.hpp>
 #include <passive_haptics/motion_estimator/edge_observer.hpp>
 #include <passive_haptics/motion_estimator/mass_observer.hpp>

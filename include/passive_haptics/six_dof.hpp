@@ -11,12 +11,13 @@
 //   contact/rigid_tool.hpp                     a tool that touches at several points
 //   contact/at_tip.hpp                         what a stylus touches with its tip
 //
-//     using device = ph::rigid_body<double>;
-//     ph::passive_port port{device{}, ph::given_force{},
-//                           ph::basic_reduced_energy<ph::rigid_damping>{
-//                               .damping = {.linear = 0.03, .angular = 1e-4}},
-//                           ph::strict_bound{}, ph::loop_limits{.longest_tick = 0.0011}};
-//     motors.command(port.tick({p, {w, x, y, z}}, ph::seconds{dt}, device::join(f, tau)).force);
+//     auto peg = ph::make_tool({.inertia = {.mass = 0.15, .least = 1e-4, .spread = 2e-4},
+//                               .damping = {.linear = 0.03, .angular = 1e-4},
+//                               .damping_most = {.linear = 0.06, .angular = 2e-4},
+//                               .force_limit = 9, .torque_limit = 0.5},
+//                              {.force = 5, .torque = 0.1}, ph::slots<plane, 20>{});
+//     peg.source().update(slot, point_of_the_tool, surface);
+//     motors.command(peg.tick({p, {w, x, y, z}}, ph::seconds{dt}).force);
 //
 // docs/design/six_dof.md says what is promised, and why.
 
@@ -29,3 +30,45 @@
 #include <passive_haptics/force_bound/rigid_reachable_bound.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 #include <passive_haptics/port/reported_work.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A handle that moves and turns, as a promise may state it.
+struct rigid_device {
+  rigid_inertia inertia{};       ///< a lower bound
+  rigid_damping damping{};       ///< a lower bound
+  rigid_damping damping_most{};  ///< an upper bound
+  double force_limit{};          ///< the most that the motors hold [N]
+  double torque_limit{};         ///< [N·m]
+  double lever = 0.03;           ///< ℓ, a length of the tool [m]
+  double longest_tick = 1e-3;    ///< T, the worst tick of YOUR loop [s]
+};
+/// Hand and load push with no more, about the handle point.
+struct rigid_hand {
+  double force{};   ///< [N]
+  double torque{};  ///< [N·m]
+};
+
+/// A tool whose points touch surfaces, each in a slot: conditional, gets over faults, within the motors' limit.
+template <class Body = rigid_body<double>, class Limits = loop_limits, class... Room>
+[[nodiscard]] constexpr auto make_tool(const rigid_device& d, const rigid_hand& hand,
+                                       const Room&... room) noexcept {
+  return passive_port{
+      Body{},
+      rigid_tool{
+          tool_spring{.mass = d.inertia.mass, .least_inertia = d.inertia.least, .lever = d.lever},
+          pursuit{}, room...},
+      forgiving{basic_reduced_energy<rigid_damping>{.damping = d.damping},
+                amends_for(d.force_limit)},
+      bound_chain{rigid_reachable_bound{.inertia = d.inertia,
+                                        .hand_force = hand.force,
+                                        .hand_torque = hand.torque,
+                                        .linear_damping_most = d.damping_most.linear,
+                                        .angular_damping_most = d.damping_most.angular},
+                  rigid_actuator_limit{.force = d.force_limit, .torque = d.torque_limit}},
+      Limits{.longest_tick = d.longest_tick}};
+}
+
+}  // namespace v0
+}  // namespace passive_haptics

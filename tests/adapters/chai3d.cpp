@@ -93,7 +93,7 @@ class simulated : public c3d::cGenericHapticDevice {
 };
 
 auto strict_port() {
-  return ph::make_strict_guard<scene>({damping}, 1.01 * T);
+  return ph::make_strict_guard<scene>({damping}, ph::actuator_limit{1e3}, 1.01 * T);
 }
 auto reachable_port() {
   return ph::passive_port{scene{}, ph::given_force{}, ph::reduced_energy{.damping = damping},
@@ -360,7 +360,7 @@ TEST_CASE("a second port on a device is refused, and so are no device and no met
   c3d::cVector3d x;
   CHECK_FALSE(none.getPosition(x));
 
-  auto bad = decorate(real, ph::make_strict_guard<scene>({-1.0}, T));
+  auto bad = decorate(real, ph::make_strict_guard<scene>({-1.0}, ph::actuator_limit{1e3}, T));
   CHECK(std::string(bad->check().parameter) == "damping");
   CHECK_FALSE(bad->open());
 

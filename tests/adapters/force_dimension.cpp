@@ -157,7 +157,11 @@ void open(ad::force_dimension<P>& omega, bool wrist = false) {
 double press(bool guarded, double force_limit = most) {
   ad::force_dimension<scene> omega;
   open(omega);
-  auto touch = ph::make_touch<scene>({omega.least_mass(), damping, 5.0, force_limit}, 1.01 * T);
+  auto touch = ph::make_touch<scene>({.mass = omega.least_mass(),
+                                      .damping = damping,
+                                      .force_limit = force_limit,
+                                      .longest_tick = 1.01 * T},
+                                     {.force = 5.0});
   touch.update({.point = {0.0, 0.0, 0.0}, .normal = {0.0, 0.0, 1.0}, .stiffness = 8000.0});
   auto sample = omega.exchange(scene::zero());
   for (int k = 0; k < 6000; ++k) {

@@ -49,7 +49,7 @@ template <int k>
 constexpr ph::late_loop_limits<k> late_loop{
     .longest_tick = 1e-3, .top_speed = 100.0, .watchdog = 1e-3};
 
-/// Does it survive every adversary, really pushing?
+/// Checks that a model survives every adversary and has pushed.
 inline void survives(const auto& verdicts, double accepted_loss = 1e-12) {
   for (const sim::verdict& v : verdicts) {
     CAPTURE(to_string(v.by), v.least_energy, v.worst_seed);

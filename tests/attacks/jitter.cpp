@@ -61,7 +61,8 @@ pressed press(Port port, double T, double jitter, double quantum = 0.0) {
 template <class Judge>
 void for_each_composition(double longest, const Judge& judge) {
   auto touch = ph::make_touch<d1>(
-      {.mass = mass, .damping = damping, .hand_force = 5.0, .force_limit = 9.0}, longest);
+      {.mass = mass, .damping = damping, .force_limit = 9.0, .longest_tick = longest},
+      {.force = 5.0});
   touch.update(plane);
   judge("touch", touch, 0.0);
 
@@ -77,7 +78,8 @@ void for_each_composition(double longest, const Judge& judge) {
                         ph::reachable_bound{.mass = mass, .hand_force = 5.0}, limits,
                         ph::mass_observer{.mass = mass}},
         10e-6);
-  judge("force in, force out", ph::make_strict_guard<d1>(damping, longest), 0.0);
+  judge("force in, force out", ph::make_strict_guard<d1>(damping, ph::actuator_limit{9.0}, longest),
+        0.0);
 
   const ph::local_contact flat{ph::fixed{plane}, ph::turn_at_once{},
                                ph::damped_spring{.mass = mass}};

@@ -8,7 +8,7 @@
 
 namespace simulated {
 
-/// Where the walls stand, by the surface that an adversary moves about.
+/// The places of the walls, relative to the surface that an adversary moves.
 enum class arrangement : int {
   facing,  ///< two of them, 1 mm apart
   twice,   ///< the same one
@@ -54,7 +54,7 @@ auto one_port(const Bound& bound = {}) {
   }
 }
 
-/// A local model for each wall and their forces added: what one_port is there to replace.
+/// A local model for each wall, their forces added: the composition that one_port replaces.
 template <class Space, int walls>
 struct model_each {
   using space_type = Space;

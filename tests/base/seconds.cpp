@@ -62,7 +62,7 @@ TEST_CASE("a tick is the same, whoever counted its seconds", "[base][port]") {
 
 TEST_CASE("a force and a time keep their places in a port of one degree of freedom",
           "[base][port]") {
-  auto port = ph::make_strict_guard<d1>(0.1, 2e-3);
+  auto port = ph::make_strict_guard<d1>(0.1, ph::actuator_limit{9.0}, 2e-3);
   CHECK(port.tick(0.0, 1ms, 0.0).what == ph::event::nominal);
   CHECK(port.tick(1e-5, 1ms, -1e-3).force == -1e-3);
   CHECK(port.tick(2e-5, seconds{1e-3}, -2e-3).force == -2e-3);

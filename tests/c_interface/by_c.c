@@ -27,6 +27,7 @@ const char* load(struct c_interface* found, const char* file) {
                    {"ph_tick", &found->tick},
                    {"ph_tick_wanted", &found->tick_wanted},
                    {"ph_held", &found->held},
+                   {"ph_explain", &found->explain},
                    {"ph_stiffness_budget", &found->stiffness_budget},
                    {"ph_event_text", &found->event_text},
                    {"ph_status_text", &found->status_text}};

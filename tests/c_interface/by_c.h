@@ -21,6 +21,7 @@ struct c_interface {
   int32_t (*tick)(ph_port*, const double*, double, ph_result*);
   int32_t (*tick_wanted)(ph_port*, const double*, double, const double*, ph_result*);
   int32_t (*held)(ph_port*, const double*);
+  int32_t (*explain)(const ph_port*, ph_explanation*);
   int32_t (*stiffness_budget)(const ph_parameters*, double*, const char**);
   const char* (*event_text)(int32_t);
   const char* (*status_text)(int32_t);

@@ -79,6 +79,22 @@ TEMPLATE_TEST_CASE("a corner presses back along every wall that is entered", "[c
   CHECK(one.force(1) == scalar(0));
 }
 
+TEST_CASE("a set says what comes to rest in its loop", "[contact_set]") {
+  const auto set_in = [](const auto& limits) {
+    return ph::passive_port{d1{},
+                            ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{},
+                                            ph::slots<ph::half_space<d1>, 2>{}},
+                            ph::reduced_energy{.damping = 0.03}, ph::strict_bound{}, limits};
+  };
+  constexpr auto port = set_in(ph::loop_limits{.longest_tick = T});
+  static_assert(port.source().settles(500.0) && port.source().settles(1e9));
+  CHECK(set_in(ph::late_loop_limits<3>{.longest_tick = T}).source().settles(1e9));
+  auto springy = port;  // without a damper it is left to the device's own, and does not say so
+  REQUIRE_FALSE(springy.set(ph::proxy_spring{.mass = 0.1, .damping_ratio = 0.0}));
+  CHECK_FALSE(springy.source().settles(500.0));
+  CHECK(springy.set(ph::proxy_spring{.mass = 0.1, .stiffness_fraction = 1.0}));
+}
+
 TEST_CASE("one degree of freedom needs no vectors: two walls with a gap between", "[contact_set]") {
   auto port = planes<d1, 2>();
   port.source().update(0, ph::half_space<d1>{0.0, 1.0, 1000.0});

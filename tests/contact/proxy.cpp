@@ -180,6 +180,37 @@ TEST_CASE("what settles is what the circle condition says, and what rings is ref
   CHECK_FALSE(ph::proxy_spring{.mass = 0.1, .damping_ratio = 0.0}.check());  // asked for
 }
 
+TEST_CASE("a contact that is hardly damped is damped as much as a late loop needs", "[proxy]") {
+  constexpr double T = 1e-3, m = 0.1;
+  int accepted = 0;
+  for (int late = 0; late <= 4; ++late) {
+    for (double fraction = 0.01; fraction < 0.7; fraction *= 1.4) {
+      for (const double ratio : {0.1, 0.2, 0.4, 1.0, 3.0}) {
+        for (const double damping : {0.02, 0.1, 0.5, 1.0}) {
+          const ph::proxy_spring p{.mass = m,
+                                   .stiffness_fraction = fraction,
+                                   .damping_ratio = ratio,
+                                   .damping_fraction = damping};
+          if (p.check()) continue;
+          ++accepted;
+          ph::proxy_spring::at<double> rule(p);
+          rule.adopt(T, late);
+          CAPTURE(late, fraction, ratio, damping);
+          CHECK(rule.settles(1e9));
+          CHECK(rule.settles(0.3 * rule.sampled(1e9).stiffness));
+        }
+      }
+    }
+  }
+  CHECK(accepted > 300);
+  CHECK_FALSE(ph::settles(0.05, 1.2, 1));  // the control: what on time is enough
+  CHECK(ph::settles(0.05, 1.2));
+  ph::proxy_spring::at<double> undamped({.mass = m, .damping_ratio = 0.0});
+  undamped.adopt(T, 1);
+  CHECK(undamped.sampled(1e4).settling == 0.0);
+  CHECK_FALSE(undamped.settles(1e4));
+}
+
 TEST_CASE("a contact of any stiffness settles, however late", "[proxy]") {
   constexpr double T = 1e-3, m = 0.1;
   for (int late = 0; late <= 16; ++late) {
@@ -190,6 +221,7 @@ TEST_CASE("a contact of any stiffness settles, however late", "[proxy]") {
       const auto s = rule.sampled(K);
       CAPTURE(late, K, s.stiffness, s.settling);
       CHECK(ph::settles(s.stiffness * T * T / m, s.settling / T, late));
+      CHECK(rule.settles(K));
       stiffest = std::max(stiffest, s.stiffness);
     }
     if (late > 0) {  // no more than a factor of 2.5 is given away at that damping

@@ -4,6 +4,10 @@
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/contact/rigid_tool.hpp>
 #include <passive_haptics/device/rigid_damping.hpp>
+#include <passive_haptics/energy_observer/forgiving.hpp>
+#include <passive_haptics/force_bound/bound_chain.hpp>
+#include <passive_haptics/force_bound/rigid_reachable_bound.hpp>
+#include <passive_haptics/simulation/rigid_device.hpp>
 
 #include <algorithm>
 #include <string>
@@ -81,6 +85,22 @@ TEST_CASE("a tool is no stiffer with sixteen contacts than its coupling", "[rigi
   }
   CHECK(steepest <= 1.02);  // a point of the tool goes round by r|θ|²/2 as well
   CHECK(steepest > 0.7);
+}
+
+TEST_CASE("a tool says what comes to rest on it, however late its loop", "[rigid_tool]") {
+  const auto port = open_port<double, 2>();
+  CHECK(port.source().settles(1e9));
+  for (int late = 0; late <= 4; ++late) {
+    ph::tool_spring::at<double> rule({.mass = 0.15, .least_inertia = 1e-5, .lever = 0.1});
+    rule.adopt(T, late);
+    for (double K = 10.0; K < 1e6; K *= 3.0) CHECK(rule.settles(K));
+  }
+  ph::tool_spring stiff{.mass = 0.15, .least_inertia = 1e-5, .stiffness_fraction = 0.6};
+  CHECK((stiff.check().parameter == std::string_view("stiffness_fraction")));  // the control
+  ph::tool_spring::at<double> rule(stiff);
+  rule.adopt(T);
+  CHECK_FALSE(rule.settles(1e9));
+  CHECK(rule.settles(1000.0));
 }
 
 TEST_CASE("a tool refuses what is none, and goes on with what is", "[rigid_tool]") {
@@ -243,4 +263,68 @@ TEST_CASE("a tool_spring out of range is refused by name", "[rigid_tool]") {
   CHECK(named({.mass = 0.1, .least_inertia = 1e-4, .stiffness_fraction = 2.0}) ==
         "stiffness_fraction");
   CHECK(named({.mass = 0.1, .least_inertia = 1e-4, .softness = 1.0}) == "softness");
+}
+
+namespace {
+
+/// The peg of example 22, pressed into its hole with 2 N, aside with 1 N and 10 mN·m, then tilted with 20 mN·m. At
+/// 1.2 s one tick lasts `late` milliseconds.
+struct pressed_peg {
+  double deepest = 1.0, largest = 0.0,
+         created = 0.0;  ///< the handle [m], the force [N], by the port [J]
+  double last = 0.0;     ///< at the end [N]
+
+  pressed_peg(double amends, int late) {
+    ph::passive_port peg{
+        body{},
+        ph::rigid_tool{ph::tool_spring{.mass = 0.15, .least_inertia = 1e-4, .lever = 0.03},
+                       ph::pursuit{}, ph::slots<plane, 20>{}},
+        ph::forgiving{
+            ph::basic_reduced_energy<ph::rigid_damping>{{.linear = 0.03, .angular = 1e-4}}, amends},
+        ph::bound_chain{ph::rigid_reachable_bound{
+                            {.mass = 0.15, .least = 1e-4, .spread = 2e-4}, 5, 0.1, 0.06, 2e-4},
+                        ph::rigid_actuator_limit{.force = 9, .torque = 0.5}},
+        ph::loop_limits{.longest_tick = T}};
+    const double half = 0.01, length = 0.04, room = half + 0.00025;
+    int slot = 0;
+    for (const double x : {-1.0, 1.0})
+      for (const double y : {-1.0, 1.0})
+        for (const double z : {-length, 0.0}) {
+          const vector corner(half * x, half * y, z);
+          peg.source().update(slot++, corner, plane{{room * x, 0, 0}, {-x, 0, 0}, 2000});
+          peg.source().update(slot++, corner, plane{{0, room * y, 0}, {0, -y, 0}, 2000});
+          if (z < 0) peg.source().update(slot++, corner, plane{{0, 0, 0}, {0, 0, 1}, 2000});
+        }
+    ph::simulation::rigid_device device({}, {.position = {0, 0, 0.05}, .orientation = {}});
+    auto sample = device.exchange(body::zero());
+    for (int n = 0; n < 2200; ++n) {
+      const double aside = n >= 600 && n < 1000 ? 1.0 : 0.0;
+      const double tilt = n < 600 ? 0.0 : n < 1000 ? 0.01 : 0.02;
+      device.push(body::join(vector(aside, 0, -2), vector(0, tilt, 0)));
+      const body::effort wrench = peg.tick(sample).force;
+      const int ticks = n == 1200 ? late : 1;
+      for (int i = 0; i < ticks; ++i) sample = device.exchange(wrench);
+      sample.dt = T * ticks;
+      last = body::linear(wrench).norm();
+      largest = std::max(largest, last);
+      if (n > 1200) deepest = std::min(deepest, device.at().position.values[2]);
+      created = std::max(created, -device.energy());
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("one late tick does not drop a peg, nor shake it", "[rigid_tool][faults]") {
+  const pressed_peg right(0.02, 1);
+  CHECK(right.deepest > 0.039);
+  for (const int late : {10, 30, 100, 300}) {
+    CAPTURE(late);
+    const pressed_peg found(0.02, late);
+    CHECK(found.deepest > right.deepest - 4e-3);
+    CHECK(found.largest <= 9.0 * (1.0 + 1e-12));
+    CHECK(found.created <= 0.02);
+    CHECK_THAT(found.last, WithinRel(right.last, 0.1));
+  }
+  CHECK(pressed_peg(0.0, 300).deepest < right.deepest - 5e-3);  // the control forgives nothing
 }

@@ -135,9 +135,54 @@ TEST_CASE("most_stiffness settles however late the renderer is, and four times t
       const double K = p.most_stiffness(1e-3, late);
       CHECK_THAT(K, WithinRel(fraction * 0.1 * 1e6 / (late + 1.5), 1e-12));
       CHECK(swings<d1>(p, floor_of(K, 5.0), -5.1, 2.0, std::size_t(late)) < 1e-4);
+      p.softens = false;
       CHECK(swings<d1>(p, floor_of(4.0 * K, 5.0), -5.1, 2.0, std::size_t(late)) > 1e-2);
     }
   }
+}
+
+TEST_CASE("what is steeper than it settles with is felt softer, and rests", "[settled_force]") {
+  ph::settled_force as_steep = rule;
+  as_steep.softens = false;
+  const double most = rule.most_stiffness(1e-3);
+  for (const double times : {1.5, 3.0, 10.0}) {
+    CAPTURE(times);
+    CHECK(swings<d1>(rule, floor_of(times * most), -1.0, 1.0) < 1e-4);
+    CHECK(swings<d1>(as_steep, floor_of(3.0 * times * most), -1.0, 1.0) > 0.02);  // the control
+    CHECK(swings<d3>(rule, trough_of(times * most, 600.0), {0.3, 0.0, -1.0}, 4.0) < 1e-3);
+  }
+}
+
+TEST_CASE("a settled force says how much of a steep one it shows, and shows all of any other",
+          "[settled_force]") {
+  const double most = rule.most_stiffness(1e-3);
+  auto guard = guard_of<d1>(rule);
+  int tick = 0;
+  // For a second: swings by 0.2 mm about where it presses with 3 N, 8 times a second, under that slope.
+  const auto swing = [&](double K) {
+    for (int n = 0; n < 1000; ++n) {
+      const double way = 2e-4 * std::sin(0.05 * ++tick);
+      (void)guard.tick(way, 1ms, std::max(0.0, 3.0 - K * way));
+    }
+    return double(guard.source().shown());
+  };
+  CHECK(swing(0.99 * most) == 1.0);
+  CHECK_THAT(swing(4.0 * most), WithinRel(0.75 / 4.0, 0.03));
+  CHECK_THAT(swing(2.0 * most), WithinRel(0.75 / 4.0, 0.03));  // half as steep: as it was
+  for (int n = 0; n < 3; ++n) swing(0.1 * most);
+  CHECK(guard.source().shown() == 1.0);
+  (void)swing(4.0 * most);
+  guard.reset();
+  CHECK(guard.source().shown() == 1.0);
+
+  ph::laws::samples random(3);
+  double x = 0.0;
+  for (int n = 0; n < 5000; ++n) {  // news to a device that holds still, and one that they push
+    const double w = 2.0 + random.number<double>();
+    x += 1e-5 * (w - 2.0) * (n % 100 < 50 ? 0.0 : 1.0);
+    (void)guard.tick(x, 1ms, w);
+  }
+  CHECK(guard.source().shown() == 1.0);
 }
 
 TEST_CASE("a slide brakes what swings along a trough, and its lead what is stiff there",

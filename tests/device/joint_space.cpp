@@ -19,6 +19,7 @@ concept has_geometry = requires {
 };
 
 constexpr ph::diagonal_damping<7> seven{{0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07}};
+constexpr ph::motor_limits<7> motors{{9, 9, 9, 9, 9, 9, 9}};  // N·m
 
 /// An arm that turns by q(0) [rad] and slides out to q(1) [m], with a damper b at its tip. Its motors
 /// hold joint torques from sample to sample, and between two samples its joints move evenly.
@@ -111,7 +112,7 @@ TEST_CASE("a port of seven joints with a given torque is strict", "[joints][pass
 }
 
 TEST_CASE("a port of joints believes no joint that jumps", "[joints]") {
-  auto guard = ph::make_strict_guard<arm, ph::diagonal_damping<7>>(seven, 1e-3);
+  auto guard = ph::make_strict_guard<arm, ph::diagonal_damping<7>>(seven, motors, 1e-3);
   const arm::vector torque = arm::vector::Constant(0.1);
   arm::vector q = arm::zero();
   CHECK(guard.tick(q, 1ms, torque).what == ph::event::nominal);
@@ -126,7 +127,7 @@ TEST_CASE("a joint that is no number is refused, whichever it is, and the port c
           "[joints]") {
   const arm::vector torque = arm::vector::Constant(0.1);
   for (int i = 0; i < 7; ++i) {
-    auto guard = ph::make_strict_guard<arm, ph::diagonal_damping<7>>(seven, 1e-3);
+    auto guard = ph::make_strict_guard<arm, ph::diagonal_damping<7>>(seven, motors, 1e-3);
     arm::vector bad = arm::zero();
     bad(i) = std::nan("");
     CHECK(guard.tick(bad, 1ms, torque).what == ph::event::rejected_sample);

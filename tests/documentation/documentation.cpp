@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -247,6 +248,44 @@ TEST_CASE("every example is named where a newcomer looks for it", "[documentatio
       INFO(link);
       CHECK(list.find("(" + link + ")") != std::string::npos);
     }
+  }
+}
+
+namespace {
+/// The first composition of `text` that is outside the family of compositions.hpp and has no "by hand" and a reason
+/// within so many characters before it; empty if all have.
+std::string unexplained(const std::string& text, std::size_t within) {
+  static const std::regex composed("(local_model|passive_port)( [a-z_]+)?\\{");
+  for (std::sregex_iterator at(text.begin(), text.end(), composed), end; at != end; ++at) {
+    const auto place = static_cast<std::size_t>(at->position());
+    const std::size_t from = place > within ? place - within : 0;
+    const std::string before = text.substr(from, place - from);
+    if (before.find("y hand: ") == std::string::npos) return at->str();
+  }
+  return "";
+}
+}  // namespace
+
+TEST_CASE("there is one recommendation, and what is composed otherwise says why",
+          "[documentation]") {
+  CHECK(unexplained("auto t = ph::make_touch<scene>(device, hand);", 600).empty());
+  CHECK(unexplained("// By hand: the bound alone.\nph::local_model wall{scene{}};", 600).empty());
+  CHECK(unexplained("ph::local_model wall{scene{}};", 600) == "local_model wall{");  // the control
+  CHECK(unexplained("// By hand: x.\n" + std::string(700, ' ') + "ph::passive_port{}", 600) ==
+        "passive_port{");
+  std::vector<std::filesystem::path> pages{root / "README.md"};
+  for (const char* folder : {"docs", "examples"}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      const auto kind = entry.path().extension();
+      if (kind == ".md" || kind == ".cpp" || kind == ".hpp") pages.push_back(entry.path());
+    }
+  }
+  CHECK(pages.size() > 50);
+  for (const auto& page : pages) {
+    if (page.filename() == "errors.md") continue;  // what does not compile
+    CAPTURE(page.string());
+    const bool prose = page.extension() == ".md";  // a program says it once
+    CHECK(unexplained(text_of(page), prose ? 600 : std::string::npos).empty());
   }
 }
 

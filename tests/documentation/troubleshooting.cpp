@@ -136,14 +136,14 @@ TEST_CASE("it buzzes: a wall that bounces, and what stops it", "[troubleshooting
 
 TEST_CASE("it buzzes: encoders whose steps are felt, and what hides them", "[troubleshooting]") {
   auto plain = wall_of(2e3, settling, reachable);
-  auto aware = ph::make_encoder_touch<d1>({.mass = 0.1,
-                                           .damping = 0.2,
-                                           .friction = 0.15,
-                                           .presliding = 1e-5,
-                                           .quantum = 1e-4,
-                                           .force_limit = 9.0,
-                                           .longest_tick = 1e-3},
-                                          5.0);
+  auto aware = ph::make_touch<d1>(ph::encoder_device{.mass = 0.1,
+                                                     .damping = 0.2,
+                                                     .friction = 0.15,
+                                                     .presliding = 1e-5,
+                                                     .quantum = 1e-4,
+                                                     .force_limit = 9.0,
+                                                     .longest_tick = 1e-3},
+                                  {.force = 5.0});
   REQUIRE(aware.update({0.0, 1.0, 2e3}));
   auto first = kneaded(), second = kneaded();
   const seen before = looked_at(plain, first), after = looked_at(aware, second);
@@ -176,7 +176,7 @@ TEST_CASE("it kicks: a device that is thrown, and what stops it", "[troubleshoot
     // The same spring of 500 N/m towards 20 mm outside, once behind the port, once as a wish.
     const auto added = [](double x) { return 500.0 * (0.02 - x); };
     const auto swung = [&](bool behind) {
-      auto port = ph::make_strict_guard<d1>({0.03}, 1e-3);
+      auto port = ph::make_strict_guard<d1>({0.03}, ph::actuator_limit{9.0}, 1e-3);
       sim::device<d1> device{{.damping = 0.03}};
       auto sample = device.exchange(0.0);
       int debts = 0;

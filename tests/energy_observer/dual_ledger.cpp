@@ -3,6 +3,7 @@
 // against adversaries: attacks/adversary_encoders.cpp, full/bounds_dual.cpp.
 #include "force_bound/upkeep.hpp"
 #include "support/scenes.hpp"
+#include <passive_haptics/compositions.hpp>
 #include <passive_haptics/device/joint_space.hpp>
 #include <passive_haptics/simulation/adversary_motions.hpp>
 #include <passive_haptics/simulation/friction.hpp>
@@ -311,4 +312,21 @@ TEMPLATE_TEST_CASE("numbers at the ends of their range leave dual_ledger a numbe
   }
   CHECK(booked > 1000);
   CHECK(refused_ticks > 1000);
+}
+
+TEST_CASE("a device with elastic friction that rests in free space owes nothing", "[encoders]") {
+  auto touch = ph::make_touch<d1>(ph::encoder_device{.mass = 0.1,
+                                                     .damping = 0.2,
+                                                     .friction = 0.15,
+                                                     .presliding = 1e-5,
+                                                     .quantum = 1e-4,
+                                                     .force_limit = 8.0},
+                                  {.force = 5.0});
+  REQUIRE(touch.update({0.0, 1.0, 800.0}));
+  CHECK(touch.tick(2e-3, 1ms).energy < 0.0);  // 5/2 c p, that the friction's springs may hold
+  for (int n = 0; n < 100; ++n) CHECK(touch.tick(2e-3, 1ms).what == ph::event::nominal);
+  for (int n = 0; n < 40; ++n) (void)touch.tick(2e-3 - 1e-4 * n, 1ms);
+  int owed = 0;  // it is thrown out faster than any mass goes: a debt, and said to be one
+  for (int n = 0; n < 40; ++n) owed += touch.tick(-2e-3 + 4e-3 * n, 1ms).what == ph::event::debt;
+  CHECK(owed > 0);
 }

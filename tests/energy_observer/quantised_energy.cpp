@@ -130,3 +130,14 @@ TEST_CASE("quantised_energy takes new parameters, keeps its energy and starts an
   CHECK_FALSE(pressed.set(coarse));
   CHECK_THAT(pressed.energy(), WithinAbs(before + 0.5 * (1e-5 - 1e-7) * held, 1e-15));
 }
+
+TEST_CASE("what nobody saw costs a ledger of steps the smaller of two bounds",
+          "[quantised_energy]") {
+  const auto left = [](double most) {
+    auto ledger = at<d1>(ph::quantised_energy{.damping = {0.03}, .quantum = 1e-5, .loan = 1.0});
+    ledger.forfeit(3.0, 1e-3, most);
+    return ledger.value();
+  };
+  CHECK_THAT(1.0 - left(0.01), Catch::Matchers::WithinRel(0.01, 1e-9));
+  CHECK_THAT(1.0 - left(10.0), Catch::Matchers::WithinRel(9.0 * 1e-3 / 0.12, 1e-9));
+}

@@ -5,11 +5,13 @@
 #include <passive_haptics/environment/msh_reader.hpp>
 
 #include <bit>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <unordered_map>
 
 namespace {
 
@@ -500,4 +502,32 @@ TEST_CASE("an organ reads as one closed body", "[environment][reader]") {
   CHECK(mesh.nodes.size() == 185);
   CHECK(mesh.tetrahedra.size() == 720);
   check_closed(mesh, 2);
+}
+
+TEST_CASE("node numbers that all have one hash are read as fast as any", "[environment][reader]") {
+  static constexpr long nodes = 20000;
+  std::unordered_map<std::int64_t, int> table;
+  for (long i = 0; i < nodes; ++i) table[i] = 0;
+  const auto seconds = [](std::int64_t apart) {
+    std::ostringstream text;
+    text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << nodes << '\n';
+    for (long i = 0; i < nodes; ++i) {
+      text << (i + 1) * apart << ' ' << (i % 4 == 1) + 10 * i << ' ' << (i % 4 == 2) << ' '
+           << (i % 4 == 3) << '\n';
+    }
+    text << "$EndNodes\n$Elements\n" << nodes / 4 << '\n';
+    for (long i = 0; i < nodes / 4; ++i) {
+      text << i + 1 << " 4 2 1 1";
+      for (long k = 1; k <= 4; ++k) text << ' ' << (4 * i + k) * apart;
+      text << '\n';
+    }
+    text << "$EndElements\n";
+    std::istringstream in(text.str());
+    const auto begin = std::chrono::steady_clock::now();
+    CHECK(env::read_msh(in, "m.msh").nodes.size() == std::size_t{nodes});
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const double any = seconds(1);
+  CHECK(seconds(static_cast<std::int64_t>(table.bucket_count())) < 10.0 * any + 0.2);
+  CHECK(seconds(-7) < 10.0 * any + 0.2);
 }

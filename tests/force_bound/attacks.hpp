@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What tries to draw energy out of a composed model, judged by the true energy at the port. All of it
-// is compiled once per space; a model more costs what its tick costs.
+// Attacks that try to draw energy out of a composed model, judged by the true energy at the port. All are compiled
+// once per space, so another model costs only the compilation of its tick.
 //
 //   worst_of         motions that no force can stop, in a world and a loop that may do anything
 //   tapped           a hand of 5 N that taps a wall that jumps
@@ -47,8 +47,8 @@ struct outcome {
 enum class motion : int { nyquist, walk, greedy, slow, worst };
 inline constexpr int motions = 5;
 
-/// One of them. The last presses by any amount, any way; rests; or makes the motion that costs the
-/// most: Δx = ½B⁻¹f, exactly or times up to two.
+/// One step of a motion. The last kind presses by any amount, any way; rests; or makes the motion that costs
+/// the most, Δx = ½B⁻¹f, exactly or times up to two.
 template <class Space>
 struct any_motion {
   using vector = typename sim::physical<Space>::vector;
@@ -209,7 +209,7 @@ double least_of(const Bound& bound, const conditions& when = {}, int seeds = 20)
   return worst_of<Space>(model_of<Space>(bound, limits), when, seeds).least;
 }
 
-/// A bound that gives a little more than it may.
+/// A bound that allows a little more than it may.
 template <class Bound>
 struct generous : Bound {
   double factor = 1.05;

@@ -185,6 +185,130 @@ TEST_CASE("reachable_outflow is the most that a force can hand over within its r
   }
 }
 
+namespace {
+
+/// What a point that nobody sees brings, and what reachable_bound says that it brings, at most [J].
+struct unseen_point {
+  double mass = 0.1, hand = 5.0;
+  double ratio(ph::laws::samples& random) const {
+    const double b = 0.03 + 0.03 * std::abs(random.number<double>()), h = 1e-5;
+    const double T0 = 1e-3, dt = std::pow(10.0, -3.0 + 1.7 * std::abs(random.number<double>()));
+    const double held = 9.0 * random.number<double>(), f = 9.0 * std::abs(random.number<double>());
+    double v = 0.3 * random.number<double>(), x = 0.0, out = 0.0;
+    const auto move = [&](double seconds, double force, double push) {
+      for (int n = 0; n < std::lround(seconds / h); ++n) {
+        const double next = v + h * (force + push - b * v) / mass, mean = 0.5 * (v + next);
+        x += h * mean;
+        out += h * (force * mean - b * mean * mean);
+        v = next;
+      }
+    };
+    const double push = random.number<double>() < 0.5 ? hand : hand * random.number<double>();
+    move(T0, held, push);
+    const ph::detail::seen_tick<d1> seen{
+        .square = x * x, .dt = T0, .travel_error = 0.0, .held = held};
+    const auto damping = at<d1>(ph::isotropic_damping{0.03});
+    const double most = at<d1>(told).unseen(seen, damping, f, dt).done;
+    out = 0.0;
+    move(dt, f, push);
+    return most > 0.0 ? out / most : 0.0;
+  }
+  [[nodiscard]] double worst() const {
+    ph::laws::samples random(5);
+    double most = 0.0;
+    for (int i = 0; i < 400; ++i) most = std::max(most, ratio(random));
+    return most;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("what nobody saw has brought no more than the mass allows, of the mass and hand stated",
+          "[bound][unseen]") {
+  CHECK(unseen_point{}.worst() <= 1.0);
+  CHECK(unseen_point{}.worst() > 0.8);
+  CHECK(unseen_point{.mass = 0.05}.worst() > 1.2);  // the controls
+  CHECK(unseen_point{.hand = 15.0}.worst() > 1.2);
+  const auto damping = at<d1>(ph::isotropic_damping{0.03});
+  CHECK(
+      at<d1>(told).unseen(ph::detail::seen_tick<d1>{0.0, 1e-3, 0.0, 0.0}, damping, 9.0, 1.0).done >
+      1e9);
+}
+
+TEST_CASE("a lost sample costs what a mass can have moved, and a strict port what a damper allows",
+          "[bound][unseen]") {
+  const auto cost = [](const auto& bound, const auto& limits, int lost) {
+    ph::passive_port port{d1{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03, .loan = 5.0},
+                          bound, limits};
+    for (int n = 0; n < 5; ++n) (void)port.tick(0.0, ph::seconds{1e-3}, 9.0);
+    const double before = port.energy();
+    for (int n = 0; n < lost; ++n) (void)port.tick(std::nan(""), ph::seconds{1e-3}, 9.0);
+    (void)port.tick(0.0, ph::seconds{1e-3}, 9.0);
+    return before - port.energy();
+  };
+  const ph::bound_chain known{told, ph::actuator_limit{.most = 9.0}};
+  const ph::loop_limits now{.longest_tick = 1e-3};
+  const ph::late_loop_limits<2> later{.longest_tick = 1e-3};
+  // 9 N over (2 · 9 + 5)/0.1 m/s² for 1 ms, and the half ms before it: nobody knows what was held there
+  CHECK_THAT(cost(known, now, 1), WithinRel(9.0 * 230.0 * 1e-6, 0.01));
+  CHECK(cost(known, now, 1) == cost(known, now, 30));  // nothing is held any more
+  // Three commands were on their way: the paths of 1, 2 and 3 ms.
+  CHECK_THAT(cost(known, later, 30), WithinRel(9.0 * 230.0 * 10e-6, 0.01));
+  CHECK_THAT(cost(ph::strict_bound{}, now, 1), WithinRel(0.675, 0.01));
+}
+
+TEST_CASE("what is known of the last tick counts: its length, its doubt, and that there was one",
+          "[bound][unseen]") {
+  // (v + (a + r V)(T0 + t)/2) t with V = (v + a (T0/2 + t))/(1 − r (T0/2 + t))
+  CHECK_THAT(k::longest_path(0.1, 1.0, 2.0, 0.1, 0.1),
+             WithinRel(0.1 * (0.1 + (1.0 + 2.0 * 0.25 / 0.7) * 0.1), 1e-9));
+  const auto damping = at<d1>(ph::isotropic_damping{0.03});
+  const auto done = [&](const ph::detail::seen_tick<d1>& seen) {
+    return at<d1>(told).unseen(seen, damping, 9.0, 1e-3).done;
+  };
+  CHECK_THAT(done({0.0, 1e-3, 1e-4, 9.0}) - done({0.0, 1e-3, 0.0, 9.0}), WithinRel(9e-4, 0.01));
+
+  const ph::bound_chain known{told, ph::actuator_limit{.most = 9.0}};
+  const auto cost = [&](const ph::loop_limits& limits, auto&& happens) {
+    ph::passive_port port{d1{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03, .loan = 5.0},
+                          known, limits};
+    for (int n = 0; n < 5; ++n) (void)port.tick(0.0, ph::seconds{1e-3}, 9.0);
+    return happens(port);
+  };
+  const auto lose = [](auto& port, double dt = 1e-3) {
+    const double before = port.energy();
+    (void)port.tick(std::nan(""), ph::seconds{dt}, 9.0);
+    return before - port.energy();
+  };
+  const ph::loop_limits plain{.longest_tick = 1e-3};
+  const double usual = cost(plain, [&](auto& port) { return lose(port); });
+  CHECK(cost(plain, [&](auto& port) { return lose(port, 1e-5); }) == usual);  // held for T, perhaps
+  CHECK(cost(plain, [&](auto& port) {
+          (void)port.tick(1e-4, ph::seconds{2.5e-4}, 9.0);
+          return lose(port);
+        }) > 9.0 * 0.4 * 1e-3);  // 0.1 mm in a quarter of a tick are 0.4 m/s
+  CHECK(cost(plain, [&](auto& port) {
+          (void)lose(port);
+          (void)port.tick(0.0, ph::seconds{1e-3}, 9.0);  // from where, nobody knows
+          return lose(port);
+        }) > 0.6);
+  CHECK(cost(plain, [&](auto& port) {
+          CHECK_FALSE(port.set(ph::actuator_limit{.most = 8.0}));
+          return lose(port);
+        }) > 0.6);
+  const ph::loop_limits watched{.longest_tick = 1e-3, .watchdog = 1e-3};
+  const double cut = cost(watched, [](auto& port) {
+    const double before = port.energy();
+    (void)port.tick(0.0, ph::seconds{1e-2}, 9.0);  // dropped after 1 ms, or not
+    return before - port.energy();
+  });
+  CHECK_THAT(cut, WithinRel(9.0 * 230.0 * 1e-6, 0.01));
+  // The smaller of two bounds: of a force of 1 mN the damper knows better.
+  auto ledger = at<d1>(ph::reduced_energy{.damping = 0.03, .loan = 1.0});
+  ledger.forfeit(1e-3, 1e-3, 1.0);
+  CHECK(ledger.value() > 1.0 - 1e-7);
+}
+
 TEST_CASE("reachable_bound in a late loop pays for what is in flight", "[bound]") {
   situation<d1, ph::isotropic_damping, 1> now{.energy = 1e-5, .travel = -1e-4};
   const double first = -limit(told, -10.0, now);

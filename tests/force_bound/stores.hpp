@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What the proof of a bound without a ledger comes to: what the new force can cost is covered by what
-// the held one could, and what the last tick brought.
+// The inequality of the proof of a bound without a ledger: the cost of the new force is covered by that of the
+// held force and the energy that the last tick brought.
 #include "support/scenes.hpp"
 #include <passive_haptics/force_bound/energy_bounding.hpp>
 #include <passive_haptics/force_bound/sector_bound.hpp>
 #include <passive_haptics/laws.hpp>
 
-/// A bound that knows no command before the one asked for, as random states have none.
+/// A bound without a command before the one asked for, because random states have none.
 template <class Bound>
 struct afresh : Bound {
   template <ph::port P>
@@ -25,7 +25,7 @@ struct afresh : Bound {
   };
 };
 
-/// S(f) ≤ S(held) + what the last tick brought.
+/// S(f) ≤ S(held) + ΔE, with ΔE [J] what the last tick brought.
 template <class Space>
 constexpr bool stores_what_came(const auto& bound, auto stored, int ticks) {
   using scalar = typename Space::scalar;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What every part of a composition owes whoever maintains it: its laws, parameters that change while
-// it works, and a way back to the start.
+// The duties of every part of a composition: its laws, parameters that change while it works, and reset().
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/laws.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A composed model whose type is forgotten, so that what attacks it is compiled once.
+// A type-erased composed model, so that the attacks on it are compiled once.
 #include "support/scenes.hpp"
 #include <passive_haptics/simulation/components.hpp>
 
@@ -8,7 +8,7 @@ namespace sim = ph::simulation;
 
 namespace attacks {
 
-/// A model with a half-space that moves, whose type is forgotten.
+/// A type-erased model with a half-space that moves.
 template <class Space>
 struct victim {
   using vector = typename Space::vector;

@@ -23,12 +23,12 @@ constexpr sim::device_preset preset = sim::touch_like;
 constexpr double presliding = 15e-6;
 constexpr double surface = 0.37 * preset.quantum;
 
-constexpr ph::design::stated_device stated{.mass = preset.mass,
-                                           .damping = preset.damping / 2,
-                                           .friction = preset.friction / 2,
-                                           .presliding = presliding,
-                                           .quantum = preset.quantum,
-                                           .force_limit = preset.force_limit};
+constexpr ph::encoder_device stated{.mass = preset.mass,
+                                    .damping = preset.damping / 2,
+                                    .friction = preset.friction / 2,
+                                    .presliding = presliding,
+                                    .quantum = preset.quantum,
+                                    .force_limit = preset.force_limit};
 
 struct felt {
   double least_stiffness = 1e9;  ///< of the touches [N/m]
@@ -98,7 +98,8 @@ auto without_friction() {
 TEMPLATE_TEST_CASE("a gentle touch of encoder_touch is as stiff as was budgeted, first and last",
                    "[simulation]", d1, f1) {
   const double budget = ph::design::stiffness_budget(stated).stiffness;
-  const felt wall = touched<TestType>(ph::make_encoder_touch<TestType>(stated, 5.0), budget);
+  const felt wall =
+      touched<TestType>(ph::make_touch<TestType>(stated, ph::known_hand{.force = 5.0}), budget);
   CHECK(budget > 2000.0);
   CHECK(wall.least_stiffness > 0.9 * budget);
   CHECK(wall.least_stiffness < 1.1 * budget);
@@ -110,7 +111,8 @@ TEST_CASE("a gentle touch of encoder_touch stays what it is in ticks of 0.95 to 
   auto loop = stated;
   loop.longest_tick = 1.05e-3;
   const double budget = ph::design::stiffness_budget(loop).stiffness;
-  const felt wall = touched<d1>(ph::make_encoder_touch<d1>(loop, 5.0), budget, 0.05);
+  const felt wall =
+      touched<d1>(ph::make_touch<d1>(loop, ph::known_hand{.force = 5.0}), budget, 0.05);
   CHECK(wall.least_stiffness > 0.9 * budget);
   CHECK(wall.least_stiffness < 1.1 * budget);
   CHECK(wall.least_energy >= -1e-12);
@@ -135,7 +137,7 @@ constexpr sim::circumstances just_as_stated(double hand_force) {
           .force_limit = stated.force_limit};
 }
 auto told_of_hand(double hand_force) {
-  return ph::make_encoder_touch<d1>(stated, hand_force + stated.friction);
+  return ph::make_touch<d1>(stated, ph::known_hand{.force = hand_force + stated.friction});
 }
 
 /// The least energy that hands which tap, push and tremble leave at the port [J].
@@ -180,9 +182,11 @@ TEST_CASE("encoder_touch a tick late loses nothing to hands of 5 N, and on time 
                            .force_limit = preset.force_limit,
                            .latency = 1};
   const double push = world.hand_force + preset.friction;
-  const auto told =
-      ph::make_encoder_touch<d1, ph::half_space<d1>, ph::late_loop_limits<1>>(stated, push);
-  const auto untold = ph::make_encoder_touch<d1>(stated, push);
+  const ph::known_hand hand{.force = push};
+  auto late = stated;
+  late.latency = 1;
+  const auto told = ph::make_touch<d1, ph::half_space<d1>, ph::late_loop_limits<1>>(late, hand);
+  const auto untold = ph::make_touch<d1>(stated, hand);
   double control = 0.0;
   for (const auto by :
        {sim::adversary::tapping, sim::adversary::random_tapping, sim::adversary::trembling}) {

@@ -60,10 +60,10 @@ TEST_CASE("a device without friction, steps or damping gets the ledger it can ha
   found.axes[0].friction = 0.0;
   CHECK(composition_of(found).find("ph::quantised_energy{") != std::string::npos);
   for (auto& a : found.axes) a.quantum = a.noise = 0.0;
-  CHECK(composition_of(found).find("ph::reduced_energy{") != std::string::npos);
+  CHECK(composition_of(found).find("ph::exact_device device{") != std::string::npos);
   found.axes[1].damping = 0.0;
   CHECK(composition_of(found).find("no viscous damping") != std::string::npos);
-  CHECK(composition_of(found).find("ph::local_model") == std::string::npos);
+  CHECK(composition_of(found).find("ph::make_touch") == std::string::npos);
   found.axes[0].problem = "let go";
   CHECK(composition_of(found) == "let go\n");
   CHECK(table_of(found.axes[0]).find("let go") != std::string::npos);

@@ -15,7 +15,7 @@ const d3::vector here(0, 0, -0.002);
 /// A touch that has pressed 2 mm deep into 1 kN/m, and banked what that brought.
 auto pressed() {
   auto touch = ph::make_touch<d3>(
-      {.mass = 0.1, .damping = 0.03, .hand_force = 5.0, .force_limit = 9.0}, 1e-3);
+      {.mass = 0.1, .damping = 0.03, .force_limit = 9.0, .longest_tick = 1e-3}, {.force = 5.0});
   touch.update({d3::zero(), up, 1000});
   for (int n = 0; n <= 200; ++n) (void)touch.tick({0, 0, -1e-5 * n}, 1ms);
   (void)touch.tick(here, 1ms);
@@ -188,11 +188,12 @@ TEST_CASE("a fault in new parameters is returned, and changes nothing", "[port][
 }
 
 TEST_CASE("a port of bad parameters works as soon as they are good", "[port][set]") {
-  ph::strict_guard<d1> guard;  // no damping, no longest tick
+  ph::strict_guard<d1, ph::actuator_limit> guard;  // no damping, no longest tick
   CHECK(guard.tick(0.0, 1ms, 1.0).what == ph::event::rejected_parameters);
   REQUIRE_FALSE(guard.set(ph::reduced_energy{.damping = 0.03, .loan = 1.0}));
   CHECK(guard.tick(0.0, 1ms, 1.0).what == ph::event::rejected_parameters);
   REQUIRE_FALSE(guard.set(thesis_loop));
+  REQUIRE_FALSE(guard.set(ph::actuator_limit{.most = 9.0}));
   CHECK_FALSE(guard.check());
   guard.reset();  // which makes the loan
   CHECK(guard.tick(0.0, 1ms, 1.0).force == 1.0);

@@ -41,13 +41,14 @@ using scene = ph::space<float, 3>;
 
 float touched(const scene::vector& position) {
   static auto touch = ph::make_touch<scene>(
-      {.mass = 0.1, .damping = 0.03, .hand_force = 5.0, .force_limit = 9.0}, 0.0011);
+      {.mass = 0.1, .damping = 0.03, .force_limit = 9.0, .longest_tick = 0.0011}, {.force = 5.0});
   touch.update({.point = {0, 0, 0}, .normal = {0, 0, 1}, .stiffness = 500});
   return touch.tick(position, ph::seconds{1e-3}).force.norm();
 }
 
 float guarded(float position, float wanted) {
-  static auto port = ph::make_strict_guard<ph::space<float, 1>>({0.03}, 0.0011);
+  static auto port =
+      ph::make_strict_guard<ph::space<float, 1>>({0.03}, ph::actuator_limit{9.0}, 0.0011);
   return port.tick(position, ph::seconds{1e-3}, wanted).force;
 }
 #endif

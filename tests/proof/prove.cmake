@@ -3,7 +3,7 @@
 # the axioms that Coq's own real numbers have. With `file`: only up to that one, `from` in it replaced by
 # `to`.
 cmake_minimum_required(VERSION 3.24)
-set(names vectors damping dual_ledger strict_bound presliding window limits)
+set(names vectors damping dual_ledger strict_bound presliding window limits quiet)
 set(axioms ClassicalDedekindReals.sig_forall_dec ClassicalDedekindReals.sig_not_dec
   FunctionalExtensionality.functional_extensionality_dep Classical_Prop.classic)
 

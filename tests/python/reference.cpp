@@ -43,22 +43,22 @@ void run(Touch touch, Device device, double stiffness) {
 
 int main() {
   const double longest = period * 1.000001;
-  run(ph::make_touch<scene>({.mass = 0.1, .damping = 0.03, .hand_force = 5, .force_limit = 9},
-                            longest),
+  run(ph::make_touch<scene>(
+          {.mass = 0.1, .damping = 0.03, .force_limit = 9, .longest_tick = longest}, {.force = 5}),
       sim::device<line, hand>({.mass = 0.1, .damping = 0.03, .force_limit = 9, .start = 0.02},
                               person),
       3000.0);
   constexpr double c = 0.13;
   constexpr double p = 15e-6;
   constexpr double q = 20e-6;
-  run(ph::make_encoder_touch<scene>({.mass = 0.045,
-                                     .damping = 0.05,
-                                     .friction = c,
-                                     .presliding = p,
-                                     .quantum = q,
-                                     .force_limit = 3.3,
-                                     .longest_tick = longest},
-                                    5.0 + c),
+  run(ph::make_touch<scene>(ph::encoder_device{.mass = 0.045,
+                                               .damping = 0.05,
+                                               .friction = c,
+                                               .presliding = p,
+                                               .quantum = q,
+                                               .force_limit = 3.3,
+                                               .longest_tick = longest},
+                            {.force = 5.0 + c}),
       sim::device<line, hand, sim::slider_and_spring>(
           {.mass = 0.045, .damping = 0.05, .force_limit = 3.3, .quantum = q, .start = 0.02}, person,
           {.level = {c}, .presliding = {p}}),

@@ -184,7 +184,7 @@ outcome touched(double seconds, const Seal& seal, Forge forge) {
   });
 
   auto touch = ph::make_touch<scene>(
-      {.mass = 0.1, .damping = 0.5, .hand_force = 5.0, .force_limit = 9.0}, 0.002);
+      {.mass = 0.1, .damping = 0.5, .force_limit = 9.0, .longest_tick = 0.002}, {.force = 5.0});
   CHECK_FALSE(touch.set(ph::freshness{.stale_after = 0.3}));
   const auto begin = clock_type::now();
   int pressed = 0, felt = 0;

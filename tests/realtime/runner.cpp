@@ -15,8 +15,8 @@ TEST_CASE("a tick of a runner, recorded by a scope, allocates nothing", "[runner
   virtual_time time;
   for (int n = 0; n < 1000; ++n) time.overshoots.push_back(microseconds(n % 100 == 99 ? 2500 : 3));
   sim::device<d3> device{{.mass = 0.1, .damping = 0.3, .load = {0, 0, -1}, .start = {0, 0, 0.01}}};
-  auto wall =
-      ph::make_touch<d3>({.mass = 0.1, .damping = 0.3, .hand_force = 5, .force_limit = 9}, 1e-3);
+  auto wall = ph::make_touch<d3>(
+      {.mass = 0.1, .damping = 0.3, .force_limit = 9, .longest_tick = 1e-3}, {.force = 5});
   REQUIRE(wall.update({.point = {0, 0, 0}, .normal = {0, 0, 1}, .stiffness = 1e3}));
   static ph::scope<d3, 256> seen{ph::event::rejected_sample};
   ph::runner touch{device,

@@ -153,7 +153,7 @@ TEST_CASE("a scope says what a tick knew, in columns with units", "[runner][scop
 TEST_CASE("a scope works at every port, with what a port of any source returns",
           "[runner][scope]") {
   SECTION("force in, force out, in one float: no depth") {
-    auto port = ph::make_strict_guard<f1>({0.03}, 1e-3);
+    auto port = ph::make_strict_guard<f1>({0.03}, ph::actuator_limit{9.0}, 1e-3);
     ph::scope<f1, 4> seen;
     (void)port.tick(0.0F, 1ms, 1.0F);
     seen.record(0.1F, 1ms, port.tick(0.1F, 1ms, 1.1F), 1.1F);

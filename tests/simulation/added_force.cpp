@@ -15,7 +15,8 @@ constexpr auto no_news = [](auto& /*loop*/, const auto& /*surface*/) { return tr
 /// A port that is asked for 1 N, and a spring to x = 0 that is added to what it answers.
 struct with_an_effect {
   using space_type = d1;
-  ph::strict_guard<d1> port = ph::make_strict_guard<d1>(0.03, 1e-3);
+  ph::strict_guard<d1, ph::actuator_limit> port =
+      ph::make_strict_guard<d1>(0.03, ph::actuator_limit{1e3}, 1e-3);
   double spring = 0.0;  ///< [N/m]
   bool reports_held = false;
   int* debts = nullptr;

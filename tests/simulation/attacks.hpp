@@ -75,7 +75,7 @@ double attack(const sim::subject<Space>& model, motion by, const conditions& whe
   return sim::run(device, model, when.ticks, world, hand).least_energy;
 }
 
-/// The same against a model that is not spoiled by it.
+/// The same against a copy of the model.
 template <class Space, class Model>
 double attack_by(motion kind, const Model& model, const conditions& when, std::uint64_t seed) {
   const sim::usual_lay<Model> lay{};
@@ -83,7 +83,7 @@ double attack_by(motion kind, const Model& model, const conditions& when, std::u
   return attack(sim::subject<Space>(tested), kind, when, seed);
 }
 
-/// What a composition with a surface that turns and jumps is made of, in any space.
+/// The parts of a composition with a surface that turns and jumps, in any space.
 template <class Law, class Bound, class Limits = ph::loop_limits>
 struct composition {
   Law law{};

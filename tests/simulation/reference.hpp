@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What the tests of the simulation share: its spaces, and the motion of an axis by other means than
-// the library's.
+// The common part of the simulation's tests: its spaces, and the motion of an axis by other means than the
+// library's.
 #include "support/scenes.hpp"
 
 #include <cmath>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A local model of any composition behind one interface: what a test asks of a hundred of them is
-// compiled once, and each of them costs no more than its tick.
+// A local model of any composition behind one interface. So a test of a hundred compositions is compiled once,
+// and each composition costs only the compilation of its tick.
 #include "support/scenes.hpp"
 
 #include <array>
 #include <memory>
 #include <vector>
 
-/// What pushes back in the tests of many models: the object is behind it, the surface at zero.
+/// The constraint that pushes back in the tests of many models: its surface is at zero, the object behind it.
 template <class Constraint>
 constexpr Constraint good_constraint() {
   using space = typename Constraint::space_type;
@@ -34,7 +34,7 @@ typename Space::vector inside(typename Space::scalar depth) {
   return x;
 }
 
-/// Every component the same.
+/// A vector whose components are all equal.
 template <class Space>
 typename Space::vector all(typename Space::scalar value) {
   typename Space::vector v = Space::zero();
@@ -42,7 +42,7 @@ typename Space::vector all(typename Space::scalar value) {
   return v;
 }
 
-/// Constraints that nobody can press against.
+/// Constraints that a model must refuse.
 template <class Constraint>
 std::vector<Constraint> bad_constraints() {
   using space = typename Constraint::space_type;
@@ -74,7 +74,7 @@ std::vector<Constraint> bad_constraints() {
 
 class any_model {
  public:
-  /// A result in double, which a float goes into and comes out of unchanged.
+  /// A result in double, which holds every float exactly.
   struct reading {
     std::array<double, 3> force{};
     double depth, energy;
@@ -99,7 +99,7 @@ class any_model {
   /// A tick of dt [s] that ends `depth` [m] inside the good constraint, or with every coordinate `x`.
   reading press(double depth, double dt = 1e-3) { return model_->press(depth, dt); }
   reading go_to(double x, double dt = 1e-3) { return model_->go_to(x, dt); }
-  /// The good constraint, of any stiffness, and the bad ones.
+  /// Gives the good constraint, with a stiffness [N/m], or one of the bad constraints.
   bool update(double stiffness = 500) { return model_->update(stiffness); }
   bool update_badly(std::size_t which) { return model_->update_badly(which); }
   [[nodiscard]] std::size_t bad_ones() const { return model_->bad_ones(); }
@@ -134,7 +134,7 @@ class any_model {
     [[nodiscard]] std::unique_ptr<interface> copy() const override {
       return std::make_unique<of>(*this);
     }
-    // One door to the tick, not inlined: it is large.
+    // The only call of the tick, which is large and therefore not inlined.
     [[gnu::noinline]] reading tick(const vector& x, scalar dt) {
       return read(model.tick(x, ph::seconds{dt}));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Bad input for any model: force zero or the last good constraint, an event, and a ledger that never
-// gains credit.
+// Bad input for any model. The answer must be force zero or the last good constraint, and an event, and the
+// ledger must never gain credit.
 #include "support/any_model.hpp"
 #include "support/catch.hpp"
 
@@ -17,7 +17,7 @@ inline void samples(any_model fresh) {
   const double infinity = std::numeric_limits<double>::infinity();
   struct bad {
     const char* name;
-    double x, dt;  ///< no x: a place that is good
+    double x, dt;  ///< x = `good` stands for a good place
   };
   const double T = 0.001, here = 0.0012, good = 0.5;
   const std::vector<bad> all{{"NaN position", nan, T},
@@ -44,7 +44,7 @@ inline void samples(any_model fresh) {
     CHECK_FALSE(out.pushes());
     CHECK(out.energy <= before);
     double credit = model.energy();
-    for (int n = 0; n < 5; ++n) {  // and again, with no way to earn
+    for (int n = 0; n < 5; ++n) {  // repeated, without a motion that could earn credit
       CHECK_FALSE(tick().pushes());
       CHECK(model.energy() <= credit);
       credit = model.energy();
@@ -58,7 +58,7 @@ inline void samples(any_model fresh) {
 
 /// An unusable target is refused with an event, and the last good one stays.
 inline void targets(any_model model) {
-  for (std::size_t i = 0; i < model.bad_ones(); ++i) {  // before there was a good one
+  for (std::size_t i = 0; i < model.bad_ones(); ++i) {  // before the first good target
     CHECK_FALSE(model.update_badly(i));
     const auto out = model.press(0.001);
     CHECK_FALSE(out.pushes());
@@ -77,13 +77,13 @@ inline void targets(any_model model) {
   }
 }
 
-/// A force beyond all numbers is no force.
+/// A force that would overflow becomes zero.
 inline void stiffness(any_model model) {
   REQUIRE(model.update(model.largest()));
   for (int n = 0; n < 50; ++n) CHECK(model.press(n % 2 == 0 ? 0.5 : 0.45).is_finite());
 }
 
-/// Bad parameters are named, and tick with force zero.
+/// check() names a bad parameter, and a model with one ticks with force zero.
 inline void parameters(any_model model, const char* parameter) {
   const auto fault = model.check();
   REQUIRE(fault);
@@ -105,7 +105,7 @@ any_model over(const auto& law, const auto& bound, const Limits& limits = thesis
                                    normals, law, ledger, bound, limits});
 }
 
-/// One part of a model after the other is given what it refuses.
+/// Gives each part of a model a parameter that it refuses.
 template <class Space>
 void all_parameters() {
   using plane = ph::half_space<Space>;
@@ -134,7 +134,7 @@ void all_parameters() {
   CHECK_FALSE(over<plane>(spring, strict).check());
 }
 
-/// The very first sample, and the force that a device reports.
+/// Tries bad input in the first sample, and in the force that a device reports.
 template <class Space>
 void first_samples() {
   using scalar = typename Space::scalar;

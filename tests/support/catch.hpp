@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// One door to Catch2: v3 splits its headers, v2 (Debian 12) has one. Tests use only what both have:
-// matchers, TEMPLATE_TEST_CASE and GENERATE.
+// Includes Catch2 in either version: v3 has several headers, v2 (Debian 12) has one. Tests use only what both
+// have: matchers, TEMPLATE_TEST_CASE and GENERATE.
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 #else

@@ -33,7 +33,7 @@ ph::patch<S, M> saddle() {
   return p;
 }
 
-/// Hands every kind of surface to `try_out`.
+/// Calls `try_out` with a surface of every kind.
 template <class S>
 void every_surface(const auto& try_out) {
   const auto at = [](double x, double y, double z) {

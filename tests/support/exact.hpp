@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Does a rounded force keep its promise in exact arithmetic? Products of floats are exact in
-// double, and where they are not, or for doubles, the lost part is added back (two-product by fma),
-// so nothing here rounds in a way that could hide an overdraft.
+// Checks in exact arithmetic whether a rounded force keeps its promise. Products of floats are exact in double;
+// where they are not, and for doubles, the lost part is added back (two-product by fma). So no rounding here can
+// hide an overdraft.
 
 #include <passive_haptics/laws.hpp>
 
@@ -14,7 +14,7 @@
 
 namespace exact {
 
-/// A product without error, high + low, as long as low is a normal number.
+/// A product without error, high + low, if low is a normal number.
 struct product {
   double high, low;
   product(double a, double b) noexcept : high(a * b), low(std::fma(a, b, -high)) {}
@@ -24,14 +24,14 @@ struct product {
   return a.high < b.high || (a.high == b.high && a.low <= b.low);
 }
 
-/// f² ≤ 4 B E1.
+/// True if f² ≤ 4 B E1.
 template <class Scalar>
 [[nodiscard]] bool covered(Scalar f, Scalar E1, Scalar B) noexcept {
   const auto wide = [](Scalar x) { return static_cast<double>(x); };
   return at_most({wide(f), wide(f)}, {4.0 * wide(B), wide(E1)});
 }
 
-/// T f² ≤ 4 b E1, floats.
+/// True if T f² ≤ 4 b E1, in floats.
 [[nodiscard]] inline bool covered(float f, float E1, float b, float T) noexcept {
   const auto wide = [](float x) { return static_cast<double>(x); };
   const double credit = 4.0 * wide(b) * wide(E1);  // 48 bits
@@ -39,8 +39,8 @@ template <class Scalar>
   return cost.high < credit || (cost.high == credit && cost.low <= 0.0);
 }
 
-/// F s − B s² ≤ E1 for every 0 ≤ s ≤ δ, computed in `wide` with every rounding against the force:
-/// true only if it is so.
+/// True only if F s − B s² ≤ E1 for every 0 ≤ s ≤ δ. It is computed in `Wide` with every rounding against the
+/// force.
 template <class Wide, class Scalar>
 [[nodiscard]] bool reach_covered(Scalar F, Scalar E1, Wide B, Scalar reach) noexcept {
   const Wide margin = Wide(8) * std::numeric_limits<Wide>::epsilon();

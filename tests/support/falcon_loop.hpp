@@ -10,7 +10,7 @@
 namespace falcon = passive_haptics::falcon;
 namespace sim = passive_haptics::simulation;
 
-/// One count on every leg, at its worst in the workspace, along one axis [m].
+/// The largest motion along one axis [m] for one count of every leg, anywhere in the workspace.
 inline constexpr double falcon_quantum = 1.03e-4;
 
 using mock_parameters = falcon::mock_parameters<sim::device_parameters<d3>>;
@@ -21,7 +21,7 @@ using falcon_cable = falcon::in_memory_transport<mock_falcon<Hand>>;
 template <class Hand>
 using falcon_device = falcon::device<falcon_cable<Hand>, d3>;
 
-/// Opened, with a program, homed, forces at full strength; false: it did not work.
+/// Opens, starts and homes the device and waits until forces have full strength; returns false if that failed.
 template <class Hand>
 bool make_ready(falcon_device<Hand>& device) {
   if (!device.open() || !device.start()) return false;
@@ -32,7 +32,7 @@ bool make_ready(falcon_device<Hand>& device) {
   return device.where() == falcon::state::homed && device.latest().strength == 1.0;
 }
 
-/// The body of the mock Falcon: where it truly is, what its motors did.
+/// The body of the mock Falcon, with its true position and the work of its motors.
 template <class Hand>
 const auto& body_of(const falcon_device<Hand>& device) {
   return device.line().peer().mechanism().body();

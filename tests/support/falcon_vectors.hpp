@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The test vectors of the Falcon in tests/data/. The exact_ columns were computed apart, in another
-// language; the other_ columns are what another driver answers, bugs included.
+// The test vectors of the Falcon in tests/data/. The exact_ columns were computed independently, in another
+// language; the other_ columns are the answers of another driver, with its bugs.
 #include "support/catch.hpp"
 #include <passive_haptics/falcon/force.hpp>
 
@@ -23,7 +23,7 @@ struct falcon_vector {
   std::array<int, 3> other_words{};                   ///< of the other driver
 };
 
-/// A table: its lines from the one with the names on, as names and cells.
+/// Reads a table: each line after the line of names, as names and cells.
 inline std::vector<std::map<std::string, std::string>> read_table(const std::string& path) {
   std::ifstream file(path);
   std::vector<std::map<std::string, std::string>> rows;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A simulated arm of three joints, yaw, shoulder and elbow, as a Touch has: its motors hold torques in the
-// joints, and a hand that nothing can stop turns them.
+// A simulated arm of three joints, yaw, shoulder and elbow, like a Touch. Its motors hold torques in the joints,
+// and a hand that is a velocity source turns them.
 //
-// Between two samples the joints move evenly, so the meter is exact: E += b_q|Δq|²/T − τ·Δq.
+// Between two samples the joints turn at constant speed, so the meter is exact: E += b_q|Δq|²/T − τ·Δq [J].
 
 #include <passive_haptics/device/eigen_space.hpp>
 
@@ -24,13 +24,13 @@ class joint_arm {
                      const vector& start = vector(0.0, 0.9, -0.5)) noexcept
       : p_(parameters), q_(start) {}
 
-  /// Of the tip [m]. Shoulder and elbow are both told from the horizontal.
+  /// The position of the tip [m]. The angles of shoulder and elbow are both from the horizontal.
   [[nodiscard]] vector tip() const noexcept {
     const double out = reach();
     return {out * std::cos(q_(0)), out * std::sin(q_(0)),
             p_.upper * std::sin(q_(1)) + p_.fore * std::sin(q_(2))};
   }
-  /// J: how the tip moves with the joints [m/rad].
+  /// J = ∂tip/∂q [m/rad].
   [[nodiscard]] matrix jacobian() const noexcept {
     const double c = std::cos(q_(0)), s = std::sin(q_(0)), out = reach();
     const double up1 = p_.upper * std::sin(q_(1)), up2 = p_.fore * std::sin(q_(2));

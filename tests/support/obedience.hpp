@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Policies under the laws of their role (passive_haptics/laws.hpp), a line each.
+// Tries policies under the laws of their role (passive_haptics/laws.hpp).
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/laws.hpp>
@@ -9,7 +9,7 @@
 
 namespace laws = ph::laws;
 
-/// Which role is a policy tried in? One that models none breaks no law.
+/// The role in which a policy is tried. A policy that models no role breaks no law.
 enum class role { damping, inertia, observer, bound, normals, contact_law, constraint, surface };
 
 template <role Role, class Policy, class Port>
@@ -25,7 +25,7 @@ constexpr bool models() {
   if constexpr (Role == surface) return ph::surface_for<Policy, Port>;
 }
 
-/// The law that a policy breaks, "none" if it obeys them all.
+/// The law that a policy breaks, or "none" if it obeys all.
 template <role Role, class Port, class Policy>
 constexpr const char* broken_by(const Policy& policy) {
   static_assert(models<Role, Policy, Port>());
@@ -43,7 +43,7 @@ void obey(const auto&... policies) {
   (check(broken_by<Role, Port>(policies)), ...);
 }
 
-/// Different numbers for every axis.
+/// A damping with another number for every axis.
 template <class Port, int N = Port::dof>
 constexpr ph::diagonal_damping<N> every_axis() {
   ph::diagonal_damping<N> d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One experiment of the identification by itself, on a simulated device whose truth is known.
+// Runs one experiment of the identification alone, on a simulated device whose true numbers are known.
 #pragma once
 
 #include <passive_haptics/identification/axis_record.hpp>
@@ -18,7 +18,7 @@ inline const sim::device_parameters<d1> grip{
     .mass = 0.1, .damping = 0.3, .quantum = 10e-6, .load = 0.2, .latency = 1};
 inline const sim::slider_and_spring rubs{.level = {0.2}, .presliding = {15e-6}};
 
-/// What a swing would have found of `grip`.
+/// The true numbers of `grip`, as a swing would find them.
 inline identification::motion_found motion_of_grip() {
   const auto known = [](double value) { return identification::estimate{value, 0.01 * value}; };
   return {.mass = known(0.1),
@@ -30,8 +30,7 @@ inline identification::motion_found motion_of_grip() {
           .windows = 1000};
 }
 
-/// Ticks `it`, something like an experiment, until that is done or so many ticks [ms] are over. Returns the
-/// largest force.
+/// Ticks the experiment `it` until done() or for `ticks` ticks of 1 ms. Returns the largest force [N].
 double run(auto& device, identification::axis_record& seen, auto& it, auto done, int ticks) {
   double force = 0.0, largest = 0.0;
   for (int n = 0; n < ticks && !done(); ++n) {

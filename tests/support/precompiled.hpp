@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every core test includes, compiled once.
+// The headers that every core test includes, to be compiled once.
 #include "catch.hpp"
 #include <passive_haptics/laws.hpp>
 #include <passive_haptics/passive_haptics.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The spaces that the tests run in, short ways to compose, and a port in one tick for asking a bound
-// or a shaper by itself.
+// The spaces of the tests, short ways to compose a model, and the state of a port in one tick, for tests of a
+// bound or a shaper alone.
 #include <passive_haptics/passive_haptics.hpp>
 
 #include <chrono>
@@ -23,14 +23,14 @@ template <class Space = d1>
 constexpr ph::reduced_energy thesis_ledger() {
   return {.damping = 0.03};
 }
-/// Its loop, whose driver drops a force after a tick; nothing that a test does is too fast or too far
-/// away to be believed.
+/// The loop of that device, whose driver drops a force after a tick. Its guard refuses no speed and no distance
+/// of a test.
 inline constexpr ph::loop_limits thesis_loop{.longest_tick = 1e-3,
                                              .top_speed = 100.0,
                                              .workspace = ph::loop_limits::never,
                                              .watchdog = 1e-3};
 
-/// A model of a surface that the environment moves, everything else as given.
+/// A model of a surface that the environment moves, composed of the given parts.
 template <class Space, class Law, class Observer, class Bound, class Limits = ph::loop_limits>
 constexpr auto following_half_space(const Law& law, const Observer& observer, const Bound& bound,
                                     const Limits& limits = thesis_loop) {
@@ -45,14 +45,14 @@ constexpr ph::half_space<Space> wall(typename Space::scalar stiffness) {
   return {typename Space::scalar(0), typename Space::scalar(-1), stiffness};
 }
 
-/// What computes at a port.
+/// The part of a policy that computes at a port.
 template <class Port, class Part>
 constexpr ph::part_at<Part, Port> at(const Part& part) {
   return ph::part_at<Part, Port>(part);
 }
 
-/// A port in one tick, with all that its port_state refers to. Unless told otherwise it is the
-/// thesis's, quiet and with an empty ledger.
+/// A port in one tick, with all that its port_state refers to. By default it is the device of the thesis, at rest
+/// and with an empty ledger.
 template <class Port, class Damping = ph::isotropic_damping, int Latency = 0, bool Exact = true>
 struct situation {
   using damping_type = ph::part_at<Damping, Port>;
@@ -83,13 +83,13 @@ struct situation {
   }
 };
 
-/// What a bound leaves of an effort.
+/// The effort that a bound leaves.
 template <class Bound, class Port, class Damping, int Latency, bool Exact>
 constexpr typename Port::effort allowed(Bound& bound, const typename Port::effort& desired,
                                         const situation<Port, Damping, Latency, Exact>& now) {
   return ph::detail::applied<Port>(bound, desired, now.port()).force;
 }
-/// And what a shaper makes of it.
+/// The effort that a shaper makes of a desired one.
 template <class Shaper, class Space, class Damping, int Latency, bool Exact>
 constexpr typename Space::vector allowed(Shaper& shaper, const typename Space::vector& desired,
                                          const ph::contact_state<Space>& contact,

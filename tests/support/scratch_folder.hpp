@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Where a test writes its files. Tests run beside each other, so no two share a folder.
+// A folder for the files of a test. Tests run at the same time, so each has a folder of its own.
 
 #include <filesystem>
 #include <random>
 #include <string>
 
-/// A new empty folder, gone with the object.
+/// A new empty folder, which is removed with the object.
 class scratch_folder {
  public:
   scratch_folder() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Fault injection: a device whose samples go wrong at chosen ticks. The device behind moves on
-// truthfully, so its meter says what a fault really cost.
+// Fault injection: a device whose samples are wrong at chosen ticks. The true device behind it moves on, so its
+// meter shows the true cost of a fault.
 
 #include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/simulation/components.hpp>
@@ -23,7 +23,7 @@ enum class sample_fault : std::uint8_t {
 };
 
 struct scripted_fault {
-  std::int64_t tick = -1;  ///< counted from 0; −1 is never
+  std::int64_t tick = -1;  ///< counted from 0; −1: never
   sample_fault kind = sample_fault::no_answer;
   double jump = 0.1;  ///< [m]
 };
@@ -48,7 +48,7 @@ class scripted_device {
     return sample;
   }
 
-  /// The truth, which no fault changes.
+  /// The true position [m], which no fault changes.
   [[nodiscard]] const auto& position() const noexcept { return device_.position(); }
   [[nodiscard]] double time() const noexcept { return device_.time(); }
   [[nodiscard]] const auto& meter() const noexcept { return device_.meter(); }

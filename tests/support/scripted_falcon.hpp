@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The far side of a Falcon's cable with every fault a test may want: monitor, C28x loader, program.
-// Independent of the library's own mock. It holds the last motor words it was sent, for ever: that
-// is the worst a device without a watchdog can do.
+// The far side of a Falcon's cable (monitor, C28x loader, program) with every fault that a test needs. It is
+// independent of the library's own mock. It holds the last motor words that it was sent for ever, which is the
+// worst behaviour of a device without a watchdog.
 #include <passive_haptics/falcon/boot.hpp>
 #include <passive_haptics/falcon/in_memory_transport.hpp>
 
@@ -13,7 +13,7 @@
 
 namespace falcon = passive_haptics::falcon;
 
-/// A well-formed boot stream of nothing: no third party's bytes in it.
+/// A well-formed boot stream without any third party's bytes.
 inline std::vector<falcon::byte> synthetic_image(unsigned words = 600) {
   std::vector<falcon::byte> image;
   const auto put = [&image](unsigned word) {

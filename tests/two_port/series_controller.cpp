@@ -24,8 +24,8 @@ struct published_master : bare_master<Space> {
     this->position = sample.position;
     const vector_of<Space> moved = seen ? vector_of<Space>(now - last) : Space::zero();
     seen = true;
-    return {controller.force(this->desired, moved, ph::seconds{sample.dt}), 0, ph::event::nominal,
-            false};
+    return {controller.force({.desired = this->desired, .displacement = moved, .dt = sample.dt}), 0,
+            ph::event::nominal, false};
   }
   packet_of<Space> packet() { return {controller.in(), ++this->number, this->position}; }
 };
@@ -37,15 +37,19 @@ TEST_CASE("two_port_series_controller repays the excess of the sample in the sam
   ph::two_port_series_controller<d1> controller;
   controller.receive(1e-3);
   // 2 N along 1 mm: 2 mJ out, 1 mJ received. α = 1e-3/(1e-3 · 1²) = 1 N·s/m.
-  CHECK_THAT(controller.force(2.0, 1e-3, 1ms), WithinAbs(1.0, 1e-12));
+  CHECK_THAT(controller.force({.desired = 2.0, .displacement = 1e-3, .dt = 1e-3}),
+             WithinAbs(1.0, 1e-12));
   CHECK_THAT(controller.out(), WithinAbs(1e-3, 1e-15));
-  CHECK(controller.force(2.0, -1e-3, 1ms) == 2.0);
+  CHECK(controller.force({.desired = 2.0, .displacement = -1e-3, .dt = 1e-3}) == 2.0);
   CHECK_THAT(controller.in(), WithinAbs(2e-3, 1e-15));
-  CHECK(controller.force(2.0, 5e-7, 1ms) == 2.0);  // too slow: carried on
+  CHECK(controller.force({.desired = 2.0, .displacement = 5e-7, .dt = 1e-3}) ==
+        2.0);  // too slow: carried on
   CHECK_FALSE(controller.set({.max_gain = 0.25}));
-  CHECK_THAT(controller.force(2.0, 1e-3, 1ms), WithinAbs(1.75, 1e-12));
+  CHECK_THAT(controller.force({.desired = 2.0, .displacement = 1e-3, .dt = 1e-3}),
+             WithinAbs(1.75, 1e-12));
   CHECK(controller.set({.max_gain = -1.0}));  // and stays as it was
-  CHECK_THAT(controller.force(2.0, 1e-3, 1ms), WithinAbs(1.75, 1e-12));
+  CHECK_THAT(controller.force({.desired = 2.0, .displacement = 1e-3, .dt = 1e-3}),
+             WithinAbs(1.75, 1e-12));
 }
 
 TEST_CASE("the published same-sample series form loses on a stiff wall, impedance_side does not",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What stands at the ends of a two-port in its tests: environments that lie, and sides that control
-// nothing.
+// The ends of a two-port in its tests: environments that lie, and sides that control nothing.
 #include "support/scenes.hpp"
 #include <passive_haptics/simulation/schedule.hpp>
 #include <passive_haptics/two_port.hpp>
@@ -109,7 +108,7 @@ struct bare_remote {
   packet_of<Space> packet(const vector_of<Space>& force) { return {0, ++number, force}; }
 };
 
-/// The device's end as it is meant to be, by its observer.
+/// The right end of the device, by its observer.
 template <class Space = d1, class Bound = ph::strict_bound, class Limits = ph::loop_limits>
 constexpr auto side_of(const ph::two_port_energy& observer, const Bound& bound = {},
                        const Limits& limits = thesis_loop) {

@@ -8,7 +8,7 @@
 //
 //     chai3d::cGenericHapticDevicePtr falcon;
 //     handler->getDevice(falcon, 0);
-//     auto device = ph::adapters::make_passive_device(falcon, ph::make_force_guard<scene>(facts, 0.002));
+//     auto device = ph::adapters::make_passive_device(falcon, ph::make_guard<scene>(facts, hand));
 //     tool->setHapticDevice(device);                      // instead of falcon; all else as it was
 //
 // The port counts what the device itself says, not what the tool makes of it: a workspace that is scaled by 5

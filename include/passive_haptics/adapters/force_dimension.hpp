@@ -5,7 +5,7 @@
 //
 //     ph::adapters::force_dimension<scene> omega;
 //     if (const auto fault = omega.open()) return complain(fault);
-//     auto touch = ph::make_touch<scene>({omega.least_mass(), 0.05, 5.0, 12.0}, 0.0005);
+//     auto touch = ph::make_touch<scene>({.mass = omega.least_mass(), .damping = 0.05, .force_limit = 12.0, .longest_tick = 0.0005}, {.force = 5.0});
 //     for (auto sample = omega.exchange(scene::zero()); …;) {
 //       sample = omega.exchange(touch.tick(sample).force);                 // the call paces the loop
 //     }

@@ -6,7 +6,7 @@
 //
 //     using plane = ph::half_space<scene>;
 //     ph::exchange<plane> inbox;                                        // your thread publishes
-//     ph::adapters::open_haptics touch{ph::make_touch<scene>({0.045, 0.05, 5.0, 3.3}, 0.002),
+//     ph::adapters::open_haptics touch{ph::make_touch<scene>({.mass = 0.045, .damping = 0.05, .force_limit = 3.3, .longest_tick = 0.002}, {.force = 5.0}),
 //                                      [&](auto& wall, const auto&) {
 //                                        if (const auto* p = inbox.take()) wall.update(*p);
 //                                      }};
@@ -14,7 +14,7 @@
 //     if (const auto fault = touch.start()) return complain(fault);
 //     hdStartScheduler();                                               // yours: once, for all devices
 //
-// Whoever has a force already, from HLAPI's or their own renderer, has a make_force_guard, and a feed
+// Whoever has a force already, from HLAPI's or their own renderer, has a make_guard, and a feed
 // that returns that force:  [&](auto& port, const auto& x) { return renderer.force(x); }.
 //
 // Each device has its own object: its frame makes it the current one. The driver is asked for the time of a

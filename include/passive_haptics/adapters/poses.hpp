@@ -2,8 +2,8 @@
 #pragma once
 // What adapters share: a pose and facts out of what an SDK gives, a length in metres.
 
-#include <passive_haptics/design/device_facts.hpp>
 #include <passive_haptics/device/rotation.hpp>
+#include <passive_haptics/identification/device_facts.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
 #include <Eigen/Geometry>

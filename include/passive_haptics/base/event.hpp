@@ -22,6 +22,9 @@ enum class event : std::uint8_t {
   outside_workspace,  ///< beyond loop_limits::workspace, as of millimetres for metres: force zero
   rejected_sample,  ///< NaN, infinity, dt ≤ 0, an impossible jump: force zero, its worst forfeited
   rejected_parameters,  ///< check() names the fault: force zero until set() mends it
+  outside_force,   ///< it moves as what was stated of mass and hand cannot move it: strict bound
+  untold_latency,  ///< it holds a force later, or sooner, than was stated: force zero until reset()
+  wrong_sign,      ///< it does the opposite of what it is told: force zero until reset()
 };
 
 /// The text of an event, for logs.
@@ -47,6 +50,12 @@ enum class event : std::uint8_t {
       return "rejected sample";
     case event::rejected_parameters:
       return "rejected parameters";
+    case event::outside_force:
+      return "outside force";
+    case event::untold_latency:
+      return "untold latency";
+    case event::wrong_sign:
+      return "wrong sign";
   }
   return "unknown event";
 }

@@ -11,6 +11,7 @@
 //   2(a′)  reachable_force_bound     largest force whose work over that reach the ledger covers
 //   2(a′)  reachable_outflow         most energy a force can hand over within that reach
 //   2(a′)  reachable_share, reachable_work             the same two in joules, for any port
+//   2(a″)  longest_path, unseen_arc                    how far a device can have gone, and turned aside, unseen
 //   C      coning, coning_share      work that the end poses of a turn do not show, and the torque limit for it
 //   § 9    sampled_stiffness, sampled_damping          what a sampled mass can take
 //   -      spendable, sure_gain, sum_rounded_down     rounding lowers the force and never breaks the promise
@@ -267,6 +268,23 @@ template <real S>
 [[nodiscard]] constexpr S unseen_turn(S theta, S alpha, S dt) noexcept {
   const S gained = alpha * dt * dt;
   return (theta + gained) * gained / S(12);
+}
+/// The longest path [m] of a time t [s] that nobody saw, after a tick of T₀ whose mean speed was v [m/s]:
+///     t (v + A (T₀ + t)/2),   A = a + r V,   V = (v + a (T₀/2 + t))/(1 − r (T₀/2 + t))
+/// a [m/s²] is the most that all but the damper accelerate, r = b/m [1/s] of the damper at most; any path where
+/// that would brake within it. (§ 2(a″))
+template <real S>
+[[nodiscard]] constexpr S longest_path(S v, S a, S r, S T0, S t) noexcept {
+  const S since = T0 / S(2) + t;
+  if (!(r * since <= S(0.5))) return largest<S>();
+  const S fastest = (v + a * since) / (S(1) - r * since);
+  return t * (v + (a + r * fastest) * (T0 + t) / S(2)) * (S(1) + rounding<S>());
+}
+/// |Ω − θ| [rad], at most, of a path of length L [rad] from one orientation to another: L²/4 + L³/29, and L + π
+/// where L > π. (§ 2(a″))
+template <real S>
+[[nodiscard]] constexpr S unseen_arc(S L) noexcept {
+  return L <= S(3.125) ? L * L * (S(0.25) + L / S(29)) : L + S(3.1875);
 }
 /// By how much the work that an effort of this norm can do grows from one tick to the next [J]: `before` and
 /// `last` are the norms of what is held in the two, each of length T, and `pushed` is that of all else that

@@ -99,6 +99,9 @@ class contact_engine {
     spring_.adopt(T, late);
     slots_.for_each([&](auto& slot, std::size_t) { slot.adopt(spring_); });
   }
+  /// Does a surface of K [N/m] come to rest? Of planes at rest, one stiffness, a bound that does not cut: Theorem 3
+  /// of docs/design/mathematics.md § 9. The stiffness that is shown is what the sampling leaves of K.
+  [[nodiscard]] constexpr bool settles(scalar K) const noexcept { return spring_.settles(K); }
   constexpr void reset() noexcept {
     slots_.for_each([](auto& slot, std::size_t) { slot.reset(); });
     let_go();
@@ -120,6 +123,27 @@ class contact_engine {
   template <class Surface = first_kind>
   [[nodiscard]] constexpr const auto& slot(int i) const noexcept {
     return slots_.template slot<Surface>(i);
+  }
+
+  /// How stiff the contact that presses most is shown, or the first that is there; the device is a point at x.
+  constexpr void explain(explanation& e, const vector& x, scalar /*T*/, int /*late*/) const noexcept
+      requires(frame::naps) {
+    scalar most(-1);
+    e.stiffness = softened_by::no_surface;
+    slots_.for_each([&](const auto& slot, std::size_t) {
+      if (!slot.taken() || !(slot.pressed() > most)) return;
+      most = slot.pressed();
+      const auto& surface = slot.target();
+      e = {.asked = static_cast<double>(surface.stiffness),
+           .shown = static_cast<double>(surface.stiffness)};
+      e.soften(static_cast<double>(spring_.sampled(surface.stiffness).stiffness),
+               softened_by::mass_and_tick);
+      const auto here = surface.at(x);
+      if (!(here.depth > scalar(0)) || !here.covered()) return;
+      e.depth = static_cast<double>(here.depth);
+      if (!(slot.lag() == scalar(0))) e.now = softened_by::news;
+      if (slot.stale()) e.now = softened_by::silence;
+    });
   }
 
   struct request {

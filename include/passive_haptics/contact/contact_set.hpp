@@ -154,7 +154,7 @@ class contact_set<Friction, Slots...>::on
 
   /// The world's newest surface in slot i, counted among those of its kind. False: there is no such slot or
   /// the surface is unusable; the last good one stays, and the next tick says so too.
-  template <class Surface>
+  template <class Surface = typename engine::first_kind>
   constexpr bool update(int i, const Surface& next) noexcept {
     return this->put(i, {}, next);
   }

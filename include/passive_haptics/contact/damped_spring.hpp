@@ -52,6 +52,7 @@ class damped_spring::on {
     stiffness_ = rule_.stiffness(K, scalar(0), T, late);
     damping_ = rule_.damping(stiffness_, T, detail::late_limits<scalar>(late, scalar(6)));
   }
+  static constexpr softened_by softener = softened_by::mass_and_tick;
   [[nodiscard]] constexpr scalar stiffness() const noexcept { return stiffness_; }  ///< K_s [N/m]
   [[nodiscard]] constexpr scalar damping() const noexcept { return damping_; }  ///< D_s [N·s/m]
 

@@ -62,6 +62,9 @@ class given_force::on {
   /// Nothing is wanted any more: the effort fades, as one that is stale does, and ends.
   constexpr void release() noexcept { news_.release(); }
 
+  /// The last good one, however old.
+  [[nodiscard]] constexpr effort newest() const noexcept { return newest_; }
+
   struct request {
     effort wanted;
     bool nothing = false;  ///< there is always something to ask

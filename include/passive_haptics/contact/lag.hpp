@@ -5,7 +5,8 @@
 //
 //     own depth = d − ℓ + p
 //     news       own depth stays as it is, so the lag ℓ takes up the jump, and p = 0
-//     each tick  |ℓ| falls by ρ dt,   ρ = 2|ℓ₀|/P, within [R_least, R_most]/K
+//     each tick  |ℓ| falls by ρ dt,   ρ = 3|ℓ₀|/P, within [R_least, R_most]/K; and, if that takes no longer than
+//                0.8 s, so that ρ and u together are no faster than max(R_usual/K, 4/3 |u|)
 //                p grows by u dt for the time P, but not longer than `ahead`; where no news have come for twice
 //                as long, the surface may have stopped, and p is made up for as ℓ is
 //
@@ -21,17 +22,21 @@ inline namespace v0 {
 
 /// How fast what is felt catches up with news of a surface that is pressed.
 struct news_pace {
-  double least_force_rate = 5.0;  ///< R_least, of what is made up for [N/s]
-  double most_force_rate = 50.0;  ///< R_most [N/s]
-  double longest_interval = 0.3;  ///< what counts as a time between news, at most [s]
-  double ahead = 0.05;            ///< for which u is believed after the last news, at most [s]
+  double least_force_rate = 5.0;   ///< R_least, of what is made up for [N/s]
+  double usual_force_rate = 19.5;  ///< R_usual: 0.0195 N a tick are not felt [N/s]
+  double most_force_rate = 50.0;   ///< R_most [N/s]
+  double longest_interval = 0.3;   ///< what counts as a time between news, at most [s]
+  double ahead = 0.08;             ///< for which u is believed after the last news, at most [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(least_force_rate)) {
       return {"least_force_rate", least_force_rate, "finite and > 0 N/s"};
     }
-    if (!(most_force_rate >= least_force_rate)) {
-      return {"most_force_rate", most_force_rate, "≥ least_force_rate"};
+    if (!(usual_force_rate >= least_force_rate)) {
+      return {"usual_force_rate", usual_force_rate, "≥ least_force_rate"};
+    }
+    if (!(most_force_rate >= usual_force_rate)) {
+      return {"most_force_rate", most_force_rate, "≥ usual_force_rate"};
     }
     if (!detail::positive(longest_interval)) {
       return {"longest_interval", longest_interval, "finite and > 0 s"};
@@ -48,20 +53,27 @@ class news_pace::at {
  public:
   constexpr explicit at(const news_pace& p) noexcept
       : least_(detail::number<Scalar>(p.least_force_rate)),
+        usual_(detail::number<Scalar>(p.usual_force_rate)),
         most_(detail::number<Scalar>(p.most_force_rate)),
         longest_(detail::number<Scalar>(p.longest_interval)),
         ahead_(detail::number<Scalar>(p.ahead)) {}
   [[nodiscard]] constexpr news_pace parameters() const noexcept {
     return {.least_force_rate = static_cast<double>(least_),
+            .usual_force_rate = static_cast<double>(usual_),
             .most_force_rate = static_cast<double>(most_),
             .longest_interval = static_cast<double>(longest_),
             .ahead = static_cast<double>(ahead_)};
   }
 
-  /// ρ for a lag [m], the time between news [s] and 1/K [m/N].
-  [[nodiscard]] constexpr Scalar speed_for(Scalar lag, Scalar interval,
+  /// ρ for a lag [m], the time between news [s], u [m/s] and 1/K [m/N].
+  [[nodiscard]] constexpr Scalar speed_for(Scalar lag, Scalar interval, Scalar u,
                                            Scalar compliance) const noexcept {
-    const Scalar wanted = Scalar(2) * kernels::magnitude(lag) / interval;
+    const Scalar size = kernels::magnitude(lag), same_way = lag < Scalar(0) ? -u : u;
+    const Scalar its_own = kernels::magnitude(u) * Scalar(4) / Scalar(3);
+    const Scalar calm =
+        kernels::larger(usual_ * compliance, its_own) - kernels::larger(same_way, Scalar(0));
+    const Scalar wanted =
+        kernels::smaller(Scalar(3) * size / interval, kernels::larger(calm, size / Scalar(0.8)));
     return kernels::smaller(kernels::larger(wanted, least_ * compliance), most_ * compliance);
   }
   [[nodiscard]] constexpr Scalar most() const noexcept { return most_; }        ///< R_most [N/s]
@@ -69,7 +81,7 @@ class news_pace::at {
   [[nodiscard]] constexpr Scalar ahead() const noexcept { return ahead_; }      ///< [s]
 
  private:
-  Scalar least_, most_, longest_, ahead_;
+  Scalar least_, usual_, most_, longest_, ahead_;
 };
 
 /// ℓ, p, and what is known of the news.
@@ -116,7 +128,7 @@ class lag {
     behind_ =
         own > Scalar(0) || now > Scalar(0) ? now - kernels::larger(own, Scalar(0)) : Scalar(0);
     if (!kernels::is_finite(behind_ + goes_on_)) behind_ = goes_on_ = last_speed_ = Scalar(0);
-    speed_ = pace.speed_for(behind_, usual_, compliance);
+    speed_ = pace.speed_for(behind_, usual_, goes_on_, compliance);
     ahead_ = kernels::smaller(usual_, pace.ahead());
     settled_ = behind_ == Scalar(0) && goes_on_ == Scalar(0);
   }

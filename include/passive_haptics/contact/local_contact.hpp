@@ -143,6 +143,32 @@ class local_contact {
     }
   }
 
+  /// How stiff the surface is shown to a device at x, in ticks of T [s] whose commands are held `late` ticks
+  /// after they were given.
+  constexpr void explain(explanation& e, const vector& x, scalar T, int late) const noexcept {
+    if constexpr (Supply::moves) {
+      if (!(supply_.weight() > scalar(0))) {
+        e.stiffness = softened_by::no_surface;
+        return;
+      }
+    }
+    e.asked = e.shown = static_cast<double>(supply_.target().stiffness);
+    const law_type law = law_for(T, late);
+    e.soften(1.0 / static_cast<double>(law.depth(scalar(1), scalar(0))), softener(law));
+    const auto here = supply_.target().at(x);
+    if (!(here.depth > scalar(0)) || !here.covered()) return;
+    e.depth = static_cast<double>(here.depth);
+    if (lags()) e.now = softened_by::news;
+    if constexpr (Supply::moves) {
+      if (supply_.weight() < scalar(1)) e.now = softened_by::silence;
+    }
+  }
+
+  /// What is shown of the newest surface's stiffness, likewise [N/m].
+  [[nodiscard]] constexpr scalar shown_stiffness(scalar T, int late) const noexcept {
+    return scalar(1) / law_for(T, late).depth(scalar(1), scalar(0));
+  }
+
   /// Hands over the environment's newest constraint, from the haptic thread. False: it is unusable
   /// and the last good one stays; the next tick says so too.
   template <class Owner = Supply>
@@ -263,6 +289,19 @@ class local_contact {
  private:
   static constexpr bool eases = Supply::moves && detail::eases_news<law_type>;
   struct no_memory {};
+  /// The law as the newest surface has it.
+  [[nodiscard]] constexpr law_type law_for(scalar T, int late) const noexcept {
+    law_type law = law_;
+    detail::tell(law, supply_.target().stiffness, T, late);
+    return law;
+  }
+  [[nodiscard]] static constexpr softened_by softener(const law_type& law) noexcept {
+    if constexpr (requires { law.is_capped(); }) {
+      if (law.is_capped()) return softened_by::encoder_steps;
+    }
+    if constexpr (requires { law_type::softener; }) return law_type::softener;
+    return softened_by::nothing;
+  }
   template <class State>
   [[nodiscard]] static constexpr bool shapers_reduce() noexcept {
     if constexpr (detail::is_shaped<Law, Space>) {

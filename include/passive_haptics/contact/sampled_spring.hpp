@@ -10,7 +10,8 @@
 //
 // Where a command is held k ticks late, κ ≤ min(0.2, 0.9/(k+1))/(k+1)² and D_s ≤ 2.25(k+1) T K_s, or 6(k+1) T K_s
 // of a damper that acts on the way out only, or the contact rings for ever; what falls onto it comes back with
-// 0.85 of its speed at most. settles() says which contacts come to rest: docs/design/mathematics.md § 9.
+// 0.85 of its speed at most; and D_s ≥ 1.5(k+1) T K_s unless ζ or β is 0, because what lags needs that much to
+// come to rest at all. settles() says which contacts do: docs/design/mathematics.md § 9.
 //
 // Several contacts share one coupling, so K_s of each is (1 − ε) κ m/T² at most (proxy.hpp). Source:
 // docs/design/mathematics.md § 9, and docs/design/settling.md for D_F.
@@ -61,17 +62,26 @@ struct sampled_spring {
 
 namespace detail {
 
+/// The same of a contact as it is sampled, on a mass m [kg].
+template <class Scalar>
+[[nodiscard]] constexpr bool comes_to_rest(const sampled_spring<Scalar>& s, Scalar m, Scalar T,
+                                           int late) noexcept {
+  return v0::settles(static_cast<double>(s.stiffness * T * T / m),
+                     static_cast<double>(s.settling / T), late);
+}
+
 /// κ, σ and β = κ σ that a contact may have at most, k > 0 ticks late.
 template <class Scalar>
 struct late_limits {
   Scalar stiffness = kernels::largest<Scalar>(), damping = kernels::largest<Scalar>();
-  Scalar ticks = Scalar(5);
+  Scalar ticks = Scalar(5), least_ticks = Scalar(0);
   /// `each` is σ/(k + 1): 2.25, and 6 of a damper that acts on the way out only.
   constexpr explicit late_limits(int k, Scalar each = Scalar(2.25)) noexcept {
     if (k <= 0) return;
     const Scalar n = Scalar(1 + k);
     stiffness = kernels::smaller(Scalar(0.2), Scalar(0.9) / n) / (n * n);
     ticks = each * n;
+    least_ticks = Scalar(1.5) * n;
     damping = ticks * stiffness;
   }
 };
@@ -172,7 +182,9 @@ class damped_mass : public sampled_mass<Scalar> {
   [[nodiscard]] constexpr Scalar damping(Scalar stiffness, Scalar T,
                                          const late_limits<Scalar>& late) const noexcept {
     const Scalar most = kernels::smaller(most_, late.damping);
-    return kernels::sampled_damping(stiffness, ratio_, most, this->mass(), T);
+    const Scalar damping = kernels::sampled_damping(stiffness, ratio_, most, this->mass(), T);
+    const Scalar least = late.least_ticks * T * stiffness;
+    return damping > Scalar(0) ? kernels::larger(damping, least) : damping;
   }
   /// 2ζ√(K m) [N·s/m], of K m [kg·N/m].
   [[nodiscard]] constexpr Scalar critical(Scalar Km) const noexcept {

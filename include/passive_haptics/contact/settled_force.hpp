@@ -3,7 +3,7 @@
 // Force in, force out, and at rest when the hand is: given_force with the damping that somebody else's
 // renderer does not have.
 //
-//     ph::make_force_guard<scene>({.mass = 0.1, .damping = 0.03, .hand_force = 5, .force_limit = 9}, 0.0011)
+//     ph::make_guard<scene>({.mass = 0.1, .damping = 0.03, .force_limit = 9, .longest_tick = 0.0011}, {.force = 5})
 //
 // Source: ours; docs/design/mathematics.md § 10, measured in docs/design/settling.md.
 
@@ -20,6 +20,10 @@ inline namespace v0 {
 ///     n ← n + (w/|w| − n) dt/(τ + dt), of length 1: facets and detents turn it smoothly
 /// Both parts across n are at most |w| together. At rest f = w, in the air f = 0.
 ///
+/// What is steeper than K_m = most_stiffness(T, 0, l) would ring, so of such a renderer w is s times what is given: K,
+/// its slope −Δw·Δx/|Δx|² along w and across it, is learned over 30 ms of motion, and s = ¾ K_m/K from then on, until
+/// it is less than half as steep. shown() is s. A world that moves pushes Δw with Δx, not against it, and changes no s.
+///
 /// Of a force that the motors cannot hold F is left, and B √(F/|w|), critical for the secant: a device comes out
 /// at a speed that it can be stopped from. In a loop that is k ticks late B is 1/(1 + k) of itself. T is the port's
 /// longest tick. v is what the motion estimator says: on encoders whose steps are felt take a mass_observer.
@@ -33,6 +37,7 @@ struct settled_force {
   double force_limit = std::numeric_limits<double>::infinity();  ///< F, what the motors hold [N]
   double stale_after = 0.1;  ///< age up to which a force counts in full [s]
   double fade = 0.05;        ///< how long it then takes to end [s]
+  bool softens = true;       ///< what is too steep; without, it goes out as it is, and rings
 
   /// The ranges are those in which most_stiffness was found, and, of lead and slide, what was not seen to ring
   /// and is not felt as mud.
@@ -57,6 +62,12 @@ struct settled_force {
                                                 int loop_late = 0) const noexcept {
     const double late = static_cast<double>(renderer_late) + static_cast<double>(loop_late);
     return damping_fraction * mass / ((1.0 + loop_late) * (late + 1.5) * T * T);
+  }
+  /// Does a renderer of K [N/m] settle along n and across it? One that is stiffer is shown softer, if `softens`.
+  [[nodiscard]] constexpr bool settles(double K, double T, int renderer_late = 0,
+                                       int loop_late = 0) const noexcept {
+    return K > 0.0 && K <= most_stiffness(T, renderer_late, loop_late) && loop_late <= 2 &&
+           lead > static_cast<double>(renderer_late) + static_cast<double>(loop_late) + 0.5;
   }
   template <port P>
   class on;
@@ -87,6 +98,8 @@ class settled_force::on : private part_at<given_force, P> {
     slide_ = detail::number<scalar>(p.slide_fraction);
     lead_ = detail::number<scalar>(p.lead);
     turn_time_ = detail::number<scalar>(p.turn_time);
+    softens_ = p.softens;
+    if (!softens_) forget();
     most_ = detail::number<scalar>(p.force_limit);
   }
   [[nodiscard]] constexpr settled_force parameters() const noexcept {
@@ -98,26 +111,105 @@ class settled_force::on : private part_at<given_force, P> {
             .turn_time = static_cast<double>(turn_time_),
             .force_limit = static_cast<double>(most_),
             .stale_after = rule.stale_after,
-            .fade = rule.fade};
+            .fade = rule.fade,
+            .softens = softens_};
   }
-  constexpr void adopt(scalar T, int late) noexcept { per_tick_ = mass_ / (T * scalar(1 + late)); }
+  /// The same in the loop of the port.
+  [[nodiscard]] constexpr bool settles(scalar K, int renderer_late = 0) const noexcept {
+    return parameters().settles(static_cast<double>(K), static_cast<double>(longest_tick_),
+                                renderer_late, late_);
+  }
+  constexpr void adopt(scalar T, int late) noexcept {
+    longest_tick_ = T;
+    late_ = late;
+    per_tick_ = mass_ / (T * scalar(1 + late));
+    const scalar most = fraction_ * per_tick_ / ((scalar(late) + scalar(1.5)) * T);
+    steepest_ = softens_ ? most : kernels::largest<scalar>();
+  }
+  /// most_stiffness: nobody knows how stiff the renderer is.
+  constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
+    e.asked = e.shown = std::numeric_limits<double>::infinity();
+    e.soften(parameters().most_stiffness(static_cast<double>(T), 0, late),
+             softened_by::mass_and_tick);
+  }
   constexpr void reset() noexcept {
     given::reset();
-    last_ = n_ = P::zero();
+    last_ = n_ = given_ = P::zero();
+    forget();
   }
+  /// s: 1, or less of a renderer that is steeper than it settles with.
+  [[nodiscard]] constexpr scalar shown() const noexcept { return shown_; }
 
   template <bool Shortcut>
   [[nodiscard, gnu::always_inline]] constexpr request ask(const auto& motion, const auto& port,
                                                           event& what) noexcept {
+    if (watched_ > 0) [[unlikely]]
+      look(port.travel, port.dt);
     const request asked = given::template ask<Shortcut>(motion, port, what);
-    const scalar share = within(asked.wanted, most_);
+    const effort softly = P::scaled(asked.wanted, shown_);
+    const scalar share = within(softly, most_);
     const scalar secant = share < scalar(1) ? kernels::square_root(share) : scalar(1);
-    const effort w = P::scaled(asked.wanted, share);
+    const effort w = P::scaled(softly, share);
     const effort f = settled(w, velocity(motion), per_tick_ * secant, port.dt);
     return {P::is_finite(f) ? f : w};  // f of an absurd force, or of next to none, is no number
   }
 
  private:
+  /// Σ −Δw Δx and Σ Δx² of the last 30 ms of motion.
+  struct slope {
+    scalar stiff{}, moved{};
+    constexpr void see(scalar work, scalar way, scalar keep) noexcept {
+      stiff = keep * stiff - work;
+      moved = keep * moved + way;
+    }
+    /// Of a force so steep, how much is as steep as `most`; 100 where it is hardly steep.
+    [[nodiscard]] constexpr scalar share(scalar most) const noexcept {
+      const scalar allowed = most * moved;
+      return stiff * scalar(100) > allowed ? allowed / stiff : scalar(100);
+    }
+  };
+  static constexpr int long_enough = 30;  ///< [ticks] of motion that are looked at
+
+  constexpr void forget() noexcept {
+    along_ = across_ = {};
+    shown_ = scalar(1);
+    watched_ = 0;
+    knows_given_ = learns_ = false;
+  }
+  /// Along n the last tick was too steep: it is to be looked at.
+  [[gnu::always_inline]] constexpr void notice(scalar rise, scalar speed, scalar dt) noexcept {
+    if (-rise * speed > steepest_ * dt * speed * speed) [[unlikely]]
+      watched_ = long_enough;
+  }
+  /// One tick was too steep, or one of the last 30 of motion: how steep is the renderer? What moves slower than
+  /// 1 mm/s says nothing of it.
+  [[gnu::cold, gnu::noinline]] constexpr void look(const typename P::stored_effort& travel,
+                                                   scalar dt) noexcept {
+    const effort w = given::newest(), way = travel, change = P::difference(w, given_);
+    given_ = w;
+    const scalar size = P::dot(w, w), moved = P::dot(way, way), slow = scalar(1e-3) * dt;
+    if (!knows_given_) {
+      knows_given_ = true;
+      return;
+    }
+    if (!(size > scalar(0) && moved > slow * slow)) return;
+    const scalar keep = scalar(0.03) / (scalar(0.03) + dt), little = moved * scalar(1e-4);
+    const scalar out = P::dot(w, way), work = P::dot(change, way);
+    const scalar along = out * P::dot(w, change) / size, outwards = out * out / size;
+    along_.see(along, outwards + little, keep);
+    across_.see(work - along, moved - outwards + little, keep);
+    learns_ = learns_ || -work > steepest_ * moved;
+    const scalar s =
+        learns_ ? kernels::smaller(along_.share(steepest_), across_.share(steepest_)) : scalar(1);
+    if (!kernels::is_finite(s)) {
+      along_ = across_ = {};
+    } else if (s < shown_) {
+      shown_ = scalar(0.75) * s;
+    } else if (s > scalar(8) / scalar(3) * shown_) {
+      shown_ = kernels::smaller(shown_ * (scalar(1) + dt), scalar(1));
+    }
+    if (shown_ == scalar(1) && --watched_ == 0) forget();
+  }
   /// f of w at the velocity v; m/T is `per_tick` [N·s/m].
   [[nodiscard, gnu::always_inline]] constexpr effort settled(const effort& w, const effort& v,
                                                              scalar per_tick, scalar dt) noexcept {
@@ -130,6 +222,7 @@ class settled_force::on : private part_at<given_force, P> {
     }
     const scalar B = fraction_ * per_tick;
     if constexpr (P::dof == 1) {
+      notice(change, v, dt);
       const scalar most = scalar(-2) * w;
       return w - clipped(B * v, kernels::smaller(w, most), kernels::larger(w, most));
     } else {
@@ -138,7 +231,9 @@ class settled_force::on : private part_at<given_force, P> {
       const scalar along = P::dot(n, w), speed = P::dot(n, v);
       const scalar brake = clipped(B * speed, scalar(-2) * along, along);
       const effort sideways = less(v, n, speed);
-      const effort ahead = P::scaled(less(change, n, P::dot(n, change)), lead_);
+      const scalar rise = P::dot(n, change);
+      notice(rise, speed, dt);
+      const effort ahead = P::scaled(less(change, n, rise), lead_);
       const effort across =
           less(P::scaled(ahead, braking(ahead, sideways, B)), sideways, slide_ * per_tick);
       return less(less(w, n, brake), across, -within(across, size));
@@ -197,8 +292,16 @@ class settled_force::on : private part_at<given_force, P> {
 
   scalar mass_{}, fraction_{}, slide_{}, lead_{}, turn_time_{}, most_{};
   scalar per_tick_{};                 ///< m/T [N·s/m]
+  scalar longest_tick_{};             ///< T [s]
+  int late_ = 0;                      ///< [ticks]
   typename P::stored_effort last_{};  ///< w of the last tick [N]
   typename P::stored_effort n_{};     ///< n; zero in the air
+  scalar steepest_{};                 ///< K_m [N/m]
+  bool softens_ = true, knows_given_ = false, learns_ = false;
+  int watched_ = 0;           ///< ticks of motion for which it is still looked at how steep w is
+  scalar shown_ = scalar(1);  ///< s
+  slope along_{}, across_{};  ///< of what was given, along w and across
+  typename P::stored_effort given_{};  ///< in the last tick that was looked at [N]
 };
 
 static_assert(source_for<settled_force, space<float, 1>>);

@@ -36,16 +36,8 @@ class slot_room {
   using first_kind = std::tuple_element_t<0, std::tuple<typename Groups::surface_type...>>;
 
   /// act(slot, number) for all of them, kind by kind.
-  constexpr void for_each(auto act) noexcept {
-    std::size_t number = 0;
-    const auto one = [&](auto& group) {
-      for (auto& slot : group) act(slot, number++);
-    };
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (one(detail::get<I>(groups_)), ...);
-    }
-    (std::index_sequence_for<Groups...>{});
-  }
+  constexpr void for_each(auto act) noexcept { each(*this, act); }
+  constexpr void for_each(auto act) const noexcept { each(*this, act); }
   /// act(slot) for the i-th of that kind, if there is one.
   template <class Surface>
   constexpr void visit(int i, auto act) noexcept {
@@ -65,6 +57,16 @@ class slot_room {
   }
 
  private:
+  static constexpr void each(auto& self, auto& act) noexcept {
+    std::size_t number = 0;
+    const auto one = [&](auto& group) {
+      for (auto& slot : group) act(slot, number++);
+    };
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (one(detail::get<I>(self.groups_)), ...);
+    }
+    (std::index_sequence_for<Groups...>{});
+  }
   template <class Surface, class Self, std::size_t I = 0>
   [[nodiscard]] static constexpr auto& group(Self& self) noexcept {
     using here = std::tuple_element_t<I, std::tuple<Groups...>>;

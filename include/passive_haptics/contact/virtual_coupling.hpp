@@ -54,6 +54,7 @@ struct virtual_coupling {
     constexpr void adopt(scalar K, scalar /*longest_tick*/) noexcept {
       felt_ = K / (scalar(1) + K / stiffness_);
     }
+    static constexpr softened_by softener = softened_by::coupling;
     [[nodiscard]] constexpr scalar stiffness() const noexcept { return felt_; }  ///< K_f [N/m]
 
     [[nodiscard]] constexpr scalar force(scalar depth, scalar outward_speed) const noexcept {

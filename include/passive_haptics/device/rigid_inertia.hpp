@@ -47,6 +47,8 @@ class rigid_inertia::on {
         per_mass_(scalar(1) / mass_),
         per_least_(scalar(1) / least_),
         rate_(kernels::square_root(per_least_)),
+        pace_(kernels::square_root(scalar(per_mass_ + offset_ * offset_ * per_least_))),
+        swing_(kernels::square_root(scalar(scalar(1) + spread_ * per_least_))),
         turning_(kernels::square_root(
             scalar(mass_ * offset_ * offset_ + spread_ * spread_ / (scalar(4) * least_)))) {}
   [[nodiscard]] constexpr rigid_inertia parameters() const noexcept {
@@ -76,6 +78,11 @@ class rigid_inertia::on {
   }
   /// The largest angular acceleration that a wrench of this norm can cause [rad/s²].
   [[nodiscard]] constexpr scalar turning_by(scalar norm) const noexcept { return norm * rate_; }
+  /// The same of the handle point [m/s²].
+  [[nodiscard]] constexpr scalar moving_by(scalar norm) const noexcept { return norm * pace_; }
+  /// |c| [m], and √(1 + (I_max − I_min)/I): by how much a free body may turn faster than it did.
+  [[nodiscard]] constexpr scalar offset() const noexcept { return offset_; }
+  [[nodiscard]] constexpr scalar swing() const noexcept { return swing_; }
   /// The length of the three components from `First` on: |f| or |Δp| from 0, |τ| or |θ| from 3.
   template <int First>
   [[nodiscard]] static constexpr scalar length(const typename Port::effort& w) noexcept {
@@ -94,6 +101,8 @@ class rigid_inertia::on {
   scalar mass_, least_, spread_, offset_;
   scalar per_mass_, per_least_;
   scalar rate_;     ///< 1/√I [1/√(kg·m²)]
+  scalar pace_;     ///< √(1/m + |c|²/I) [1/√kg]
+  scalar swing_;    ///< √(1 + spread/I)
   scalar turning_;  ///< √(m|c|² + spread²/(4I))
 };
 

@@ -143,15 +143,11 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   /// what the friction counted on may hold back elastically. What is left is no less than a ledger without
   /// a loan starts with, unless it was less before. forfeit(0, T) writes off the friction only.
   constexpr void forfeit(const effort& held, scalar T) noexcept {
-    scalar lost = damping_.worst_outflow(held, T);
-    if constexpr (rubs) {
-      lost += certificates_.given_up(held, effort(last_held_), damping_, steps_);
-      certificates_.reset();
-    }
-    energy_ = detail::written_off(value_, lost, -reserve());
-    last_held_ = P::zero();
-    begin_window();
-    take_stock();
+    lose(held, damping_.worst_outflow(held, T));
+  }
+  /// The same of one that can have done no more than `most` [J].
+  constexpr void forfeit(const effort& held, scalar T, scalar most) noexcept {
+    lose(held, kernels::smaller(damping_.worst_outflow(held, T), most));
   }
   /// `joules` ≥ 0 that nobody has paid in.
   constexpr void lend(scalar joules) noexcept {
@@ -168,6 +164,10 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   }
 
   [[nodiscard]] constexpr scalar value() const noexcept { return value_; }
+  /// Below what it begins with: more was handed out than came in.
+  [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool overdrawn() const noexcept {
+    return value_ < -reserve() * (scalar(1) + scalar(16) * kernels::rounding<scalar>());
+  }
   /// How far the true Δx may be from the one shown [m].
   [[nodiscard]] constexpr scalar travel_error() const noexcept { return steps_.travel_error(); }
   [[nodiscard]] constexpr const damping_type& damping() const noexcept { return damping_; }
@@ -175,6 +175,16 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
  private:
   using steps_type = part_at<Steps, P>;
   static constexpr bool rubs = damping_type::rubs;
+  constexpr void lose(const effort& held, scalar lost) noexcept {
+    if constexpr (rubs) {
+      lost += certificates_.given_up(held, effort(last_held_), damping_, steps_);
+      certificates_.reset();
+    }
+    energy_ = detail::written_off(value_, lost, -reserve());
+    last_held_ = P::zero();
+    begin_window();
+    take_stock();
+  }
   /// The most that the ledger keeps [J], so that sums of it stay finite.
   [[nodiscard]] static constexpr scalar most_kept() noexcept {
     return kernels::largest<scalar>() / scalar(8);

@@ -15,7 +15,8 @@ inline namespace v0 {
 /// A ledger that is kept to the letter trusts nobody again after one false sample: what a jump of 4 mm has cost on
 /// paper, 36 mJ at 9 N, a hand that holds still never pays. When a pause θ has gone by without a fault, this one
 /// writes a debt off, once, and lends for τ = ½ s
-///     E1 += min(A dt/τ, A − E1)  where E1 < A.
+///     E1 += min(A dt/τ, A − E1)  where E1 < A;
+/// a refused sample or a late tick that is the first fault in 10 s it forgives at once, E1 = max(E1, A), and only so.
 /// A fault is a sample that is refused, a late tick, or a debt, of A/64 where positions are known to a step only: the
 /// bounds here leave none unless something that was stated is not so. θ is 0.1 s, twice as long each time that there
 /// is a fault after amends, and 0.1 s again when there was none for 10 s. So with D, what the faults themselves have
@@ -71,24 +72,25 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
     return {kept::parameters(), static_cast<double>(amends_)};
   }
 
-  template <class Held>
-  requires requires(kept& k, const motion& m, const Held& f, scalar s) { k.update(m, f, s); }
-  [[gnu::always_inline]] constexpr bool update(const motion& dx, const Held& held,
-                                               scalar dt) noexcept {
-    if (!kept::update(dx, held, dt)) return false;
+  template <class Held, class... Hidden>
+  requires requires(kept& k, const motion& m, const Held& f, scalar s, Hidden... h) {
+    k.update(m, f, s, h...);
+  }
+  [[gnu::always_inline]] constexpr bool update(const motion& dx, const Held& held, scalar dt,
+                                               Hidden... hidden) noexcept {
+    if (!kept::update(dx, held, dt, hidden...)) return false;
     if (shaken_ || in_debt()) [[unlikely]]
       make_amends(dt);
     return true;
   }
   /// There was a fault: the port says so.
   constexpr void disturbed() noexcept {
-    if (!shaken_) {
-      pause_ = first_pause;
-    } else if (quiet_ > pause_) {
-      pause_ *= scalar(2);
+    const bool first = !shaken_ || (quiet_ <= scalar(0) && pause_ <= first_pause && !paid_);
+    fault();
+    if (first && this->value() < amends_) {
+      this->lend(amends_ - this->value());
+      paid_ = true;
     }
-    shaken_ = true;
-    quiet_ = scalar(0);
   }
   constexpr void reset() noexcept {
     kept::reset();
@@ -99,14 +101,24 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
   static constexpr scalar first_pause = scalar(0.1), lending = scalar(0.5),
                           forgotten = scalar(10);  // [s]
 
+  constexpr void fault() noexcept {
+    if (!shaken_) {
+      pause_ = first_pause;
+    } else if (paid_ || quiet_ > pause_) {
+      pause_ *= scalar(2);
+    }
+    shaken_ = true;
+    paid_ = false;
+    quiet_ = scalar(0);
+  }
   [[nodiscard]] constexpr bool in_debt() const noexcept {
     if constexpr (exact) return this->value() < scalar(0);
     return this->value() < -amends_ / scalar(64);
   }
   [[gnu::cold, gnu::noinline]] constexpr void make_amends(scalar dt) noexcept {
     const bool waits = shaken_ && quiet_ <= pause_;
-    if (!waits && in_debt()) return disturbed();
-    const bool lends = quiet_ <= pause_ + lending;
+    if (!waits && in_debt()) return fault();
+    const bool lends = !paid_ && quiet_ <= pause_ + lending;
     quiet_ += dt;
     if (quiet_ > pause_ && lends && amends_ > scalar(0) && this->value() < amends_) {
       const scalar E1 = waits ? kernels::larger(this->value(), scalar(0)) : this->value();
@@ -119,6 +131,7 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
   scalar pause_{};       ///< θ [s]
   scalar quiet_{};       ///< since the last fault [s]
   bool shaken_ = false;  ///< there was a fault in the last 10 s
+  bool paid_ = false;    ///< its amends have been made at once
 };
 
 static_assert(energy_observer_for<forgiving<>, space<float, 1>>);

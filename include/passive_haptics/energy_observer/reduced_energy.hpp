@@ -81,6 +81,15 @@ class basic_reduced_energy<Damping, Sum>::on {
     detail::book(energy_, gain);
     return true;
   }
+  /// The same of a turn that hides no more than `hidden` [J].
+  constexpr bool update(const motion& dx, const effort& held, scalar dt, scalar hidden) noexcept
+      requires(detail::turns<P>()) {
+    const scalar gain = detail::sure_gain<P>(damping_.dissipated(dx, dt), held, dx) -
+                        kernels::smaller(damping_.unsure(dx, held, dt), hidden);
+    if (!kernels::is_finite(value() + gain)) return false;
+    detail::book(energy_, gain);
+    return true;
+  }
   /// The same where the device reports what its motors did: E1 += Δxᵀ(b/dt)Δx − work (lemma J).
   [[gnu::always_inline]] constexpr bool update(const motion& dx,
                                                const detail::reported_effort<P>& held,
@@ -96,6 +105,10 @@ class basic_reduced_energy<Damping, Sum>::on {
   /// empty ledger. A bound that kept its promise has covered exactly that.
   constexpr void forfeit(const effort& held, scalar T) noexcept {
     energy_ = detail::written_off(value(), damping_.worst_outflow(held, T));
+  }
+  /// The same of one that can have done no more than `most` [J].
+  constexpr void forfeit(const effort& held, scalar T, scalar most) noexcept {
+    energy_ = detail::written_off(value(), kernels::smaller(damping_.worst_outflow(held, T), most));
   }
 
   /// `joules` ≥ 0 that nobody has paid in.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The ball of the 3-DOF experiments (thesis 3.3), as it can exist.
+// The ball of the 3-DOF experiments (thesis 3.3), with as many inner nodes as geometry allows.
 //
 // A closed surface of 16 triangles has 16/2 + 2 = 10 vertices (Euler), so of 11 nodes exactly one
 // is inside, and 16 tetrahedra join it to the faces. The "2 interior nodes" that the thesis fixes
-// cannot be; and two fixed nodes, wherever they are, leave the rotation about their line (A24).
+// cannot exist; and two fixed nodes, wherever they are, leave the rotation about their line (A24).
 
 #include <passive_haptics/environment/mesh.hpp>
 
@@ -17,10 +17,9 @@ inline namespace v0 {
 namespace environment {
 
 /// A gyroelongated square bipyramid in a sphere of `radius` [m] about the origin, plus its centre.
-///     nodes 0 (0, 0, r) | 1-4 upper ring | 5-8 lower ring, turned by 45° | 9 (0, 0, −r) | 10
-///     centre
-/// The rings lie at z = ±(√2 − 1) r: all edges are 1.08 r long but those of the rings (1.29 r).
-/// std::invalid_argument for a radius that is not a finite number above zero.
+///     nodes 0 (0, 0, r) | 1-4 upper ring | 5-8 lower ring, turned by 45° | 9 (0, 0, −r) | 10 centre
+/// The rings lie at z = ±(√2 − 1) r: all edges of the surface are 1.08 r long but those of the rings (1.29 r).
+/// Throws std::invalid_argument for a radius that is not finite and > 0.
 [[nodiscard]] inline tetrahedral_mesh ball(double radius) {
   if (!(radius > 0.0) || !std::isfinite(radius)) {
     refuse_argument("ball: radius ", radius, " m is refused; give a finite number above zero");
@@ -51,9 +50,9 @@ namespace environment {
   return mesh;
 }
 
-/// Nodes to hold the ball by when it is pressed from above: the lower apex and two neighbours of
-/// the lower ring. Three nodes not on a line leave no rigid motion, and these are the far side: the
-/// centre and the half that is touched stay free to give way.
+/// The nodes that hold the ball when it is pressed from above: the lower apex and two neighbours of
+/// the lower ring. Three nodes that are not on a line leave no rigid motion, and these three are on the
+/// far side, so the centre and the half that is touched stay free to give way.
 [[nodiscard]] inline std::array<int, 3> ball_fixed_nodes() noexcept {
   return {9, 5, 6};
 }

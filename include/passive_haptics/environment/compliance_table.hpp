@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a patch of the surface answers to forces on it, computed once and kept in a file (Green's functions).
+// The compliance of a patch of the surface [m/N], computed once and kept in a file (Green's functions).
 //
 //     const auto id = env::fingerprint_of(mesh, m, fixed);
 //     const auto patch = env::patch_around(env::boundary(mesh), mesh.nodes, where, 1000);
@@ -9,7 +9,7 @@
 //     env::basic_deformable_body<env::compliance_table<>> body(                // each start: milliseconds
 //         mesh, env::read_table("organ.table", id, mesh.nodes.size()));
 //
-// M nodes take 9 M² scalars, 36 MB for 1000 in float. What the patch means: patch_compliance.hpp.
+// A patch of M nodes takes 9 M² scalars, 36 MB for 1000 nodes in float. patch_compliance.hpp has the formulas.
 
 #include <passive_haptics/environment/mapped_file.hpp>
 #include <passive_haptics/environment/patch_compliance.hpp>
@@ -37,7 +37,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// The columns of a file without a fault.
+/// The columns of a file in which find_table_fault() finds nothing.
 template <std::floating_point Scalar>
 class columns_of_file {
  public:
@@ -59,14 +59,14 @@ class columns_of_file {
 template <std::floating_point Scalar = float>
 using compliance_table = patch_compliance<columns_of_file<Scalar>>;
 
-/// What load_table made of a file.
+/// The answer of load_table(): one of its two members is there.
 template <std::floating_point Scalar>
 struct loaded_table {
   std::optional<compliance_table<Scalar>> table;
   std::optional<table_error> fault;  ///< the first thing wrong, with file and remedy
 };
 
-/// Maps a table of a body with this fingerprint and this many nodes, every block checked.
+/// Maps the table of a body with this fingerprint and this many nodes, and checks every block.
 template <std::floating_point Scalar = float>
 [[nodiscard]] loaded_table<Scalar> load_table(const std::filesystem::path& path, std::uint64_t body,
                                               std::size_t mesh_nodes) {
@@ -78,7 +78,7 @@ template <std::floating_point Scalar = float>
                                    mesh_nodes),
           std::nullopt};
 }
-/// The same, its fault thrown.
+/// The same, but throws the fault as a table_error.
 template <std::floating_point Scalar = float>
 [[nodiscard]] compliance_table<Scalar> read_table(const std::filesystem::path& path,
                                                   std::uint64_t body, std::size_t mesh_nodes) {
@@ -92,9 +92,9 @@ struct table_options {
   on_progress tell = {};  ///< asked after each round of blocks; false throws stopped_by_caller
 };
 
-/// Computes the table of a patch and leaves it under `path`. It is written to `path`.part, block by block,
-/// and renamed when it is whole; a computation that was stopped or killed goes on from its .part. One process
-/// at a time writes to a path. Throws std::invalid_argument, table_error or stopped_by_caller.
+/// Computes the table of a patch and leaves it under `path`. The table is written to `path`.part, block by
+/// block, and renamed when it is whole; a computation that was stopped or killed goes on from its .part. Only one
+/// process at a time may write to a path. Throws std::invalid_argument, table_error or stopped_by_caller.
 template <std::floating_point Scalar = float, column_solver Solver>
 void compute_table(const std::filesystem::path& path, const basic_tetrahedral_fem<Solver>& solid,
                    std::uint64_t body, std::span<const int> patch,
@@ -147,7 +147,7 @@ void compute_table(const std::filesystem::path& path, const basic_tetrahedral_fe
           stopped_by_caller(sentence("compute_table: stopped; ", part.string(), " has ", done,
                                      " of ", header.blocks(), " blocks, from which it goes on")));
     }
-    std::vector<std::future<std::vector<std::byte>>> others;  // what one throws, get() throws
+    std::vector<std::future<std::vector<std::byte>>> others;  // get() throws what compute() threw
     const std::size_t round = (std::min)(threads, header.blocks() - done);
     for (std::size_t i = 1; i < round; ++i) {
       others.push_back(std::async(std::launch::async, compute, done + i));

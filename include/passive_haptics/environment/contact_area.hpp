@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The nodes that share the force of a fingertip as wide as 2 r, whatever the mesh:
+// The nodes of any mesh that share the force of a fingertip of radius r [m]:
 //
 //     wᵢ ∝ Aᵢ (1 − sᵢ²/r²)² for sᵢ < r,   Σ wᵢ = 1
 //
@@ -28,7 +28,7 @@ namespace environment {
 class contact_area {
  public:
   contact_area() = default;
-  /// On the surface of a body of which `rest` are the nodes [m].
+  /// Areas on the surface of a body whose nodes at rest are `rest` [m].
   contact_area(const surface_graph& surface, nodes_view rest)
       : areas_(rest.size(), 0.0), seen_(rest.size()) {
     for (const surface_triangle& t : surface.triangles()) {
@@ -39,8 +39,8 @@ class contact_area {
     shares_.reserve(rest.size());
   }
 
-  /// Collects the nodes within `radius` [m] of the point of a triangle with these barycentric weights.
-  /// Those it is connected to over nodes within the radius; no allocation.
+  /// Collects the nodes within `radius` [m] of the point of triangle `on` with these barycentric weights, as far
+  /// as edges between nodes within the radius lead from that triangle to them. It does not allocate.
   void gather(const surface_graph& surface, nodes_view rest, const surface_triangle& on,
               const Eigen::Vector3d& weights, double radius) {
     const triangle shape = corners(on, rest);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a mesh publishes of itself at a contact, beside its tangent plane and its triangle.
+// The surfaces that a mesh publishes at a contact, beside its tangent plane and its triangle.
 //
 //   quadric_at   the smooth surface through its nodes, with its curvatures    for bodies that bulge
-//   patch_at     its triangles around the contact, as they are                for dents and edges
+//   patch_at     its triangles around the contact, unchanged                  for dents and edges
 //
-// Both are plain values for a supply's update(), which prepares them and refuses what cannot be used:
+// Both return plain values for a supply's update(), which prepares them and refuses one that cannot be used:
 //     touch.update(env::quadric_at(body, {.thickness = 0.005}))
 
 #include <passive_haptics/constraint_geometry/patch.hpp>
@@ -31,11 +31,11 @@ namespace environment {
 
 struct quadric_options {
   double thickness = 0.005;  ///< deepest contact [m]
-  double reach = 0.02;       ///< how far along the surface it counts [m]; about an edge of the mesh
+  double reach = 0.02;  ///< how far along the surface the quadric counts [m]; about a mesh edge
 };
 
-/// The quadric at a point of the surface, of this stiffness [N/m]. Curvatures are kept within
-/// ±1/(2 thickness), so that it does not fold: a sharper edge or dent is felt as one of that radius.
+/// The quadric at a point of the surface, of stiffness `stiffness` [N/m]. Its curvatures are limited to
+/// ±1/(2 thickness) [1/m], so that it does not fold: a sharper edge or dent is felt with that curvature.
 template <class Surface>
 [[nodiscard]] quadric<space<double, 3>> quadric_at(const Surface& surface, nodes_view nodes,
                                                    const surface_point& on, double stiffness,
@@ -60,7 +60,7 @@ template <class Surface>
   return surface.triangles();
 }
 
-/// Calls visit(i) for all triangles that may share an edge with one of these.
+/// Calls visit(i) for every triangle that may share an edge with a triangle of `taken`.
 template <class Visit>
 void for_triangles_beside(surface_view surface, std::span<const int> /*taken*/,
                           const Visit& visit) {
@@ -80,9 +80,9 @@ void for_triangles_beside(const surface_graph& surface, std::span<const int> tak
   }
 }
 
-/// The M triangles around a point of the surface that are the closest to it and hang together by whole
-/// edges. One that would be the third at an edge is left out. A surface_view is looked through for them; a
-/// surface_graph knows which triangles are neighbours, which is what a large surface needs.
+/// The M triangles closest to a point of the surface that are connected to its triangle by whole edges. A
+/// triangle that would be the third at an edge is left out. In a surface_view every triangle is looked at; for
+/// a large surface take a surface_graph, which knows the neighbours of a triangle.
 template <std::size_t M = 16, class Surface>
 [[nodiscard]] patch<space<double, 3>, M> patch_at(
     const Surface& surface, nodes_view nodes, const surface_point& on, double stiffness,
@@ -92,7 +92,7 @@ template <std::size_t M = 16, class Surface>
   result.stiffness = stiffness;
   result.thickness = thickness;
   std::array<int, M> taken{};                          // numbers of triangles
-  std::array<int, result_type::node_capacity> used{};  // and of nodes
+  std::array<int, result_type::node_capacity> used{};  // numbers of nodes
   const auto has_edge = [&](int from, int to) {
     for (std::size_t i = 0; i < result.triangle_count; ++i) {
       const auto& t = surface[static_cast<std::size_t>(taken[i])].nodes;
@@ -111,7 +111,7 @@ template <std::size_t M = 16, class Surface>
     }
     return static_cast<std::uint8_t>(at - used.begin());
   };
-  /// Does it lie at an edge of the patch, and at none that has two triangles already?
+  /// True if t shares an edge with the patch, and none that has two triangles already.
   const auto fits = [&](const surface_triangle& t) {
     bool touches_patch = result.triangle_count == 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -136,7 +136,7 @@ template <std::size_t M = 16, class Surface>
       if (!fits(surface[static_cast<std::size_t>(i)])) return;
       const auto candidate = point_on(triangles_of(surface), nodes, i, on.point);
       if (!candidate || candidate->distance > shortest) return;
-      if (candidate->distance == shortest && i > next) return;  // whatever the order
+      if (candidate->distance == shortest && i > next) return;  // so that the order does not matter
       shortest = candidate->distance;
       next = i;
     });
@@ -144,7 +144,7 @@ template <std::size_t M = 16, class Surface>
   return result;
 }
 
-/// The point of the surface that a body's last contact was at.
+/// The contact of a body as a point of its surface.
 [[nodiscard]] inline surface_point point_of(const surface_contact& contact) {
   return {.triangle = contact.triangle,
           .point = contact.point,
@@ -154,8 +154,8 @@ template <std::size_t M = 16, class Surface>
           .depth = contact.depth};
 }
 
-/// The quadric at the last contact of a body, of the stiffness that it has there; before the first
-/// contact one that every supply refuses.
+/// The quadric at the last contact of a body, with the stiffness that the body reported there. Before the
+/// first contact it returns a quadric that every supply refuses.
 template <class Elastic>
 [[nodiscard]] quadric<space<double, 3>> quadric_at(const basic_deformable_body<Elastic>& body,
                                                    const quadric_options& options = {}) {
@@ -164,7 +164,7 @@ template <class Elastic>
                     options);
 }
 
-/// The patch at the last contact of a body; before the first one that every supply refuses.
+/// The patch at the last contact of a body; before the first contact a patch that every supply refuses.
 template <std::size_t M = 16, class Elastic>
 [[nodiscard]] patch<space<double, 3>, M> patch_at(
     const basic_deformable_body<Elastic>& body,

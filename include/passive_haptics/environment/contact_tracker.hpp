@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Which triangle is touched, from update to update.
+// Chooses the triangle that is touched, with hysteresis from update to update.
 //
 // The closest triangle flips from one to its neighbour and back when the point trembles over their
 // common edge, and with it the normal of the force. The tracker holds on to the present triangle
@@ -27,21 +27,21 @@ class contact_tracker {
     }
   }
 
-  /// The contact for x. It stays on the present triangle unless that is degenerate, or on the wrong
-  /// side (the sign of depth always tells inside from outside), or another triangle is closer by
-  /// more than the margin. None, and nothing changes, where closest_point has none.
+  /// The contact for x [m]. It stays on the present triangle unless that is degenerate, or has x on the other
+  /// side (the sign of depth always tells inside from outside), or another triangle is closer by more than
+  /// the margin. Where closest_point() returns none, it returns none and the present triangle stays.
   [[nodiscard]] std::optional<surface_point> find(surface_view surface, nodes_view nodes,
                                                   const Eigen::Vector3d& x) {
     return held_or(closest_point(surface, nodes, x), surface, nodes, x);
   }
-  /// The same for a large surface, whose tree has followed the nodes.
+  /// The same for a large surface whose tree has been refitted to the nodes.
   [[nodiscard]] std::optional<surface_point> find(const surface_search& surface, nodes_view nodes,
                                                   const Eigen::Vector3d& x) {
     return held_or(surface.closest_point(nodes, x, triangle_), surface.triangles(), nodes, x);
   }
-  /// The same from the present triangle over its neighbours, and by the tree if there is none: what is
-  /// touched is followed, what comes close elsewhere is not seen. before(i) is called before triangle i is
-  /// looked at, and may still move its nodes.
+  /// The same, but searched from the present triangle over its neighbours, and by the tree if there is no present
+  /// one. So a contact is followed, and a part of the surface that comes close elsewhere is not seen. before(i) is
+  /// called before triangle i is looked at, and may still move its nodes.
   template <class Before>
   [[nodiscard]] std::optional<surface_point> follow(const surface_search& surface, nodes_view nodes,
                                                     const Eigen::Vector3d& x,
@@ -57,7 +57,7 @@ class contact_tracker {
   [[nodiscard]] int triangle() const noexcept { return triangle_; }
   [[nodiscard]] double margin() const noexcept { return margin_; }
 
-  /// Forgets the present triangle: after a jump of the device, or another surface.
+  /// Forgets the present triangle, for use after a jump of the device or with another surface.
   void reset() noexcept { triangle_ = -1; }
 
  private:

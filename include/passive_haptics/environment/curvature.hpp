@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How a mesh bends: the smooth surface that its nodes are taken from, estimated next to a contact.
+// The curvature of a mesh: of the smooth surface through its nodes, estimated next to a contact.
 //
 //   node_normal          of a node                 N. Max, "Weights for computing vertex normals from
 //                                                  facet normals", J. Graphics Tools 4(2), 1999
@@ -8,10 +8,10 @@
 //   node_curvature       nodes; mean of those      derivatives on triangle meshes", 3DPVT 2004
 //   shape_at             point, normal, principal curvatures of the smooth surface
 //
-// A curvature is a symmetric tensor C [1/m] with C n = 0: the normal turns by C δ along δ; positive
-// where the body bulges, 1/r on a ball. Only triangles around the contact count. A surface_view is looked
-// through for them; a surface_graph knows them, which is what a large surface needs. Nothing is kept of
-// the positions, so the body may deform. Nothing here allocates.
+// A curvature is a symmetric tensor C [1/m] with C n = 0: the normal turns by C δ along δ [m]. It is positive
+// where the body bulges, 1/r on a ball. Only triangles around the contact count. In a surface_view every
+// triangle is looked at; for a large surface take a surface_graph, which knows them. No function keeps
+// positions, so the body may deform, and none allocates.
 
 #include <passive_haptics/environment/surface.hpp>
 #include <passive_haptics/environment/surface_search.hpp>
@@ -50,8 +50,8 @@ void for_triangles_at(const surface_graph& surface, nodes_view nodes, int node,
   }
 }
 
-/// The unit normal of a node: Σ (a × b)/(|a|²|b|²), a and b the edges of each triangle there. Exact where
-/// the node and its neighbours are on one sphere. Zero for a node of no usable triangle.
+/// The unit normal of a node along Σ (a × b)/(|a|²|b|²), a and b being the edges of each triangle there. It is
+/// exact where the node and its neighbours lie on one sphere, and zero for a node of no usable triangle.
 template <class Surface>
 [[nodiscard]] Eigen::Vector3d node_normal(const Surface& surface, nodes_view nodes, int node) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -64,8 +64,8 @@ template <class Surface>
   return sum.normalized();
 }
 
-/// The tensor, in the plane of the triangle, that turns the normals of its nodes into one another along
-/// its edges best: C eₖ ≈ Δnₖ by least squares.
+/// The tensor C [1/m] in the plane of the triangle with C eₖ ≈ Δnₖ by least squares, where eₖ are its edges [m]
+/// and Δnₖ the changes of the normals along them.
 [[nodiscard]] inline Eigen::Matrix3d triangle_curvature(
     const triangle& shape, const std::array<Eigen::Vector3d, 3>& normals) {
   const Eigen::Vector3d n = unit_normal(shape);
@@ -80,7 +80,7 @@ template <class Surface>
     squares += rows.transpose() * rows;
     right += rows.transpose() * Eigen::Vector2d(turn.dot(u), turn.dot(v));
   }
-  // Cramer's rule; a triangle without area, which turns nothing, has no curvature.
+  // Cramer's rule; the curvature of a triangle without area is taken as zero.
   const Eigen::Vector3d a = squares.col(0), b = squares.col(1), c = squares.col(2);
   const double volume = a.dot(b.cross(c));
   if (!(std::abs(volume) > 1e-30 * std::pow(squares.trace(), 3))) return Eigen::Matrix3d::Zero();
@@ -91,7 +91,7 @@ template <class Surface>
 }
 
 /// The rotation that takes one unit vector to another the shortest way, I + [v]× + [v]×²/(1 + c) with v their
-/// cross and c their dot product (Rodrigues); half a turn where they are opposite.
+/// cross and c their dot product (Rodrigues), or half a turn if they are opposite.
 [[nodiscard]] inline Eigen::Matrix3d turn_between(const Eigen::Vector3d& from,
                                                   const Eigen::Vector3d& to) {
   const Eigen::Vector3d v = from.cross(to);
@@ -105,7 +105,7 @@ template <class Surface>
   return Eigen::Matrix3d::Identity() + cross + cross * cross / (1.0 + c);
 }
 
-/// C turned with the plane that it is in, by the shortest way from one normal to another.
+/// C turned with its plane, the shortest way from one normal to another.
 [[nodiscard]] inline Eigen::Matrix3d turned(const Eigen::Matrix3d& curvature,
                                             const Eigen::Vector3d& from,
                                             const Eigen::Vector3d& to) {
@@ -113,7 +113,7 @@ template <class Surface>
   return turn * curvature * turn.transpose();
 }
 
-/// The curvature at a node: the mean over its triangles, by their areas.
+/// The curvature [1/m] at a node: the mean over its triangles, weighted by their areas.
 template <class Surface>
 [[nodiscard]] Eigen::Matrix3d node_curvature(const Surface& surface, nodes_view nodes, int node,
                                              const Eigen::Vector3d& normal) {
@@ -139,7 +139,7 @@ struct surface_shape {
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  ///< unit, of the first curvature
   double curvature = 0.0;                              ///< along the tangent [1/m]
   double cross_curvature = 0.0;                        ///< along n × t, ≤ the first [1/m]
-  double rise = 0.0;  ///< of the point above the facet, along the normal [m]
+  double rise = 0.0;  ///< height of the point above the facet, along the normal [m]
 };
 
 /// The shape at the point of a triangle with these barycentric weights. Normal and curvature are blended

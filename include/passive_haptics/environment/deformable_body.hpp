@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A deformable body to be touched: mesh, finite elements and surface, tied together for a slow
-// loop.
+// A deformable body to be touched: a mesh, its finite elements and its surface, for a slow loop.
 //
 //     deformable_body body{ball(0.05), {.young = 2e4, .poisson = 0.3}, ball_fixed_nodes(), {}};
 //     every 20-50 ms:  contact = body.update(device position, force on the device)
 //
-// Of 10⁴ nodes and more: say where it is touched and how wide the fingertip is, and move what is near it.
+// For 10⁴ nodes and more state what is touched and how wide the fingertip is, and move nodes near it only.
 //
 //     deformable_body body{mesh, tetrahedral_fem(mesh, m, fixed, {.touched = patch}),
 //                          {.radius = 0.005, .moved = moved_nodes::around}};
 //
-// The loop of local model and body has the eigenvalue −K_LM/K_VE: with equal stiffness the surface
-// swings for ever under a device that stands still (A12). `relaxation` decides:
+// The loop of local model (stiffness K_LM) and body (K_VE) has the eigenvalue −K_LM/K_VE: with equal
+// stiffness the surface swings for ever under a device that stands still (A12). `relaxation` decides:
 //   dead_beat   F ← F + w (F_LM − F), w = K_VE/(K_VE + K_LM): settles in one update
 //   none        F ← F_LM, the thesis: only for K_LM well below K_VE
 
@@ -42,7 +41,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// What the local model needs to know of the body.
+/// The contact as the local model needs it.
 struct surface_contact {
   std::array<Eigen::Vector3d, 3> nodes{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                                        Eigen::Vector3d::Zero()};  ///< of the triangle [m]
@@ -52,39 +51,39 @@ struct surface_contact {
   int triangle = -1;                                  ///< −1 until the first good update
   double depth = 0.0;                                 ///< (p − x)·n [m], positive inside
   double stiffness = 0.0;                             ///< of the body at p along n [N/m]
-  bool fresh = false;  ///< false: the last state, because the input could not be used
+  bool fresh = false;  ///< false: an older contact, because the last input could not be used
 };
 
 enum class contact_selection : std::uint8_t {
   closest_point,  ///< with hysteresis; for any shape
-  normal_match,   ///< thesis A.1, for comparison; for balls. The sign of depth is that of one plane
+  normal_match,   ///< thesis A.1, for comparison: for balls only; depth is that of one plane
 };
 
 enum class force_relaxation : std::uint8_t { none, dead_beat };
 
 /// Which nodes an update moves.
 enum class moved_nodes : std::uint8_t {
-  all,     ///< nodes() is the whole body, and the contact the closest point of it all
-  around,  ///< those that the contact is followed over and two rings around it: for large bodies. In
-  ///< contact it goes from triangle to triangle, and does not see what comes close elsewhere;
-  ///< the other nodes of nodes() are at rest
+  all,     ///< all nodes move, and the contact is the closest point of the whole body
+  around,  ///< only nodes that the contact is followed over and two rings around it move: for large
+  ///< bodies. The contact goes from triangle to triangle, and a part of the body that comes close
+  ///< elsewhere is not seen; all other nodes of nodes() are at rest
 };
 
 struct body_options {
   double margin = 2e-4;                          ///< hysteresis of closest_point [m]
-  force_split split = force_split::barycentric;  ///< of a point, among the nodes of its triangle
-  double radius = 0.0;  ///< of a fingertip [m] (contact_area.hpp); 0: a point
+  force_split split = force_split::barycentric;  ///< of the force at a point, among three nodes
+  double radius = 0.0;  ///< radius of a fingertip [m] (contact_area.hpp); 0: a point
   contact_selection selection = contact_selection::closest_point;
   force_relaxation relaxation = force_relaxation::dead_beat;
-  double local_stiffness = 0.0;  ///< K_LM [N/m]; 0: the local model uses the one reported
-  double max_stiffness = 1e6;    ///< [N/m] reported at most: a face of three fixed nodes is rigid
+  double local_stiffness = 0.0;  ///< K_LM [N/m]; 0: the local model uses the stiffness reported
+  double max_stiffness = 1e6;    ///< largest stiffness reported [N/m]: a fixed face is rigid
   moved_nodes moved = moved_nodes::all;
   on_progress tell = {};  ///< asked while the body is factorised; false throws stopped_by_caller
   double memory_limit = 0.0;  ///< for the factor [B]; 0: what the system has (memory_limit.hpp)
 };
 
-/// What a body to be touched asks of the elastic solid behind it. A point or an area is pressed once: C [m/N]
-/// says how far it gives way; then it is loaded with one force after the other, and nodes are asked for.
+/// The elastic solid behind a body. press() chooses a point or an area and returns its compliance C [m/N];
+/// load() sets the force on it [N], as often as needed; displacement() is u [m] of a node under that force.
 template <class E>
 concept elastic_solid = requires(E solid, const std::array<int, 3>& nodes, const Eigen::Vector3d& v,
                                  std::span<const int> some, std::span<const double> shares,
@@ -98,8 +97,8 @@ concept elastic_solid = requires(E solid, const std::array<int, 3>& nodes, const
   { solid.mesh_nodes() } -> std::convertible_to<std::size_t>;
 };
 
-/// A body on an elastic solid: finite elements (deformable_body), or a table of their answers
-/// (compliance_table.hpp). Neither copied nor moved: it holds a factorisation.
+/// A body on an elastic solid: finite elements (deformable_body), or a table of their compliances
+/// (compliance_table.hpp). It can be moved but not copied.
 template <elastic_solid Elastic>
 class basic_deformable_body {
  public:
@@ -112,7 +111,7 @@ class basic_deformable_body {
                                       {.tell = options.tell, .memory_limit = options.memory_limit}),
                               options) {}
 
-  /// The same on a solid that is there already, made of this mesh; one of another size is refused.
+  /// The same with a solid that has been made of this mesh. Throws std::invalid_argument for another size.
   basic_deformable_body(const tetrahedral_mesh& mesh, Elastic solid,
                         const body_options& options = {})
       : options_(options),
@@ -168,12 +167,12 @@ class basic_deformable_body {
     for (const auto& node : rest_) extent_ = (std::max)(extent_, (node - centre_).norm());
   }
 
-  /// One update of the slow loop. Loads the contact of the LAST update, the one the local model
-  /// answered, with the reaction to `force_on_device` [N]; then finds the contact for `device` [m].
-  /// Away from the body the force is zero, the body comes to rest, and the contact names the
-  /// nearest triangle with depth ≤ 0. Input that is not finite, or would move a node by 1000 times
-  /// the size of the body, changes nothing: the last contact comes back with fresh = false. Never
-  /// throws, allocates or factorises, unless the solid does.
+  /// One update of the slow loop. It loads the contact of the LAST update, which the local model has
+  /// answered, with the reaction to `force_on_device` [N]; then it finds the contact for `device` [m].
+  /// Away from the body the force is zero, the body comes to rest, and the contact names the nearest
+  /// triangle with depth ≤ 0. Input that is not finite, or would move a node by 1000 times the size of
+  /// the body, changes nothing: the last contact is returned with fresh = false. It never throws,
+  /// allocates or factorises, unless the solid does.
   surface_contact update(const Eigen::Vector3d& device, const Eigen::Vector3d& force_on_device) {
     contact_.fresh = false;
     if (!device.allFinite() || !force_on_device.allFinite()) return contact_;
@@ -204,15 +203,15 @@ class basic_deformable_body {
   [[nodiscard]] const std::vector<surface_triangle>& surface() const noexcept {
     return search_.triangles();
   }
-  /// The surface and which triangles meet at a node: for quadric_at.
+  /// The surface, and the triangles that meet at a node: for quadric_at().
   [[nodiscard]] const surface_search& search() const noexcept { return search_; }
   [[nodiscard]] const surface_contact& contact() const noexcept { return contact_; }
 
   /// The relaxed force [N] whose reaction deforms the body.
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
 
-  /// All nodes [m] with that force at the present contact: a picture, also where an update moves only some.
-  /// Takes as long as an update of all of them.
+  /// All nodes [m] under force() at the present contact, for a picture, even where an update moves only some of
+  /// them. It takes as long as an update that moves all.
   [[nodiscard]] std::vector<Eigen::Vector3d> picture() {
     std::vector<Eigen::Vector3d> all = rest_;
     if (contact_.triangle < 0) return all;
@@ -224,7 +223,7 @@ class basic_deformable_body {
  private:
   [[nodiscard]] bool around() const noexcept { return options_.moved == moved_nodes::around; }
 
-  /// F + w (F_LM − F) with the w of the contact that was answered; zero before the first. (A12)
+  /// F + w (F_LM − F) [N] with the w of the last contact; zero before the first contact. (A12)
   [[nodiscard]] Eigen::Vector3d relaxed(const Eigen::Vector3d& answer) const {
     if (contact_.triangle < 0) return Eigen::Vector3d::Zero();
     if (options_.relaxation == force_relaxation::none) return answer;
@@ -233,21 +232,21 @@ class basic_deformable_body {
     return force_ + contact_.stiffness / (contact_.stiffness + local) * (answer - force_);
   }
 
-  /// Presses what the next force will act on; how far the contact gives way along its normal [m/N].
+  /// Presses the point or area that the next force will act on; returns its compliance along the normal [m/N].
   [[nodiscard]] double press(const surface_triangle& t, const triangle& shape,
                              const surface_point& on) {
     const Eigen::Vector3d& n = on.normal;
     if (options_.radius > 0.0) {
       area_.gather(search_, rest_, t, on.weights, options_.radius);
       solid_.press(area_.nodes(), area_.shares());
-      solid_.load(n);  // the middle gives way more than the area on an average
+      solid_.load(n);  // the middle of the area gives way more than its mean
       double give = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {
         give += on.weights[static_cast<Eigen::Index>(k)] * n.dot(solid_.displacement(t.nodes[k]));
       }
       return give;
     }
-    // By the weights of the point its compliance and its load are one and the same solution.
+    // With barycentric shares one solution gives both the compliance and the response to the load.
     if (options_.split == force_split::barycentric) {
       return n.dot(solid_.press(t.nodes, on.weights) * n);
     }
@@ -288,7 +287,7 @@ class basic_deformable_body {
     return tracker_.find(search_, next_, device);
   }
 
-  /// The tree stays at rest: it finds the first contact, which the others follow.
+  /// The tree keeps the positions at rest: it finds the first contact, from which the others are followed.
   [[nodiscard]] std::optional<surface_point> find_around(const Eigen::Vector3d& device,
                                                          const Eigen::Vector3d& force) {
     begin_moves(force);
@@ -319,17 +318,17 @@ class basic_deformable_body {
   std::vector<int> moving_triangles_;                 ///< triangles of theirs
   std::vector<Eigen::Vector3d> rest_;
   std::vector<Eigen::Vector3d> nodes_;
-  std::vector<Eigen::Vector3d> next_;  ///< nodes_ to be, until the update is known to be good
+  std::vector<Eigen::Vector3d> next_;  ///< becomes nodes_ if the update is good
   std::vector<int> moved_;             ///< nodes of next_ that are not at rest
-  std::vector<int> moved_before_;      ///< nodes of nodes_
+  std::vector<int> moved_before_;      ///< nodes of nodes_ that are not at rest
   marks met_;                          ///< nodes that this update has moved
-  bool within_reach_ = true;           ///< no node has flown away in this update
+  bool within_reach_ = true;           ///< no node has moved by 1000 times the size of the body
   bool fitted_to_rest_ = true;
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  ///< F, on the device, relaxed [N]
   surface_contact contact_;
 };
 
-/// A body of finite elements, as it can be touched at once.
+/// A body of finite elements.
 using deformable_body = basic_deformable_body<tetrahedral_fem>;
 
 }  // namespace environment

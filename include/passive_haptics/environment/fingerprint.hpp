@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// 64 bits that tell one body, or one block of a file, from another: against mistakes, not against malice.
+// A fingerprint of 64 bits of a body or of a block of a file. It guards against mistakes, not against malice.
 //
 // Words of 8 bytes in four lanes, each xored and multiplied as in FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo),
 // so that a table of 36 MB is checked in some milliseconds.
@@ -29,7 +29,7 @@ class fingerprint {
     }
     return number(bytes.size());
   }
-  /// Of numbers without padding between them.
+  /// Adds numbers that have no padding between them.
   template <class Number>
   fingerprint& add(std::span<const Number> numbers) noexcept {
     return add(std::as_bytes(numbers));
@@ -55,7 +55,7 @@ class fingerprint {
   std::array<std::uint64_t, 4> lanes_{1, 2, 3, 4};
 };
 
-/// Of an elastic body: its mesh, its material and what holds it. Another order of the nodes is another body.
+/// The fingerprint of an elastic body: mesh, material and fixed nodes. Another order of nodes is another body.
 [[nodiscard]] inline std::uint64_t fingerprint_of(const tetrahedral_mesh& mesh, const material& m,
                                                   std::span<const int> fixed_nodes) {
   fingerprint all;

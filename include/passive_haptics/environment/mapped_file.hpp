@@ -25,8 +25,8 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// Read only, aligned to 8 bytes at least. Empty if the file cannot be opened. Whoever replaces a file that
-/// is in use must rename another one over it: one that is cut off under its reader ends the program.
+/// The bytes of a file, read only and aligned to 8 bytes at least; empty if the file cannot be opened. To replace
+/// a file in use, rename another over it: a file that is truncated while it is mapped ends the program.
 class mapped_file {
  public:
   mapped_file() = default;
@@ -76,7 +76,7 @@ class mapped_file {
 
  private:
   void* mapping_ = nullptr;
-  std::vector<std::uint64_t> words_;  ///< where nothing is mapped
+  std::vector<std::uint64_t> words_;  ///< the file's content where nothing is mapped
   std::span<const std::byte> bytes_;
 };
 

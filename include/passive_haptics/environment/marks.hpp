@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Which of N things have been marked since the last clear(), which takes no longer for more of them.
+// A set of marked numbers below N, whose clear() takes the same time for any N.
 
 #include <passive_haptics/environment/node_graph.hpp>
 
@@ -13,7 +13,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// Until the first clear() all are marked.
+/// Until the first clear() all numbers are marked.
 class marks {
  public:
   explicit marks(std::size_t count = 0) : when_(count, 0) {}
@@ -24,7 +24,7 @@ class marks {
     now_ = 1;
   }
   [[nodiscard]] bool has(int i) const { return when_[slot(i)] == now_; }
-  /// False: it was marked already.
+  /// Marks i; returns false if it was marked already.
   bool add(int i) {
     if (has(i)) return false;
     when_[slot(i)] = now_;
@@ -32,7 +32,7 @@ class marks {
   }
 
  private:
-  std::vector<std::uint32_t> when_;  ///< the clear() after which each was marked last
+  std::vector<std::uint32_t> when_;  ///< number of the clear() after which each was marked last
   std::uint32_t now_ = 0;
 };
 

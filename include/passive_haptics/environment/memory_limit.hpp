@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How much memory a body may take: predicted from the pattern of its matrix, refused before it is taken.
+// The memory that a body may take. It is predicted from the pattern of its matrix and refused before use.
 
 #include <passive_haptics/environment/refuse.hpp>
 #include <passive_haptics/environment/stiffness_solver.hpp>
@@ -15,7 +15,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// What the system can give without swapping [B]; none where it does not say (other than Linux).
+/// The memory that the system can give without swapping [B]; none where it does not say (other than Linux).
 [[nodiscard]] inline std::optional<double> available_memory() {
 #ifdef __linux__
   std::ifstream info("/proc/meminfo");
@@ -28,8 +28,8 @@ namespace environment {
   return std::nullopt;
 }
 
-/// Throws memory_refused if `bytes` are more than `limit` [B]; a limit of 0 stands for what the system has,
-/// 8 GB where it does not say.
+/// Throws memory_refused if `bytes` exceed `limit` [B]. A limit of 0 stands for available_memory(), or 8 GB where
+/// the system does not say.
 inline void check_memory(std::string_view what, double bytes, double limit, std::size_t nodes) {
   const double most = limit > 0.0 ? limit : available_memory().value_or(8e9);
   if (bytes <= most) return;

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Tetrahedral meshes: what a mesh is, what makes one unusable, and the text that says so.
+// Tetrahedral meshes, the faults that make one unusable, and the text for each fault.
 //
 //   tetrahedral_mesh       nodes [m] and four node numbers per element
-//   find_fault, check      the first thing wrong with it, as a value or as a mesh_error
-//   bounds                 the box around it [m]: whether its unit of length is what was meant
-//   oriented               turns a mesh whose elements are ALL inverted: a convention, not a fault
-//   scaled                 another unit of length: scaled(mesh, 1e-3) takes mm to m
+//   find_fault, check      the first fault of a mesh, as a value or as a mesh_error
+//   bounds                 the box around it [m], which shows whether the unit of length is right
+//   oriented               turns a mesh whose elements are ALL inverted, which is another convention
+//   scaled                 changes the unit of length: scaled(mesh, 1e-3) takes mm to m
 //
-// Numbers of nodes and elements count from 0. This room is the slow side: it may use the heap and
-// throw (refuse.hpp says how, and what stands for it where there are no exceptions); nothing in it
-// belongs into the haptic tick.
+// Nodes and elements are numbered from 0. This room is the slow side: it may use the heap and throw
+// (refuse.hpp says how, and what happens without exceptions); nothing in it belongs into the haptic tick.
 
 #include <passive_haptics/base/language.hpp>
 #include <passive_haptics/environment/refuse.hpp>
@@ -40,11 +39,11 @@ struct tetrahedral_mesh {
   std::vector<std::array<int, 4>> tetrahedra;  ///< indices into nodes
 };
 
-/// The fault that check() throws, before it is put into words for one kind of reader.
+/// A fault of a mesh, from which check() and msh_content make their texts.
 struct mesh_fault {
   int node = -1;         ///< the node at fault, or −1
   int tetrahedron = -1;  ///< the element at fault, or −1
-  int other = -1;        ///< the element that it does not go with, or −1
+  int other = -1;        ///< the other element of an overlap, or −1
   std::string problem;
   std::string remedy;
 };
@@ -73,16 +72,16 @@ struct mesh_fault {
   return signed_volume(mesh, tetrahedron) / (longest * longest * longest);
 }
 
-/// A face of an element, as it looks from the two elements that may own it.
+/// A face of an element. Two elements that share a face have one key and opposite cycles of nodes.
 struct element_face {
-  std::array<int, 3> key;    ///< its nodes, sorted: the same for both
-  std::array<int, 3> nodes;  ///< outward, the smallest first: opposite cycles
+  std::array<int, 3> key;    ///< the nodes, sorted
+  std::array<int, 3> nodes;  ///< counter-clockwise from outside, the smallest number first
   int number;                ///< 4 · element + face
 
   [[nodiscard]] int tetrahedron() const noexcept { return number / 4; }
 };
 
-/// The four faces of every element, those with the same key side by side, the first owner first.
+/// The four faces of every element, sorted by key and then by number.
 [[nodiscard]] inline std::vector<element_face> sorted_faces(const tetrahedral_mesh& mesh) {
   // Outward faces of the upright element 0123.
   constexpr std::array<std::array<std::size_t, 3>, 4> corners{
@@ -106,8 +105,8 @@ struct element_face {
   return all;
 }
 
-/// Two elements on the same side of a face, as those that are twice in the mesh are, or a third one
-/// at it; the faces as sorted_faces() leaves them.
+/// The fault of two elements on the same side of a face (an element that is in the mesh twice) or of a
+/// third element at a face; none if there is no such face. `sorted` comes from sorted_faces().
 [[nodiscard]] inline std::optional<mesh_fault> find_overlap(
     const std::vector<element_face>& sorted) {
   for (auto first = sorted.begin(); first != sorted.end();) {
@@ -124,11 +123,11 @@ struct element_face {
   return std::nullopt;
 }
 
-inline constexpr double flat_element = 1e-9;  ///< relative volume of an element that has none
+inline constexpr double flat_element = 1e-9;  ///< an element of a relative volume ≤ this is flat
 
-/// The first fault of a mesh, none if it can be used: it has nodes and elements; coordinates are
-/// finite; every element has four different nodes that exist, a volume, and stands upright; no two
-/// elements overlap at a face; every node belongs to an element.
+/// The first fault of a mesh, or none if it can be used. A usable mesh has nodes and elements and finite
+/// coordinates; every element has four different nodes that exist, a volume > 0 and is upright; every node
+/// belongs to an element; no two elements overlap at a face.
 [[nodiscard]] inline std::optional<mesh_fault> find_fault(const tetrahedral_mesh& mesh) {
   const auto count = static_cast<int>(mesh.nodes.size());
   if (mesh.nodes.empty()) {
@@ -195,7 +194,7 @@ inline constexpr double flat_element = 1e-9;  ///< relative volume of an element
   return find_overlap(sorted_faces(mesh));
 }
 
-/// Throws mesh_error for the first fault found; `name` opens its text.
+/// Throws a mesh_error for the first fault; its text begins with `name`.
 inline void check(const tetrahedral_mesh& mesh, std::string_view name = "mesh") {
   const auto fault = find_fault(mesh);
   if (!fault) return;
@@ -213,8 +212,8 @@ inline void check(const tetrahedral_mesh& mesh, std::string_view name = "mesh") 
   return box;
 }
 
-/// The mesh with two nodes of every element swapped if all are inverted, else the mesh as it is: a
-/// mixture is left for check() to refuse.
+/// The mesh with two nodes of every element swapped if all elements are inverted, otherwise the mesh
+/// unchanged: check() refuses a mixture.
 [[nodiscard]] inline tetrahedral_mesh oriented(tetrahedral_mesh mesh) {
   const bool all = std::all_of(mesh.tetrahedra.begin(), mesh.tetrahedra.end(),
                                [&](const auto& t) { return signed_volume(mesh, t) < 0.0; });
@@ -224,7 +223,7 @@ inline void check(const tetrahedral_mesh& mesh, std::string_view name = "mesh") 
   return mesh;
 }
 
-/// Every coordinate times `factor` > 0. std::invalid_argument for any other factor.
+/// The mesh with every coordinate times `factor` > 0. Throws std::invalid_argument for any other factor.
 [[nodiscard]] inline tetrahedral_mesh scaled(tetrahedral_mesh mesh, double factor) {
   if (!(factor > 0.0) || !std::isfinite(factor)) {
     refuse_argument("scaled: factor ", factor, " is refused; give a finite number above zero");

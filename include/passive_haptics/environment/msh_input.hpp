@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The lines, words and binary numbers of an MSH file, and the first thing wrong with them.
+// The lines, words and binary numbers of an MSH file, and the first fault in them.
 //
 // The first fault is kept, with its place, and ends the file: from then on there is no next line and
-// every number is zero. Whoever reads asks good() before it believes what it has read.
+// every number is zero. A reader must ask good() before it uses what it has read.
 //
-// Reads through the stream buffer: no locale, no exception mask, no line longer than longest_line, so
-// that neither garbage nor an endless stream can do more than raise a fault.
+// It reads through the stream buffer, without locale and exception mask, and no line longer than
+// longest_line, so garbage or an endless stream raises a fault and does no other harm.
 
 #include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/base/kernels.hpp>
@@ -28,7 +28,6 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// How the numbers of a file are written.
 enum class msh_encoding : std::uint8_t { text, little_endian, big_endian };
 
 class msh_input {
@@ -41,8 +40,8 @@ class msh_input {
   [[nodiscard]] bool good() const noexcept { return !fault_; }
   [[nodiscard]] const std::optional<mesh_error>& fault() const noexcept { return fault_; }
 
-  /// Where the present line, or the binary number read last, stands: the number of a line in a text
-  /// file, of a byte in a binary one.
+  /// The place of the present line or of the binary number read last: in a text file the number of the line,
+  /// counted from 1, in a binary file that of the byte, counted from 0.
   [[nodiscard]] std::int64_t place() const noexcept { return binary() ? byte_ : line_number_; }
 
   void fail(std::string_view problem, std::string_view remedy) {
@@ -70,8 +69,8 @@ class msh_input {
     return false;
   }
 
-  /// Goes to the line that is `end`, whatever stands before it; false if there is none. Binary numbers
-  /// may run into it.
+  /// Goes to the line that is `end`, over anything before it; false if there is none. In a binary file a line
+  /// that ends with `end` is enough, because binary numbers may precede it.
   [[nodiscard]] bool skip_to(std::string_view end) {
     while (read_line(true)) {
       line_ = trimmed(text_);
@@ -110,12 +109,12 @@ class msh_input {
   void encode(msh_encoding encoding) noexcept { encoding_ = encoding; }
   [[nodiscard]] bool binary() const noexcept { return encoding_ != msh_encoding::text; }
 
-  /// The next whole number: a word, or `size` bytes.
+  /// The next whole number: a word of a text file, or `size` bytes of a binary file.
   [[nodiscard]] std::int64_t integer(std::string_view what, int size) {
     return binary() ? static_cast<std::int64_t>(bytes(what, size)) : word_integer(what);
   }
 
-  /// The next finite number: a word, or 8 bytes.
+  /// The next finite number: a word of a text file, or 8 bytes of a binary file.
   [[nodiscard]] double real(std::string_view what) {
     if (!binary()) return word_real(what);
     const auto value = std::bit_cast<double>(bytes(what, 8));
@@ -123,8 +122,8 @@ class msh_input {
     return value;
   }
 
-  /// What is said to be a count, if it can be one. What it counts is never allocated ahead of what
-  /// holds it: a false count costs nothing.
+  /// `value` if it can be a count, else 0 and a fault. No memory is allocated by a count alone, so a false
+  /// count costs nothing.
   [[nodiscard]] std::int64_t as_count(std::string_view what, std::int64_t value) {
     constexpr int most = kernels::largest<int>();
     if (value >= 0 && value <= most) return value;
@@ -132,14 +131,14 @@ class msh_input {
     return 0;
   }
 
-  /// The end of what belongs together: of a line, and nothing where there are none.
+  /// In a text file a fault unless the line is used up; in a binary file, which has no lines, nothing.
   void end_of_record() {
     if (const auto left = trimmed(rest_); !binary() && !left.empty()) {
       fail(sentence("has more on the line than expected: ", quoted(left)), damaged);
     }
   }
 
-  /// At most forty characters of a file, printable.
+  /// Up to 40 characters of a file in quotes, '?' for each that is not printable.
   [[nodiscard]] static std::string quoted(std::string_view text) {
     std::string result = "'";
     for (const char c : text.substr(0, 40)) result += c >= ' ' && c <= '~' ? c : '?';
@@ -157,7 +156,7 @@ class msh_input {
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
   }
 
-  /// Of a line that is only skipped, the end is kept however long it is.
+  /// Reads a line into text_; of a long line that is only skipped, text_ keeps the end.
   [[nodiscard]] bool read_line(bool skipped = false) {
     using traits = std::streambuf::traits_type;
     text_.clear();
@@ -182,7 +181,7 @@ class msh_input {
     return true;
   }
 
-  /// The next `size` bytes as a whole number; one of four bytes has a sign.
+  /// The next `size` bytes as a whole number; a number of four bytes is signed.
   [[nodiscard]] std::uint64_t bytes(std::string_view what, int size) {
     using traits = std::streambuf::traits_type;
     std::uint64_t value = 0;
@@ -218,8 +217,8 @@ class msh_input {
   std::string text_;
   std::string_view line_, rest_;
   std::int64_t line_number_ = 0;
-  std::int64_t next_byte_ = 0;  ///< counted from 0
-  std::int64_t byte_ = 0;       ///< where the present line or number begins
+  std::int64_t next_byte_ = 0;  ///< number of the next byte, counted from 0
+  std::int64_t byte_ = 0;       ///< number of the byte at which the present line or number begins
   std::optional<mesh_error> fault_;
 };
 

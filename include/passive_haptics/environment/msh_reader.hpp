@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Reads the tetrahedra of a Gmsh MSH file: versions 1, 2.0-2.2 and 4.1, as text and, from 2.0 on, in
-// binary with either byte order.
+// Reads the tetrahedra of a Gmsh MSH file of version 1, 2.0-2.2 or 4.1.
+// The file may be text or, from version 2.0 on, binary with either byte order.
 //
 //   $NOD .. $ELM                       version 1, no header
 //   $MeshFormat 2.x  $Nodes $Elements  one record per node and element
 //   $MeshFormat 4.1  $Nodes $Elements  blocks per entity; parametric nodes are understood
 //   anything else between $X and $EndX is skipped ($PhysicalNames, $Entities, $NodeData, ...)
 //
-// Kept are the tetrahedra and the nodes that are their corners, in the order of the file: points,
-// lines, triangles and nodes used by no tetrahedron are dropped, tags need not be contiguous.
-// Tetrahedra of higher order are taken by their four corners. One that is in several physical groups
-// is taken once, though versions 1 and 2 write it for each. Other volumes are refused: without them the
-// body would have holes. A mesh whose elements are all inverted follows the other convention and is
-// turned (mesh.hpp, oriented); a mixture is refused. No unit is known to the format: bring lengths to
-// metres with scaled(). Other formats are not read: `meshio convert -o gmsh22 in.vtu out.msh` makes this
-// one of them. Format: Gmsh reference manual, "Gmsh file formats".
+// The reader keeps the tetrahedra and the nodes that are their corners, in the order of the file. Points,
+// lines, triangles and nodes used by no tetrahedron are dropped; tags need not be contiguous. A tetrahedron
+// of higher order is taken by its four corners, and one of several physical groups once, though versions 1
+// and 2 write it for each. Other volumes are refused, because without them the body would have holes. A mesh
+// whose elements are all inverted follows the other convention and is turned (mesh.hpp, oriented); a mixture
+// is refused. The format has no unit of length: bring lengths to metres with scaled(). Other formats are not
+// read: convert them by `meshio convert -o gmsh22 in.vtu out.msh`. Source: Gmsh reference manual, "Gmsh file
+// formats".
 
 #include <passive_haptics/environment/mesh.hpp>
 #include <passive_haptics/environment/msh_input.hpp>
@@ -32,7 +32,6 @@
 #include <string_view>
 #include <system_error>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -40,28 +39,28 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// What load_msh made of a file.
+/// The answer of load_msh().
 struct loaded_msh {
   tetrahedral_mesh mesh;             ///< checked; empty if there is a fault
-  std::optional<mesh_error> fault;   ///< the first thing wrong, with file, place and remedy
-  std::vector<std::string> notes{};  ///< what the mesh leaves out of the file, a sentence each
+  std::optional<mesh_error> fault;   ///< the first fault, with file, place and remedy
+  std::vector<std::string> notes{};  ///< a sentence for each thing that the mesh leaves out
 };
 
-/// How another file becomes one that is read.
+/// The remedy for a file of another format.
 inline constexpr std::string_view convert_the_mesh =
     "Convert another mesh of tetrahedra: meshio convert -o gmsh22 in.vtu out.msh (Debian: "
     "meshio-tools).";
-/// Gmsh merges a file at the end of a LINE: each statement needs its own.
+/// The remedy for a file without volumes. Gmsh merges a file at the end of a LINE, so each statement has its own.
 inline constexpr std::string_view fill_the_surface =
     "Fill a surface that is closed: printf 'Merge \"in.stl\";\\nSurface Loop(1) = "
     "{1};\\nVolume(1) = {1};\\n' > in.geo && gmsh -3 in.geo -o out.msh; one that has holes: "
     "FloatTetwild_bin -i in.stl -o out.msh";
 
-/// A type of element: Gmsh reference manual, "MSH file format".
+/// A type of element by its number (Gmsh reference manual, "MSH file format").
 struct msh_type {
   enum class shape : std::uint8_t { unknown, flat, tetrahedron, other_volume };
   shape is = shape::unknown;
-  int nodes = 0;  ///< of a tetrahedron the first four are its corners
+  int nodes = 0;  ///< nodes of the element; the first four of a tetrahedron are its corners
 
   [[nodiscard]] static constexpr msh_type of(std::int64_t number) noexcept {
     constexpr std::array<int, 32> nodes{0,  2,  3,  4,  4, 8, 6,  5,  3,  6, 9,
@@ -77,27 +76,25 @@ struct msh_type {
   }
 };
 
-/// What a file has said so far, and the mesh that makes: tags become numbers, what no tetrahedron uses
-/// goes.
+/// The content of a file, and the mesh that it makes: tags become numbers from 0, and nodes that no tetrahedron
+/// uses are dropped.
 class msh_content {
  public:
   void add_node(msh_input& in, std::int64_t tag, double x, double y, double z) {
     if (!in.good()) return;
-    if (!index_.try_emplace(tag, nodes_.size()).second) {
-      in.fail(sentence("defines node ", tag, " again"), "give every node its own number");
-    }
+    tags_.push_back({tag, nodes_.size(), in.place()});
     nodes_.emplace_back(x, y, z);
   }
 
-  /// What is said of an element before its nodes.
+  /// The numbers of an element that stand before its nodes.
   struct heading {
     std::int64_t tag = 0;
     std::int64_t type = 0;
-    std::int64_t entity = 0;  ///< of the geometry, which the element is a part of
-    std::int64_t group = 0;   ///< physical; a file of version 1 or 2 repeats the element for each
+    std::int64_t entity = 0;  ///< the entity of the geometry that the element is a part of
+    std::int64_t group = 0;   ///< physical group; versions 1 and 2 repeat an element for each group
   };
 
-  /// Takes an element, whose nodes come next as numbers of `size` bytes, if it is a tetrahedron.
+  /// Takes an element if it is a tetrahedron; its nodes come next as numbers of `size` bytes.
   void add_element(msh_input& in, const heading& is, int size) {
     const msh_type type = msh_type::of(is.type);
     element e{is, {}, in.place()};
@@ -121,8 +118,9 @@ class msh_content {
     elements_.push_back(e);
   }
 
-  /// The mesh, checked; `in` keeps the fault if there is one.
+  /// The mesh, checked; a fault is reported to `in`.
   [[nodiscard]] tetrahedral_mesh mesh(msh_input& in) {
+    sort_tags(in);
     if (elements_.empty()) {
       in.fail(sentence("has no tetrahedra among its ", skipped_, " elements"),
               sentence("mesh the volume: gmsh -3. ", fill_the_surface));
@@ -143,7 +141,7 @@ class msh_content {
     return result;
   }
 
-  /// After mesh(): what of the file is not in the mesh although it might be looked for there.
+  /// After mesh(): a sentence for each part of the file that a user might miss in the mesh.
   [[nodiscard]] std::vector<std::string> notes() const {
     std::vector<std::string> all;
     if (higher_order_ > 0) {
@@ -166,7 +164,37 @@ class msh_content {
     std::int64_t place;
   };
 
-  /// The same nodes of the same entity in another physical group are the same element.
+  struct tagged {
+    std::int64_t tag;
+    std::size_t node;    ///< in nodes_
+    std::int64_t place;  ///< in the file
+  };
+  /// By their tags, each of which is there once. No hash: a file may be made so that all of its tags have one.
+  void sort_tags(msh_input& in) {
+    const auto below = [](const tagged& a, const tagged& b) {
+      return std::tie(a.tag, a.node) < std::tie(b.tag, b.node);
+    };
+    if (!std::is_sorted(tags_.begin(), tags_.end(), below)) {
+      std::sort(tags_.begin(), tags_.end(), below);
+    }
+    const auto same = [](const tagged& a, const tagged& b) { return a.tag == b.tag; };
+    const auto twice = std::adjacent_find(tags_.begin(), tags_.end(), same);
+    if (twice == tags_.end()) return;
+    in.fail_at((twice + 1)->place, sentence("defines node ", twice->tag, " again"),
+               "give every node its own number");
+  }
+  /// The node of a tag, in nodes_; none beyond them.
+  [[nodiscard]] std::size_t node_of(std::int64_t tag) const {
+    const auto first = tags_.empty() ? 0 : tags_.front().tag;
+    const auto guess = static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(first);
+    if (guess < tags_.size() && tags_[guess].tag == tag) return tags_[guess].node;
+    const auto found =
+        std::lower_bound(tags_.begin(), tags_.end(), tag,
+                         [](const tagged& t, std::int64_t wanted) { return t.tag < wanted; });
+    return found != tags_.end() && found->tag == tag ? found->node : nodes_.size();
+  }
+
+  /// Drops an element whose nodes and entity are those of an element of another physical group.
   void drop_repeated() {
     const auto in_first_group = [this](const element& e) {
       return e.is.group == elements_.front().is.group;
@@ -202,13 +230,13 @@ class msh_content {
     std::vector<int> number(nodes_.size(), unused);
     for (const element& e : elements_) {
       for (const std::int64_t tag : e.nodes) {
-        const auto found = index_.find(tag);
-        if (found == index_.end()) {
+        const std::size_t found = node_of(tag);
+        if (found == nodes_.size()) {
           in.fail_at(e.place, sentence("element ", e.is.tag, " names node ", tag, ", unknown"),
                      "the nodes are not all in the file: save the mesh again");
           return {};
         }
-        number[found->second] = 0;
+        number[found] = 0;
       }
     }
     tetrahedral_mesh result;
@@ -221,21 +249,21 @@ class msh_content {
     for (const element& e : elements_) {
       higher_order_ += msh_type::of(e.is.type).nodes > 4 ? 1 : 0;
       auto& nodes = result.tetrahedra.emplace_back();
-      for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] = number[index_.at(e.nodes[k])];
+      for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] = number[node_of(e.nodes[k])];
     }
     return result;
   }
 
   std::vector<Eigen::Vector3d> nodes_;
-  std::unordered_map<std::int64_t, std::size_t> index_;  ///< of a tag in nodes_
+  std::vector<tagged> tags_;  ///< one for each of nodes_
   std::vector<element> elements_;
   std::int64_t skipped_ = 0;       ///< points, lines and faces
   std::int64_t higher_order_ = 0;  ///< tetrahedra of more than four nodes
-  std::size_t repeated_ = 0;       ///< for another group
+  std::size_t repeated_ = 0;       ///< elements dropped, as another physical group repeats them
   std::size_t loose_ = 0;          ///< nodes that are no corner
 };
 
-/// One reading of one file; use load_msh or read_msh.
+/// Reads one file once; use load_msh() or read_msh().
 class msh_reader {
  public:
   msh_reader(std::istream& in, std::string_view name) : in_(in, name) {}
@@ -334,7 +362,7 @@ class msh_reader {
     }
   }
 
-  /// Goes to the line of number i of `total`, which no section mark may interrupt.
+  /// Goes to the line of number i of `total`; a section mark there is a fault.
   void line(std::string_view what, std::int64_t i, std::int64_t total) {
     if (!in_.next()) {
       in_.fail(sentence("ends at ", what, " ", i + 1, " of ", total),
@@ -345,12 +373,12 @@ class msh_reader {
                "the count does not match what follows: save the mesh again");
     }
   }
-  /// The same where binary numbers follow each other without lines.
+  /// The same in a text file; in a binary file, whose numbers have no lines, nothing.
   void record(std::string_view what, std::int64_t i, std::int64_t total) {
     if (!in_.binary()) line(what, i, total);
   }
 
-  /// A count on a line of its own, in a binary file, too.
+  /// A count that has a line of its own in a binary file, too.
   [[nodiscard]] std::int64_t line_of_count(std::string_view what) {
     line(what, 0, 1);
     return in_.as_count(what, in_.word_integer(what));
@@ -387,7 +415,7 @@ class msh_reader {
     }
   }
 
-  /// In a binary file elements of one type follow each other, and what they share is written once.
+  /// Reads a binary file, where elements of one type follow each other and share one heading.
   void flat_element_runs(std::int64_t total) {
     for (std::int64_t left = total; left > 0 && in_.good();) {
       const std::int64_t type = in_.integer("element type", tag_size_);
@@ -402,7 +430,7 @@ class msh_reader {
     }
   }
 
-  /// Of version 1 and 2: the physical group, the entity, and whatever follows.
+  /// Reads the tags of versions 1 and 2: the physical group, the entity, and others that are ignored.
   void tags(msh_content::heading& e, std::int64_t words) {
     for (std::int64_t k = 0; k < words && in_.good(); ++k) {
       const std::int64_t tag = in_.integer("tag", tag_size_);
@@ -458,7 +486,7 @@ class msh_reader {
     if (left != 0) in_.fail(sentence("ends ", left, " elements early"), msh_input::damaged);
   }
 
-  /// Of version 4: how many blocks, how many in them all, the smallest and the largest tag.
+  /// The number of blocks of a section of version 4, with the number of its items in `total`.
   [[nodiscard]] std::int64_t header(std::int64_t& total, std::string_view what) {
     record("block header", 0, 1);
     const std::int64_t blocks = count("number of blocks", tag_size_);
@@ -482,19 +510,19 @@ class msh_reader {
   msh_input in_;
   msh_content content_;
   int version_ = 0;
-  int tag_size_ = 4;  ///< of binary tags and counts [bytes]
+  int tag_size_ = 4;  ///< size of binary tags and counts [bytes]
   bool first_line_ = true;
   bool nodes_read_ = false;
   bool elements_read_ = false;
 };
 
-/// The tetrahedra of an MSH stream, or what is wrong with it, whatever the bytes; `name` stands for the
-/// file in messages. A binary file needs a stream that is opened as one.
+/// The tetrahedra of an MSH stream, or its first fault, for any bytes; `name` stands for the file in messages. A
+/// binary file needs a stream that is opened as binary.
 [[nodiscard]] inline loaded_msh load_msh(std::istream& in, std::string_view name) {
   return msh_reader(in, name).read();
 }
 
-/// The same of a file.
+/// The same for a file.
 [[nodiscard]] inline loaded_msh load_msh(const std::filesystem::path& path) {
   const std::string name = path.string();
   std::error_code ignored;
@@ -508,7 +536,7 @@ class msh_reader {
   return load_msh(file, name);
 }
 
-/// The tetrahedra that load_msh finds, its fault thrown.
+/// The tetrahedra that load_msh() finds; throws its fault as a mesh_error.
 [[nodiscard]] inline tetrahedral_mesh read_msh(std::istream& in, std::string_view name) {
   loaded_msh loaded = load_msh(in, name);
   if (loaded.fault) refuse(*loaded.fault);

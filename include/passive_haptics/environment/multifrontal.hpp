@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// K = L Lᵀ by dense fronts along a nested dissection, and what a contact needs of K⁻¹ without the rest.
+// K = L Lᵀ by dense fronts along a nested dissection, and the parts of K⁻¹ [m/N] that a contact needs.
 //
-//   solve       b ← K⁻¹b: every front twice
-//   press       Y = L⁻¹B of unit forces at one point: only the fronts from there to the root. BᵀK⁻¹B = YᵀY
-//   answer      u of the nodes that are asked for, under a force at that point: the fronts above THEM
+//   solve          b ← K⁻¹b, over every front twice
+//   press          Y = L⁻¹B of unit forces B at a point, over the fronts from there to the root: BᵀK⁻¹B = YᵀY
+//   displacement   u of a node under a force at that point, over the fronts above THAT node
 //
-// J. W. H. Liu, "The multifrontal method for sparse matrix solution", SIAM Review 34(1), 1992. Eigen's
-// dense products do the work; one thread factorises.
+// J. W. H. Liu, "The multifrontal method for sparse matrix solution", SIAM Review 34(1), 1992. The products are
+// Eigen's dense ones; one thread factorises.
 
 #include <passive_haptics/environment/marks.hpp>
 #include <passive_haptics/environment/nested_dissection.hpp>
@@ -30,7 +30,7 @@ namespace environment {
 
 class multifrontal {
  public:
-  /// Bytes that factorise() holds at most.
+  /// Orders the nodes; returns the largest number of bytes that factorise() will hold.
   std::size_t analyse(const node_graph& graph) {
     factorised_ = false;
     factor_.clear();
@@ -42,8 +42,8 @@ class multifrontal {
     return static_cast<std::size_t>(tree_.peak_bytes);
   }
 
-  /// Factorises K of the graph that was analysed, three rows per node. Stopped by `tell`, asked at least
-  /// after every 10⁹ operations, it keeps nothing.
+  /// Factorises K [N/m] of the graph that was analysed, three rows per node. It asks `tell` at least after every
+  /// 10⁹ operations; if that stops it, it keeps nothing.
   [[nodiscard]] factor_result factorise(const Eigen::SparseMatrix<double>& stiffness,
                                         const on_progress& tell = {}) {
     factorised_ = false;
@@ -58,7 +58,7 @@ class multifrontal {
   [[nodiscard]] bool factorised() const noexcept { return factorised_; }
   [[nodiscard]] const elimination_tree& tree() const noexcept { return tree_; }
 
-  /// b ← K⁻¹b, one column, without allocating; nothing happens without a factor.
+  /// b ← K⁻¹b for one column, without allocating. Without a factor b stays.
   void solve(Eigen::VectorXd& b) {
     if (!factorised_) return;
     for (std::size_t k = 0; k < node_at_.size(); ++k) {
@@ -79,8 +79,8 @@ class multifrontal {
     return path;
   }
 
-  /// Rows 3i..3i+2 are those of wanted[i] in K⁻¹B; column 3j + c of B is a unit force along axis c at
-  /// loaded[j]. Any number of threads may ask at a time.
+  /// Rows 3i..3i+2 of the result are those of node wanted[i] in K⁻¹B [m/N], where column 3j + c of B is a unit
+  /// force along axis c at node loaded[j]. Any number of threads may call it at a time.
   [[nodiscard]] Eigen::MatrixXd columns(std::span<const int> loaded,
                                         std::span<const int> wanted) const {
     const auto count = static_cast<Eigen::Index>(3 * loaded.size());
@@ -91,7 +91,7 @@ class multifrontal {
     std::vector<int> all = path_of(wanted);
     all.insert(all.end(), down.begin(), down.end());
     tidy(all);
-    // Only the rows of these fronts are there.
+    // x has rows for the nodes of these fronts only.
     std::vector<int> at(node_at_.size(), -1);
     int rows = 0;
     for (const int t : all) {
@@ -132,19 +132,19 @@ class multifrontal {
     return result;
   }
 
-  /// One point that forces act on: what is known of it until another is pressed.
+  /// The point that was pressed last.
   struct pressed {
-    std::vector<int> path;                          ///< fronts from it to the root
+    std::vector<int> path;                          ///< fronts from the point to the root
     Eigen::Matrix<double, Eigen::Dynamic, 3> half;  ///< Y, 3N rows in the order of elimination
-    Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero();  ///< YᵀY [m/N]: how far it moves
+    Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero();  ///< YᵀY of the point [m/N]
   };
-  /// Displacements under one force, of the nodes that were asked for.
+  /// The displacements under one force, as far as they have been asked for.
   struct answer {
     Eigen::VectorXd u;         ///< 3N, in the order of elimination [m]
-    marks solved;              ///< fronts
-    std::vector<int> waiting;  ///< fronts, on the way to one that is solved
+    marks solved;              ///< fronts whose u is known
+    std::vector<int> waiting;  ///< fronts to solve, on the way from a node to a solved front
   };
-  /// Room for them: afterwards press() and displacement() do not allocate.
+  /// Allocates their memory, so that press() and displacement() do not allocate.
   void prepare(pressed& at) const {
     at.path.reserve(tree_.fronts.size());
     at.half.setZero(static_cast<Eigen::Index>(3 * node_at_.size()), 3);
@@ -155,7 +155,7 @@ class multifrontal {
     to.waiting.reserve(tree_.fronts.size());
   }
 
-  /// Presses a point that shares a force to these nodes by these weights.
+  /// Presses the point whose force is shared out to these nodes by these weights.
   void press(pressed& at, std::span<const int> nodes, std::span<const double> weights) {
     at.path.clear();
     at.compliance.setZero();
@@ -181,9 +181,9 @@ class multifrontal {
     }
   }
 
-  /// Another force from now on.
+  /// Forgets the displacements, because the force changes.
   static void forget(answer& of) { of.solved.clear(); }
-  /// u [m] of a node under `force` [N] at the point. Asked again before forget() it costs nothing.
+  /// u [m] of a node under `force` [N] at the pressed point. A second call before forget() costs nothing.
   [[nodiscard]] Eigen::Vector3d displacement(answer& of, const pressed& at,
                                              const Eigen::Vector3d& force, int node) {
     if (!factorised_ || of.u.size() == 0) return Eigen::Vector3d::Zero();
@@ -219,7 +219,7 @@ class multifrontal {
     path.erase(std::unique(path.begin(), path.end()), path.end());
   }
   void climb(int node, std::vector<int>& path) const {
-    const auto seen = path.size();  // two nodes mostly meet in a front or two
+    const auto seen = path.size();  // the paths of two nodes mostly meet in a front or two
     for (int t = tree_.front_of[slot(tree_.position[slot(node)])]; t >= 0;
          t = tree_.fronts[slot(t)].parent) {
       const auto end = path.begin() + static_cast<std::ptrdiff_t>(seen);
@@ -234,12 +234,12 @@ class multifrontal {
   }
 
   // ------------------------------------------------------------------------------- factorising
-  /// How far elimination has come.
+  /// The progress of the elimination, in operations.
   struct course {
     const on_progress& tell;
     double total;
     double done = 0.0;
-    /// False: stop.
+    /// Returns false if `tell` stops the elimination.
     [[nodiscard]] bool count(double operations) {
       done += operations;
       return !tell || tell((std::min)(1.0, done / total));
@@ -249,8 +249,8 @@ class multifrontal {
   factor_result eliminate(const Eigen::SparseMatrix<double>& stiffness, const on_progress& tell) {
     const std::size_t count = tree_.fronts.size();
     factor_.assign(count, {});
-    std::vector<Eigen::MatrixXd> left(count);  // to the parent of each front
-    std::vector<int> local(node_at_.size());   // of a position in the present front
+    std::vector<Eigen::MatrixXd> left(count);  // the update matrix of each front for its parent
+    std::vector<int> local(node_at_.size());   // place of a position in the present front
     const Eigen::VectorXd diagonal = stiffness.diagonal();
     factor_result result{.smallest_pivot = std::numeric_limits<double>::infinity()};
     course way{tell, tree_.operations};
@@ -277,7 +277,7 @@ class multifrontal {
     return result;
   }
 
-  /// The columns of K that are eliminated in front t, as far as they are not yet.
+  /// Copies the columns of K that are eliminated in front t, from their diagonals down.
   void fill(std::size_t t, const Eigen::SparseMatrix<double>& stiffness,
             const std::vector<int>& local) {
     const elimination_front& front = tree_.fronts[t];
@@ -293,7 +293,7 @@ class multifrontal {
     }
   }
 
-  /// Adds what a child has left; lower triangles only.
+  /// Adds the update matrix of a child (extend-add); only lower triangles are used.
   void extend(std::size_t t, int child, const Eigen::MatrixXd& from, Eigen::MatrixXd& left,
               const std::vector<int>& local) {
     const int pivots = tree_.fronts[t].pivots;
@@ -310,8 +310,8 @@ class multifrontal {
     }
   }
 
-  /// L of the pivots and of the bound below them, panel by panel; `left` −= what they take. False: stopped,
-  /// or not positive definite.
+  /// Factorises the pivots and the bound below them, panel by panel, and subtracts their part from `left`. Returns
+  /// false if it was stopped or the matrix is not positive definite.
   static bool factorise_front(Eigen::MatrixXd& l, Eigen::MatrixXd& left, course& way,
                               factor_result& result) {
     const Eigen::Index rows = l.rows(), pivots = l.cols();
@@ -352,7 +352,7 @@ class multifrontal {
   }
 
   // ----------------------------------------------------------------------------------- solving
-  /// x of the pivots of front t ← L⁻¹x, and what that takes from the nodes that come later.
+  /// x of the pivots of front t ← L⁻¹x; its part is subtracted from the later nodes.
   void forward(std::size_t t, Eigen::VectorXd& x, Eigen::VectorXd& below) const {
     const elimination_front& front = tree_.fronts[t];
     const Eigen::MatrixXd& l = factor_[t];
@@ -364,7 +364,7 @@ class multifrontal {
       x.segment<3>(row(front.bound[i])) -= taken.segment<3>(row(i));
     }
   }
-  /// x of the pivots of front t ← L⁻ᵀ(x − what the later nodes take), those being solved.
+  /// x of the pivots of front t ← L⁻ᵀ(x − the part of the later nodes), which are solved already.
   void backward(std::size_t t, Eigen::VectorXd& x, Eigen::VectorXd& below) const {
     const elimination_front& front = tree_.fronts[t];
     const Eigen::MatrixXd& l = factor_[t];
@@ -376,7 +376,7 @@ class multifrontal {
     pivots.noalias() -= l.bottomRows(later.size()).transpose() * later;
     l.topRows(l.cols()).triangularView<Eigen::Lower>().transpose().solveInPlace(pivots);
   }
-  /// forward() of three columns, which reads L once and does not allocate as Eigen's products of matrices do.
+  /// forward() of three columns. It reads L once and, unlike Eigen's matrix products, does not allocate.
   void forward_three(std::size_t t, Eigen::Matrix<double, Eigen::Dynamic, 3>& x) {
     constexpr Eigen::Index step = 16, slab = 192;  // a slab of L is 24 kB, in the first cache
     const elimination_front& front = tree_.fronts[t];
@@ -403,12 +403,12 @@ class multifrontal {
   }
 
   elimination_tree tree_;
-  std::vector<int> node_at_;             ///< by position in the order of elimination
-  std::vector<Eigen::MatrixXd> factor_;  ///< of each front, its bound below its pivots
+  std::vector<int> node_at_;             ///< the node at each position in the order of elimination
+  std::vector<Eigen::MatrixXd> factor_;  ///< L of each front, the bound below the pivots
   bool factorised_ = false;
   Eigen::VectorXd work_;
-  Eigen::VectorXd below_;                           ///< rows of the largest front
-  Eigen::Matrix<double, Eigen::Dynamic, 3> three_;  ///< the same
+  Eigen::VectorXd below_;                           ///< scratch, rows of the largest front
+  Eigen::Matrix<double, Eigen::Dynamic, 3> three_;  ///< scratch, rows of the largest front
 };
 
 }  // namespace environment

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// In which order the nodes of a mesh are eliminated so that its factor stays small.
+// The order in which the nodes of a mesh are eliminated so that its factor stays small.
 //
-//   ┌───────┬─┬───────┐    a separator S cuts the body in two; no element joins A and B. Eliminated
-//   │   A   │S│   B   │    are A, then B, then S, and A and B in the same way: a tree of dense fronts,
-//   └───────┴─┴───────┘    O(n^4/3) entries and O(n²) operations for a compact body
+//   ┌───────┬─┬───────┐    A separator S cuts the body in two, and no element joins A and B. A is eliminated,
+//   │   A   │S│   B   │    then B, then S, and A and B are cut in the same way. This gives a tree of dense
+//   └───────┴─┴───────┘    fronts, O(n^4/3) entries and O(n²) operations for a compact body of n nodes.
 //
 // A. George, "Nested dissection of a regular finite element mesh", SIAM J. Numer. Anal. 10(2), 1973. The
-// cut is the plane through the median of the longest axis, the separator the nodes next to it on the side
-// that has fewer of them.
+// cut is the plane through the median of the longest axis; the separator is the set of nodes next to it, on the
+// side that has fewer of them.
 //
-// Nodes that contacts are on come last of all, in one front: what is left of the body for them is a dense
-// matrix of their own size, condensation (M. Bro-Nielsen, S. Cotin, Computer Graphics Forum 15(3), 1996).
+// The nodes that contacts are on come last, in one front: the body is condensed to a dense matrix of their size
+// (M. Bro-Nielsen, S. Cotin, Computer Graphics Forum 15(3), 1996).
 
 #include <passive_haptics/environment/node_graph.hpp>
 
@@ -28,26 +28,26 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// A set of nodes that is eliminated at once, and the later ones that this couples.
+/// A set of nodes that is eliminated at once, and the later nodes that its elimination couples.
 struct elimination_front {
   int first = 0;              ///< the position of its first node in the order
   int pivots = 0;             ///< how many nodes are eliminated here, one after the other
   std::vector<int> bound;     ///< the positions of the later nodes that they are coupled to, sorted
-  std::vector<int> children;  ///< fronts whose bounds end in this one
-  int parent = -1;  ///< the front of its first bound node; −1: nothing is left to couple to
+  std::vector<int> children;  ///< fronts whose parent this one is
+  int parent = -1;            ///< the front of its first bound node; −1 if the bound is empty
 };
 
-/// The order, and what a factorisation with three unknowns per node will take, before it is begun.
+/// The order of elimination, and the cost of a factorisation with three unknowns per node.
 struct elimination_tree {
-  std::vector<int> position;              ///< of each node in the order
+  std::vector<int> position;              ///< position of each node in the order
   std::vector<elimination_front> fronts;  ///< children before parents
-  std::vector<int> front_of;              ///< by position
+  std::vector<int> front_of;              ///< the front of each position
   double operations = 0.0;                ///< multiplications and additions
-  double factor_bytes = 0.0;              ///< of the factor, doubles [B]
+  double factor_bytes = 0.0;              ///< size of the factor in doubles [B]
   double peak_bytes = 0.0;                ///< the most that the factorisation holds at a time [B]
 };
 
-/// How a graph is dissected; use dissect().
+/// Dissects a graph; use dissect().
 class dissection {
  public:
   dissection(const node_graph& graph, int leaf) : graph_(graph), leaf_(leaf) {
@@ -79,7 +79,7 @@ class dissection {
   }
 
  private:
-  /// In ascending order, whatever order the library's nth_element has left them in: the same bits everywhere.
+  /// Appends the nodes in ascending order, so that the result does not depend on the library's nth_element.
   void eliminate(std::vector<int> nodes) {
     if (nodes.empty()) return;
     std::sort(nodes.begin(), nodes.end());
@@ -113,7 +113,7 @@ class dissection {
       auto& border = is_low ? low_border : high_border;
       (borders(i, is_low ? high : low) ? border : inner).push_back(i);
     }
-    nodes = {};  // the memory is needed below
+    nodes = {};  // frees the memory before the recursion
     const bool cut_low = low_border.size() <= high_border.size();
     auto& kept = cut_low ? high_side : low_side;
     const auto& border = cut_low ? high_border : low_border;
@@ -123,7 +123,7 @@ class dissection {
     eliminate(std::move(cut_low ? low_border : high_border));
   }
 
-  /// What each front is coupled to: its neighbours that come later, and what is left of its children.
+  /// Finds the bound of each front: the later neighbours of its nodes, and later nodes of its children's bounds.
   void couple() {
     std::vector<int> seen(order_.size(), -1);
     for (std::size_t t = 0; t < tree_.fronts.size(); ++t) {
@@ -148,7 +148,7 @@ class dissection {
   }
 
   void predict() {
-    double waiting = 0.0;  // bytes of what children leave to their parents
+    double waiting = 0.0;  // bytes of the update matrices that wait for their parents
     for (const elimination_front& front : tree_.fronts) {
       const double p = 3.0 * front.pivots, u = 3.0 * static_cast<double>(front.bound.size());
       tree_.operations += p * p * p / 3.0 + p * p * u + p * u * u;
@@ -164,13 +164,13 @@ class dissection {
 
   const node_graph& graph_;
   int leaf_;
-  std::vector<int> side_;  ///< of each node: the stamp of the half that it was in last
+  std::vector<int> side_;  ///< for each node the stamp of the half that it was in last
   int stamp_ = 0;
   std::vector<int> order_;
   elimination_tree tree_;
 };
 
-/// The tree of a graph. Sets of up to `leaf` ≥ 1 nodes are eliminated as they are: a larger one costs
+/// The elimination tree of a graph. Sets of up to `leaf` ≥ 1 nodes are not cut any further: a larger `leaf` costs
 /// memory, a smaller one makes the dense products short.
 [[nodiscard]] inline elimination_tree dissect(const node_graph& graph, int leaf = 60) {
   return dissection(graph, leaf).tree();

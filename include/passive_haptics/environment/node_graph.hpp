@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Which nodes of a mesh share an element: the pattern of its stiffness matrix, known before the matrix is.
+// The pairs of nodes of a mesh that share an element: the pattern of its stiffness matrix.
 
 #include <passive_haptics/environment/mesh.hpp>
 
@@ -15,18 +15,18 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// A number that counts from 0 as the standard library's containers take it.
+/// A number that counts from 0, as an index of a standard container.
 [[nodiscard]] constexpr std::size_t slot(int number) noexcept {
   return static_cast<std::size_t>(number);
 }
 
-/// The N free nodes of a mesh. The neighbours of node i are sorted and do not include it.
+/// The N free nodes of a mesh. The neighbours of node i are sorted and do not include i.
 struct node_graph {
-  std::vector<Eigen::Vector3d> points;  ///< rest positions [m], N
-  std::vector<int> begin;  ///< of the neighbours of each node, and the end of the last, N + 1
+  std::vector<Eigen::Vector3d> points;  ///< N rest positions [m]
+  std::vector<int> begin;  ///< N + 1 places in `neighbours` at which those of a node begin
   std::vector<int> neighbours;
   std::vector<int> touched =
-      {};  ///< where contacts will be, in any order: a solver may keep them at hand
+      {};  ///< nodes that contacts will be on, in any order: a solver may keep them at hand
 
   [[nodiscard]] int size() const noexcept { return static_cast<int>(points.size()); }
   [[nodiscard]] std::span<const int> neighbours_of(int node) const {
@@ -35,8 +35,8 @@ struct node_graph {
   }
 };
 
-/// The graph of the nodes whose number is not −1 (tetrahedral_stiffness.hpp, free_numbers). The mesh must
-/// pass check().
+/// The graph of the nodes whose number is not −1 (tetrahedral_stiffness.hpp, free_numbers()). The mesh must pass
+/// check().
 [[nodiscard]] inline node_graph graph_of(const tetrahedral_mesh& mesh,
                                          const std::vector<int>& number) {
   node_graph graph;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What the nodes of a patch answer to forces on them, as an elastic_solid (deformable_body.hpp): columns of
-// K⁻¹, which compliance_table.hpp keeps in a file.
+// The compliance of the nodes of a patch as an elastic_solid (deformable_body.hpp): u_a = Σ_b K⁻¹_ab f_b [m].
+// compliance_table.hpp keeps the columns of K⁻¹ [m/N] in a file.
 //
-// D. L. James, D. K. Pai, "ArtDefo: accurate real time deformable objects", SIGGRAPH 1999. Exact for the
-// nodes of the patch, whatever else the body does; nodes outside of it do not move, as fixed ones: make the
-// patch larger than what is touched.
+// D. L. James, D. K. Pai, "ArtDefo: accurate real time deformable objects", SIGGRAPH 1999. The displacements of
+// the nodes of the patch are exact. Nodes outside of it do not move, like fixed ones, so make the patch larger
+// than the part that is touched.
 
 #include <passive_haptics/environment/surface.hpp>
 #include <passive_haptics/environment/tetrahedral_fem.hpp>
@@ -25,20 +25,20 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// Gives columns of K⁻¹ for the rows that are wanted, as multifrontal does.
+/// A solver that gives the wanted rows of columns of K⁻¹, as multifrontal does.
 template <class S>
 concept column_solver = stiffness_solver<S> &&
     requires(const S solver, std::span<const int> nodes) {
   { solver.columns(nodes, nodes) } -> std::convertible_to<Eigen::MatrixXd>;
 };
 
-/// Columns of nodes of a patch one after the other: three for each, 3M scalars long, x y z [m/N] of node
-/// after node of the patch. Rows and columns of fixed nodes are zero.
+/// The columns of K⁻¹ [m/N] for `nodes` of a patch of M nodes, one after the other: three columns for each node,
+/// of 3M scalars, x y z of node after node of the patch. Rows and columns of fixed nodes are zero.
 template <std::floating_point Scalar, column_solver Solver>
 [[nodiscard]] std::vector<Scalar> patch_columns(const basic_tetrahedral_fem<Solver>& solid,
                                                 std::span<const int> patch,
                                                 std::span<const int> nodes) {
-  // Fixed nodes have no unknowns; what the others answer goes to where they are in the patch.
+  // Fixed nodes have no unknowns; the rows of the others go to their places in the patch.
   const auto free = [&](std::span<const int> among) {
     std::pair<std::vector<int>, std::vector<std::size_t>> found;  // number, place
     for (std::size_t i = 0; i < among.size(); ++i) {
@@ -65,7 +65,7 @@ template <std::floating_point Scalar, column_solver Solver>
   return scalars;
 }
 
-/// std::invalid_argument for a patch without nodes, or with one that the mesh does not have.
+/// Throws std::invalid_argument for a patch without nodes, or with a node that the mesh does not have.
 inline void check_patch(std::string_view who, std::span<const int> patch, std::size_t mesh_nodes) {
   for (const int node : patch) {
     if (node >= 0 && slot(node) < mesh_nodes) continue;
@@ -74,7 +74,7 @@ inline void check_patch(std::string_view who, std::span<const int> patch, std::s
   if (patch.empty()) refuse_argument(who, ": the patch has no nodes; give some");
 }
 
-/// The `count` nodes of a surface closest to a point [m], or all if there are fewer, in ascending order.
+/// The `count` nodes of a surface that are closest to a point [m], or all if there are fewer, in ascending order.
 [[nodiscard]] inline std::vector<int> patch_around(surface_view surface, nodes_view nodes,
                                                    const Eigen::Vector3d& where,
                                                    std::size_t count) {
@@ -92,11 +92,11 @@ inline void check_patch(std::string_view who, std::span<const int> patch, std::s
   return all;
 }
 
-/// Columns has column(index): the first of the 9M scalars of a node of the patch.
+/// `Columns` has column(index), which points to the first of the 9M scalars of a node of the patch.
 template <class Columns>
 class patch_compliance {
  public:
-  /// Nodes of the patch by their numbers in the mesh, one of `mesh_nodes`.
+  /// `nodes` are the nodes of the patch by their numbers in a mesh of `mesh_nodes` nodes.
   patch_compliance(Columns columns, std::vector<int> nodes, std::size_t mesh_nodes)
       : columns_(std::move(columns)), nodes_(std::move(nodes)), index_(mesh_nodes, -1) {
     for (std::size_t i = 0; i < nodes_.size(); ++i)
@@ -110,13 +110,13 @@ class patch_compliance {
   [[nodiscard]] std::size_t mesh_nodes() const noexcept { return index_.size(); }
   [[nodiscard]] bool moves(int node) const { return index_[slot(node)] >= 0; }
 
-  /// How node a gives way to a force on node b [m/N]; zero where one is outside of the patch.
+  /// K⁻¹_ab [m/N], the displacement of node a for a force on node b; zero if one is outside of the patch.
   [[nodiscard]] Eigen::Matrix3d between(int a, int b) const {
     const int row = index_[slot(a)], column = index_[slot(b)];
     if (row < 0 || column < 0) return Eigen::Matrix3d::Zero();
     return block(row, column);
   }
-  /// How one point, a node triple and its shares, gives way to a force on another [m/N].
+  /// The displacement of one point, three nodes and their shares, for a force on another point [m/N].
   [[nodiscard]] Eigen::Matrix3d between(const std::array<int, 3>& at,
                                         const Eigen::Vector3d& at_shares,
                                         const std::array<int, 3>& by,
@@ -131,7 +131,7 @@ class patch_compliance {
     return sum;
   }
 
-  // What basic_deformable_body asks (elastic_solid).
+  // The functions of elastic_solid, for basic_deformable_body.
   [[nodiscard]] Eigen::Matrix3d compliance(const std::array<int, 3>& nodes,
                                            const Eigen::Vector3d& shares) const {
     return between(nodes, shares, nodes, shares);
@@ -139,7 +139,7 @@ class patch_compliance {
   Eigen::Matrix3d press(const std::array<int, 3>& nodes, const Eigen::Vector3d& shares) {
     return press(std::span<const int>(nodes), std::span(shares.data(), 3));
   }
-  /// Nodes outside of the patch do not move, so that their shares are lost.
+  /// Nodes outside of the patch do not move, so their shares are lost.
   Eigen::Matrix3d press(std::span<const int> nodes, std::span<const double> shares) {
     at_.clear();
     shares_.clear();
@@ -182,9 +182,9 @@ class patch_compliance {
   }
 
   Columns columns_;
-  std::vector<int> nodes_;  ///< of the patch, numbers in the mesh
-  std::vector<int> index_;  ///< of a node of the mesh in nodes_, or −1
-  std::vector<int> at_;     ///< what is pressed, by places in nodes_
+  std::vector<int> nodes_;  ///< the nodes of the patch by their numbers in the mesh
+  std::vector<int> index_;  ///< the place of a node of the mesh in nodes_, or −1
+  std::vector<int> at_;     ///< the nodes that are pressed, by their places in nodes_
   std::vector<double> shares_;
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
 };

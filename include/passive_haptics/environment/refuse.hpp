@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How this room refuses what it cannot use: with a sentence that names the value and the remedy.
+// This room refuses an input that it cannot use with a sentence that names the value and the remedy.
 //
-//   ask first, as values    find_fault(mesh), rigid_modes_left(mesh, fixed), load_msh(file)
-//   refused, as exceptions  mesh_error, singular_stiffness, std::invalid_argument
+//   as a value, to ask first   find_fault(mesh), rigid_modes_left(mesh, fixed), load_msh(file)
+//   as an exception            mesh_error, singular_stiffness, std::invalid_argument
 //
-// Under -fno-exceptions the values are the same, and what would be thrown is said on stderr and ends
-// the program: there is no third way out of a constructor.
+// Under -fno-exceptions the values are the same, and the text of an exception goes to stderr and the program
+// ends, because a constructor has no other way to refuse.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -22,7 +22,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// The parts one after the other, numbers in the "C" locale whatever the application has set.
+/// The parts one after the other as text, numbers in the "C" locale whatever the application has set.
 template <class... Parts>
 [[nodiscard]] std::string sentence(const Parts&... parts) {
   std::ostringstream text;

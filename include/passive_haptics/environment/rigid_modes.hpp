@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How many rigid motions the fixed nodes leave to a mesh: what makes a stiffness matrix singular.
+// The number of rigid motions that fixed nodes leave to a mesh; each makes its stiffness matrix singular.
 //
 //   fixed nodes of one connected part     none   1   2 or any on a line   3 not on a line
 //   rigid motions left                     6     3           1                   0
 //
-// Parts that share no node move on their own: each needs its three (A24).
+// Parts that share no node move on their own, so each part needs three fixed nodes (A24).
 
 #include <passive_haptics/environment/mesh.hpp>
 
@@ -48,8 +48,8 @@ struct connected_parts {
   return parts;
 }
 
-/// The rigid motions that leave these points where they are: all six without a point, three about one place, one
-/// about a line, none where three are not on a line. Closer to a line than 1e-6 of their extent counts as on it.
+/// The number of rigid motions that leave these points [m] in place: 6 without a point, 3 about one place, 1 about
+/// a line, 0 if three are not on a line. A point closer to a line than 1e-6 of their extent counts as on it.
 [[nodiscard]] inline int rigid_modes_left(std::span<const Eigen::Vector3d> held) {
   if (held.empty()) return 6;
   Eigen::Vector3d along = Eigen::Vector3d::Zero();  // from the first to the one farthest from it
@@ -64,12 +64,12 @@ struct connected_parts {
   return on_line ? 1 : 0;
 }
 
-/// What the fixed nodes leave loose of a mesh.
+/// The parts of a mesh that its fixed nodes do not hold.
 struct loose_parts {
-  int modes = 0;               ///< rigid motions of all parts
-  int parts = 0;               ///< connected ones, held or not
-  int node = -1;               ///< the first of the first part that is not held, or −1
-  std::size_t part_nodes = 0;  ///< of that part
+  int modes = 0;               ///< rigid motions, summed over all parts
+  int parts = 0;               ///< number of connected parts, held or not
+  int node = -1;               ///< the first node of the first part that is not held, or −1
+  std::size_t part_nodes = 0;  ///< number of nodes of that part
 };
 
 [[nodiscard]] inline loose_parts find_loose_parts(const tetrahedral_mesh& mesh,
@@ -93,7 +93,7 @@ struct loose_parts {
   return found;
 }
 
-/// The rigid motions of a mesh with fixed nodes, summed over its connected parts.
+/// The number of rigid motions of a mesh with fixed nodes, summed over its connected parts.
 [[nodiscard]] inline int rigid_modes_left(const tetrahedral_mesh& mesh,
                                           std::span<const int> fixed_nodes) {
   return find_loose_parts(mesh, fixed_nodes).modes;

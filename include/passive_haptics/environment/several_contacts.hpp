@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Several contacts at once on one elastic body: each gives way to the forces of all.
+// Several contacts at once on one elastic body, each of which gives way to the forces of all.
 //
-//   G_ij = nᵢᵀ C(pᵢ, pⱼ) nⱼ     the capacitance matrix of the contacts [m/N], of a compliance_table or _cache
-//   f ≥ 0,  G f ≥ d,  f·(G f − d) = 0     they push and never pull, none penetrates: d [m] is how deep each
-//                                         would be in the body at rest
+//   G_ij = nᵢᵀ C(pᵢ, pⱼ) nⱼ               the capacitance matrix of the contacts [m/N], from a compliance_table
+//   f ≥ 0,  G f ≥ d,  f·(G f − d) = 0     each f [N] pushes, none pulls, and no contact penetrates; d [m] is the
+//                                         depth of each in the body at rest
 //
-// For tips that give way, too, add 1/k to the diagonal of G. D. L. James, D. K. Pai, SIGGRAPH 1999; the
-// complementarity problem by K. G. Murty's least-index pivoting, which ends for every such G (1974).
+// For elastic tips add 1/k [m/N] to the diagonal of G. D. L. James, D. K. Pai, SIGGRAPH 1999. The complementarity
+// problem is solved by K. G. Murty's least-index pivoting, which ends for every positive definite G (1974).
 
 #include <passive_haptics/environment/refuse.hpp>
 
@@ -23,21 +23,21 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// A point of the surface that is pushed along −normal.
+/// A point of the surface that a force pushes along −normal.
 struct contact_point {
   std::array<int, 3> nodes;  ///< of its triangle
   Eigen::Vector3d weights;   ///< barycentric
   Eigen::Vector3d normal;    ///< unit, outward
 };
 
-/// G, k × k. Singular where two points are the same, or one does not move.
+/// G [m/N], k × k for k contacts. It is singular if two points are the same, or one does not move.
 template <class Table>
 [[nodiscard]] Eigen::MatrixXd capacitance(const Table& table,
                                           std::span<const contact_point> contacts) {
   const auto count = static_cast<Eigen::Index>(contacts.size());
   Eigen::MatrixXd g(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) {  // float tables are symmetric but for rounding
+    for (Eigen::Index j = 0; j <= i; ++j) {  // float tables are symmetric up to rounding only
       const contact_point &a = contacts[static_cast<std::size_t>(i)],
                           &b = contacts[static_cast<std::size_t>(j)];
       g(i, j) = g(j, i) =
@@ -47,8 +47,8 @@ template <class Table>
   return g;
 }
 
-/// f [N] at each contact for depths d [m], k of each. std::invalid_argument unless G is positive definite and
-/// everything is finite.
+/// The k forces f [N] of k contacts at the depths d [m]. Throws std::invalid_argument unless G is k × k and
+/// positive definite and everything is finite.
 [[nodiscard]] inline Eigen::VectorXd contact_forces(const Eigen::MatrixXd& g,
                                                     const Eigen::VectorXd& depth) {
   const Eigen::Index count = depth.size();
@@ -65,7 +65,7 @@ template <class Table>
   std::vector<bool> pushes(static_cast<std::size_t>(count), false);
   const double noise = 1e-12 * (count > 0 ? depth.cwiseAbs().maxCoeff() : 0.0);
   for (;;) {
-    // The contacts that do not push are left out: their rows and columns are those of the unit matrix.
+    // For a contact that does not push, row and column are those of the unit matrix, so its force is 0.
     Eigen::MatrixXd part = g;
     Eigen::VectorXd right = depth;
     for (Eigen::Index i = 0; i < count; ++i) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What solves K u = f for the finite elements: multifrontal (the default), or your own.
+// The contract of a solver of K u = f for the finite elements: multifrontal (the default), or your own.
 //
 //     struct by_cholmod {                                        // three functions are enough
-//       std::size_t analyse(const env::node_graph&);             // bytes that it will take; 0: unknown
+//       std::size_t analyse(const env::node_graph&);             // bytes that it will need; 0: unknown
 //       env::factor_result factorise(const Eigen::SparseMatrix<double>& K, const env::on_progress&);
 //       void solve(Eigen::VectorXd& b);                          // b ← K⁻¹b, without allocating
 //     };
@@ -24,18 +24,17 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// Told how much of a long computation is done, 0 to 1, several times a second; false ends it. An empty
-/// one is never asked.
+/// Is called during a long computation with the share that is done, 0 to 1; if it returns false, the computation
+/// ends. An empty one is never called.
 using on_progress = std::function<bool(double done)>;
 
-/// What became of a factorisation.
 struct factor_result {
   double smallest_pivot =
-      0.0;               ///< relative to its diagonal entry of K; rounding error: K is singular
-  bool stopped = false;  ///< by on_progress: there is no factor
+      0.0;               ///< over its diagonal entry of K; of the size of rounding if K is singular
+  bool stopped = false;  ///< on_progress has ended the factorisation: there is no factor
 };
 
-/// A solver of K [N/m], symmetric and positive definite, three rows per node of the graph in its order.
+/// A solver for a K [N/m] that is symmetric and positive definite, with three rows per node in the graph's order.
 template <class S>
 concept stiffness_solver = std::default_initializable<S> &&
     requires(S solver, const node_graph& graph, const Eigen::SparseMatrix<double>& stiffness,
@@ -45,13 +44,13 @@ concept stiffness_solver = std::default_initializable<S> &&
   solver.solve(b);
 };
 
-/// on_progress has ended a computation: nothing of it is left.
+/// Says that on_progress has ended a computation.
 class stopped_by_caller : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A body would take more memory than there is: none of it has been taken.
+/// Says that a body would take more memory than there is; none of it has been allocated.
 class memory_refused : public std::runtime_error {
  public:
   memory_refused(const std::string& what, double bytes) : std::runtime_error(what), bytes_(bytes) {}

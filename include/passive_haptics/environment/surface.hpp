@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The surface of a tetrahedral mesh, and where a point is with respect to it.
+// The surface of a tetrahedral mesh, and the point of it closest to another point.
 //
 //   boundary        the faces owned by one element, outward
 //   point_on        the point of ONE triangle closest to p
-//   closest_point   the point of the whole surface closest to p, with the right side told
+//   closest_point   the point of the whole surface closest to p, with the right sign of depth
 //   match_normal    the thesis's choice (appendix A.1), for comparison
 //
-// Topology (surface) and positions (nodes) are apart: the body deforms, its triangles stay the
-// same. All searches look at every triangle; some hundred triangles take some microseconds. For more
-// there is surface_search.hpp, with the same answers.
+// Topology (surface) and positions (nodes) are separate arguments, because the body deforms and its triangles
+// stay the same. All searches look at every triangle; some hundred triangles take some microseconds. For more
+// triangles surface_search.hpp gives the same answers.
 
 #include <passive_haptics/environment/mesh.hpp>
 #include <passive_haptics/environment/triangle_weights.hpp>
@@ -38,14 +38,13 @@ struct surface_triangle {
 using surface_view = std::span<const surface_triangle>;
 using nodes_view = std::span<const Eigen::Vector3d>;  ///< positions [m]
 
-/// Corners of a surface triangle.
 [[nodiscard]] inline triangle corners(const surface_triangle& t, nodes_view nodes) {
   return {nodes[static_cast<std::size_t>(t.nodes[0])], nodes[static_cast<std::size_t>(t.nodes[1])],
           nodes[static_cast<std::size_t>(t.nodes[2])]};
 }
 
-/// The faces owned by exactly one element, outward, in the order of the elements. The mesh must
-/// pass check(). mesh_error for elements that overlap at a face.
+/// The faces owned by exactly one element, outward, in the order of the elements. The mesh must pass
+/// check(). Throws mesh_error for elements that overlap at a face.
 [[nodiscard]] inline std::vector<surface_triangle> boundary(const tetrahedral_mesh& mesh) {
   const std::vector<element_face> all = sorted_faces(mesh);
   if (const auto fault = find_overlap(all)) {
@@ -57,7 +56,7 @@ using nodes_view = std::span<const Eigen::Vector3d>;  ///< positions [m]
   std::vector<element_face> single;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i + 1 < all.size() && all[i].key == all[i + 1].key) {
-      ++i;  // the other owner's
+      ++i;  // skips the face of the other owner
     } else {
       single.push_back(all[i]);
     }
@@ -70,9 +69,9 @@ using nodes_view = std::span<const Eigen::Vector3d>;  ///< positions [m]
   return result;
 }
 
-/// A point of the surface next to another point x.
+/// A point p of the surface next to another point x.
 struct surface_point {
-  int triangle = -1;
+  int triangle = -1;                       ///< its number; −1: none
   Eigen::Vector3d point{0.0, 0.0, 0.0};    ///< p, on the triangle [m]
   Eigen::Vector3d weights{0.0, 0.0, 0.0};  ///< barycentric, of p
   Eigen::Vector3d normal{0.0, 0.0, 1.0};   ///< n of the triangle, unit, outward
@@ -80,8 +79,8 @@ struct surface_point {
   double depth = 0.0;                      ///< d = (p − x)·n [m], positive behind the triangle
 };
 
-/// The point of triangle `number` closest to x; none if the triangle is degenerate (A17) or x is
-/// not finite.
+/// The point of triangle `number` closest to x [m]; none if the triangle is degenerate (A17) or x is not
+/// finite.
 [[nodiscard]] inline std::optional<surface_point> point_on(surface_view surface, nodes_view nodes,
                                                            int number, const Eigen::Vector3d& x) {
   const triangle t = corners(surface[static_cast<std::size_t>(number)], nodes);
@@ -96,7 +95,7 @@ struct surface_point {
   return result;
 }
 
-/// True if triangle t touches the feature that the point lies on: every corner of positive weight.
+/// True if t has every corner of `owner` whose weight is > 0, that is, touches the face, edge or node of a point.
 [[nodiscard]] inline bool touches(const surface_triangle& t, const surface_triangle& owner,
                                   const Eigen::Vector3d& weights) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -108,11 +107,10 @@ struct surface_point {
   return true;
 }
 
-/// Σ αₜ nₜ over the triangles that touch the point, αₜ the angle each takes there: 2π inside a
-/// face, π on an edge, the corner's angle at a node. Its side is the side of the surface, also
-/// where the normal of one triangle is not: Bærentzen and Aanæs, "Signed distance computation using
-/// the angle weighted pseudonormal", IEEE TVCG 11(3), 2005. for_each(visit) names, in ascending order,
-/// triangles that those are among.
+/// Σ αₜ nₜ over the triangles that touch the point, where αₜ is the corner's angle [rad] at a node, and 1 on an
+/// edge and inside a face, where all angles are equal. The sign of (p − x)·Σ αₜ nₜ tells inside from outside even
+/// where that of one triangle does not: Bærentzen and Aanæs, "Signed distance computation using the angle weighted
+/// pseudonormal", IEEE TVCG 11(3), 2005. for_each(visit) visits, in ascending order, at least those triangles.
 template <class ForEach>
 [[nodiscard]] Eigen::Vector3d pseudo_normal(surface_view surface, nodes_view nodes,
                                             const surface_point& on, const ForEach& for_each) {
@@ -139,7 +137,7 @@ template <class ForEach>
   return sum;
 }
 
-/// Of the triangles that touch the closest point of the surface, the one that faces x most squarely.
+/// The closest point, on that one of the triangles touching it which faces x most squarely.
 template <class ForEach>
 [[nodiscard]] surface_point facing(surface_view surface, nodes_view nodes, const Eigen::Vector3d& x,
                                    const surface_point& found, const ForEach& for_each) {
@@ -158,9 +156,9 @@ template <class ForEach>
   return best;
 }
 
-/// The point of the surface closest to x. On an edge or a node it belongs to several triangles:
-/// named is the one that faces x most squarely, so that depth > 0 inside the body and < 0 outside,
-/// at edges and nodes too. None if x is not finite or every triangle degenerate.
+/// The point of the surface closest to x [m]. On an edge or a node it belongs to several triangles, and the one
+/// that faces x most squarely is named; so depth > 0 inside the body and < 0 outside, at edges and nodes too.
+/// There is none if x is not finite or every triangle is degenerate.
 [[nodiscard]] inline std::optional<surface_point> closest_point(surface_view surface,
                                                                 nodes_view nodes,
                                                                 const Eigen::Vector3d& x) {
@@ -183,9 +181,9 @@ template <class ForEach>
   return closest && closest->depth > 0.0;
 }
 
-/// The triangle whose normal is nearest to the direction from `centre` to x (thesis A.1): right for
-/// a sphere at rest, wrong for other shapes and for deformed ones (A26). depth is the one of its
-/// plane.
+/// The point on the triangle whose normal is nearest to the direction from `centre` [m] to x [m] (thesis
+/// A.1). It is right for a sphere at rest, and wrong for other shapes and deformed spheres (A26). depth is
+/// that of the plane of the triangle.
 [[nodiscard]] inline std::optional<surface_point> match_normal(surface_view surface,
                                                                nodes_view nodes,
                                                                const Eigen::Vector3d& centre,

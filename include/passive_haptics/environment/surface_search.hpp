@@ -2,14 +2,14 @@
 #pragma once
 // The closest point of a large surface without looking at all of it.
 //
-//   surface_graph          which triangles meet at each node
+//   surface_graph          the triangles that meet at each node
 //   surface_search         the same with a tree of boxes:
-//     closest_point        the answer of the linear one (surface.hpp), ties included
-//     closest_near         downhill from a triangle over its neighbours: where a contact has gone to
-//     refit                after the nodes have moved; the tree stays the same
+//     closest_point        the same answer as the linear search of surface.hpp, ties included
+//     closest_near         a search from one triangle over its neighbours, to follow a contact
+//     refit                fits the boxes to nodes that have moved; the tree stays the same
 //
-// The tree is a median split of the triangles' centres at rest. It stays right however the body deforms,
-// and good as long as neighbours stay neighbours. Queries do not allocate.
+// The tree is a median split of the triangles' centres at rest. Its answers stay right however the body deforms,
+// and it stays fast as long as neighbours stay neighbours. Queries do not allocate.
 
 #include <passive_haptics/environment/node_graph.hpp>
 #include <passive_haptics/environment/surface.hpp>
@@ -34,7 +34,7 @@ namespace environment {
 
 class surface_graph {
  public:
-  /// Every node of a triangle is below `node_count`.
+  /// `node_count` must exceed the number of every node of a triangle.
   surface_graph(std::vector<surface_triangle> surface, std::size_t node_count)
       : surface_(std::move(surface)), begin_(node_count + 1, 0) {
     for (const auto& t : surface_) {
@@ -73,7 +73,7 @@ class surface_search : public surface_graph {
     for (std::size_t i = 0; i < size(); ++i) {
       const triangle shape = corners((*this)[i], nodes);
       centres[i] = (shape[0] + shape[1] + shape[2]) / 3.0;
-      if (!centres[i].allFinite()) centres[i].setZero();  // anywhere will do
+      if (!centres[i].allFinite()) centres[i].setZero();  // degenerate: any place will do
     }
     if (size() > 0) split(centres, 0, static_cast<int>(size()), -1);
     dirty_.assign(boxes_.size(), false);
@@ -81,11 +81,11 @@ class surface_search : public surface_graph {
     refit(nodes);
   }
 
-  /// Follows all nodes.
+  /// Fits all boxes to the positions [m] of the nodes.
   void refit(nodes_view nodes) {
     for (std::size_t b = boxes_.size(); b-- > 0;) fit(b, nodes);
   }
-  /// Follows the nodes of these triangles; the others are where they were.
+  /// Fits the boxes of the triangles `moved`; all others must be where they were.
   void refit(nodes_view nodes, std::span<const int> moved) {
     dirty_list_.clear();
     for (const int i : moved) {
@@ -101,15 +101,15 @@ class surface_search : public surface_graph {
     }
   }
 
-  /// What closest_point(triangles(), nodes, x) says, for nodes that the tree has followed. A triangle that
-  /// is likely close, as the last one, saves time; −1: none.
+  /// The result of closest_point(triangles(), nodes, x), for nodes that the tree has been refitted to. A triangle
+  /// `likely` to be close, such as the last one, saves time; −1: none.
   [[nodiscard]] std::optional<surface_point> closest_point(nodes_view nodes,
                                                            const Eigen::Vector3d& x,
                                                            int likely = -1) const {
     if (boxes_.empty() || !x.allFinite()) return std::nullopt;
     std::optional<surface_point> best;
     if (likely >= 0 && likely < static_cast<int>(size())) offer(best, nodes, x, likely);
-    // A box may seem farther than what is in it by rounding errors of the positions.
+    // By rounding errors of the positions a box may seem farther than its triangles.
     const double slack = 1e-14 * (boxes_[0].low.norm() + boxes_[0].high.norm() + x.norm());
     const auto too_far = [&](double distance2) {
       const double reach = best ? best->distance + slack : infinity;
@@ -139,8 +139,8 @@ class surface_search : public surface_graph {
     return faced(best, nodes, x);
   }
 
-  /// The closest point that is found from a triangle by going to a closer one of its neighbours as long as
-  /// there is one: the closest of all where the surface is not folded in between. before(i) is called
+  /// The closest point found from triangle `from` by going to a closer one of its neighbours as long as there is
+  /// one. It is the closest of the whole surface if the surface is not folded in between. before(i) is called
   /// before triangle i is looked at, and may still move its nodes.
   template <class Before>
   [[nodiscard]] std::optional<surface_point> closest_near(nodes_view nodes,
@@ -170,7 +170,7 @@ class surface_search : public surface_graph {
   struct box {
     Eigen::Vector3d low{0.0, 0.0, 0.0}, high{0.0, 0.0, 0.0};  ///< corners [m]
     int right = -1;                                           ///< −1: a leaf
-    int begin, end;                                           ///< of its triangles in order_
+    int begin, end;                                           ///< its triangles in order_
     int parent;
   };
 
@@ -213,13 +213,13 @@ class surface_search : public surface_graph {
     }
   }
 
-  /// Infinite for a box with nothing in it.
+  /// The squared distance [m²] from x to a box; infinite for an empty box.
   [[nodiscard]] double distance2_to(int number, const Eigen::Vector3d& x) const {
     const box& b = boxes_[slot(number)];
     return (b.low - x).cwiseMax(x - b.high).cwiseMax(0.0).squaredNorm();
   }
 
-  /// Of equally close triangles the first: the order in which the tree is searched does not show.
+  /// best ← triangle `number` if closer, or as close and of a lower number: the search order has no effect.
   void offer(std::optional<surface_point>& best, nodes_view nodes, const Eigen::Vector3d& x,
              int number) const {
     const auto found = point_on(triangles(), nodes, number, x);
@@ -243,7 +243,7 @@ class surface_search : public surface_graph {
   }
 
   std::vector<int> order_;    ///< triangles, those of a box side by side
-  std::vector<int> leaf_of_;  ///< of each triangle
+  std::vector<int> leaf_of_;  ///< the leaf of each triangle
   std::vector<box> boxes_;    ///< parents before children
   std::vector<bool> dirty_;
   std::vector<int> dirty_list_;

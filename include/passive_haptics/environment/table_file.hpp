@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The file of a compliance table: written block by block, so that a computation which was killed goes on
-// where it was, and renamed to its name when it is whole.
+// The file of a compliance table, written block by block and given its name when it is whole.
+// A computation that was killed can go on from its last block.
 //
 //   byte  0   magic "PHTABLE" 1A           32   fingerprint of the body        64  numbers of the M nodes
 //         8   byte order 01020304          40   fingerprint of the node list       in the mesh, int32
@@ -11,8 +11,8 @@
 //        24   nodes of a block             columns of its nodes, 3M scalars each, x y z of node after node
 //        28   0                            checksum, to a multiple of 64
 //
-// All numbers are in the byte order of the machine that wrote them, little-endian on nearly all: another
-// one refuses the file by its fourth word and computes it anew.
+// All numbers are in the byte order of the machine that wrote them, mostly little-endian. A machine of the other
+// order refuses the file by the word at byte 8: its table must be computed there.
 
 #include <passive_haptics/environment/fingerprint.hpp>
 #include <passive_haptics/environment/refuse.hpp>
@@ -33,7 +33,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// A table that cannot be used or written. what() is complete, as that of mesh_error.
+/// A table that cannot be used or written. what() is complete, like that of mesh_error.
 class table_error : public std::runtime_error {
  public:
   table_error(std::string_view where, std::string_view problem, std::string_view remedy)
@@ -63,7 +63,7 @@ struct table_header {
   [[nodiscard]] std::size_t nodes_of(std::size_t block) const noexcept {
     return (std::min)(std::size_t{block_nodes}, nodes - block * block_nodes);
   }
-  /// Scalars of a block [B].
+  /// The size of the scalars of a block [B].
   [[nodiscard]] std::size_t payload(std::size_t block) const noexcept {
     return 9 * nodes_of(block) * nodes * scalar_bytes;
   }
@@ -71,7 +71,7 @@ struct table_header {
     return (bytes + 63) / 64 * 64;
   }
   [[nodiscard]] std::size_t list_bytes() const noexcept { return padded(4 * std::size_t{nodes}); }
-  /// Where a block begins; that of blocks() is the size of the file.
+  /// The byte at which a block begins; begin_of(blocks()) is the size of the file.
   [[nodiscard]] std::size_t begin_of(std::size_t block) const noexcept {
     const std::size_t front = sizeof(table_header) + list_bytes();
     const std::size_t full = padded(9 * std::size_t{block_nodes} * nodes * scalar_bytes + 8);
@@ -81,7 +81,7 @@ struct table_header {
 };
 static_assert(sizeof(table_header) == 64, "the header is written as it stands in memory");
 
-/// The header of a table of these nodes of a body.
+/// The header of a table of the nodes `nodes` of the body with fingerprint `body`.
 [[nodiscard]] inline table_header header_for(std::uint64_t body, std::span<const int> nodes,
                                              std::uint32_t scalar_bytes) {
   table_header header;
@@ -93,7 +93,7 @@ static_assert(sizeof(table_header) == 64, "the header is written as it stands in
   return header;
 }
 
-/// What stands before the blocks.
+/// The bytes before the blocks: the header and the list of nodes.
 [[nodiscard]] inline std::vector<std::byte> front_of(const table_header& header,
                                                      std::span<const int> nodes) {
   std::vector<std::byte> front(header.begin_of(0), std::byte{0});
@@ -102,7 +102,7 @@ static_assert(sizeof(table_header) == 64, "the header is written as it stands in
   return front;
 }
 
-/// A block is there and is what was written.
+/// True if the file has the block and its checksum is right.
 [[nodiscard]] inline bool block_is_right(const table_header& header,
                                          std::span<const std::byte> file, std::size_t block) {
   const std::size_t begin = header.begin_of(block), payload = header.payload(block);
@@ -114,7 +114,7 @@ static_assert(sizeof(table_header) == 64, "the header is written as it stands in
 
 inline constexpr std::string_view compute_again = "delete the file and compute the table again";
 
-/// The nodes of a file that has a header and their list.
+/// The list of nodes of a file that has a header and a whole list.
 [[nodiscard]] inline std::vector<int> table_nodes(std::span<const std::byte> file) {
   table_header header;
   std::memcpy(&header, file.data(), sizeof(header));
@@ -123,8 +123,8 @@ inline constexpr std::string_view compute_again = "delete the file and compute t
   return nodes;
 }
 
-/// The first thing wrong with a table of scalars of this size, of this body on a mesh of so many nodes; none
-/// if it can be used.
+/// The first fault of a table, or none if it can be used for scalars of `scalar_bytes`, the body of fingerprint
+/// `body` and a mesh of `mesh_nodes` nodes.
 [[nodiscard]] inline std::optional<table_error> find_table_fault(std::span<const std::byte> file,
                                                                  std::string_view name,
                                                                  std::uint64_t body,
@@ -159,7 +159,7 @@ inline constexpr std::string_view compute_again = "delete the file and compute t
     return fault("was made of another mesh, material or other fixed nodes");
   }
   if (header.nodes == 0 || header.block_nodes == 0) return fault("has no nodes");
-  // No product below wraps round where the file has room for 9 M² scalars.
+  // If the file has room for 9 M² scalars, no product below overflows.
   if (header.nodes > file.size() / (std::size_t{9} * scalar_bytes) / header.nodes) {
     return fault(sentence("has ", file.size(), " bytes, too few for ", header.nodes, " nodes"));
   }

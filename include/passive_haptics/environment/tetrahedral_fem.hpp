@@ -2,13 +2,13 @@
 #pragma once
 // An elastic body at rest under nodal forces: K u = f, K factorised once (thesis A.2, in 3 DOF).
 //
-//   displacements   u(f), always from the REST positions: added to the current ones the body would
-//                   creep under a constant force (A13)
+//   displacements   u(f) [m], always from the REST positions: added to the current positions it would let
+//                   the body creep under a constant force (A13)
 //   stiffness       1/(nᵀCn) [N/m] that a finger feels at a point of the surface
-//   press, load, displacement     the same of one point and the nodes next to it, at a haptic rate
+//   press, load, displacement     u of a few nodes under a force at one point, at a haptic rate
 //
-// Not offered: large rotations, dynamics, contact within the body. Beyond a few per cent of strain
-// the linear answer is a shape, not a measurement.
+// Not offered: large rotations, dynamics, contact within the body. Beyond a few per cent of strain the
+// linear displacements look right but are not accurate.
 
 #include <passive_haptics/environment/memory_limit.hpp>
 #include <passive_haptics/environment/mesh.hpp>
@@ -40,7 +40,7 @@ class singular_stiffness : public std::runtime_error {
   singular_stiffness(const std::string& what, int rigid_modes)
       : std::runtime_error(what), rigid_modes_(rigid_modes) {}
 
-  /// Rigid motions left by the fixed nodes; 0 if the parts are held but hang together by hinges.
+  /// Number of rigid motions left by the fixed nodes; 0 if the parts are held but connected by hinges.
   [[nodiscard]] int rigid_modes() const noexcept { return rigid_modes_; }
 
  private:
@@ -50,12 +50,12 @@ class singular_stiffness : public std::runtime_error {
 struct fem_options {
   on_progress tell = {};      ///< asked while it factorises; false throws stopped_by_caller
   double memory_limit = 0.0;  ///< [B]; 0: what the system has (memory_limit.hpp)
-  /// Nodes of the mesh that contacts will be on, patch_around() for example. A contact among them reads
-  /// 36 M² bytes for M of them and nothing else of the body; others are right as well, and slower.
+  /// Nodes of the mesh that contacts will be on, from patch_around() for example. A contact among M of them reads
+  /// 36 M² bytes and nothing else of the body. A contact elsewhere is right as well, and slower.
   std::span<const int> touched = {};
 };
 
-/// Presses a point by itself, as multifrontal does: without looking at the whole body.
+/// A solver that presses a point without solving for the whole body, as multifrontal does.
 template <class S>
 concept pressing_solver = stiffness_solver<S> &&
     requires(S solver, typename S::pressed& at, typename S::answer& to, std::span<const int> nodes,
@@ -67,7 +67,7 @@ concept pressing_solver = stiffness_solver<S> &&
   {solver.displacement(to, at, force, node)};
 };
 
-/// A point that forces act on, by full solutions: three columns of K⁻¹, whatever the solver.
+/// A point that forces act on, by full solutions: three columns of K⁻¹, for any solver.
 template <stiffness_solver Solver>
 class point_load {
  public:
@@ -101,7 +101,7 @@ class point_load {
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
 };
 
-/// The same of a solver that presses by itself.
+/// The same for a pressing_solver.
 template <pressing_solver Solver>
 class point_load<Solver> {
  public:
@@ -175,12 +175,12 @@ class basic_tetrahedral_fem {
   }
 
   [[nodiscard]] const Solver& solver() const noexcept { return *solver_; }
-  /// Of a node in the reduced system, −1 if it is fixed.
+  /// The number of each node in the reduced system, −1 if it is fixed.
   [[nodiscard]] const std::vector<int>& numbers() const noexcept { return number_; }
   [[nodiscard]] std::size_t mesh_nodes() const noexcept { return number_.size(); }
 
-  /// u [m] of every node under nodal forces [N]; fixed nodes stay. No allocation; the result lives
-  /// until the next call. std::invalid_argument unless there is one force per node.
+  /// u [m] of every node under nodal forces [N]; fixed nodes stay. It does not allocate, and the result
+  /// lives until the next call. Throws std::invalid_argument unless there is one force per node.
   const std::vector<Eigen::Vector3d>& displacements(std::span<const Eigen::Vector3d> forces) {
     if (forces.size() != number_.size()) {
       refuse_argument("displacements: ", forces.size(), " forces for ", number_.size(),
@@ -196,8 +196,8 @@ class basic_tetrahedral_fem {
     return displacements_;
   }
 
-  /// C [m/N]: how far the point with these barycentric weights gives way to a force that is shared out by
-  /// them. Zero where all three nodes are fixed.
+  /// C [m/N]: the displacement of the point with these barycentric weights for a force on it that is shared out
+  /// by the same weights. It is zero if all three nodes are fixed.
   [[nodiscard]] Eigen::Matrix3d compliance(const std::array<int, 3>& nodes,
                                            const Eigen::Vector3d& weights) {
     return press(probed_, nodes, weights);
@@ -214,22 +214,22 @@ class basic_tetrahedral_fem {
     return c > 0.0 ? 1.0 / c : std::numeric_limits<double>::infinity();
   }
 
-  // One point of the surface, or an area, pressed once and loaded with one force after the other: what a
-  // contact needs. By multifrontal it costs the fronts above the point and above the nodes that are asked for.
+  // The functions of elastic_solid: a point or area of the surface is pressed once and then loaded with one force
+  // after the other. By multifrontal the cost is that of the fronts above the point and above the nodes asked for.
 
   [[nodiscard]] bool moves(int node) const { return number_[slot(node)] >= 0; }
 
-  /// Chooses the point whose forces are shared out to these nodes by these shares; its C [m/N].
+  /// Chooses the point whose force is shared out to these nodes by these shares; returns its C [m/N].
   const Eigen::Matrix3d& press(const std::array<int, 3>& nodes, const Eigen::Vector3d& shares) {
     return press(loaded_, nodes, shares);
   }
-  /// The same of any nodes, as many shares as nodes: of an area, whose C is the mean by these shares.
+  /// The same for an area of any number of nodes, with a share for each; C is the mean by these shares.
   const Eigen::Matrix3d& press(std::span<const int> nodes, std::span<const double> shares) {
     return press(loaded_, nodes, shares);
   }
-  /// The force [N] on the point that was pressed last.
+  /// Sets the force [N] on the point that was pressed last.
   void load(const Eigen::Vector3d& force) { loaded_.load(*solver_, force); }
-  /// u [m] of a node under that force.
+  /// u [m] of a node under that force; zero for a fixed node.
   [[nodiscard]] Eigen::Vector3d displacement(int node) {
     const int number = number_[slot(node)];
     if (number < 0) return Eigen::Vector3d::Zero();
@@ -259,7 +259,7 @@ class basic_tetrahedral_fem {
     if (result.stopped) {
       refuse(stopped_by_caller("tetrahedral_fem: stopped while it factorised; nothing is kept"));
     }
-    // A pivot that is nothing but rounding error next to its diagonal: a mechanism.
+    // A pivot of the size of its rounding error means that the body is a mechanism.
     if (result.smallest_pivot > 1e-12) return;
     refuse(singular_stiffness(
         sentence("tetrahedral_fem: singular, 0 rigid modes left but the smallest pivot is ",
@@ -270,19 +270,19 @@ class basic_tetrahedral_fem {
   }
 
   std::vector<int> number_;
-  std::unique_ptr<Solver> solver_ = std::make_unique<Solver>();  // so that any can be moved
+  std::unique_ptr<Solver> solver_ = std::make_unique<Solver>();  // so that any solver can be moved
   Eigen::VectorXd load_;
   point_load<Solver> loaded_;
   point_load<Solver> probed_;
-  std::vector<int> pressed_;  ///< nodes that move, by their numbers
+  std::vector<int> pressed_;  ///< pressed nodes that are free, by their numbers
   std::vector<double> shares_;
   std::vector<Eigen::Vector3d> displacements_;
 };
 
-/// With the solver that the library brings.
+/// The finite elements with the library's own solver.
 using tetrahedral_fem = basic_tetrahedral_fem<>;
 
-/// rest + u, node by node [m]. (A13)
+/// rest + u, node by node [m]. (A13) Throws std::invalid_argument unless there is one u per node.
 [[nodiscard]] inline std::vector<Eigen::Vector3d> deform(std::span<const Eigen::Vector3d> rest,
                                                          std::span<const Eigen::Vector3d> u) {
   if (rest.size() != u.size()) {

@@ -5,9 +5,9 @@
 //   K_ab = V (λ g_a g_bᵀ + μ g_b g_aᵀ + μ (g_a·g_b) I)      3×3 block of nodes a, b of one element
 //   λ = Eν/((1 + ν)(1 − 2ν)),  μ = E/(2(1 + ν))             Lamé's constants [Pa]
 //
-// g_a [1/m] is the gradient of the shape function of node a, V [m³] the volume. Small strains,
-// constant in each element; ν → 0.5 locks. Zienkiewicz and Taylor, The Finite Element Method,
-// vol. 1.
+// g_a [1/m] is the gradient of the shape function of node a, V [m³] the volume. Strains are small and
+// constant in each element; as ν → 0.5 the elements lock. Source: Zienkiewicz and Taylor, The Finite
+// Element Method, vol. 1.
 
 #include <passive_haptics/environment/mesh.hpp>
 #include <passive_haptics/environment/node_graph.hpp>
@@ -50,7 +50,7 @@ inline void check(const material& m) {
   }
 }
 
-/// Gradients of the four shape functions [1/m]: the face opposite to a, inward, over 3V.
+/// Gradients of the four shape functions [1/m]: g_a is the inward area vector of the face opposite a, over 3V.
 [[nodiscard]] inline std::array<Eigen::Vector3d, 4> shape_gradients(
     const tetrahedral_mesh& mesh, const std::array<int, 4>& tetrahedron) {
   const auto& origin = mesh.nodes[static_cast<std::size_t>(tetrahedron[0])];
@@ -66,8 +66,8 @@ inline void check(const material& m) {
   return g;
 }
 
-/// Rows of the reduced system: 3·result[node] is the first of the three rows of a free node; −1 for
-/// a fixed one. std::invalid_argument for a fixed node that does not exist.
+/// The numbers of the nodes in the reduced system: 3·result[node] is the first of the three rows of a free
+/// node, and −1 stands for a fixed one. Throws std::invalid_argument for a fixed node that does not exist.
 [[nodiscard]] inline std::vector<int> free_numbers(const tetrahedral_mesh& mesh,
                                                    std::span<const int> fixed_nodes) {
   std::vector<int> number(mesh.nodes.size(), 0);
@@ -85,14 +85,14 @@ inline void check(const material& m) {
   return number;
 }
 
-/// K [N/m] of the free nodes of this graph and these numbers, three rows per node, symmetric; rows and
-/// columns of the fixed nodes are struck out (thesis A.5).
+/// K [N/m] of the free nodes of this graph and these numbers, symmetric, with three rows per node; the rows and
+/// columns of fixed nodes are struck out (thesis A.5).
 [[nodiscard]] inline Eigen::SparseMatrix<double> stiffness_matrix(const tetrahedral_mesh& mesh,
                                                                   const material& m,
                                                                   const std::vector<int>& number,
                                                                   const node_graph& graph) {
   check(m);
-  // Three columns per node, in each the three rows of the node itself among those of its neighbours.
+  // A node has three columns, each with three rows for every neighbour and for the node itself, sorted.
   const int size = graph.size();
   Eigen::SparseMatrix<double> result(3 * size, 3 * size);
   result.resizeNonZeros(9 * (static_cast<Eigen::Index>(graph.neighbours.size()) + size));
@@ -138,7 +138,7 @@ inline void check(const material& m) {
   return result;
 }
 
-/// The same of a mesh with fixed nodes. Without fixed nodes: the whole singular matrix. The mesh must
+/// The same for a mesh with fixed nodes; without fixed nodes it is the whole, singular matrix. The mesh must
 /// pass check().
 [[nodiscard]] inline Eigen::SparseMatrix<double> stiffness_matrix(
     const tetrahedral_mesh& mesh, const material& m, std::span<const int> fixed_nodes = {}) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// One triangle: its area, its normal, the point of it closest to another point, and the shares of a
-// force that its nodes take.
+// One triangle: its area, its normal, and the point of it closest to another point.
+// force_shares() are the shares of a force that its nodes take:
 //
-//   barycentric  sⱼ = wⱼ           force AND moment conserved; dual of the linear displacement field
-//   by_distance  sⱼ ∝ 1/|P − xⱼ|   the thesis (appendix A.2), for comparison: conserves the force,
+//   barycentric  sⱼ = wⱼ           conserves force AND moment; dual of the linear displacement field
+//   by_distance  sⱼ ∝ 1/|P − xⱼ|   the thesis (appendix A.2), for comparison: conserves the force and
 //                                  moves its point of action by 0.10 edge in the mean, 0.19 at worst
 //                                  (A25)
 
@@ -25,7 +25,7 @@ namespace environment {
 
 using triangle = std::array<Eigen::Vector3d, 3>;  ///< corners [m], counter-clockwise from outside
 
-/// ½ (b − a)×(c − a) [m²]: along the normal, as long as the area is large.
+/// ½ (b − a)×(c − a) [m²]: it is along the normal, and its length is the area.
 [[nodiscard]] inline Eigen::Vector3d area_vector(const triangle& t) {
   return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]);
 }
@@ -39,7 +39,7 @@ using triangle = std::array<Eigen::Vector3d, 3>;  ///< corners [m], counter-cloc
          !(longest < std::numeric_limits<double>::infinity());
 }
 
-/// n, |n| = 1. Only for a triangle that is not degenerate.
+/// The unit normal n of a triangle that is not degenerate.
 [[nodiscard]] inline Eigen::Vector3d unit_normal(const triangle& t) {
   return area_vector(t).normalized();
 }
@@ -49,11 +49,11 @@ using triangle = std::array<Eigen::Vector3d, 3>;  ///< corners [m], counter-cloc
   return weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
 }
 
-/// Barycentric weights of the point of the triangle closest to p: wⱼ ≥ 0, Σ wⱼ = 1, exactly zero
-/// for the corners that an edge or a corner does not touch. The foot of p on the plane if it lies
-/// within all three edges; otherwise the closest of the three segments. No decision hangs on a sign
-/// that rounding can turn: a wrong one costs rounding, not a region. A degenerate triangle is taken
-/// as its edges.
+/// Barycentric weights of the point of the triangle closest to p [m]: wⱼ ≥ 0, Σ wⱼ = 1, and exactly zero
+/// for a corner that is not on the edge or corner of the point. The point is the foot of p on the plane
+/// if that lies within all three edges, otherwise the closest point of the three edges. If rounding
+/// turns one of these signs, the point changes by no more than rounding. Of a degenerate triangle only
+/// the edges count.
 [[nodiscard]] inline Eigen::Vector3d closest_weights(const triangle& t, const Eigen::Vector3d& p) {
   if (!is_degenerate(t)) {
     const Eigen::Vector3d normal = 2.0 * area_vector(t);
@@ -81,14 +81,14 @@ using triangle = std::array<Eigen::Vector3d, 3>;  ///< corners [m], counter-cloc
   return best;
 }
 
-/// How a force at a point of a triangle is shared out to its nodes.
+/// The rule by which a force at a point of a triangle is shared out to its nodes.
 enum class force_split : std::uint8_t {
   barycentric,  ///< by the weights of the point
   by_distance,  ///< by the inverse distance to each node
 };
 
-/// The shares, Σ sⱼ = 1, of a force at the point of the triangle with these barycentric weights. At
-/// a node (closer than 1e-9 of the longest distance) that node takes all. (A25)
+/// The shares, Σ sⱼ = 1, of a force at the point of the triangle with these barycentric weights. A node
+/// closer to the point than 1e-9 of the longest distance takes all. (A25)
 [[nodiscard]] inline Eigen::Vector3d force_shares(force_split split, const triangle& t,
                                                   const Eigen::Vector3d& weights) {
   if (split == force_split::barycentric) return weights;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Writes a mesh, and where its nodes are, as the text of a VTU file, which ParaView opens.
+// Writes a mesh and the present positions of its nodes as a VTU text file, which ParaView opens.
 //
 //     env::write_vtu("body_000.vtu", mesh, body.picture());     ParaView plays a series of them over time
 //
-// The points [m] are where the nodes are, and each has the vector "displacement" [m] that leads there from
-// where it is at rest: "Warp By Vector" with a factor of −1 shows the body at rest, with 9 ten times as deformed.
-// Numbers have 17 digits, so whoever reads them has the same doubles.
-// Format: VTK File Formats, Kitware, "UnstructuredGrid". Of type 10 are linear tetrahedra.
+// The points [m] are the present positions, and each has the vector "displacement" [m] from its position at rest:
+// "Warp By Vector" with a factor of −1 shows the body at rest, with 9 ten times as deformed. Numbers have 17
+// digits, so a reader gets the same doubles.
+// Source: VTK File Formats, Kitware, "UnstructuredGrid"; cells of type 10 are linear tetrahedra.
 
 #include <passive_haptics/environment/mesh.hpp>
 #include <passive_haptics/environment/refuse.hpp>
@@ -28,7 +28,7 @@ namespace environment {
 
 namespace detail {
 
-/// The text, of a mesh that has a position for each node.
+/// Writes the text of a mesh with a position [m] for each node.
 inline void put_vtu(std::ostream& out, const tetrahedral_mesh& mesh, nodes_view positions) {
   const std::size_t nodes = mesh.nodes.size(), cells = mesh.tetrahedra.size();
   const auto locale = out.imbue(std::locale::classic());
@@ -74,13 +74,13 @@ inline void check_positions(const tetrahedral_mesh& mesh, nodes_view positions) 
 
 }  // namespace detail
 
-/// std::invalid_argument unless there is a position for each node.
+/// Writes the text. Throws std::invalid_argument unless there is a position [m] for each node.
 inline void write_vtu(std::ostream& out, const tetrahedral_mesh& mesh, nodes_view positions) {
   detail::check_positions(mesh, positions);
   detail::put_vtu(out, mesh, positions);
 }
 
-/// The same as a file, written to `path`.part and renamed when it is whole. mesh_error if it cannot be.
+/// Writes the file `path`, as `path`.part until it is whole. Throws mesh_error if it cannot be written.
 inline void write_vtu(const std::filesystem::path& path, const tetrahedral_mesh& mesh,
                       nodes_view positions) {
   detail::check_positions(mesh, positions);

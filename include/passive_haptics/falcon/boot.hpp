@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// From a device that may hold no program to one that answers packets: the Falcon forgets its program at
-// every power-off.
+// Loads the program that makes a Falcon answer packets: the Falcon forgets its program at every power-off.
 //
 //   probe    1.5 MBd    packet ─▶                ◀─ packet          is a program running?
 //   hello    9600 Bd    DTR up, "\nC\r" ─▶       ◀─ "\nD,\r"        the monitor, perhaps a 0 first
@@ -9,12 +8,12 @@
 //   image    143 kBd    62 bytes ─▶              ◀─ the same 62     every byte is echoed
 //   program  1.5 MBd    packet ─▶                ◀─ packet          it runs
 //
-// The sequence is the one of the open drivers; that CTS rises when the loader is ready is one user's
-// report, so it is waited for, not insisted on. Loading is flaky in practice: it is tried again from
-// the top. No call waits without end.
+// The sequence is that of the open drivers. Only one user has reported that CTS rises when the loader is ready, so
+// the driver waits for CTS for a while and goes on without it. Loading often fails in practice, and is then tried
+// again from the beginning. Every wait has a deadline.
 //
-// The program is a boot stream for the ROM of the Falcon's TI C28x. The images are the maker's; none is
-// shipped here, the user names a file. It is checked before a byte of it is sent:
+// The program is a boot stream for the ROM of the Falcon's TI C28x. The images are the maker's, and none is
+// shipped here: the user names a file, which is checked before a byte of it is sent:
 //
 //   word 0      0x08AA, the key          words 1-8   reserved        words 9, 10   entry, high first
 //   then blocks {length, address high, address low, length × data}, and a length 0 at the very end
@@ -30,15 +29,14 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
 
-/// What a boot stream says of itself.
 struct image_summary {
-  result how{};             ///< ok, or what is wrong and where
-  std::uint32_t entry = 0;  ///< address the program starts at
+  result how{};             ///< ok, or the fault and its place in the stream
+  std::uint32_t entry = 0;  ///< address at which the program starts
   std::uint32_t blocks = 0;
-  std::uint32_t words = 0;  ///< of data in all blocks
+  std::uint32_t words = 0;  ///< words of data in all blocks
 };
 
-/// Walks through the whole stream; what lies in the blocks is not looked at.
+/// Checks the frame of the whole boot stream, and not the content of its blocks.
 [[nodiscard]] constexpr image_summary check_image(std::span<const byte> image) noexcept {
   constexpr unsigned key = 0x08AA;
   constexpr std::size_t header = 2 * 11;  // key, reserved, entry
@@ -69,7 +67,7 @@ struct image_summary {
   return seen;
 }
 
-/// An image read from a file. 40 kB as a member or a static, better not on a small stack.
+/// An image read from a file. It takes 40 kB: keep it off a small stack.
 class firmware {
  public:
   static constexpr std::size_t capacity = 40 * 1024;  ///< the chip has 36 kB of memory
@@ -102,9 +100,9 @@ class firmware {
 
 enum class firmware_policy : byte {
   probe_then_load,  ///< load only if nothing answers
-  always_load,      ///< probing an empty device is said to spoil the next load
+  always_load,      ///< do not probe, which is said to spoil the next load
   never_load,       ///< probe only
-  assume_running,   ///< not even that: for replays
+  assume_running,   ///< do not even probe: for replays
 };
 
 enum class boot_step : byte { probe, hello, loader, image, program };
@@ -118,21 +116,21 @@ enum class boot_step : byte { probe, hello, loader, image, program };
 struct boot_options {
   firmware_policy policy = firmware_policy::probe_then_load;
   int attempts = 10;                                    ///< to load the image; users report 1 to 10
-  int hellos = 10;                                      ///< in each attempt
-  nanoseconds answer = std::chrono::milliseconds(100);  ///< to wait for monitor and loader
-  nanoseconds clear_to_send = std::chrono::milliseconds(200);  ///< to wait for CTS
-  probing probe{};                                             ///< for a program that runs
+  int hellos = 10;                                      ///< greetings in each attempt
+  nanoseconds answer = std::chrono::milliseconds(100);  ///< longest wait for monitor and loader
+  nanoseconds clear_to_send = std::chrono::milliseconds(200);  ///< longest wait for CTS
+  probing probe{};                                             ///< how a program is looked for
 };
 
 struct boot_report {
   result how{};
-  boot_step step = boot_step::probe;  ///< the last one taken
-  int attempts = 0;                   ///< to load
-  std::size_t echoed = 0;             ///< bytes of the image, in the last attempt
+  boot_step step = boot_step::probe;  ///< the last step taken
+  int attempts = 0;                   ///< number of attempts to load
+  std::size_t echoed = 0;             ///< bytes of the image echoed in the last attempt
   bool clear_to_send = false;         ///< was CTS seen before the loader was called?
 };
 
-/// Takes any callable bool(boot_step, done, all); false cancels.
+/// The default of Progress, which may be any callable bool(boot_step, done, all); false cancels the boot.
 struct no_progress {
   constexpr bool operator()(boot_step /*step*/, std::size_t /*done*/,
                             std::size_t /*all*/) const noexcept {
@@ -140,7 +138,7 @@ struct no_progress {
   }
 };
 
-/// One boot over an open transport.
+/// Boots once over an open transport.
 ///     const auto report = bootloader{usb, image.bytes(), options}.run();
 template <transport Transport, class Progress = no_progress>
 class bootloader {
@@ -171,7 +169,7 @@ class bootloader {
   }
 
  private:
-  /// Another attempt cannot help.
+  /// True for a result after which another attempt cannot help.
   [[nodiscard]] static constexpr bool final(const result& r) noexcept {
     return r.what == code::unplugged || r.what == code::not_open || r.what == code::cancelled;
   }
@@ -310,7 +308,7 @@ class bootloader {
   boot_report report_{};
 };
 
-/// Boots an open device: open → booting → unhomed, or back to open. May take seconds.
+/// Boots an open device: open → booting → unhomed, or back to open. It may take seconds.
 ///     const auto report = boot(grip, image.bytes());
 template <class Device, class Progress = no_progress>
 boot_report boot(Device& grip, std::span<const byte> image, const boot_options& options = {},

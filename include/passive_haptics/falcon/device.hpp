@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The Falcon as a haptic device: a force in, where the grip is back, once per packet.
+// The Falcon as a haptic device: it takes a force [N] and returns the position of the grip [m], once per packet.
 //
 //   force ─▶ finite? ─▶ ‖F‖ ≤ limit ─▶ × ramp ─▶ τ = A⁻ᵀF ─▶ words, |word| ≤ 4095 ─▶ packet ─▶
 //                                                                                      Falcon
 //   sample ◀─ held force ◀─ position ◀─ forward ◀─ angles ◀─ jump? homed? ◀─ packet ◀─
 //
-// A is that of the last reply. The answer to a packet shows where the grip was when its force BEGAN
-// to be held, so a force computed from it is a tick late: compose with late_loop_limits<1>. `held` in
-// a sample is the force of the packet before, from the words really sent.
-// Whenever an exchange ends without a usable position, the motors are sent zero at once.
+// A [1/m] is that of the last reply. The answer to a packet shows where the grip was when the force of that packet
+// BEGAN to be held, so a force computed from it is a tick late: compose with late_loop_limits<1>. `held` in a
+// sample is the force of the packet before, computed from the words really sent.
+// If an exchange ends without a usable position, the motors are sent zero at once.
 
 #include <passive_haptics/device/device_sample.hpp>
 #include <passive_haptics/device/eigen_space.hpp>
@@ -23,7 +23,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
 
-/// Models haptic_device_for<Space>. One thread owns it. Nothing is allocated after open().
+/// Models haptic_device_for<Space>. One thread owns it. It does not allocate after open().
 ///     falcon::device<falcon::libusb_transport> grip{falcon::cautious_gain<double>};
 ///     if (const auto done = grip.open(); !done) return complain(done);
 ///     if (const auto done = grip.start(); !done) return complain(done);  // or boot(grip, image): boot.hpp
@@ -37,8 +37,8 @@ requires(Space::dof == 3) class device {
   using settings_type = settings<scalar>;
   using reading_type = reading<scalar>;
 
-  /// `gain` [DAC counts per N·m] is not published: see docs/falcon.md, and cautious_gain. What is
-  /// left goes to the transport.
+  /// `gain` [DAC counts per N·m] is not published: see docs/falcon.md, and cautious_gain. The other
+  /// arguments go to the transport.
   template <class... Arguments>
   explicit device(scalar gain, const settings_type& setup = {}, Arguments&&... arguments)
       : line_(std::forward<Arguments>(arguments)...), gain_(gain), setup_(setup) {}
@@ -46,7 +46,7 @@ requires(Space::dof == 3) class device {
   device& operator=(const device&) = delete;
   ~device() { (void)close(); }
 
-  /// The first setting that is out of its range, if any. Such a device does not open.
+  /// The first setting that is out of its range, if any. A device with such a setting does not open.
   [[nodiscard]] parameter_fault check() const noexcept {
     if (!(gain_ > scalar(0)) || !kernels::is_finite(gain_)) {
       return {"gain", static_cast<double>(gain_), "finite and > 0 counts per N·m"};
@@ -54,7 +54,7 @@ requires(Space::dof == 3) class device {
     return setup_.check();
   }
 
-  /// closed → open. The arguments say which one: see the transport.
+  /// closed → open. The arguments say which device to open: see the transport.
   template <class... Which>
   result open(const Which&... which) noexcept {
     (void)close();
@@ -64,15 +64,15 @@ requires(Space::dof == 3) class device {
     return done;
   }
 
-  /// open → unhomed, where a program runs already; without one it stays open, and that is no_program.
+  /// open → unhomed if a program runs already; without one the device stays open, and returns no_program.
   result start(const probing& how = {}) noexcept {
     return start([&](Transport& line) noexcept {
       return packet_link(line).find_program(how, [](int) { return result{}; });
     });
   }
 
-  /// open → booting → unhomed, or back to open. `load(line)` gets a program to run and says whether it
-  /// does: boot() of boot.hpp is that, and may take seconds.
+  /// open → booting → unhomed, or back to open. `load(line)` starts a program and returns whether it runs, as
+  /// boot() of boot.hpp does, which may take seconds.
   template <class Load>
   requires std::is_invocable_r_v<result, Load, Transport&> result start(const Load& load)
   noexcept {
@@ -85,8 +85,8 @@ requires(Space::dof == 3) class device {
     return done;
   }
 
-  /// unhomed → homed: waits until the grip was pulled out and pushed in. `progress` is called with
-  /// every reading; false cancels.
+  /// unhomed → homed: waits, for `most` at most, until the grip was pulled out and pushed in. `progress` is
+  /// called with every reading; false cancels.
   template <class Progress>
   result home(nanoseconds most, const Progress& progress) noexcept {
     const nanoseconds deadline = line_.now() + most;
@@ -102,8 +102,8 @@ requires(Space::dof == 3) class device {
     return home(most, [](const reading_type&) { return true; });
   }
 
-  /// Commands a force [N] and returns what the Falcon answers. Not valid: no usable position, and
-  /// latest().what says why.
+  /// Commands a force [N] and returns the Falcon's answer as a sample. A sample that is not valid has no
+  /// usable position, and latest().what says why.
   device_sample<Space> exchange(const vector& wanted) noexcept {
     if (!talks()) return nothing();
     if (!Space::is_finite(wanted)) (void)fail({code::force_not_finite});
@@ -126,7 +126,7 @@ requires(Space::dof == 3) class device {
     return locate(held, dt);
   }
 
-  /// fault → unhomed, and homed from there if the device still is. Forces ramp up again.
+  /// fault → unhomed, and from there homed if the device still is. Forces ramp up again.
   result recover() noexcept {
     if (now_.where != state::fault) return {};
     if (!talks()) return {now_.what};
@@ -135,7 +135,7 @@ requires(Space::dof == 3) class device {
     return {};
   }
 
-  /// Any state → closed, motors at zero. Not ok: nothing confirms that the zero arrived.
+  /// Any state → closed, motors at zero. If the result is not ok, nothing confirms that the zero arrived.
   result close() noexcept {
     result done{};
     if (now_.where >= state::unhomed) {
@@ -147,11 +147,11 @@ requires(Space::dof == 3) class device {
     return done;
   }
 
-  /// Lamps of your own; nullopt brings back the usual: red without a position, green with one.
+  /// Sets the lamps; nullopt restores the default, which is red without a position and green with one.
   void light(std::optional<lamps> own) noexcept { light_ = own; }
 
   [[nodiscard]] state where() const noexcept { return now_.where; }
-  /// Until it is open again.
+  /// True from an unplug until the device is open again.
   [[nodiscard]] bool unplugged() const noexcept { return now_.what == code::unplugged; }
   [[nodiscard]] const reading_type& latest() const noexcept { return now_; }
   [[nodiscard]] scalar gain() const noexcept { return gain_; }
@@ -179,7 +179,7 @@ requires(Space::dof == 3) class device {
     return why;
   }
 
-  /// As after power-up: nothing is known.
+  /// Forgets all readings, as after power-up.
   void forget() noexcept {
     link_.reset();
     now_ = reading_type{.where = now_.where, .asked = line_.now(), .stamp = line_.now()};
@@ -203,7 +203,7 @@ requires(Space::dof == 3) class device {
     return encode(torques_for(pose_.rates, allowed), gain_);
   }
 
-  /// Zero words, confirmed by an answer if there is one.
+  /// Sends zero words, up to three times, until an answer confirms them.
   result silence_motors() noexcept {
     if (!talks()) return {};
     result done{};
@@ -224,7 +224,7 @@ requires(Space::dof == 3) class device {
     return how.what;
   }
 
-  /// May this reply be believed, and where is the grip then?
+  /// Judges a reply and finds the position of the grip; returns ok, or why there is none.
   [[nodiscard]] code look(const from_device& reply) noexcept {
     now_.received = reply;
     if (const code doubt = guard_.judge(reply, now_.stamp, setup_); doubt != code::ok) {
@@ -255,7 +255,7 @@ requires(Space::dof == 3) class device {
     now_.strength = kernels::smaller(scalar(1), now_.strength + step);
   }
 
-  /// The sample of a reply that is believed; `held` are the words of the packet before.
+  /// The sample of a usable reply; `held` are the words of the packet before.
   [[nodiscard]] device_sample<Space> locate(const dac_words& held, scalar dt) noexcept {
     const auto torque = decode(held, gain_);
     now_.held = force_from(next_.rates, torque);
@@ -279,11 +279,11 @@ requires(Space::dof == 3) class device {
   scalar gain_;
   settings_type setup_;
   reading_type now_{};
-  pose_result<scalar> next_{};                     ///< of this reply
-  angles<scalar> turned_{};                        ///< of this reply
-  pose_result<scalar> pose_{};                     ///< of the reply before, if it was usable
-  point<scalar> last_ = workspace<scalar>.centre;  ///< the last usable position, origin not off
-  angles<scalar> angles_{};                        ///< there
+  pose_result<scalar> next_{};                     ///< pose of this reply
+  angles<scalar> turned_{};                        ///< angles of this reply
+  pose_result<scalar> pose_{};                     ///< pose of the reply before, if it was usable
+  point<scalar> last_ = workspace<scalar>.centre;  ///< last usable position, without `origin` [m]
+  angles<scalar> angles_{};                        ///< angles at that position
   std::optional<lamps> light_;
 };
 

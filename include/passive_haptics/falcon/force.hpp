@@ -4,11 +4,11 @@
 //
 //     τ = A⁻ᵀ F          torques_for       so that F·v = τ·θ̇ for every v
 //     F = Aᵀ τ           force_from
-//     word = −round(k τ) encode            ONE factor for all three when one is beyond ±4095:
-//     τ = −word/k        decode            the direction of the force is kept, no word ever wraps
+//     word = −round(k τ) encode            if one is beyond ±4095, ONE factor shortens all three, so the
+//     τ = −word/k        decode            direction of the force is kept and no word wraps
 //
-// The gain k [DAC counts per N·m] has never been published. Hints lie between 2500 and 4000; the
-// 10 000 found in other drivers makes forces about three times too strong. Calibrate it.
+// The gain k [DAC counts per N·m] has never been published. Hints lie between 2500 and 4000; with the 10 000 of
+// other drivers forces are about three times too strong. Calibrate it (docs/falcon.md).
 
 #include <passive_haptics/falcon/kinematics.hpp>
 
@@ -18,16 +18,16 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
 
-/// What the motors are sent, legs 0, 1, 2. Positive pulls the arm in.
+/// The words for the motors of legs 0, 1, 2. A positive word pulls the arm in.
 using dac_words = std::array<std::int16_t, 3>;
 
-inline constexpr int largest_word = 4095;  ///< either sign; beyond it motors saturate
+inline constexpr int largest_word = 4095;  ///< of either sign; beyond it motors saturate
 
-/// Errs to weak: what is commanded in newtons is not exceeded if the true gain is ≥ this.
+/// A gain [counts per N·m] with which no force exceeds its command if the true gain is ≥ this.
 template <real S>
 inline constexpr S cautious_gain = S(3500);
 
-/// τ = A⁻ᵀ F [N·m]. All zero when A is singular or anything is not finite.
+/// τ = A⁻ᵀ F [N·m], for A in [1/m]. All are zero if A is singular or anything is not finite.
 template <real S>
 [[nodiscard]] constexpr torques<S> torques_for(const matrix<S>& A, const force<S>& f) noexcept {
   const auto tau = multiply<torques<S>>(transposed(inverse(A)), f);
@@ -40,19 +40,19 @@ template <real S>
   return multiply<force<S>>(transposed(A), tau);
 }
 
-/// ‖F‖ ≤ most [N], direction kept; zero when a component is not finite.
+/// F shortened to ‖F‖ ≤ most [N], the direction kept; zero if a component is not finite.
 template <real S>
 [[nodiscard]] constexpr force<S> limited(const force<S>& f, S most) noexcept {
   if (!is_finite(f) || !(most > S(0))) return {};
-  const S largest = largest_in(f);  // first, so that no square overflows
+  const S largest = largest_in(f);  // divided out, so that no square overflows
   if (!(largest > S(0))) return f;
   const force<S> direction = S(1) / largest * f;
   const S length = norm(direction) * largest;
   return length > most ? most / norm(direction) * direction : f;
 }
 
-/// Words for torques [N·m] at a gain [1/(N·m)]. All zero when a torque is not finite or the gain is
-/// not a number > 0.
+/// The words for torques [N·m] at a gain [counts per N·m]. All are zero if a torque is not finite or the gain
+/// not finite and > 0.
 template <real S>
 [[nodiscard]] constexpr dac_words encode(const torques<S>& tau, S gain) noexcept {
   if (!is_finite(tau) || !(gain > S(0)) || !kernels::is_finite(gain)) return {};
@@ -74,9 +74,9 @@ template <real S>
   return tau;
 }
 
-/// The constant force [N] that does the work of constant torques over one tick, Σ τ Δθ = F·Δp: the
-/// motors hold torques while the pose, and so the force, changes. It is F, here that of the new
-/// pose, corrected along Δp; unchanged where Δp is too short to tell.
+/// The constant force [N] that does the work of constant torques over one tick, F·Δp = τ·Δθ: the motors
+/// hold torques while the pose, and so the force, changes. It is `f`, the force at the new pose, corrected
+/// along Δp, and `f` itself if Δp is too short.
 template <real S>
 [[nodiscard]] constexpr force<S> force_over(const force<S>& f, const torques<S>& tau,
                                             const angles<S>& turned,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The cable to a simulated far side, in virtual time: what a test drives the Falcon's driver over. The
-// far side may be the mock of mock.hpp or one of your own.
+// The cable to a simulated far side, in virtual time, for tests of the Falcon's driver.
+// The far side may be the mock of mock.hpp or one of your own.
 
 #include <passive_haptics/falcon/transport.hpp>
 
@@ -14,12 +14,12 @@ namespace falcon {
 
 namespace ftdi {
 
-/// The chip's way towards the host, for those who simulate it: bytes in, IN transfers out.
+/// The simulated chip's direction towards the host: it takes bytes and gives IN transfers.
 class sender {
  public:
   static constexpr std::size_t capacity = 4096;
 
-  line_status lines{.modem = 0x01, .line = 0x60};  ///< of the packets to come
+  line_status lines{.modem = 0x01, .line = 0x60};  ///< status of the packets to come
 
   constexpr void push(byte b) noexcept {
     if (count_ == capacity) {
@@ -33,7 +33,7 @@ class sender {
     for (const byte b : bytes) push(b);
   }
 
-  /// The requests that concern this direction; the others are ignored.
+  /// Takes the requests that concern this direction and ignores the others.
   constexpr void control(request r, std::uint16_t value) noexcept {
     if (r == request::reset && value != purge_transmit) count_ = 0;
     if (r == request::latency_timer) latency_ = std::chrono::milliseconds(value);
@@ -44,7 +44,8 @@ class sender {
 
   constexpr void elapse(nanoseconds passed) noexcept { since_ += passed; }
 
-  /// The IN transfer that is due, into `transfer`; 0: none yet. At least usb_packet bytes of room.
+  /// Writes the IN transfer that is due into `transfer`, which has room for usb_packet bytes or more; returns its
+  /// length, or 0 if none is due.
   [[nodiscard]] constexpr std::size_t transmit(std::span<byte> transfer) noexcept {
     if (count_ < payload_size && since_ < latency_ && !due_) return 0;
     since_ = nanoseconds(0);
@@ -72,15 +73,14 @@ class sender {
   nanoseconds latency_ = std::chrono::milliseconds(16);
   nanoseconds since_{0};  ///< since the last packet went out
   int event_ = -1;        ///< the character that sends a packet at once, −1: none
-  bool due_ = false;      ///< it was there
+  bool due_ = false;      ///< that character has come
 };
 
 }  // namespace ftdi
 
-/// What is beyond the cable: the chip and all behind it. control() and receive() take what the host
-/// sends. transmit() fills in the IN transfer that is due, status bytes included, and returns its
-/// length, 0 when none is (ftdi::sender does that). elapse() lets time pass. attached() is false
-/// once the cable is out.
+/// The far side of the cable: the chip and all behind it. control() and receive() take requests and bytes of
+/// the host. transmit() writes the IN transfer that is due, status bytes included, and returns its length, 0
+/// if none is due (ftdi::sender does that). elapse() lets time pass. attached() is false once the cable is out.
 template <class F>
 concept far_side = requires(F f, const F c, request r, std::uint16_t value,
                             std::span<const byte> out, std::span<byte> in, nanoseconds passed) {
@@ -91,8 +91,8 @@ concept far_side = requires(F f, const F c, request r, std::uint16_t value,
   { c.attached() } -> std::same_as<bool>;
 };
 
-/// The cable to a simulated far side. Its clock advances only while somebody waits in read(), in
-/// steps of one USB microframe.
+/// The cable to a simulated far side. Its clock advances in pass(), and while read() waits, in steps of one
+/// USB microframe.
 template <far_side FarSide>
 class in_memory_transport {
  public:
@@ -150,7 +150,6 @@ class in_memory_transport {
     far_.elapse(passed);
   }
 
-  /// The far side itself.
   [[nodiscard]] FarSide& peer() noexcept { return far_; }
   [[nodiscard]] const FarSide& peer() const noexcept { return far_; }
 
@@ -163,7 +162,7 @@ class in_memory_transport {
 
   FarSide far_;
   std::array<byte, 8 * ftdi::usb_packet> received_{};
-  std::size_t first_ = 0, end_ = 0;  ///< the payload in it
+  std::size_t first_ = 0, end_ = 0;  ///< begin and end of the payload in received_
   ftdi::line_status lines_{};
   nanoseconds now_{0};
   bool open_ = false;

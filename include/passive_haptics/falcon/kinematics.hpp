@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The Novint Falcon as a mechanism: its frame, lengths and encoders, and its kinematics. Pure
-// functions, constexpr, float or double, nothing linked but <cmath>.
+// The Novint Falcon as a mechanism: its frame, lengths and encoders, and its kinematics.
+// All are pure constexpr functions in float or double, and need <cmath> only.
 //
 //        y up                        legs, seen from the front:  0 top, 1 right, 2 left
 //        │   z out, to the user      origin: on the axis, in the plane of the thighs' hinges;
-//        │ ╱                         z = 0.1346 m at count 0. NO offset is taken off: subtract
+//        │ ╱                         z = 0.1346 m at count 0. NO offset is subtracted: subtract
 //        o──── x right               `workspace.centre` yourself if you want one.
 //
 //   angles    θ = 35° + (5.13/140.8)°·n    of the thighs, from counts n [rad]; holds once homed
@@ -16,12 +16,11 @@
 // Leg i, turned by φ:   u = x cos φ + y sin φ − r,   v = −x sin φ + y cos φ − s,   U = u + c
 //     U = a cos θ1 + L cos θ2     v = b cos θ3 − f
 //     z = a sin θ1 + L sin θ2     L = d + e + b sin θ3
-// Singular, and refused, where sin θ3 = 0, sin(θ2 − θ1) = 0, or the legs' rows are dependent.
+// A pose is singular, and refused, where sin θ3 = 0, sin(θ2 − θ1) = 0, or the legs' rows are dependent.
 //
-// After R. E. Stamper, "A three degree of freedom parallel manipulator with only translational
-// degrees of freedom", PhD 97-4, University of Maryland 1997, eq. 4.12, with the offset s. Lengths and
-// angles are those the Falcon's open drivers agree on; no maker's drawing was ever published, and the
-// 35° is approximate.
+// Source: R. E. Stamper, "A three degree of freedom parallel manipulator with only translational degrees of
+// freedom", PhD 97-4, University of Maryland 1997, eq. 4.12, with the offset s. The Falcon's open drivers agree on
+// the lengths and angles; the maker has published no drawing, and the 35° is approximate.
 
 #include <passive_haptics/falcon/vectors.hpp>
 
@@ -41,12 +40,12 @@ struct link_lengths {
   S hinges = S(0.0225);         ///< d + e, both ends of the parallelogram
   S side = S(-0.025);           ///< f
   S base = S(0.0400);           ///< r, axis to the thigh's hinge
-  S offset = S(-0.02309);       ///< s, sideways
+  S offset = S(-0.02309);       ///< s, the same sideways
 };
 template <real S>
 inline constexpr link_lengths<S> links{};
 
-/// φ of the legs: 105°, −15°, −135°.
+/// sin φ and cos φ of the legs, φ = 105°, −15°, −135°.
 template <real S>
 inline constexpr std::array<sine_cosine<S>, 3> leg_directions{
     {{S(0.965925826289068286749743L), S(-0.258819045102520762348899L)},
@@ -70,7 +69,7 @@ template <real S>
 
 namespace detail {
 
-/// Halves away from zero; `exact` must fit an int.
+/// The nearest int, halves away from zero; `exact` must fit an int.
 template <real S>
 [[nodiscard]] constexpr int nearest(S exact) noexcept {
   return static_cast<int>(exact < S(0) ? exact - S(0.5) : exact + S(0.5));
@@ -78,7 +77,7 @@ template <real S>
 
 }  // namespace detail
 
-/// The nearest counts, for |θ| ≤ π.
+/// The counts nearest to the angles θ [rad], |θ| ≤ π.
 template <real S>
 [[nodiscard]] constexpr counts to_counts(const angles<S>& theta) noexcept {
   counts n{};
@@ -88,7 +87,7 @@ template <real S>
   return n;
 }
 
-/// Where the Falcon is at its best: a ball in which θ stays within −17° and 67° and cond(A) ≤ 3.1.
+/// A ball in the best part of the workspace: in it θ stays within −17° and 67°, and cond(A) ≤ 3.1.
 template <real S>
 struct ball {
   point<S> centre{{S(0), S(0), S(0.125)}};  ///< [m]
@@ -105,8 +104,8 @@ enum class pose_fault : std::uint8_t {
   none,
   not_finite,      ///< an angle or a coordinate is NaN or infinite
   out_of_reach,    ///< the legs are too short, or bent the other way
-  no_convergence,  ///< these angles fit no position that Newton could find
-  near_singular,   ///< the position holds, but small forces would need large torques
+  no_convergence,  ///< Newton's iteration found no position for these angles
+  near_singular,   ///< the position is right, but small forces would need large torques
 };
 
 [[nodiscard]] constexpr const char* to_string(pose_fault fault) noexcept {
@@ -128,10 +127,10 @@ struct angles_result {
 
 template <real S>
 struct pose_result {
-  point<S> position{};  ///< [m]; where Newton gave up, if there is a fault
-  matrix<S> rates{};    ///< A there [1/m]
+  point<S> position{};  ///< [m]; with a fault, where Newton's iteration ended
+  matrix<S> rates{};    ///< A at that position [1/m]
   S condition{};  ///< ‖A‖ ‖A⁻¹‖, Frobenius: 3 at best, between cond₂(A) and 3 cond₂(A)
-  int steps = 0;  ///< that Newton took
+  int steps = 0;  ///< number of Newton's steps
   pose_fault fault = pose_fault::not_finite;
 
   [[nodiscard]] explicit constexpr operator bool() const noexcept {
@@ -139,7 +138,7 @@ struct pose_result {
   }
 };
 
-/// Poses of a larger condition (Frobenius) are refused: at the rim branches meet.
+/// Poses of a larger condition (Frobenius) are refused, because solutions of the closure meet at the rim.
 template <real S>
 inline constexpr S largest_condition = S(12);
 
@@ -166,7 +165,7 @@ template <real S>
           p[1] * c - p[0] * s - links<S>.offset};
 }
 
-/// The three legs at a position, their thighs at given angles.
+/// The three legs at a position of the grip, with their thighs at given angles.
 template <real S>
 struct legs_state {
   matrix<S> gradient;  ///< of the gaps: (cosθ2, cotθ3, sinθ2) of each leg, turned into the frame
@@ -174,7 +173,7 @@ struct legs_state {
   triple<S, struct swing_kind> swing;  ///< a sin(θ2 − θ1) [m]:  gradient·ṗ = swing θ̇1
   bool reachable = true;               ///< |v + f| < b on every leg
 
-  /// Is every leg bent the way a Falcon's is?
+  /// True if every leg is bent the way a Falcon's is.
   [[nodiscard]] constexpr bool bent_rightly() const noexcept {
     return reachable && swing[0] > S(0) && swing[1] > S(0) && swing[2] > S(0);
   }
@@ -214,7 +213,7 @@ template <real S>
 
 }  // namespace detail
 
-/// θ1 = atan2(z, U) − acos(K/(2a√(U² + z²))),   K = U² + z² + a² − L²      for each leg
+/// θ1 = atan2(z, U) − acos(K/(2a√(U² + z²))) [rad],   K = U² + z² + a² − L²,   for each leg at position p [m]
 template <real S>
 [[nodiscard]] constexpr angles_result<S> inverse(const point<S>& p) noexcept {
   constexpr auto& l = links<S>;
@@ -235,8 +234,8 @@ template <real S>
   return result;
 }
 
-/// A [1/m] with θ̇ = A v, for a position and the angles that belong to it. Not finite at a singular
-/// pose: use what forward() returns, which is checked.
+/// A [1/m] with θ̇ = A v, for a position [m] and its angles [rad]. It is not finite at a singular pose; the A
+/// that forward() returns is checked.
 ///     A_i = (cosφ cosθ2 sinθ3 − sinφ cosθ3, sinφ cosθ2 sinθ3 + cosφ cosθ3, sinθ2 sinθ3)
 ///           / (a sinθ3 sin(θ2 − θ1))
 template <real S>
@@ -250,14 +249,14 @@ template <real S>
   return inverse(A);
 }
 
-/// The position at angles θ. Newton's steps p −= G⁻¹ gap, at most 20 mm each, from `start`, best
-/// the last position: 2 or 3 steps then, 6 to 8 from the middle of the workspace. An iterate out of
-/// reach goes half-way to that middle, a start out of reach to it.
+/// The position at angles θ [rad], by Newton's steps p −= G⁻¹ gap of at most 20 mm each. From the last
+/// position as `start` [m] that takes 2 or 3 steps, from the middle of the workspace 6 to 8. An iterate out
+/// of reach goes half-way to that middle, and a start out of reach goes there.
 template <real S>
 [[nodiscard]] constexpr pose_result<S> forward(
     const angles<S>& theta, const point<S>& start = workspace<S>.centre) noexcept {
   constexpr S longest_step = S(0.020);
-  constexpr S last_step =  // Newton squares the error: what is left is below rounding
+  constexpr S last_step =  // a Newton step squares the error, so the rest is below rounding
       S(0.01) * kernels::square_root(std::numeric_limits<S>::epsilon());
   constexpr int most_steps = 24;
 

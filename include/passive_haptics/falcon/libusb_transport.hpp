@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The real Falcon, over libusb-1.0: asynchronous transfers, driven by the thread that calls. Link
-// usb-1.0. Where libusb's header is not installed this header declares nothing (Debian:
-// libusb-1.0-0-dev).
+// The real Falcon over libusb-1.0, by asynchronous transfers that the calling thread drives. Link usb-1.0.
+// Where libusb's header is not installed (Debian: libusb-1.0-0-dev) this header declares nothing.
 //
-// Two IN transfers are always in flight, so that no reply waits for us; a write does not wait for
-// the bus either, a fault of it is reported by the next call. libusb itself may allocate when a
-// transfer is submitted; we do not.
+// Two IN transfers are always in flight, so that no reply waits for the host. A write does not wait for
+// the bus, and the next call reports its fault. libusb itself may allocate when a transfer is submitted;
+// this transport does not.
 
 #include <passive_haptics/falcon/transport.hpp>
 
@@ -19,7 +18,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
 
-/// Which Falcon: the n-th on the bus, or the one with that serial number.
+/// Names a Falcon: the n-th on the bus, counted from 0, or the one with that serial number.
 struct which {
   int index = 0;
   std::string_view serial = {};
@@ -29,7 +28,7 @@ struct which {
 struct listed_device {
   int bus = 0, address = 0;
   std::array<char, 32> serial{};  ///< empty if it has none, or may not be opened
-  result openable{};
+  result openable{};              ///< ok, or why it cannot be opened
 };
 
 namespace detail {
@@ -66,7 +65,7 @@ inline std::string_view serial_of(libusb_device_handle* handle,
   return {text.data(), static_cast<std::size_t>((std::max)(n, 0))};
 }
 
-/// Calls `visit` with every Falcon, until it returns true.
+/// Calls `visit` for every Falcon on the bus until it returns true.
 template <class Visit>
 void each_falcon(libusb_context* context, Visit visit) noexcept {
   libusb_device** devices = nullptr;
@@ -82,7 +81,7 @@ void each_falcon(libusb_context* context, Visit visit) noexcept {
 
 }  // namespace detail
 
-/// Fills in `found`; returns how many there are, which may be more.
+/// Lists the Falcons on the bus in `found`; returns their number, which may exceed the size of `found`.
 [[nodiscard]] inline std::size_t list_devices(std::span<listed_device> found) noexcept {
   libusb_context* context = nullptr;
   if (libusb_init(&context) != 0) return 0;
@@ -122,7 +121,7 @@ class libusb_transport {
     return done;
   }
 
-  /// Lets what was written go out, then lets go of the device.
+  /// Waits up to 100 ms until the last write has gone out, then releases the device.
   void close() noexcept {
     closing_ = true;
     if (handle_ != nullptr) {
@@ -137,7 +136,7 @@ class libusb_transport {
       libusb_close(handle_);
     }
     for (slot* s : slots()) {
-      if (!s->busy) libusb_free_transfer(s->transfer);  // one that libusb still holds stays its own
+      if (!s->busy) libusb_free_transfer(s->transfer);  // libusb still owns a busy transfer
       s->transfer = nullptr;
       s->busy = false;
     }
@@ -249,14 +248,14 @@ class libusb_transport {
     return detail::code_of(failed, code::unplugged);
   }
 
-  /// A fault that a transfer reported is told once.
+  /// The reason why no call can go on, or ok. A fault that a transfer has reported is returned once.
   [[nodiscard]] result trouble() noexcept {
     if (handle_ == nullptr) return {code::not_open};
     if (lost_) return {code::unplugged};
     return std::exchange(fault_, result{});
   }
 
-  /// Lets libusb work until something happens, or until then.
+  /// Lets libusb handle events until something happens, or until the time `until`.
   void pump(nanoseconds until) noexcept {
     const auto left = std::chrono::duration_cast<std::chrono::microseconds>(until - now());
     const auto wait = (std::max)(left, std::chrono::microseconds(0));
@@ -313,10 +312,10 @@ class libusb_transport {
   std::array<slot, 2> in_{};
   slot out_{};
   std::array<byte, 4096> received_{};
-  std::size_t first_ = 0, count_ = 0;  ///< of what waits in it
-  nanoseconds stamp_{};                ///< when the newest of it came
+  std::size_t first_ = 0, count_ = 0;  ///< begin and number of the bytes in received_
+  nanoseconds stamp_{};                ///< when the newest byte came
   ftdi::line_status lines_{};
-  result fault_{};        ///< of a transfer, not told yet
+  result fault_{};        ///< fault of a transfer that is not reported yet
   bool lost_ = false;     ///< the device is gone
   bool closing_ = false;  ///< no transfer is submitted again
 };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A Falcon that is not there: the far side of in_memory_transport.
+// A simulated Falcon: the far side of in_memory_transport.
 //
 //   host ─▶ bytes ─▶ mock_processor ─▶ motor words ─▶ mock_mechanism ◀─ hand
 //   host ◀─ bytes ◀─ FTDI bridge    ◀─ counts     ◀─┘
 //
-// The whole driver runs on it unchanged, in virtual time. It says what falcon/'s notes believe a
-// Falcon does: it proves the driver consistent with them, not that they are right.
+// The whole driver runs on it unchanged, in virtual time. It behaves as the headers of falcon/ say that a Falcon
+// does. So it shows that the driver agrees with the headers, and not that they are right.
 
 #include <passive_haptics/falcon/mock_mechanism.hpp>
 #include <passive_haptics/falcon/mock_processor.hpp>
@@ -15,7 +15,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
 
-/// `Body` is what the arms carry, and the hand on it:
+/// `Body` is the mass that the arms carry, and the hand on it:
 ///     using body = simulation::device<space<double, 3>>;
 ///     using parameters = mock_parameters<body::parameters_type>;
 ///     in_memory_transport<mock<body>> cable{parameters{.runs = true, .homed = true}};
@@ -26,7 +26,7 @@ class mock {
   using processor_type = mock_processor<mechanism_type>;
   using parameters_type = typename mechanism_type::parameters_type;
 
-  /// What is left goes to the body.
+  /// The other arguments go to the body.
   template <class... Arguments>
   explicit mock(const parameters_type& parameters = {}, const Arguments&... left) noexcept
       : mechanism_(parameters, left...), processor_(parameters.runs) {}
@@ -44,7 +44,7 @@ class mock {
   }
   [[nodiscard]] bool attached() const noexcept { return attached_; }
 
-  /// The cable only: the motors go on holding their last words, the worst that may happen.
+  /// Pulls the cable only: the motors go on holding their last words, which is the worst that may happen.
   void unplug() noexcept { attached_ = false; }
   void plug_in() noexcept { attached_ = true; }
 

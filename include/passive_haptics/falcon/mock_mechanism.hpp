@@ -4,9 +4,9 @@
 //
 //   words ─▶ τ = −word/k ─▶ F = Aᵀτ at the true pose ─▶ m p̈ + b ṗ = F + F_hand ─▶ θ(p) ─▶ counts
 //
-// The motors hold torques, the body is pushed by forces: over each step F is the one that does the
-// torques' work, F·Δp = τ·Δθ (force_over), so the energy meter of the body is exact for the motors.
-// Mass, damping and homing angles are made up: nobody has published a Falcon's.
+// The motors hold torques, but the body is pushed by forces. So over each step F is the force that does the
+// torques' work, F·Δp = τ·Δθ (force_over), and the energy meter of the body is exact for the motors. Mass,
+// damping and homing angles are invented, because nobody has published those of a Falcon.
 
 #include <passive_haptics/base/ledger.hpp>
 #include <passive_haptics/base/parameter.hpp>
@@ -20,8 +20,8 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
 
-/// The body that the arms carry, a mass in three dimensions: simulation::device<space<double, 3>, Hand>
-/// is one. It is copied to look ahead.
+/// The body that the arms carry, a mass in three dimensions, such as simulation::device<space<double, 3>, Hand>.
+/// The mechanism copies it to try a step.
 template <class B>
 concept mock_body = std::copyable<B> && requires(B body, const B still, typename B::vector force) {
   typename B::parameters_type;
@@ -30,8 +30,8 @@ concept mock_body = std::copyable<B> && requires(B body, const B still, typename
   still.position()[2];    // [m]
 };
 
-/// The body's box keeps every pose regular; its period is the longest step. `Body` are the parameters
-/// of such a body: simulation::device_parameters<space<double, 3>>.
+/// `Body` is the type of the body's parameters, simulation::device_parameters<space<double, 3>> for example. The
+/// body's end stops keep every pose regular, and its period is the longest step.
 template <class Body>
 struct mock_parameters {
   Body body{.mass = 0.1,
@@ -42,10 +42,10 @@ struct mock_parameters {
             .start = {0.0, 0.0, 0.125},
             .substeps = 2};
   double gain = cautious_gain<double>;  ///< k, of the simulated motors [counts per N·m]
-  bool runs = false;                    ///< is a program in it already?
-  bool homed = false;                   ///< does it know where it is already?
+  bool runs = false;                    ///< a program runs from the start
+  bool homed = false;                   ///< all legs are homed from the start
   double out_angle = 0.96;              ///< a leg is homed when it has been beyond this [rad]
-  double in_angle = 0.10;               ///< and after that below this
+  double in_angle = 0.10;               ///< and after that below this [rad]
 
   [[nodiscard]] parameter_fault check() const noexcept {
     if (const auto fault = body.check()) return fault;
@@ -63,7 +63,7 @@ class mock_mechanism {
   using body_type = Body;
   using parameters_type = mock_parameters<typename Body::parameters_type>;
 
-  /// What is left goes to the body: simulation::device takes a hand.
+  /// The other arguments go to the body: simulation::device takes a hand.
   template <class... Arguments>
   explicit mock_mechanism(const parameters_type& parameters = {}, const Arguments&... left) noexcept
       : parameters_(parameters), body_(parameters.body, left...) {
@@ -88,7 +88,7 @@ class mock_mechanism {
     }
   }
 
-  /// What the encoders show: from where they were at power-up, and from zero once homed.
+  /// The counts that the encoders show: relative to power-up, and absolute for a leg that is homed.
   [[nodiscard]] leg_words encoder() const noexcept {
     const counts now = to_counts(theta_);
     leg_words shown{};
@@ -102,7 +102,7 @@ class mock_mechanism {
   [[nodiscard]] byte homed() const noexcept { return homed_; }  ///< bit i: leg i
   [[nodiscard]] const leg_words& words() const noexcept { return words_; }
   [[nodiscard]] const torques<double>& torque() const noexcept { return torque_; }  ///< [N·m]
-  /// Σ τ·Δθ [J]: what the motors have done.
+  /// Σ τ·Δθ [J], the work of the motors.
   [[nodiscard]] double motor_work() const noexcept { return motor_work_; }
   [[nodiscard]] const angles<double>& theta() const noexcept { return theta_; }  ///< true [rad]
   [[nodiscard]] body_type& body() noexcept { return body_; }
@@ -116,7 +116,7 @@ class mock_mechanism {
     return {f[0], f[1], f[2]};
   }
 
-  /// One step: trials find the way and the force that does the work of it.
+  /// Makes one step; three trials find the way of the body and the force that does the work of the torques on it.
   void move() noexcept {
     const point<double> from = position_of(body_);
     const angles<double> before = theta_;
@@ -144,7 +144,7 @@ class mock_mechanism {
     return force_over(f, torque_, after.value - before, to - from);
   }
 
-  /// Where are the legs, and have they been where homing sends them?
+  /// Finds the angles of the legs, and whether they have made the motion that homes them.
   void look() noexcept {
     const auto seen = inverse(position_of(body_));
     if (!seen) return;

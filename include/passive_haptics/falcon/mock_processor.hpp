@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The processor of a simulated Falcon, as the wire shows it, byte for byte:
+// The processor of a simulated Falcon, byte for byte as on the wire:
 //
 //   DTR rises ─▶ monitor ──"\nC\r"──▶ autobaud ──'A'──▶ loading ──zero length──▶ running ⟲ packets
 //                9600 Bd              142 857 Bd        echoes every byte        1.5 MBd
 //
-// Bytes at another speed than the stage's are lost, as on a real line. The image's content is not
-// looked at, only its frame (boot.hpp); any well-formed stream "runs".
+// Bytes at another speed than that of the stage are lost, as on a real line. Only the frame of the image is
+// checked (boot.hpp), not its content: any well-formed stream "runs".
 
 #include <passive_haptics/falcon/in_memory_transport.hpp>
 
@@ -47,12 +47,12 @@ class mock_loader {
 
   state now_ = state::loading;
   byte low_ = 0;
-  bool high_ = false;        ///< is the next byte the high one?
-  std::uint32_t words_ = 0;  ///< seen
-  std::uint32_t left_ = 0;   ///< of the block
+  bool high_ = false;        ///< the next byte is the high one
+  std::uint32_t words_ = 0;  ///< number of words read
+  std::uint32_t left_ = 0;   ///< words left of the block
 };
 
-/// Mechanism: hold(words), encoder(), homed(); see mock_mechanism.hpp.
+/// `Mechanism` has hold(words), encoder() and homed(); see mock_mechanism.hpp.
 template <class Mechanism>
 class mock_processor {
  public:
@@ -86,10 +86,10 @@ class mock_processor {
   [[nodiscard]] std::size_t transmit(std::span<byte> into) noexcept { return out_.transmit(into); }
   void elapse(nanoseconds passed) noexcept { out_.elapse(passed); }
 
-  void press(byte buttons) noexcept { buttons_ = buttons; }  ///< any of `button`, or-ed
+  void press(byte buttons) noexcept { buttons_ = buttons; }  ///< values of `button`, or-ed
 
   [[nodiscard]] stage where() const noexcept { return now_; }
-  [[nodiscard]] std::uint32_t packets() const noexcept { return packets_; }  ///< answered
+  [[nodiscard]] std::uint32_t packets() const noexcept { return packets_; }  ///< number answered
   [[nodiscard]] lamps light() const noexcept { return light_; }
 
  private:

@@ -6,11 +6,10 @@
 //   host ─▶  '<'   motor 0    motor 1    motor 2    'A' + flags  'A'   '>'
 //   host ◀─  '<'   encoder 0  encoder 1  encoder 2  'A' + flags   ?    '>'
 //
-// A word is four nibbles, the least significant first, two's complement; a nibble n is the byte
-// 'A' + n. Legs seen from the front: 0 top, 1 right, 2 left. Neither '<' nor '>' can stand inside,
-// so a '<' always begins a packet: after any disturbance the next whole packet is read.
-// There is no checksum: a flipped bit that gives another nibble goes unseen here (device.hpp
-// refuses jumps).
+// A word is four nibbles, the least significant first, in two's complement; a nibble n is the byte 'A' + n.
+// The legs are, seen from the front, 0 top, 1 right, 2 left. Neither '<' nor '>' can stand inside a packet,
+// so a '<' always begins one, and after any disturbance the next whole packet is read. There is no checksum,
+// so a flipped bit that gives another nibble is not noticed here (reply_guard refuses jumps).
 
 #include <passive_haptics/base/language.hpp>
 
@@ -30,7 +29,7 @@ using leg_words = std::array<std::int16_t, 3>;
 inline constexpr std::size_t packet_size = 16;
 using packet_bytes = std::array<byte, packet_size>;
 
-/// The lamps in the logo; they combine. Which bit is which colour is not confirmed.
+/// The lamps in the logo; they can be combined. The colour of each bit is not confirmed.
 enum class lamps : byte { none = 0, green = 2, blue = 4, red = 8 };
 [[nodiscard]] constexpr lamps operator|(lamps a, lamps b) noexcept {
   return static_cast<lamps>(static_cast<byte>(a) | static_cast<byte>(b));
@@ -39,7 +38,7 @@ enum class lamps : byte { none = 0, green = 2, blue = 4, red = 8 };
 /// The buttons of the grip; a reply carries any of them, or-ed.
 enum class button : byte { plus = 1, forward = 2, centre = 4, minus = 8 };
 
-/// What the host sends.
+/// A packet of the host.
 struct to_device {
   leg_words motor{};   ///< DAC counts; positive pulls the arm in
   bool homing = true;  ///< homed bits are reported, and stay, only while this is set
@@ -48,7 +47,7 @@ struct to_device {
   bool operator==(const to_device&) const = default;
 };
 
-/// What the Falcon answers.
+/// A packet of the Falcon.
 struct from_device {
   leg_words encoder{};  ///< counts
   byte buttons = 0;     ///< see pressed()
@@ -89,7 +88,7 @@ constexpr void take_flags(from_device& p, byte flags) noexcept {
   }
 }
 
-/// Can byte b stand at that place of a packet? The flags need 7 bits: 0x41 … 0xC0.
+/// True if byte b can stand at that place of a packet. The flags need 7 bits: 0x41 … 0xC0.
 [[nodiscard]] constexpr bool fits(std::size_t place, byte b) noexcept {
   if (place == 0) return b == opening;
   if (place == packet_size - 1) return b == closing;
@@ -99,7 +98,7 @@ constexpr void take_flags(from_device& p, byte flags) noexcept {
 
 }  // namespace detail
 
-/// to_device or from_device as it goes over the wire.
+/// The bytes on the wire of a to_device or from_device.
 template <class Packet>
 [[nodiscard]] constexpr packet_bytes encode(const Packet& packet) noexcept {
   packet_bytes bytes{};
@@ -117,7 +116,7 @@ template <class Packet>
   return bytes;
 }
 
-/// The packet, or nothing where a byte cannot stand where it stands.
+/// The packet, or nothing if a byte cannot stand at its place.
 template <class Packet>
 [[nodiscard]] constexpr std::optional<Packet> decode(const packet_bytes& bytes) noexcept {
   for (std::size_t i = 0; i < packet_size; ++i) {
@@ -136,12 +135,12 @@ template <class Packet>
   return packet;
 }
 
-/// Finds packets in a stream of bytes, whatever else is in it.
+/// Finds the packets in a stream of any bytes.
 ///     for (const byte b : received) if (const auto reply = parser.push(b)) use(*reply);
 template <class Packet>
 class packet_parser {
  public:
-  /// Takes one byte; the packet that it completes, if it does.
+  /// Takes one byte; returns the packet that it completes, if any.
   constexpr std::optional<Packet> push(byte b) noexcept {
     if (b == detail::opening) {
       broken_ += filled_ != 0 ? 1U : 0U;
@@ -161,7 +160,7 @@ class packet_parser {
     return decode<Packet>(bytes_);
   }
 
-  /// Forgets a packet begun.
+  /// Forgets a packet that has begun.
   constexpr void reset() noexcept { filled_ = 0; }
 
   [[nodiscard]] constexpr std::uint32_t broken() const noexcept { return broken_; }    ///< packets

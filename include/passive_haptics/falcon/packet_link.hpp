@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// One question, one answer: a packet out, the packet that answers it back, or a miss.
+// Exchanges one packet for one answer, or reports a miss.
 //
-// Packets carry no number, so an answer that comes too late would pass for the next one's, and all
-// after it would be a tick old for ever. Therefore: what has come before the question is thrown
-// away, and after a miss the line must first be quiet for `silence`.
+// Packets carry no number, so an answer that comes too late would be taken for the answer to the next packet, and
+// all later answers would be a tick old. Therefore bytes that came before the question are thrown away, and after
+// a miss the line must first be quiet for `silence`.
 
 #include <passive_haptics/falcon/transport.hpp>
 
@@ -14,11 +14,11 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
 
-/// What the line has been through since open().
+/// Counts since open().
 struct link_counts {
-  std::uint64_t replies = 0;
+  std::uint64_t replies = 0;        ///< questions with an answer
   std::uint64_t misses = 0;         ///< questions without an answer
-  std::uint32_t misses_in_row = 0;  ///< up to now
+  std::uint32_t misses_in_row = 0;  ///< the last questions without an answer
   std::uint32_t stale = 0;          ///< answers that came too late, or twice
   std::uint32_t broken = 0;         ///< packets begun and not finished
 };
@@ -26,15 +26,15 @@ struct link_counts {
 struct [[nodiscard]] link_answer {
   result how{};
   from_device packet{};  ///< when ok
-  nanoseconds asked{};   ///< when the question was out: the encoders are read, the words held
-  nanoseconds stamp{};   ///< when it was there, or was given up
+  nanoseconds asked{};   ///< when the question was out: encoders are read and words held from then
+  nanoseconds stamp{};   ///< when the answer was there, or was given up
 };
 
 /// How a program is looked for.
 struct probing {
-  int questions = 10;                                 ///< to send until one is answered
-  nanoseconds reply = std::chrono::milliseconds(30);  ///< to wait for each answer
-  bool flush_on_closing = false;  ///< '>' as event character: may beat 1 kHz, never tried
+  int questions = 10;                                 ///< most questions to send
+  nanoseconds reply = std::chrono::milliseconds(30);  ///< longest wait for each answer
+  bool flush_on_closing = false;  ///< '>' as event character: may exceed 1 kHz, never tried
 };
 
 namespace detail {
@@ -44,7 +44,7 @@ struct chip_setting {
   std::uint16_t value;
 };
 
-/// One setting after the other, until one fails.
+/// Makes one setting after the other, until one fails.
 template <transport Transport>
 [[nodiscard]] result set(Transport& line, std::initializer_list<chip_setting> all) noexcept {
   for (const auto& [what, value] : all) {
@@ -59,13 +59,13 @@ template <transport Transport>
 class packet_link {
  public:
   static constexpr nanoseconds silence = std::chrono::milliseconds(2);    ///< two latency periods
-  static constexpr nanoseconds patience = std::chrono::milliseconds(20);  ///< with the silence
+  static constexpr nanoseconds patience = std::chrono::milliseconds(20);  ///< longest wait for it
 
   explicit packet_link(Transport& line) noexcept : line_(line) {}
 
-  /// Does a program answer packets, at 1.5 MBd? ok, no_program, a fault of the line, or what
-  /// `go(n)`, called before question n, returns when that is not ok. The homing bit is set, lest a
-  /// homed device forget.
+  /// Asks for a program that answers packets at 1.5 MBd. Returns ok, no_program, a fault of the line, or the
+  /// result of `go(n)`, which is called before question n, if that is not ok. The homing bit is set, so that a
+  /// homed device stays so.
   template <class Go>
   result find_program(const probing& how, const Go& go) noexcept {
     const std::uint16_t event = ftdi::event_character_on | detail::closing;
@@ -81,7 +81,7 @@ class packet_link {
     for (int n = 0; n < how.questions; ++n) {
       if (const result on = go(n); !on) return on;
       const result answered = exchange(to_device{}, how.reply).how;
-      // After a miss, an answer that is still on its way would pass for the first question's.
+      // After a miss, an answer on its way would be taken for the answer to the next question.
       if (answered) return n == 0 ? result{} : clear(silence);
       if (answered.what != code::timeout) return answered;
     }
@@ -136,7 +136,7 @@ class packet_link {
     nanoseconds stamp{};
   };
 
-  /// One read() through the parser.
+  /// Passes the bytes of one read() to the parser.
   [[nodiscard]] arrival take(nanoseconds deadline) noexcept {
     std::array<byte, ftdi::usb_packet> bytes{};
     const transfer got = line_.read(bytes, deadline);
@@ -151,8 +151,8 @@ class packet_link {
     return came;
   }
 
-  /// Throws away what is there, and what comes until nothing has come for `quiet`. A line that babbles
-  /// for ever is read no further.
+  /// Throws away all bytes until none has come for `quiet`. It gives up after 64 reads or `patience`, so a line
+  /// that never falls silent does not block it.
   [[nodiscard]] result clear(nanoseconds quiet) noexcept {
     const nanoseconds end = line_.now() + patience;
     for (int most = 64; most > 0 && line_.now() < end; --most) {

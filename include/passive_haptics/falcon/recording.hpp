@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A session on record, and played again. What is recorded is the cable, call by call: the same
-// driver then decides the same in a replay, and a changed one shows where it begins to differ.
+// Records the cable of a session, call by call, and plays it again.
+// In a replay the same driver makes the same decisions, and a changed driver shows where it begins to differ.
 //
 //     device<recording_transport<libusb_transport>> grip{gain, {}, 200'000};       // rows
 //     grip.line().record(true);  …  save("session.csv", grip.line().rows());
@@ -10,8 +10,8 @@
 //     device<replay_transport> again{gain, {}, std::span(log.rows)};
 //     again.open();  boot(again, {}, {.policy = firmware_policy::assume_running});
 //
-// Only packets are kept of what is written, so no firmware ever gets into a log. A row per call,
-// about three per exchange; the memory for them is taken at construction.
+// Of the bytes written only packets are kept, so no firmware gets into a log. There is a row per call, and there
+// are about three per exchange; the constructor allocates the memory for them.
 
 #include <passive_haptics/falcon/transport.hpp>
 
@@ -27,7 +27,7 @@ namespace falcon {
 struct wire_row {
   enum class call : byte { control, write, read };
 
-  nanoseconds stamp{};  ///< when it ended; of a read, when the bytes were there
+  nanoseconds stamp{};  ///< when the call ended; for a read, when the bytes were there
   call what = call::control;
   result how{};
   ftdi::line_status lines{};
@@ -39,21 +39,21 @@ struct wire_row {
   }
 };
 
-/// Any transport, with a memory.
+/// Any transport, with a record of its calls.
 template <transport Transport>
 class recording_transport {
  public:
-  /// `rows` to keep; what is left goes to the transport.
+  /// Keeps up to `rows` rows; the other arguments go to the transport.
   template <class... Arguments>
   explicit recording_transport(std::size_t rows, Arguments&&... arguments)
       : line_(std::forward<Arguments>(arguments)...), rows_(rows) {}
 
-  /// Starts and stops; rows() stay.
+  /// Starts or stops the record; rows() stay.
   void record(bool on) noexcept { on_ = on; }
   [[nodiscard]] std::span<const wire_row> rows() const noexcept {
     return std::span(rows_).first(used_);
   }
-  /// ok, or log_full when rows are missing at the end.
+  /// ok, or log_full if rows are missing at the end.
   [[nodiscard]] result complete() const noexcept {
     return full_ ? result{code::log_full} : result{};
   }
@@ -112,8 +112,8 @@ class recording_transport {
   bool on_ = false, full_ = false;
 };
 
-/// Answers as the recorded device did, at its times. Where the driver above asks in another order,
-/// or writes other bytes, it diverges; the end of the log is like a cable pulled out.
+/// Answers as the recorded device did, at the recorded times. A call in another order, or a write of other
+/// bytes, counts as a divergence. At the end of the log it behaves like a cable pulled out.
 class replay_transport {
  public:
   explicit replay_transport(std::span<const wire_row> rows) noexcept : rows_(rows) {}
@@ -157,7 +157,7 @@ class replay_transport {
 
   [[nodiscard]] bool finished() const noexcept { return at_ == rows_.size(); }
   [[nodiscard]] std::size_t position() const noexcept { return at_; }             ///< rows played
-  [[nodiscard]] std::size_t divergences() const noexcept { return differ_; }      ///< calls
+  [[nodiscard]] std::size_t divergences() const noexcept { return differ_; }      ///< number
   [[nodiscard]] std::size_t first_divergence() const noexcept { return first_; }  ///< its row
 
  private:
@@ -165,7 +165,7 @@ class replay_transport {
     if (differ_++ == 0) first_ = at_;
   }
 
-  /// The next row of that kind; others on the way are skipped.
+  /// The next row of that kind; rows of another kind before it are skipped. Null at the end of the log.
   [[nodiscard]] const wire_row* next(wire_row::call what) noexcept {
     if (!open_) return nullptr;
     for (bool skipped = false; at_ < rows_.size(); skipped = true) {

@@ -5,8 +5,8 @@
 //   stamp_ns,call,code,value,modem,line,bytes,leg0,leg1,leg2,flags
 //   1250000,write,0,0,1,96,3C414141…3E,0,0,0,1
 //
-// `call` is control, write or read, `code` and `value` the result, `bytes` hexadecimal. The last
-// four are there for people: the motor words or encoder counts of a packet, and its flags.
+// `call` is control, write or read, `code` and `value` are the result, `bytes` are hexadecimal. The last four
+// columns are for people: the motor words or encoder counts of a packet, and its flags.
 
 #include <passive_haptics/base/kernels.hpp>
 #include <passive_haptics/falcon/recording.hpp>
@@ -44,7 +44,7 @@ inline void print_row(std::FILE* file, const wire_row& row) noexcept {
   std::fputc('\n', file);
 }
 
-/// Splits a line at its commas and reads numbers; false once something is not as it should be.
+/// Splits a line at its commas and reads its fields; good() is false after the first field that is wrong.
 class row_reader {
  public:
   explicit row_reader(std::string_view line) noexcept : rest_(line) {}
@@ -111,7 +111,7 @@ class row_reader {
 
 }  // namespace detail
 
-/// Writes the rows; log_unwritable if that fails.
+/// Writes the rows; returns log_unwritable if that fails.
 inline result save(const char* path, std::span<const wire_row> rows) noexcept {
   std::FILE* file = std::fopen(path, "w");
   if (file == nullptr) return {code::log_unwritable};
@@ -122,7 +122,7 @@ inline result save(const char* path, std::span<const wire_row> rows) noexcept {
 }
 
 struct loaded_log {
-  result how{};  ///< log_unreadable: `value` is the line at fault, 0 when there is no such file
+  result how{};  ///< log_unreadable: `value` is the line at fault, 0 if there is no such file
   std::vector<wire_row> rows;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How a call to the Falcon ended. Nothing here throws: every call returns one of these codes, and
-// each has a text that says what happened and, where the user can do something, a remedy.
+// The result of a call to the Falcon. No call throws.
+// Each returns a code, which has a text that says what happened and, where the user can do something, a remedy.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -19,10 +19,10 @@ enum class code : std::uint8_t {
   timeout,
   unplugged,
   not_open,
-  no_device,  ///< no 0403:cb48 on the bus, or not that one
+  no_device,  ///< no 0403:cb48 on the bus, or not the one asked for
   no_permission,
   busy,
-  transfer_failed,  ///< `value` is the number of the layer below
+  transfer_failed,  ///< `value` is libusb's error, or its status of the transfer
   image_unreadable,
   image_too_long,
   image_wrong_key,  ///< `value` is the first word, which is not 0x08AA
@@ -36,17 +36,17 @@ enum class code : std::uint8_t {
   no_program,
   cancelled,
   homing_timeout,
-  not_homed,  ///< legs do not know where they are: no position, no force
+  not_homed,  ///< a leg has no absolute angle: there is no position and no force
   settling,
   encoder_jump,
   pose_refused,  ///< these angles fit no position, or one near a singular pose
   force_not_finite,
-  too_many_misses,  ///< `value` replies in a row did not come
+  too_many_misses,  ///< settings::most_misses replies in a row did not come
   bad_setting,      ///< a setting is out of its range: check() names it
-  log_unreadable,   ///< line `value` of a recording is not one
+  log_unreadable,   ///< line `value` of a recording is no row; 0: there is no such file
   log_unwritable,
-  no_thread,
-  clock_backwards,  ///< no time has passed since the question before, or less than none
+  no_thread,        ///< `value` is the system's error
+  clock_backwards,  ///< the time since the question before is ≤ 0
   log_full,
 };
 
@@ -114,26 +114,26 @@ inline constexpr code_text code_texts[] = {
 
 }  // namespace detail
 
-/// What happened, for logs.
+/// The text of a code, for logs.
 [[nodiscard]] constexpr const char* to_string(code c) noexcept {
   return detail::text_of(c).what;
 }
 
-/// What to do about it; empty when there is nothing to say.
+/// The remedy of a code; empty if there is none.
 [[nodiscard]] constexpr const char* remedy(code c) noexcept {
   return detail::text_of(c).remedy;
 }
 
-/// Converts to true when all went well.
+/// A code and its value; it converts to true if the code is ok.
 ///     if (const auto done = falcon.open(); !done) puts(to_string(done.what));
 struct [[nodiscard]] result {
   code what = code::ok;
-  std::int64_t value = 0;  ///< see the code; for USB codes the number of the layer below
+  std::int64_t value = 0;  ///< see the code; for USB codes libusb's error
 
   constexpr explicit operator bool() const noexcept { return what == code::ok; }
 };
 
-/// The whole sentence, what, value and remedy, into `text`; cut off where it is too long.
+/// Writes the whole sentence, text, value and remedy, into `text`, which may cut it off; returns `text`.
 inline const char* describe(const result& r, std::span<char> text) noexcept {
   if (text.empty()) return "";
   std::array<char, 32> number{};

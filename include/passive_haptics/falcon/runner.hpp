@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A thread of its own for the Falcon: the runner of any device (runner.hpp), answering as the Falcon does.
+// A thread for the Falcon: the runner of any device (runner.hpp), with the Falcon's results.
 
 #include <passive_haptics/falcon/settings.hpp>
 #include <passive_haptics/runner.hpp>
@@ -14,8 +14,8 @@ namespace falcon {
 /// The ticks of a runner.
 using runner_counts = loop_counts;
 
-/// While it runs, the device belongs to its thread: touch it again after stop(). `controller` is
-/// called there with each sample and returns the next force. A news' `reading` is device.latest().
+/// While it runs, the device belongs to its thread: use the device again after stop(). In that thread
+/// `controller` is called with each sample and returns the next force [N]. news::reading is device.latest().
 ///     runner touch{grip, [&](const auto& sample) { return wall.tick(sample).force; }};
 ///     if (const auto done = touch.start(); !done) …
 template <class Device, class Controller>
@@ -29,8 +29,8 @@ class runner : private passive_haptics::runner<Device, Controller> {
          nanoseconds period = std::chrono::milliseconds(1)) noexcept
       : any(device, std::move(controller), period) {}
 
-  /// Does nothing while it runs. After an unplug: unplugged, until the device is open again. What the
-  /// system refuses is in granted(), and stops nothing.
+  /// Starts the thread; it does nothing while that runs. After an unplug it returns unplugged until the device is
+  /// open again. A real-time request that the system refuses does not stop it: granted() says what was granted.
   result start(const realtime_request& wanted = {}) noexcept {
     const loop_start done = any::start(wanted);
     granted_ = done.granted;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a Falcon is told before it starts, what it tells afterwards, and which of that is believed.
+// The settings of a Falcon, the readings of its exchanges, and the test which replies are believed.
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/falcon/force.hpp>
@@ -18,8 +18,8 @@ enum class state : byte {
   closed,   ///< nothing is connected
   open,     ///< the cable is ours; boot() comes next
   booting,  ///< loading the program
-  unhomed,  ///< packets flow; the legs do not know where they are, or not for long enough
-  homed,    ///< positions and forces
+  unhomed,  ///< packets flow; the legs are not homed, or have not been for long enough
+  homed,    ///< there are positions and forces
   fault,    ///< packets flow if they can, forces are zero until recover(): see reading::what
 };
 
@@ -31,16 +31,16 @@ enum class state : byte {
 
 template <real S>
 struct settings {
-  S force_limit = S(8);    ///< most ‖F‖ [N]; CHAI3D's figure for this device
+  S force_limit = S(8);    ///< largest ‖F‖ [N]; CHAI3D's figure for this device
   S ramp = S(0.5);         ///< time from no force to all of it, after homing and misses [s]
-  S tick = S(1e-3);        ///< between replies, nominally [s]; the ramp never climbs faster
+  S tick = S(1e-3);        ///< nominal time between replies [s]; the ramp climbs no faster
   int largest_step = 300;  ///< counts per tick; more (about 10 m/s) is a fault of an encoder
   int settle = 50;         ///< good replies between homing, or a jump, and the first force
-  int most_misses = 20;    ///< in a row, then it is a fault
-  /// To wait for an answer, while the last words are held: loop_limits::longest_tick covers it, or
-  /// an answer that is lost may cost energy.
+  int most_misses = 20;    ///< so many misses in a row are a fault
+  /// The longest wait for an answer, while the last words are held. State a loop_limits::longest_tick of at
+  /// least this, or a lost answer may cost energy.
   nanoseconds reply = std::chrono::milliseconds(5);
-  point<S> origin{};  ///< taken off positions [m], in the frame of falcon/kinematics.hpp
+  point<S> origin{};  ///< subtracted from positions [m], in the frame of falcon/kinematics.hpp
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     const auto refused = [](const char* parameter, auto value, const char* remedy) {
@@ -61,26 +61,26 @@ struct settings {
   }
 };
 
-/// All that an exchange knows. Trivially copyable: log it, or send it to another thread.
+/// All results of an exchange. It is trivially copyable, for logs and other threads.
 template <real S>
 struct reading {
   code what = code::not_open;  ///< ok, or why there is no position, or no force
   state where = state::closed;
   to_device sent{};
-  from_device received{};  ///< the last one
-  point<S> position{};     ///< of the last usable reply [m], origin taken off
+  from_device received{};  ///< the last reply
+  point<S> position{};     ///< position of the last usable reply, origin subtracted [m]
   force<S> commanded{};    ///< [N]
-  force<S> held{};         ///< up to this reply [N]
-  S strength{};            ///< of the ramp, 0 … 1
-  nanoseconds asked{};     ///< when the question was out: a sample's dt is from there to there
+  force<S> held{};         ///< force held until this reply [N]
+  S strength{};            ///< factor of the ramp, 0 … 1
+  nanoseconds asked{};     ///< when the question was out; dt is from one such time to the next
   nanoseconds stamp{};     ///< when the reply was there
   link_counts counts{};
   ftdi::line_status lines{};
 };
 
-/// Which replies may be believed. Packets have no checksum, and homing moves the origin of the counts
-/// in one step, perhaps some replies after the homed bits: so a jump, or a leg that is not homed,
-/// takes `settle` good replies to be forgotten.
+/// Judges which replies may be believed. Packets have no checksum, and homing moves the origin of the counts
+/// in one step, perhaps some replies after the homed bits. So after a jump, or a leg that is not homed,
+/// `settle` good replies must come first.
 template <real S>
 class reply_guard {
  public:
@@ -99,7 +99,7 @@ class reply_guard {
   }
 
  private:
-  /// Counts that a leg may move in that time; in less than a tick as many as in one.
+  /// The counts that a leg may move in that time; in less than a tick as many as in a tick.
   [[nodiscard]] static constexpr S most(nanoseconds passed, const settings<S>& setup) noexcept {
     const S ticks = std::chrono::duration<S>(passed).count() / setup.tick;
     return kernels::larger(S(1), ticks) * S(setup.largest_step);
@@ -111,8 +111,8 @@ class reply_guard {
     return false;
   }
 
-  leg_words encoder_{};               ///< of the last reply
-  std::optional<nanoseconds> heard_;  ///< when it came
+  leg_words encoder_{};               ///< counts of the last reply
+  std::optional<nanoseconds> heard_;  ///< when the last reply came
   int settled_ = 0;                   ///< good replies in a row
 };
 

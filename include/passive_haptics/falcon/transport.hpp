@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Bytes to and from the Falcon. It is no USB-HID-class device (HID here means haptic interface device)
-// but a serial bridge, an FTDI FT232R, 0403:cb48, one bulk pipe each way:
+// Bytes to and from the Falcon, over an FTDI FT232R, 0403:cb48, with one bulk pipe each way.
+// It is a serial bridge and no USB-HID-class device (HID means haptic interface device here):
 //
 //   IN transfer = 64-byte packets, each   modem status | line status | ≤ 62 bytes
 //
-// A packet goes out when it is full, or when the latency timer ends, with or without bytes in it.
-// One protocol, several ways to carry it:
+// A packet goes out when it is full, or when the latency timer ends, with or without bytes in it. Several
+// transports carry this protocol:
 //
 //   libusb_transport       the real device                        libusb_transport.hpp
 //   in_memory_transport    a simulated far side, virtual time     in_memory_transport.hpp
 //   replay_transport       a recorded log, its own time           recording.hpp
-//   recording_transport    any of them, and keeps what passes     recording.hpp
+//   recording_transport    any of them, with a record             recording.hpp
 //
-// Time belongs to the transport, so that a simulated hour takes a second and a test repeats itself.
+// Each transport has its own clock, so that a simulated hour takes a second and a test repeats itself.
 
 #include <passive_haptics/falcon/packet.hpp>
 #include <passive_haptics/falcon/result.hpp>
@@ -26,15 +26,15 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace falcon {
 
-/// Since the transport's own epoch, monotonic.
+/// A time since the transport's own epoch, monotonic; or a duration.
 using nanoseconds = std::chrono::nanoseconds;
 
-/// Vendor requests of the chip (type 0x40, index 0), and the values we send with them.
+/// Vendor requests of the chip (type 0x40, index 0), and the values that the driver sends with them.
 enum class request : byte {
   reset = 0,            ///< `purge_receive`, `purge_transmit`, or 0 for all
   modem = 1,            ///< `rts_low`, `dtr_low`, `dtr_high`
   flow_control = 2,     ///< 0: none
-  baud = 3,             ///< a divisor of 3 MHz
+  baud = 3,             ///< the divisor of 3 MHz that gives the baud rate
   data = 4,             ///< `eight_bits`: 8N1
   event_character = 6,  ///< `event_character_on` | the character
   latency_timer = 9,    ///< [ms]
@@ -53,8 +53,8 @@ inline constexpr std::uint16_t monitor_baud = 0x4138;  ///< 9600 Bd
 inline constexpr std::uint16_t loader_baud = 0x0015;   ///< 142 857 Bd
 inline constexpr std::uint16_t program_baud = 0x0002;  ///< 1.5 MBd
 
-inline constexpr std::size_t usb_packet = 64;  ///< with
-inline constexpr std::size_t status_size = 2;  ///< of them status
+inline constexpr std::size_t usb_packet = 64;  ///< largest size of a packet [bytes]
+inline constexpr std::size_t status_size = 2;  ///< status at the head of a packet [bytes]
 inline constexpr std::size_t payload_size = usb_packet - status_size;
 
 /// The chip's two status bytes.
@@ -69,8 +69,8 @@ struct line_status {
   bool operator==(const line_status&) const = default;
 };
 
-/// Takes the status bytes out of an IN transfer, in place: the payload moves to the front. Returns
-/// its length; `last` becomes the status of the last packet in it, if there is one.
+/// Removes the status bytes from an IN transfer, in place, and returns the length of the payload, which moves to
+/// the front. `last` becomes the status of the last packet of the transfer, if there is one.
 constexpr std::size_t strip_status(std::span<byte> transfer, line_status& last) noexcept {
   std::size_t kept = 0;
   for (std::size_t at = 0; at + status_size <= transfer.size(); at += usb_packet) {
@@ -83,18 +83,18 @@ constexpr std::size_t strip_status(std::span<byte> transfer, line_status& last) 
 
 }  // namespace ftdi
 
-/// How a read() ended.
+/// The result of a read().
 struct [[nodiscard]] transfer {
   result how{};           ///< ok, timeout, unplugged, not_open, transfer_failed
   std::size_t bytes = 0;  ///< > 0 when ok
-  nanoseconds stamp{};    ///< when they arrived
+  nanoseconds stamp{};    ///< when the bytes arrived
 };
 
-/// control() sends a request to the chip. write() sends all bytes or fails. read() returns the bytes
-/// that came, at least one, the chip's status bytes taken out; with nothing until the deadline it is
-/// a timeout, and a deadline that is not later than now() takes only what is there. lines() is the
-/// status that came last. now() is steady: a sample before which it has not gone forward is refused.
-/// None of them throws; after open() none allocates.
+/// control() sends a request to the chip. write() sends all bytes or fails. read() returns the bytes that
+/// came, at least one, without the chip's status bytes, or a timeout if none comes until the deadline; with a
+/// deadline that is not later than now() it takes only bytes that are there. lines() is the status that came
+/// last. now() is a steady clock: a sample at which it has not gone forward is refused. None of the functions
+/// throws, and after open() none allocates.
 template <class T>
 concept transport = requires(T t, const T c, request r, std::uint16_t value,
                              std::span<const byte> out, std::span<byte> in, nanoseconds deadline) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Three numbers of one kind, 3 × 3 matrices, sine and cosine: all the algebra that three legs need.
-// It stands beside device/eigen_space.hpp for three reasons: a microcontroller that turns counts into
-// words needs no Eigen (tests/falcon_firmware), every function is constexpr, and a point is no force
-// and a torque no angle, because the kind is part of the type.
+// The algebra of three legs: triples of numbers of one kind, 3 × 3 matrices, sine and cosine.
+// device/eigen_space.hpp does not serve here for three reasons: a microcontroller that turns counts into words
+// needs no Eigen (tests/falcon_firmware), every function is constexpr, and the kind is part of the type, so that
+// a point is no force and a torque no angle.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -57,7 +57,7 @@ template <real S, class Kind>
   return kernels::square_root(dot(a, a));
 }
 
-/// max |aᵢ|
+/// The largest |aᵢ|.
 template <real S, class Kind>
 [[nodiscard]] constexpr S largest_in(const triple<S, Kind>& a) noexcept {
   using kernels::larger, kernels::magnitude;
@@ -93,7 +93,7 @@ template <class Result, real S, class Kind>
   return {{dot(m.row[0], a), dot(m.row[1], a), dot(m.row[2], a)}};
 }
 
-/// M⁻¹, whose columns are rᵢ₊₁ × rᵢ₊₂/det of the rows r; not finite when M is singular.
+/// M⁻¹, whose columns are rᵢ₊₁ × rᵢ₊₂/det for the rows r of M; not finite if M is singular.
 template <real S>
 [[nodiscard]] constexpr matrix<S> inverse(const matrix<S>& m) noexcept {
   const auto cross = [](const auto& a, const auto& b) -> typename matrix<S>::row_type {
@@ -126,7 +126,7 @@ struct sine_cosine {
   S sine, cosine;
 };
 
-/// sin φ and cos φ [rad], those of cmath; in a constant expression their power series, |φ| ≤ 2π.
+/// sin φ and cos φ, φ in [rad], by cmath; in a constant expression by their power series, for |φ| ≤ 2π.
 template <real S>
 [[nodiscard]] constexpr sine_cosine<S> sine_cosine_of(S angle) noexcept {
   using std::cos, std::sin;
@@ -142,7 +142,7 @@ template <real S>
   return sum;
 }
 
-/// The angle of (x, y) from the x axis, in [−π, π]; in a constant expression by Newton's iteration.
+/// The angle of (x, y) from the x axis, in [−π, π] rad; in a constant expression by Newton's iteration.
 template <real S>
 [[nodiscard]] constexpr S angle_of(S y, S x) noexcept {
   using std::atan2;

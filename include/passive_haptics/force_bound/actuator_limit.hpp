@@ -2,17 +2,17 @@
 #pragma once
 // Limits that need no ledger.
 //
-//   actuator_limit    |f| ≤ what the motors give      always, with motors
-//   motor_limits      |fᵢ| ≤ what motor i gives       joints, or motors along the axes
-//   thermal_limit     and less for ever than at once  thermal_limit.hpp
-//   no_bound          f = f*                          for comparison, and for worlds proved otherwise
+//   actuator_limit    |f| ≤ what the motors give        every device with motors needs one
+//   motor_limits      |fᵢ| ≤ what motor i gives         for joints, or motors along the axes
+//   thermal_limit     |f| ≤ less for ever than at once  thermal_limit.hpp
+//   no_bound          f = f*                            for comparison, and for worlds proved otherwise
 
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// f = f*. Loses energy at every tick in contact (lemma L2): K Δx²/2 against b Δx²/T.
+/// f = f*. In contact with a spring K > 2b/T each tick loses K Δx²/2 − b Δx²/T [J] (lemma L2).
 struct no_bound {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
@@ -29,9 +29,9 @@ struct no_bound {
   };
 };
 
-/// |f| ≤ `most` [N], direction kept: what the motors can hold. Without it (or a device that reports
-/// the force it held) the ledger would book a force that was never there (A28). A force that a device reports and
-/// that is over twice as large was not held either: such a sample is refused.
+/// |f| ≤ `most` [N], the direction kept: what the motors can hold. Without this limit, or a device that reports
+/// the force it held, the ledger books a force that the motors never held (A28). A sample that reports a force
+/// of more than 2 `most` is refused, because the motors cannot have held that either.
 struct actuator_limit {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
@@ -61,8 +61,15 @@ struct actuator_limit {
       const scalar force = Space::norm(desired);
       return {force > most_ ? most_ / force : scalar(1)};
     }
+    [[nodiscard]] constexpr typename Space::effort most_held() const noexcept {
+      return detail::longest_held<Space>(most_);
+    }
     [[nodiscard]] constexpr bool can_hold(const typename Space::effort& held) const noexcept {
       return detail::can_be_held(Space::norm(held), most_);
+    }
+    constexpr void explain(explanation& e, const auto& /*damping*/, scalar /*T*/,
+                           int /*late*/) const noexcept {
+      e.saturate(static_cast<double>(most_));
     }
 
    private:
@@ -70,13 +77,13 @@ struct actuator_limit {
   };
 };
 
-/// |fᵢ| ≤ mostᵢ for every axis or joint, direction kept: the weakest motor decides.
+/// |fᵢ| ≤ mostᵢ for every axis or joint, the direction kept: the motor that is exceeded most sets the share.
 template <int Dof>
 struct motor_limits {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
 
-  std::array<double, static_cast<std::size_t>(Dof)> most{};  ///< [N]; joints: [N·m]
+  std::array<double, static_cast<std::size_t>(Dof)> most{};  ///< largest force [N]; joints: [N·m]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     for (const double f : most) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Several bounds, one after the other.
+// A chain of bounds: each is shown the effort that those before it have left.
 //
 //   ph::bound_chain{ph::reachable_bound{…}, ph::actuator_limit{…}}
 
@@ -9,12 +9,12 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// First, then the rest. What the chain promises is the best promise among its bounds that nothing
-/// behind them can break: a bound that only reduces cannot, because zero force is always safe and
-/// the allowed forces of every bound here are a ball around it.
+/// Applies `First`, then the rest. The chain promises the best promise among its bounds that no bound behind it
+/// can break. One that only reduces breaks none, because a force that a bound allows may be shortened; one that
+/// turns or lengthens the force breaks all before it. (§ 2, Shares and chains)
 ///
-/// What may raise a force because of the contact, a rate limit say, is no bound but a shaper, and
-/// stands before all of them.
+/// A part that may raise a force because of the contact, such as force_rate_limit, is a shaper and no bound; it
+/// stands before the whole chain.
 template <class First, class... Rest>
 struct bound_chain : detail::sequence<First, Rest...> {
   static_assert(detail::are_bounds<First, Rest...>());
@@ -36,7 +36,7 @@ template <class First, class... Rest>
 bound_chain(First, Rest...) -> bound_chain<First, Rest...>;
 
 namespace detail {
-/// The best promise that no later bound can break, and whether all only reduce.
+/// The best promise that no later bound can break, and whether all bounds only reduce.
 struct chained {
   guarantee promise = guarantee::none;
   bool reduce = true;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The energy bounding algorithm (EBA): the force changes by no more than the damper pays for, and
-// what the force could do later is put aside as the energy of a spring, f²/(2 c2). No ledger: the
-// last force and the last displacement are all it looks at.
+// The energy bounding algorithm (EBA): the force changes by no more than the damper pays for.
+// The energy that the force could give out later is put aside as that of a spring, f²/(2 c2). The bound
+// keeps no ledger and looks at the last force and the last displacement only.
 //
-//   energy_bounding        f − f_held bounded, |f|² bounded   the published window; ≤ b/T N/m, and
-//                                                             a force that falls no faster either
-//   tight_energy_bounding  the two bounds as one              twice as stiff, falls at once; with
-//                                                             c2 = 2b/T it is memoryless_bound
+//   energy_bounding        f − f_held bounded, |f|² bounded   the published window: it shows at most b/T
+//                                                             N/m, and the force falls no faster, either
+//   tight_energy_bounding  the two bounds as one              twice as stiff, and the force falls at once;
+//                                                             with c2 = 2b/T it is memoryless_bound
 //
-// For comparison with the literature; memoryless_bound is simpler and strict_bound shows more. Not
-// offered with latency.
+// Both are here for comparison with the literature: memoryless_bound is simpler and strict_bound shows
+// more stiffness. Neither is offered with latency.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -28,9 +28,9 @@ template <class Space>
   return least;
 }
 
-/// The largest share of `force` that a spring of stiffness c2 [N/m] can put aside when the last tick
-/// brought what it did:  f²/(2 c2) ≤ h²/(2 c2) + Δxᵀ(b/dt)Δx − h·Δx,  with h² at most `promised`
-/// [N²] where it was put aside.
+/// The largest share of `force` [N] whose energy f²/(2 c2) the last tick has paid for, c2 in [N/m]:
+///     f²/(2 c2) ≤ h²/(2 c2) + Δxᵀ(b/dt)Δx − h·Δx
+/// where h² counts up to `promised` [N²] only; energy_bounding gives the square of its last command there.
 template <class Space>
 [[nodiscard]] constexpr share<typename Space::scalar> put_aside(const typename Space::vector& force,
                                                                 typename Space::scalar c2,
@@ -47,33 +47,31 @@ template <class Space>
 
 /// The force nearest to the desired one with, h being the force held over the last tick,
 ///     (h − f)·Δx ≤ min(c1 ‖Δx‖², Δxᵀ(b/dt)Δx)       and       ‖f + c2 Δx‖² ≤ ‖h‖² + c2² ‖Δx‖²
-/// A half-space and a ball: always the same few lines, in any number of dimensions (§ 2(b), proof
-/// there). In one, with F = −f the reaction, it is the published window (Kim, Ryu, 2004 and 2010;
-/// law from memory) multiplied through by Δx:
+/// They are a half-space and a ball in any number of dimensions (§ 2(b), with the proof). In one
+/// dimension, with F = −f the reaction, they are the published window (Kim, Ryu, 2004 and 2010; law
+/// from memory) multiplied through by Δx:
 ///     F = F_held + β Δx,    γ_min ≤ β ≤ min(c1, γ_max),    γ = c2 − r ∓ √(c2² + r²),  r = F_held/Δx
-/// But for Δx = 0, where the published law freezes the force and the limit of the window, proved
-/// just as well, is |f| ≤ |h|. The published algorithm bounds each axis by itself; the vector form
-/// is ours.
+/// At Δx = 0 the published law freezes the force; here the limit of the window holds, |f| ≤ |h|, with
+/// the same proof. The published algorithm bounds each axis by itself; the vector form is ours.
 ///
 /// Proof: −h·Δx = (f − h)·Δx − f·Δx. The half-space says that the damper, over the MEASURED dt, pays
 /// for the first term; the ball is −f·Δx ≥ (‖f‖² − ‖h‖²)/(2 c2). So E ≥ ‖f‖²/(2 c2) for ever. The
-/// window is not empty for c2 ≤ c1 and c2 ≤ b/T (f = h − c2 Δx is in it), and as c2 ≤ b/T the
-/// energy put aside is twice what f can cost in the next tick: zero is always safe, too, and a tick
-/// of up to twice longest_tick, or a force held of up to √2 times the command, costs nothing. What
-/// is held beyond the command lends nothing: a motor a little too strong cannot wind the force up.
+/// window is not empty for c2 ≤ c1 and c2 ≤ b/T (f = h − c2 Δx is in it). As c2 ≤ b/T, the energy put
+/// aside is twice what f can cost in the next tick. So zero force is always safe, too, and a tick of up to
+/// 2 longest_tick, or a held force of up to √2 times the command, costs nothing. A force held beyond the
+/// command is given no credit, so a motor that is a little too strong cannot wind the force up.
 ///
-/// Assumes, those two apart, what memoryless_bound does; the direction of the force held is free.
-/// The price: at most b/T N/m, half of what the others show; and NOT `only_reduces`: while the
-/// device moves out, a force falls by no more than c1 per metre, so it goes on pushing after the
-/// contact is lost, the way it pushed before. It starts none: from zero, nothing desired is nothing
-/// returned; and it ends at once where the device stops or turns back, and after a lost sample or a
-/// late tick.
+/// Apart from those two allowances it assumes what memoryless_bound does; the direction of the held force
+/// is free. The price: it shows at most b/T N/m, half of what the others show, and it does NOT only reduce.
+/// While the device moves out, the force falls by at most c1 per metre, so it goes on pushing its way after
+/// the contact is lost. It starts no force of its own, and a force that is no longer desired ends at once
+/// where the device stops or turns back, after a lost sample and after a late tick.
 struct energy_bounding {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true};
 
-  double slope = kernels::largest<double>();    ///< c1 [N/m], > 0; more than b/dt is b/dt
-  double storage = kernels::largest<double>();  ///< c2 [N/m], > 0; at most c1 and b/T
+  double slope = kernels::largest<double>();    ///< c1 [N/m], > 0; above b/dt, b/dt counts
+  double storage = kernels::largest<double>();  ///< c2 [N/m], > 0; above c1 or b/T, those count
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(slope)) return {"slope", slope, "finite and > 0 N/m"};
@@ -117,7 +115,7 @@ class energy_bounding::on {
   }
 
  private:
-  /// Projects on the ball; where that leaves the half-space, on the disc in which they meet.
+  /// Projects `desired` on the ball; where that leaves the half-space, on the disc in which the two meet.
   [[nodiscard]] constexpr vector nearest(const vector& desired, scalar c2,
                                          const auto& state) const noexcept {
     const vector held = state.held;
@@ -153,19 +151,19 @@ class energy_bounding::on {
   scalar last_squared_ = kernels::largest<scalar>();  ///< |f|² of the last command [N²]
 };
 
-/// ‖f‖² ≤ ‖h‖² + 2 c2 (Δxᵀ(b/dt)Δx − h·Δx), direction kept: the two inequalities of energy_bounding
-/// as one, with no surplus thrown away in between (§ 2(b), ours). With c2 = 2b/T and isotropic
-/// damping it is memoryless_bound; a smaller c2 is a softer wall, a spring of c2 N/m.
+/// ‖f‖² ≤ ‖h‖² + 2 c2 (Δxᵀ(b/dt)Δx − h·Δx), the direction kept: the sum of the two inequalities of
+/// energy_bounding, so no surplus of the one is lost to the other (§ 2(b), ours). With c2 = 2b/T and
+/// isotropic damping it is memoryless_bound; a smaller c2 shows a softer wall, a spring of c2 N/m.
 ///
 /// Proof: the right side is 2 c2 (S(n) + ΔE) with S = ‖h‖²/(2 c2), so E ≥ S for ever; it is never
 /// negative for c2 ≤ 2b/T, as S then covers the worst the held force can cost (L3).
 ///
-/// Assumes what memoryless_bound does; the direction of the force held is free.
+/// It assumes what memoryless_bound does; the direction of the held force is free.
 struct tight_energy_bounding {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true};
 
-  double storage = kernels::largest<double>();  ///< c2 [N/m], > 0; at most 2b/T
+  double storage = kernels::largest<double>();  ///< c2 [N/m], > 0; above 2b/T, 2b/T counts
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (detail::positive(storage)) return {};

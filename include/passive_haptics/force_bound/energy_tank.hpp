@@ -3,11 +3,11 @@
 // Energy tanks: an action passes while the tank holds what it will let out.
 //
 //   energy_tank       ¼ fᵀB⁻¹f ≤ E1 − ε         strict_bound by another name, passive
-//   predicting_tank   T f·v ≤ E1 − ε            bold and NOT passive
+//   predicting_tank   T f·v ≤ E1 − ε            assumes that the motion goes on; NOT passive
 //   two_layer_tank    T f·v ≤ H, f_TLC = −d v   any force from above, a level kept by damping below;
 //                                               NOT passive
 //
-// Energy quanta from another port are not offered: one port, one tank.
+// Energy quanta from another port are not offered, because a port has one tank.
 
 #include <passive_haptics/force_bound/own_ledger.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -18,7 +18,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What the next tick is taken to let out.
+/// The energy [J] that the tank assumes it lets out in the next tick.
 enum class tank_outflow : std::uint8_t {
   worst_case,  ///< ¼ fᵀB⁻¹f, whatever the motion
   predicted,   ///< T max(0, f·v), if the motion goes on as it did
@@ -28,9 +28,9 @@ enum class tank_outflow : std::uint8_t {
 /// the observer's `cap` is the tank's size, and T is the longest tick. Source: the tank of Ferraguti
 /// et al. 2015 in the discrete form of docs/design/mathematics.md § 2(h).
 ///
-/// Worst case: exactly strict_bound on a smaller ledger, so E1 ≥ 0 for every motion under the
-/// assumptions of strict_bound (no latency), and no force at all while E1 < ε. Predicted: pushes
-/// back with all of f* until it has seen the device turn round; NOT passive.
+/// Worst case: this is strict_bound on a ledger smaller by ε, so E1 ≥ 0 for every motion under the
+/// assumptions of strict_bound, and there is no force while E1 < ε. Predicted: the tank lets all of f*
+/// pass until it has seen the device turn round, so it is NOT passive.
 template <tank_outflow Outflow = tank_outflow::worst_case>
 struct basic_energy_tank {
   static constexpr guarantee passivity =
@@ -80,25 +80,25 @@ class basic_energy_tank<Outflow>::on {
   scalar reserve_;
 };
 
-/// An upper layer that asks for any force, over a tank that lets out at most what is in it:
+/// An upper layer asks for any force, and a tank of energy H [J] lets out at most what it holds:
 ///     H ← min(H + Δxᵀ(b/dt)Δx − f_held·Δx, cap)
 ///     f = s f* − d v,   T s f*·v ≤ H and s ‖f*‖ ≤ g H on the way out,
 ///     d = min(max_damping, a max(0, H_d − H)),   v = Δx/dt
-/// The tank level controller −d v refills the tank at the cost of drag, in free space too. The way
-/// in is never blocked, it is what fills the tank. Source: Franken et al. 2011, form from memory
-/// (docs/design/mathematics.md § 2(h)), whose H has no damping credit; single port, no quanta.
+/// The tank level controller −d v refills the tank at the cost of drag, in free space too. The way in is
+/// never blocked, because it fills the tank. Source: Franken et al. 2011, form from memory, for a single
+/// port and without quanta (docs/design/mathematics.md § 2(h)); their H has no damping credit.
 ///
 /// NOT passive: the outflow is predicted from the last displacement, and −d v pushes the wrong way
-/// for the first tick after the motion turns. Put strict_bound behind it for the promise.
+/// for the first tick after the motion turns. For a promise put strict_bound behind it. Keep
 /// max_damping ≤ 0.35 to 0.5 m/T, or the refill itself rings (series_passivity_controller).
 struct two_layer_tank {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bound_traits traits{.needs_ledger = true};
 
   double wanted{};                                                   ///< H_d [J], the level to keep
-  double refill{};                                                   ///< a [N·s/(m J)]
+  double refill{};                                                   ///< a, gain of d [N·s/(m J)]
   double max_damping{};                                              ///< largest d [N·s/m]
-  double force_per_joule = std::numeric_limits<double>::infinity();  ///< g [N/J]
+  double force_per_joule = std::numeric_limits<double>::infinity();  ///< g, largest ‖f‖/H [N/J]
   double cap = std::numeric_limits<double>::infinity();              ///< size of the tank [J]
   double loan{};                                                     ///< H at the start [J]
 
@@ -158,7 +158,7 @@ class two_layer_tank::on {
   }
 
  private:
-  /// s: the whole way in, what the tank holds on the way out.
+  /// s, the share of f* that passes: 1 on the way in, and on the way out what the tank covers.
   [[nodiscard]] constexpr scalar left(const vector& desired, const auto& state) const noexcept {
     const scalar outflow = Space::dot(desired, state.travel) * (state.longest_tick / state.dt);
     if (!(outflow > scalar(0))) return scalar(1);
@@ -168,7 +168,7 @@ class two_layer_tank::on {
   }
 
   scalar wanted_{}, refill_{}, max_damping_{}, force_per_joule_{}, cap_{}, loan_{};
-  detail::own_ledger<scalar> tank_{};  ///< H
+  detail::own_ledger<scalar> tank_{};  ///< H [J]
 };
 
 static_assert(force_bound_for<energy_tank, space<float, 1>>);

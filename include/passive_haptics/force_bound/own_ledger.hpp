@@ -2,12 +2,12 @@
 #pragma once
 // The energy [J] that a force bound counts for itself, beside the observer's ledger:
 //
-//     E ← min(E + what the last tick brought, most)     a tick on time
-//     E ← min(the same, E before it, 0)                 a late one: its force may not have been held to its end
-//     E ← min(E, 0)                                     a lost one: nobody knows what it brought
+//     E ← min(E + ΔE, most)     after a tick on time, ΔE [J] being what the tick brought
+//     E ← min(E + ΔE, E, 0)     after a late tick, whose force may not have been held to its end
+//     E ← min(E, 0)             after a lost tick, of which nobody knows what it brought
 //
-// So a tick that is not to be trusted leaves no credit, and takes no debt away. Nothing is rounded down
-// here: no bound with such a ledger promises passivity by it.
+// So a late or a lost tick leaves no credit and forgives no debt. The sums are not rounded down, because no
+// bound promises passivity by such a ledger.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -23,8 +23,8 @@ class own_ledger {
     energy_ = loan;
     started_ = false;
   }
-  /// Books a tick, term by term in the order given [J], and keeps at most `most`. False if it was lost; before
-  /// the first tick nothing was held, so then the loan stays.
+  /// Adds the terms of a tick [J] in the order given and keeps at most `most` [J]. Returns false for a lost
+  /// tick. Before the first tick nothing was held, so a first tick that is lost leaves the loan.
   template <class... Terms>
   constexpr bool book(const auto& state, Scalar most, Terms... brought) noexcept {
     const Scalar written_off = kernels::smaller(energy_, Scalar(0));
@@ -44,7 +44,7 @@ class own_ledger {
 
  private:
   Scalar energy_{};
-  bool started_ = false;  ///< has there been a tick?
+  bool started_ = false;  ///< a tick has been booked since reset()
 };
 
 }  // namespace detail

@@ -9,11 +9,10 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Parameters of the parallel controller.
 struct parallel_controller_parameters {
   double max_mobility{};  ///< largest β [m/(N·s)], > 0
   double threshold{};     ///< E_thr [J]; below zero it is a loan
-  double least_force{};   ///< no action below this [N]: the noise of the sensor
+  double least_force{};   ///< no action for ‖f̄‖ below this [N], the noise of the sensor
   double loan{};          ///< E at the start [J]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -29,9 +28,9 @@ struct parallel_controller_parameters {
   }
 };
 
-/// A leak in the velocity that repays what the port has lost (parallel form, admittance causality):
-/// for a device that is told a velocity and tells the force of the hand on it. Not a force bound and
-/// no part of a port; call it once per tick, last thing before the velocity goes out.
+/// Adds a velocity that repays what the port has lost (parallel form, admittance causality), for a device
+/// that is told a velocity and tells the force of the hand on it. It is no force bound and no part of a
+/// port; call it once per tick, as the last step before the velocity goes out.
 ///     E(n) = E(n−1) + dt v_held·f̄(n)
 ///     v = v* + β f̄,   β = (E_thr − E − dt v*·f̄) / (dt ‖f̄‖²)  in [0, max_mobility]
 /// f̄(n) [N] is the MEAN force of the hand over the tick that has just ended, the one over which
@@ -43,8 +42,8 @@ struct parallel_controller_parameters {
 ///
 /// NOT passive. While β is not capped, ‖f̄‖ ≥ least_force and all ticks are as long,
 ///     E(n+1) ≥ E_thr + dt v·(f̄(n+1) − f̄(n))
-/// so a force that stays cannot draw energy, and one that turns round within a tick can. Assumes
-/// that the robot holds the velocity it was told, or that the one it held is given.
+/// so a constant force cannot draw energy, and one that turns round within a tick can. The controller
+/// assumes that the robot holds the velocity it was told, or that the velocity it held is given.
 template <class Space>
 class parallel_passivity_controller {
  public:
@@ -65,15 +64,15 @@ class parallel_passivity_controller {
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return parameters_.check(); }
   [[nodiscard]] constexpr scalar energy() const noexcept { return energy_; }  ///< E [J]
 
-  /// The velocity to hold next [m/s], from the one that is desired, the mean force of the hand on
-  /// the device over the last tick [N] and the length of that tick [s]. Takes the velocity it
-  /// returned last to have been held.
+  /// Returns the velocity to hold next [m/s], given the desired velocity [m/s], the mean force of the hand
+  /// on the device over the last tick [N] and the length dt of that tick [s]. It assumes that the velocity
+  /// it returned last has been held.
   [[nodiscard]] constexpr vector velocity(const vector& desired, const vector& force,
                                           scalar dt) noexcept {
     return velocity(desired, force, dt, held_);
   }
-  /// The same for a robot that tells the velocity it really held [m/s]. A value that is not finite
-  /// or a dt ≤ 0 gives velocity zero and writes off all credit.
+  /// The same for a robot that tells the velocity it really held [m/s]. If a value is not finite or dt ≤ 0,
+  /// the velocity is zero and all credit is written off.
   [[nodiscard]] constexpr vector velocity(const vector& desired, const vector& force, scalar dt,
                                           const vector& held) noexcept {
     const scalar gained = dt * Space::dot(held, force);
@@ -97,7 +96,7 @@ class parallel_passivity_controller {
   parallel_controller_parameters parameters_;
   scalar max_mobility_, threshold_, least_force_;
   scalar energy_{};                     ///< E [J]
-  typename Space::coordinates held_{};  ///< [m/s]
+  typename Space::coordinates held_{};  ///< velocity returned last [m/s]
 };
 
 }  // namespace v0

@@ -4,14 +4,14 @@
 //
 //   series_passivity_controller     f = f* − α v   position in, force out       NOT passive
 //
-// With a reference energy, which looks at the contact, it is a shaper: shaper/reference_energy.hpp.
+// With a reference energy, which looks at the contact, the controller is a shaper: shaper/reference_energy.hpp.
 // Its dual, for devices that are told a velocity, is parallel_passivity_controller.hpp.
 //
-// They repay a deficit that has already happened, and only if the motion (the force) goes on as it
-// did. With a hand that damps they are hardly felt.
+// Both repay a deficit that has already happened, and only if the motion (of the dual: the force) goes on as
+// it did. With a hand that damps they are hardly felt.
 //
-// Not offered: the published pairing of the NEW force with the last displacement. On a sampled wall
-// it counts the leak of the hold with the wrong sign and never acts (lemma L2; a test shows it).
+// The published pairing of the NEW force with the last displacement is not offered. On a sampled wall that
+// pairing counts the leak of the hold with the wrong sign and never acts (lemma L2; a test shows it).
 
 #include <passive_haptics/force_bound/own_ledger.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -22,18 +22,18 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Whether the damping of the device pays for the environment too.
+/// Whether the controller credits the damping of the device to the environment.
 enum class damping_credit : std::uint8_t {
-  none,     ///< counts the environment alone; needs no observer
-  counted,  ///< acts only when device and environment together have lost
+  none,     ///< E counts the environment alone and needs no observer
+  counted,  ///< E also counts the damper, so it acts only when both together have lost
 };
 
 /// A damper that repays what the port has lost (series form, impedance causality):
 ///     E(n) = E(n−1) − f_held·Δx [+ Δxᵀ(b/dt)Δx]
 ///     f = f* − α v,   α = (E_thr − E) dt/‖Δx‖²  in [0, max_damping],   v = Δx/dt
-/// What α may not take is carried to the next tick. Keeps its own E, so no_observer will do unless
-/// the damping is counted. f may push inwards. Sources: Hannaford and Ryu 2002 (the idea and α);
-/// the pairing with the held force is docs/design/mathematics.md § 2(c).
+/// What max_damping does not allow in one tick stays in E for the next. The controller keeps its own E, so
+/// no_observer is enough unless the damping is counted. f may push inwards. Sources: Hannaford and Ryu 2002
+/// (the idea and α); for the pairing with the held force docs/design/mathematics.md § 2(c).
 ///
 /// NOT passive. Uncapped, E(n+1) = −f*·Δx(n+1) + E(n)(1 − Δx(n+1)/Δx(n)): the deficit is repaid if
 /// the motion goes on and DOUBLES if it turns round. A damper of α on a free mass m is stable for
@@ -45,8 +45,8 @@ struct basic_series_controller {
 
   double max_damping{};   ///< largest α [N·s/m], > 0
   double threshold{};     ///< E_thr [J]; below zero it is a loan
-  double least_speed{};   ///< no action below this [m/s]
-  double least_travel{};  ///< nor for ‖Δx‖ below this [m]: one quantum of the encoder
+  double least_speed{};   ///< no action for ‖v‖ below this [m/s]
+  double least_travel{};  ///< no action for ‖Δx‖ below this [m], one quantum of the encoder
   double reset_after =
       std::numeric_limits<double>::infinity();  ///< force-free time that voids E > 0 [s]
   double loan{};                                ///< E at the start [J]
@@ -112,7 +112,7 @@ class basic_series_controller<Credit>::on {
     return repaid(desired, state, scalar(0));
   }
 
-  /// The force that repays until E is `kept` [J] above the threshold.
+  /// The force [N] that repays until E is `kept` [J] above E_thr.
   [[nodiscard]] constexpr vector repaid(const vector& desired, const auto& state,
                                         scalar kept) noexcept {
     book(state);
@@ -141,7 +141,7 @@ class basic_series_controller<Credit>::on {
   }
 
   scalar max_damping_{}, threshold_{}, least_speed_{}, least_travel_{}, reset_after_{}, loan_{};
-  detail::own_ledger<scalar> ledger_{};  ///< E
+  detail::own_ledger<scalar> ledger_{};  ///< E [J]
   scalar idle_{};                        ///< force-free time so far [s]
 };
 

@@ -84,6 +84,18 @@ class reachable_bound::on {
     return share{most < force ? most / force : scalar(1)};
   }
 
+  /// What a force can have done in `dt` [s] after a tick that was seen [J] (§ 2(a″)).
+  [[nodiscard, gnu::cold, gnu::noinline]] constexpr detail::unseen_work<scalar> unseen(
+      const detail::seen_tick<Space>& seen, const auto& damping, const effort& f,
+      scalar dt) const noexcept {
+    const scalar travel = kernels::square_root(seen.square) + seen.travel_error;
+    const scalar force = Space::norm(f), held = kernels::larger(force, Space::norm(seen.held));
+    return {force * kernels::longest_path(
+                        scalar(travel / seen.dt), scalar((held + hand_force_) / mass_),
+                        scalar(scalar(2) * most_damped(damping, scalar(1)) / mass_), seen.dt, dt),
+            scalar(0)};
+  }
+
  private:
   /// E1 less the worst of what is on its way to the motors [J].
   template <class State>

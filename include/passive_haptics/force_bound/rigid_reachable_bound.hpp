@@ -5,7 +5,7 @@
 //   rigid_reachable_bound   what a handle of known inertia can reach must be covered, in joules
 //   rigid_actuator_limit    |f| and |τ| that the motors give, one common share
 //
-// One share for the whole wrench: a force and a torque that are bounded apart spend one ledger twice.
+// One share counts for the whole wrench, because a force and a torque bounded apart would spend the ledger twice.
 
 #include <passive_haptics/device/rigid_damping.hpp>
 #include <passive_haptics/device/rigid_inertia.hpp>
@@ -17,33 +17,33 @@ inline namespace v0 {
 /// reachable_work_bound for a rigid_body. With ‖w‖ of rigid_inertia and W = ¼wᵀB⁻¹w, the most work that w can
 /// do in the tick that begins now is
 ///     η = w·Δξ T/T₀ + ‖w‖ ((‖held‖ + F) T₀T + (‖w‖ + F) T²)/2 + |τ|(|θ| + α T₀²)α T₀T/12
-/// where F is the norm of all else that pushes:
+/// where F [√J/s] is the norm of all that pushes besides the motors:
 ///     hand_force + 2 b_max|Δp|/T₀, hand_torque + 2 b_ω,max|θ|/T₀      the hand, and the damper at most
 ///     |ω|² √(m|c|² + (I_max − I_min)²/(4I)), |ω| = 2|θ|/T₀            the body as it turns
-/// and the last term is what the path of the last tick may have turned beside θ, α = (‖held‖ + F)/√I the
-/// most that its rate could change. The share s that is left hands out no more than E1 over it:
+/// and the last term covers the turn of the last tick that its end poses do not show (docs/design/six_dof.md), as
+/// the rate of turn changed by α = (‖held‖ + F)/√I [rad/s²] at most. Over η the share s hands out at most E1:
 ///     s = E1/η + η/(4W) where η² < 4 W E1,  √(E1/W) elsewhere
-/// In a loop that is one tick late the wrench h on its way is covered first, over its own tick, and w over
-/// the one after it:   max of η' − η'²/(4W(h)) over 0 ≤ η' ≤ η(h), and
-///     η₂ = η of w with h in its place as the one held next, + ‖w‖ ((‖h‖ + F) + (‖w‖ + F)) T²/2
+/// In a loop that is one tick late the wrench h on its way is covered first: it takes from E1 the largest
+/// η' − η'²/(4W(h)) over 0 ≤ η' ≤ η(h). Then w is covered over the tick after it, with h held in between:
+///     η₂ = w·Δξ T/T₀ + ‖w‖ ((‖held‖ + F) T₀T + (‖h‖ + F) T²)/2 + … + ‖w‖ ((‖h‖ + F) + (‖w‖ + F)) T²/2
 ///
 /// Passive (the true E ≥ 0; the ledger, which knows less, may show a debt) under ALL of these:
 ///   - the inertia is nowhere below that of rigid_inertia, in any pose; the hand's wrench at the handle point
-///     is within its two lengths;
-///   - the damping at the handle is between the ledger's and the two numbers here, in any direction;
-///   - the handle is at most twice as fast in the coming ticks as it was on average in the last, or so slow
-///     that what it does by itself is nothing beside the hand;
-///   - ticks ≤ longest_tick, exact poses, the wrench held in the world frame, and known.
-/// Motors that hold joint torques are another device: take reported_work and strict_bound.
+///     has at most hand_force and hand_torque;
+///   - the damping at the handle lies between the ledger's b and the two upper bounds here, in any direction;
+///   - in the coming ticks the handle is at most twice as fast as it was on average in the last one, or so slow
+///     that its damper and its gyroscopic forces are small beside the hand's;
+///   - ticks are ≤ longest_tick, poses exact, and the wrench is held in the world frame and known.
+/// The share also keeps |τ| ≤ 4b_ω/T (lemma C). For motors with joint torques take strict_bound on reported_work.
 struct rigid_reachable_bound {
   static constexpr guarantee passivity = guarantee::conditional;
   static constexpr bound_traits traits{.needs_ledger = true, .latency = 1, .turns = true};
 
-  rigid_inertia inertia{};        ///< a lower bound
+  rigid_inertia inertia{};        ///< a lower bound of the device's inertia
   double hand_force{};            ///< largest force of everything but motors and damper [N]
   double hand_torque{};           ///< largest torque of the same about the handle point [N·m]
   double linear_damping_most{};   ///< b_max, an upper bound in any direction [N·s/m]
-  double angular_damping_most{};  ///< b_ω,max [N·m·s/rad]
+  double angular_damping_most{};  ///< b_ω,max, an upper bound about any axis [N·m·s/rad]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = inertia.check()) return fault;
@@ -119,8 +119,41 @@ class rigid_reachable_bound::on {
     return share{known * kernels::reachable_share(credit, W, most)};
   }
 
+  /// What w can have done [J], and what of it a turn hides, in `dt` [s] after a tick that was seen (mathematics.md
+  /// § 2(a″)).
+  [[nodiscard, gnu::cold, gnu::noinline]] constexpr detail::unseen_work<scalar> unseen(
+      const detail::seen_tick<P>& seen, const auto& /*damping*/, const effort& w,
+      scalar dt) const noexcept {
+    const scalar gone = kernels::square_root(seen.square), turned_by = scalar(10) * gone;
+    const scalar most = kernels::largest<scalar>(), T0 = seen.dt, c = inertia_.offset();
+    const surroundings all = around(
+        gone, turned_by, T0, kernels::larger(inertia_.norm(effort(seen.held)), inertia_.norm(w)));
+    const scalar last = (all.held + all.pushed) * T0 / scalar(2);
+    const scalar travelled = gone / T0 + inertia_.moving_by(last);
+    const scalar turned = (turned_by + kernels::unseen_turn(turned_by, all.turning, T0)) / T0 +
+                          inertia_.turning_by(last);
+    const auto turn = [&](scalar pushed, scalar t) {
+      return inertia_.swing() * (turned + inertia_.turning_by(pushed) * t);
+    };
+    const auto move = [&](scalar pushed, scalar t) {
+      return travelled + inertia_.moving_by(pushed) * t + scalar(2) * c * turn(pushed, dt);
+    };
+    const scalar without = all.held + inertia_.norm(hand_force_, hand_torque_);
+    const scalar speed = scalar(2) * move(without, dt), rate = scalar(2) * turn(without, dt);
+    const scalar pushed = all.held + inertia_.norm(scalar(hand_force_ + linear_most_ * speed),
+                                                   scalar(hand_torque_ + angular_most_ * rate));
+    if (!(all.turn <= scalar(1) && move(pushed, dt) <= speed && turn(pushed, dt) <= rate)) {
+      return {most, most};
+    }
+    const scalar up = dt * (scalar(1) + kernels::rounding<scalar>());
+    const scalar torque = inertia_.template length<3>(w);
+    const scalar path = turn(pushed, dt / scalar(2)) * up;
+    return {inertia_.template length<0>(w) * move(pushed, dt / scalar(2)) * up + torque * path,
+            torque * kernels::unseen_arc(path)};
+  }
+
  private:
-  /// What pushed over the last tick, and goes on.
+  /// What pushed the handle over the last tick and is assumed to go on.
   struct surroundings {
     scalar held;     ///< ‖held‖ [√J/s]
     scalar pushed;   ///< F, all else [√J/s]
@@ -128,18 +161,21 @@ class rigid_reachable_bound::on {
     scalar turning;  ///< α [rad/s²]
   };
   [[nodiscard]] constexpr surroundings around(const auto& state) const noexcept {
-    const scalar travel = inertia_.template length<0>(state.travel);
-    const scalar turn = inertia_.template length<3>(state.travel);
-    const scalar speed = scalar(2) / state.dt;
+    return around(inertia_.template length<0>(state.travel),
+                  inertia_.template length<3>(state.travel), state.dt,
+                  inertia_.norm(effort(state.held)));
+  }
+  [[nodiscard]] constexpr surroundings around(scalar travel, scalar turn, scalar dt,
+                                              scalar held) const noexcept {
+    const scalar speed = scalar(2) / dt;
     const scalar rate = speed * turn;
-    const scalar held = inertia_.norm(effort(state.held));
     const scalar pushed = inertia_.norm(scalar(hand_force_ + linear_most_ * speed * travel),
                                         scalar(hand_torque_ + angular_most_ * rate)) +
                           inertia_.of_turning(rate);
     return {held, pushed, turn, inertia_.turning_by(held + pushed)};
   }
 
-  /// η [J] of a wrench of that norm in the tick that begins now, where one of the norm `next` is held.
+  /// η [J] of the wrench w of norm `norm` in the tick that begins now, in which a wrench of norm `next` is held.
   [[nodiscard]] constexpr scalar reach(const effort& w, scalar norm, scalar next,
                                        const surroundings& all, const auto& state) const noexcept {
     if (!state.motion_known || !(all.turn <= scalar(1))) return kernels::largest<scalar>();
@@ -157,7 +193,7 @@ class rigid_reachable_bound::on {
   scalar hand_force_, hand_torque_, linear_most_, angular_most_;
 };
 
-/// |f| ≤ `force` and |τ| ≤ `torque`, direction kept, of the wrench as a whole: what the motors can hold.
+/// |f| ≤ `force` and |τ| ≤ `torque`, what the motors can hold: one share shortens the wrench as a whole.
 struct rigid_actuator_limit {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
@@ -194,6 +230,12 @@ struct rigid_actuator_limit {
       if (f > force_) least = force_ / f;
       if (t * least > torque_) least = torque_ / t;
       return {least};
+    }
+    [[nodiscard]] constexpr typename P::effort most_held() const noexcept {
+      typename P::effort most = P::zero();
+      P::component(most, 0) = scalar(2) * force_;
+      P::component(most, 3) = scalar(2) * torque_;
+      return most;
     }
     [[nodiscard]] constexpr bool can_hold(const typename P::effort& held) const noexcept {
       using lengths = part_at<rigid_inertia, P>;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The bound on the slope: the force moves only as the hand moves, and falls steeper than it rose.
+// A bound on the slope: the force changes only as the hand moves, and falls steeper than it rose.
 //
-//   sector_bound   0 ≤ df/dx ≤ β pressing, β ≤ df/dx ≤ 2b/T releasing   one degree of freedom; no
-//                                                                       jumps at all, soft
+//   sector_bound   0 ≤ df/dx ≤ β pressing, β ≤ df/dx ≤ 2b/T releasing   for one degree of freedom: the
+//                                                                       force never jumps, but is soft
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -15,25 +15,25 @@ inline namespace v0 {
 /// With F ≥ 0 the size of the force and s the travel of the last tick against it [m]:
 ///     pressing  (s ≥ 0):   F_held             ≤ F ≤ F_held + β s
 ///     releasing (s < 0):   F_held − (2b/T)|s| ≤ F ≤ F_held − β |s|         never below zero
-/// so the path in the plane of position and force turns clockwise, and |ΔF| ≤ (2b/T)|Δx|: no update
-/// of the environment is ever felt as a jump. Inspired by the input-to-state-stable approach
+/// so the path in the plane of position and force turns clockwise, and |ΔF| ≤ (2b/T)|Δx|: an update of
+/// the environment never makes the force jump. Inspired by the input-to-state-stable approach
 /// (Jafari, Ryu), whose own law is not confirmed; law and proof are ours (§ 2(f)).
 ///
 /// Proof, with F = F_held + σ s:  (b/dt)s² + F_held s = ½(F_held + F)s + (b/dt − σ/2)s². As σ ≤ 2b/T
 /// ≤ 2b/dt the last term is not negative, and the one before is at least (F² − F_held²)/(2β) on both
-/// branches. So E ≥ F²/(2β), and as β ≤ 2b/T that covers the worst the next tick can do: less than
-/// the window, down to zero, is safe as well. The lower edges are for the feel alone.
+/// branches. So E ≥ F²/(2β), and as β ≤ 2b/T that covers the worst the next tick can do. A force below
+/// the window, down to zero, is safe as well; the lower edges are for the feel alone.
 ///
-/// Assumes what memoryless_bound does. What is held beyond the last command lends nothing: a motor a
-/// little too strong cannot wind the force up. Not offered with latency. The price: at most 2b/T N/m;
-/// and it does NOT only reduce: a contact that is lost, or fades because the environment is silent,
-/// goes on pushing until the hand yields. A lost sample or a late tick ends it at once. One degree of
-/// freedom: the proof needs the motion to be along the force.
+/// It assumes what memoryless_bound does. A force held beyond the last command is given no credit, so a
+/// motor that is a little too strong cannot wind the force up. It is not offered with latency. The price:
+/// it shows at most 2b/T N/m, and it does NOT only reduce: when a contact is lost, or fades because the
+/// environment is silent, the force goes on until the hand yields; a lost sample or a late tick ends it at
+/// once. It needs one degree of freedom, because in the proof the motion is along the force.
 struct sector_bound {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true};
 
-  double slope = kernels::largest<double>();  ///< β [N/m], > 0; more than 2b/T is 2b/T
+  double slope = kernels::largest<double>();  ///< β [N/m], > 0; above 2b/T, 2b/T counts
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (detail::positive(slope)) return {};

@@ -1,32 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The force bounding approach (FBA): the worst motion of the next tick, ¼ fᵀB⁻¹f, is paid for before
-// the force is commanded. What pays is the difference:
+// The force bounding approach (FBA): a force is commanded only if its worst next tick, ¼ fᵀB⁻¹f [J], is paid.
+// The three bounds differ in what pays for it:
 //
 //   strict_bound      |f| ≤ √(4 B E1)         all that was ever saved: fewest cuts, late bursts
-//                     |f| ≤ c + √(4 B E1)     on a dual_ledger that credits dry friction c; E1 ≥ 0
-//   memoryless_bound  |f| ≤ |f_held − 2B Δx|  the last force and the last tick only: no bank, so no
-//                                             bursts and no drift; feels like a spring of 2b/T
-//   per_axis_bound    |fᵢ| ≤ √(4 Bᵢ Eᵢ)       one ledger per axis: one axis cannot spend what
-//                                             another saved; turns the force
+//                     |f| ≤ c + √(4 B E1)     on a dual_ledger that credits dry friction c, for E1 ≥ 0
+//   memoryless_bound  |f| ≤ |f_held − 2B Δx|  the last force and the last tick only: nothing is saved,
+//                                             so no bursts and no drift; feels like a spring of 2b/T
+//   per_axis_bound    |fᵢ| ≤ √(4 Bᵢ Eᵢ)       one ledger per axis: no axis can spend what another has
+//                                             saved, and the force may turn
 //
-// B = b/T per tick. T is always the LONGEST tick the loop can produce, the credit uses the measured
-// one: that pair survives jitter (docs/design/mathematics.md § 3).
+// B = b/T [N/m]. T is always the LONGEST tick that the loop can produce, while the credit uses the measured
+// length dt of the tick: so ticks that vary are covered (docs/design/mathematics.md § 3).
 
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// ¼ fᵀB⁻¹f ≤ E1 at every tick (2.15-2.17): the worst motion of the next tick cannot empty the
+namespace detail {
+/// What is shown of a surface that is pressed slowly while the ledger is empty (lemma L4): f²/(2K) has been paid in,
+/// and k + 1 commands of f are covered, so K ≤ 2b/((k + 1) T), b of the axis that damps least.
+template <class P>
+constexpr void soften_by_damping(explanation& e, const auto& damping, typename P::scalar T,
+                                 int late) noexcept {
+  double b = static_cast<double>(damping.along_axis(0));
+  for (int i = 1; i < P::dof; ++i) {
+    b = kernels::smaller(b, static_cast<double>(damping.along_axis(i)));
+  }
+  e.soften(2.0 * b / ((1.0 + late) * static_cast<double>(T)), softened_by::damping_and_tick);
+}
+}  // namespace detail
+
+/// ¼ fᵀB⁻¹f ≤ E1 at every tick (2.15-2.17): the worst motion of the next tick cannot overdraw the
 /// ledger, so E1 ≥ 0 for ever, by induction, whatever the environment does.
 ///
-/// In a loop that is k ticks late the force commanded at n is held during [n+k, n+k+1) and what is in
-/// flight is promised already: ¼ fᵀB⁻¹f ≤ E1 − ¼ Σ_{j=1..k} f(n−j)ᵀB⁻¹f(n−j). (§ 3)
+/// In a loop that is k ticks late the force commanded at n is held during [n+k, n+k+1), and the k commands
+/// on their way have been promised already: ¼ fᵀB⁻¹f ≤ E1 − ¼ Σ_{j=1..k} f(n−j)ᵀB⁻¹f(n−j). (§ 3)
 ///
-/// Assumes: b is a lower bound, every tick ≤ longest_tick, positions exact (or the ledger a
-/// dual_ledger), the held force known. The price (lemma L4): pressed slowly from an empty
-/// ledger it shows at most 2b/T N/m.
+/// It assumes that b is a lower bound, every tick ≤ longest_tick, positions exact (or the ledger a
+/// quantised_energy or a dual_ledger), and the held force known. The price (lemma L4): pressed slowly from
+/// an empty ledger it shows at most 2b/T N/m.
 struct strict_bound {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true,
@@ -44,12 +58,17 @@ struct strict_bound {
                                                             const auto& state) const noexcept {
       return {state.damping.affordable(desired, state.credit(), state.longest_tick)};
     }
+    /// 2b/((k + 1) T), b of the axis that damps least.
+    constexpr void explain(explanation& e, const auto& damping, typename P::scalar T,
+                           int late) const noexcept {
+      detail::soften_by_damping<P>(e, damping, T, late);
+    }
   };
 };
 
-/// ¼ fᵀB⁻¹f ≤ ¼ hᵀB⁻¹h + Δxᵀ(b/dt)Δx − h·Δx, h the force held over the last tick: what h had been
-/// promised, and what the tick brought. For ticks of one length the right side is a square, and
-///     fᵀB⁻¹f ≤ wᵀB⁻¹w,   w = h − 2B Δx                                  (§ 2(a), C1)
+/// ¼ fᵀB⁻¹f ≤ ¼ hᵀB⁻¹h + Δxᵀ(b/dt)Δx − h·Δx, with h the force held over the last tick: the energy that was
+/// set aside for h, plus what the tick brought. For ticks of one length the right side is a square, and
+///     fᵀB⁻¹f ≤ wᵀB⁻¹w,   w = h − 2B Δx                                  (§ 2, memoryless_bound)
 /// The conservative of the two variants that the thesis mentions without a formula is this one or
 /// per_axis_bound; the form and the proof are ours. It reads no ledger, only the damping.
 ///
@@ -59,11 +78,11 @@ struct strict_bound {
 /// because b/dt ≥ B. In a loop k ticks late the force that the last tick paid for is held k + 1 ticks
 /// after it: the ticks fall into k + 1 chains, each with a storage of its own, and nothing else changes.
 ///
-/// Assumes what strict_bound does, and exact positions: it reads Δx itself. The force really held may
-/// be smaller than the command: shorter in the same direction, or, with isotropic damping, shorter in
-/// any. A force held that is LARGER than commanded costs more than was promised and, with no ledger,
-/// is not remembered as a debt. The price: no bank at all, so a spring of 2b/T N/m at any speed, of
-/// 2b/T/(k + 1) with latency; and after a lost sample or a late tick the force starts again from zero.
+/// It assumes what strict_bound does, and exact positions, because it reads Δx itself. The force really held
+/// may be shorter than the command in the same direction or, with isotropic damping, in any direction. A held
+/// force that is LARGER than the command costs more than was promised and, as there is no ledger, is not
+/// remembered as a debt. The price: nothing is saved, so it shows 2b/T N/m at any speed and 2b/T/(k + 1) with
+/// latency, and after a lost sample or a late tick the force starts again from zero.
 struct memoryless_bound {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true, .latency = any_latency, .turns = true};
@@ -83,21 +102,23 @@ struct memoryless_bound {
       }
       return {state.damping.affordable(desired, credit, T)};
     }
+    constexpr void explain(explanation& e, const auto& damping, scalar T, int late) const noexcept {
+      detail::soften_by_damping<P>(e, damping, T, late);
+    }
   };
 };
 
 /// |fᵢ| ≤ √(4 Bᵢ Eᵢ) for each axis i of the frame that the damping is given in, each with a ledger
-/// of its own:  Eᵢ += (bᵢ/dt) Δxᵢ² − hᵢ Δxᵢ.  strict_bound on every axis (§ 2(a), C2; the form and
-/// the proof are ours), so every Eᵢ ≥ 0, and so is their sum, the energy at the port.
+/// of its own:  Eᵢ += (bᵢ/dt) Δxᵢ² − hᵢ Δxᵢ.  This is strict_bound on every axis (§ 2, per_axis_bound; form
+/// and proof are ours), so every Eᵢ ≥ 0, and so is their sum, the energy at the port.
 ///
-/// The direction of the force is not kept: in a chain, nothing in front of it keeps its promise
-/// because of it; it keeps its own, wherever it stands, when what follows only reduces.
+/// The direction of the force is not kept. So in a chain it voids the promises of the bounds in front of it,
+/// and keeps its own wherever it stands, if what follows only reduces.
 ///
-/// Assumes what memoryless_bound does and no latency, and that no component of the force really held
-/// is larger than commanded; one that is puts its axis into a debt that is kept and repaid. Dry
-/// friction is not credited: a bound on its total says nothing about one axis. The price: a bank on
-/// one axis is of no use to another; a lost sample voids all credit, and there is no loan to start
-/// with.
+/// It assumes what memoryless_bound does and no latency, and that no component of the force really held is
+/// larger than commanded; one that is puts its axis into a debt, which is kept and repaid. Dry friction is
+/// not credited, because a bound on its total says nothing about one axis. The price: what one axis has
+/// saved is of no use to another, a lost sample voids all credit, and there is no loan to start with.
 struct per_axis_bound {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true};
@@ -143,8 +164,8 @@ class per_axis_bound::on {
   }
 
  private:
-  /// Eᵢ after the last tick. A tick that was late counts as the worse of held to its end and
-  /// dropped at the worst moment; one that nobody saw leaves nothing but debts.
+  /// Eᵢ [J] after the last tick. For a late tick the smaller counts of two stories: the force was held to its
+  /// end, or was dropped at the worst moment. A lost tick leaves nothing but debts.
   [[nodiscard]] constexpr scalar booked(scalar before, int i, const auto& state) const noexcept {
     if (!state.motion_known) return kernels::smaller(before, scalar(0));
     const scalar b = state.damping.along_axis(i);

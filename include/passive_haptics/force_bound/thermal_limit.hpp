@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The limit of motors that hold more for a while than for ever (the menu is in actuator_limit.hpp).
+// The limit of motors that hold a larger force for a while than for ever (the menu is in actuator_limit.hpp).
 //
 //   thermal_limit   |f| ≤ peak, and its mean square stays below the continuous one's
 //
@@ -11,24 +11,23 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// |f| ≤ `peak` at any time, and the mean square of what was commanded, filtered by the winding's time
-/// constant τ, never exceeds `continuous`² (a winding warms with the square of its current, I²t):
+/// |f| ≤ `peak` at any time, and m [N²], the mean square of the command filtered by the winding's time
+/// constant τ, never exceeds c², c = `continuous` (a winding warms with the square of its current, I²t):
 ///     m ← m + (f² − m) dt/(τ + dt),      f² ≤ m + (c² − m)/ε,     ε = 1/32, or T/(τ + T) where that is more
-/// for every f of a tick of dt ≤ T: as a tick takes at most the share ε of the way from m to f², m stays
-/// ≤ c². The force does not drop all at once but is eased down to c as the winding nears its limit. Where a
-/// new c² is less than m already, f is at most c until m has fallen to it. What is counted is what this bound
-/// lets through, so stand it last in a chain; a tick that is refused counts as held. A winding is cold at the
-/// start: wait, or reset with care.
+/// m stays ≤ c², because in a tick of dt ≤ T it goes at most the share ε of the way to f². The force does not
+/// drop all at once but is eased down to c as the winding nears its limit. If set() lowers c² below m, f is at
+/// most c until m has fallen to c². The bound counts what it lets through itself, so put it last in a chain; a
+/// tick that is refused counts as held. After reset() the winding counts as cold: let it cool before.
 ///
-/// A limit that only reduces takes nothing from any promise before it (bound_chain.hpp). Where the motors
-/// really saturate, or cool, is theirs: without a device that reports what it held, `peak` must be right.
+/// The limit only reduces, so it takes nothing from any promise before it (bound_chain.hpp). It does not know
+/// where the motors really saturate: unless the device reports the force it held, `peak` must be right.
 struct thermal_limit {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
 
   double peak{};           ///< largest force at any time [N]
-  double continuous{};     ///< c, what can be held for ever [N]; ∞: as much as `peak`
-  double time_constant{};  ///< τ of the winding [s]
+  double continuous{};     ///< c, the force that can be held for ever [N]; ∞: as much as `peak`
+  double time_constant{};  ///< τ of the winding [s]; not used if continuous ≥ peak
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::not_negative(peak)) return {"peak", peak, "finite and ≥ 0 N"};
@@ -63,6 +62,9 @@ class thermal_limit::on {
   }
   constexpr void reset() noexcept { mean_square_ = held_square_ = scalar(0); }
 
+  [[nodiscard]] constexpr typename Space::effort most_held() const noexcept {
+    return detail::longest_held<Space>(peak_);
+  }
   [[nodiscard]] constexpr bool can_hold(const typename Space::effort& held) const noexcept {
     return detail::can_be_held(Space::norm(held), peak_);
   }
@@ -75,7 +77,7 @@ class thermal_limit::on {
       const scalar T = state.longest_tick;
       mean_square_ += (held_square_ - mean_square_) * (state.dt / (time_constant_ + state.dt));
       const scalar largest = kernels::larger(scalar(1) / scalar(32), T / (time_constant_ + T));
-      const scalar room = c2 - mean_square_;  // below 0 where a new limit is lower than before
+      const scalar room = c2 - mean_square_;  // < 0 where set() has lowered the limit
       const scalar square = room > scalar(0) ? mean_square_ + room / largest : c2;
       most = kernels::smaller(most, kernels::square_root(square));
       const scalar held = kernels::smaller(force, most);
@@ -83,7 +85,12 @@ class thermal_limit::on {
     }
     return {force > most ? most / force : scalar(1)};
   }
-  /// How warm the winding is, of what it stands, in [0, 1].
+  constexpr void explain(explanation& e, const auto& /*damping*/, scalar /*T*/,
+                         int /*late*/) const noexcept {
+    const bool warm = heats_ && warmth() > scalar(0.9);
+    e.saturate(static_cast<double>(warm ? continuous_ : peak_));
+  }
+  /// m/c², in [0, 1], and above 1 while m falls to a c² that set() has lowered; 0 if the winding is not modelled.
   [[nodiscard]] constexpr scalar warmth() const noexcept {
     return heats_ && continuous_ > scalar(0) ? mean_square_ / (continuous_ * continuous_)
                                              : scalar(0);

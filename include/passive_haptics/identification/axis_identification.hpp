@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Identifies one axis of a device, a tick at a time; docs/design/identification.md has the method.
+// Identifies one axis of a device, tick by tick; docs/design/identification.md has the method.
 //
 //     axis_identification of({.force = 3.0, .stroke = 8e-3});
 //     while (!of.done()) sample = device.exchange(of.tick(sample.position, ph::seconds{sample.dt}));
 //     const auto found = of.result();
 //
-// Three experiments, one after the other, and a record of what the axis does meanwhile:
+// It makes three experiments, one after the other, and records the axis meanwhile:
 //
 //   swing_experiment.hpp        to and fro across the stroke: mass, damping, friction in motion, load, latency
 //   break_away_experiment.hpp   pushed until it slips, at several places: break-away force, presliding
-//   creep_experiment.hpp        a force that comes and goes below break-away: does it come back?
-//   axis_record.hpp             position, velocity, ticks, steps and noise, samples that are missing
+//   creep_experiment.hpp        a force that comes and goes below break-away: does the axis come back?
+//   axis_record.hpp             position, velocity, ticks, steps and noise, missing samples
 //
-// Here are their order and the end: too few samples, or beyond the workspace.
+// This header has their order, and ends the identification on too few samples or beyond the workspace.
 
 #include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/identification/axis_found.hpp>
@@ -29,15 +29,15 @@ namespace identification {
 
 class axis_identification {
  public:
-  /// `rounding` is that of the scalar in which positions come.
+  /// `rounding` is the epsilon of the scalar of the positions.
   explicit axis_identification(const identification_parameters& p = {},
                                double rounding = std::numeric_limits<double>::epsilon()) noexcept
       : p_(p), record_(rounding), swing_(p) {
     if (p.check()) fail("a parameter is out of its range: ask identification_parameters::check()");
   }
 
-  /// Takes the position [m] at the end of a tick of that length [s], and returns the force [N] for the
-  /// next one: 0 once it is done(), and whenever a position or a length is no number.
+  /// Takes the position [m] at the end of a tick of that length [s], and returns the force [N] for the next tick.
+  /// The force is 0 once it is done(), and whenever the position is not finite or the length not > 0.
   double tick(double position, seconds<double> length) noexcept {
     const double dt = length.count();
     if (done()) return 0.0;
@@ -55,28 +55,28 @@ class axis_identification {
     record_.commanded(force);
     return force;
   }
-  /// A number where the length belongs could be a position as well: this does not compile.
+  /// Does not compile: a bare number as the length could as well be a position.
   template <std::convertible_to<double> Number>
   double tick(double /*position*/, const Number& /*length*/) noexcept {
     passive_haptics::detail::refuse_bare_time<Number>();
     return 0.0;
   }
-  /// In place of tick(), when nothing was read: the force is 0.
+  /// Call it in place of tick() if nothing was read. The force is 0.
   double lost() noexcept {
     if (done()) return 0.0;
     record_.interrupt();
     swing_.interrupt();
     return record_.too_few() ? fail("the device gave too few good samples") : 0.0;
   }
-  /// Ends it: the force is zero from now on.
+  /// Ends the identification: the force is 0 from now on.
   void stop() noexcept {
     if (!done()) fail("it was stopped before the end");
   }
 
   [[nodiscard]] bool done() const noexcept { return done_; }
-  /// A sentence why it ended early; null if it has not.
+  /// A sentence that says why it ended early; null if it did not.
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
-  [[nodiscard]] double time() const noexcept { return time_; }  ///< so far [s]
+  [[nodiscard]] double time() const noexcept { return time_; }  ///< sum of its ticks [s]
 
   [[nodiscard]] axis_found result() const noexcept {
     axis_found found;
@@ -98,7 +98,7 @@ class axis_identification {
     done_ = true;
     return 0.0;
   }
-  /// The force that the experiment wants, or its end and the beginning of the next one.
+  /// The force [N] of the present experiment; where that ends, the next one begins.
   double next() noexcept {
     if (creep_) {
       const double force = creep_->tick(record_);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What is recorded of one axis while it is identified, whatever moves it: where it is, how fast, how long
-// the ticks are, the steps of its sensor, and the samples that are missing.
+// The record of one axis while it is identified.
+// It has position and velocity, the lengths of the ticks, the steps of the sensor, and the missing samples.
 //
 //     v = (x(n) − x(n−k)) / Σ h        over the last k ticks, h their measured lengths [m/s]
 //
-// Steps and noise are step_finder.hpp's.
+// Steps and noise are found by step_finder.hpp.
 
 #include <passive_haptics/identification/axis_found.hpp>
 #include <passive_haptics/identification/measure_ticks.hpp>
@@ -21,11 +21,11 @@ namespace identification {
 
 class axis_record {
  public:
-  /// `rounding` is that of the scalar in which positions come.
+  /// `rounding` is the epsilon of the scalar of the positions.
   explicit axis_record(double rounding = std::numeric_limits<double>::epsilon()) noexcept
       : steps_(rounding) {}
 
-  /// The position [m] at the end of a tick of that length [s]; `at_rest` says that the device is.
+  /// Adds the position [m] at the end of a tick of that length [s]; `at_rest` says that the device rests.
   void book(double position, double length, bool at_rest) noexcept {
     missing_ = 0;
     ++samples_;
@@ -37,37 +37,37 @@ class axis_record {
     recent_[static_cast<std::size_t>(++seen_) % recent_.size()] = {x_, length};
     steps_.book(position, at_rest, unchanged_ > 12);
   }
-  /// What is commanded for the tick that begins now [N].
+  /// Adds the force commanded for the tick that begins now [N].
   void commanded(double force) noexcept {
     unchanged_ = force == force_ ? unchanged_ + 1 : 0;
     force_ = force;
   }
-  /// A sample is missing: nothing that spans it counts.
+  /// Adds a missing sample: no velocity and no difference spans it.
   void interrupt() noexcept {
     ++missed_;
     ++missing_;
     steps_.interrupt();
     seen_ = unchanged_ = 0;
   }
-  /// More than 50 samples in a row are missing, or more than a twentieth of many.
+  /// True if more than 50 samples in a row are missing, or more than 200 and a twentieth of all.
   [[nodiscard]] bool too_few() const noexcept {
     return missing_ > 50 || (missed_ > 200 && missed_ * 20 > samples_);
   }
 
   [[nodiscard]] int samples() const noexcept { return samples_; }       ///< so far
-  [[nodiscard]] double position() const noexcept { return position_; }  ///< as it came [m]
-  [[nodiscard]] double x() const noexcept { return x_; }                ///< from where it began [m]
+  [[nodiscard]] double position() const noexcept { return position_; }  ///< as read [m]
+  [[nodiscard]] double x() const noexcept { return x_; }                ///< from its start [m]
   [[nodiscard]] double before() const noexcept { return before_; }      ///< x a sample earlier [m]
   /// The length of the last tick [s].
   [[nodiscard]] double dt() const noexcept { return recent(0).length; }
-  /// v over so many ticks, at most 31, or as many as have come without a gap [m/s].
+  /// v [m/s] over `ticks` ticks, at most 31, or over as many as there are without a gap.
   [[nodiscard]] double velocity(int ticks) const noexcept {
     const int back = (std::min)(seen_ - 1, ticks);
     double lasted = 0.0;
     for (int j = 0; j < back; ++j) lasted += recent(j).length;
     return lasted > 0.0 ? (x_ - recent(back).position) / lasted : 0.0;
   }
-  /// How finely positions are known, as far as that is known by now [m].
+  /// The resolution of the positions [m], as far as it is known by now.
   [[nodiscard]] double step() const noexcept { return steps_.so_far(); }
 
   /// States the bounds of the sensor and of the loop.
@@ -81,7 +81,7 @@ class axis_record {
   struct sample {
     double position = 0.0, length = 0.0;
   };
-  /// The sample before so many others.
+  /// The sample that came `back` samples before the last.
   [[nodiscard]] const sample& recent(int back) const noexcept {
     return recent_[static_cast<std::size_t>(seen_ - back) % recent_.size()];
   }
@@ -91,7 +91,7 @@ class axis_record {
   std::array<sample, 32> recent_{};
   int seen_ = 0, samples_ = 0, missed_ = 0, missing_ = 0;
   double start_ = 0.0, position_ = 0.0, x_ = 0.0, before_ = 0.0, force_ = 0.0;
-  int unchanged_ = 0;  // for so many ticks, the force
+  int unchanged_ = 0;  // ticks for which the force has not changed
 };
 
 }  // namespace identification

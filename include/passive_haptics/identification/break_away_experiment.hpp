@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Second experiment: a force that grows slowly until the device slips, for break-away [N] and presliding [m].
+// Second experiment: a force that grows slowly until the device slips, for break-away [N] and presliding p [m].
 //
-//     g(t) = R t on friction, R = c/(0.5 s)        x = C g until it slips, p ≤ C × the largest break-away
+//     g(t) = R t on friction, R = c/(0.5 s)        x = C g until it slips, p ≤ C × the largest break-away force
 //
-// with the friction c and the load w of the swing, w balanced all the time (Canudas de Wit and Lischinsky,
-// 1997, find a bristle's stiffness so). friction_ramp.hpp says what a ramp tells. For each place of several:
+// with the friction c [N] and the load w [N] of the swing, w being balanced all the time (Canudas de Wit and
+// Lischinsky, 1997, find a bristle's stiffness so). friction_ramp.hpp evaluates a ramp. At each of several places:
 //
-//   kick        to and fro up to a place in the middle 0.6 of the stroke, none like another
-//   park        parking.hpp brings it to rest there; then four times, one way and the other,
-//   condition   0.4 s of a force that goes up and comes back, the other way, below break-away: it slips
-//               away what still rings on friction's spring
-//   rest        where is it?
-//   push        g, until it has gone 0.25 mm and two steps
-//   release     g goes on for up to 12 ticks, so that it stops anywhere in a step; friction brakes
+//   kick        to and fro up to a place in the middle 0.6 of the stroke, another one each time
+//   park        parking.hpp brings the device to rest there; then four times, alternating the way:
+//   condition   0.4 s of a force below break-away that goes up and comes back, the other way: the slip takes the
+//               energy that still rings on friction's spring
+//   rest        the position at rest is found
+//   push        g, until the device has gone 0.25 mm and two steps
+//   release     the force is held for up to 12 ticks, so that the device stops anywhere in a step; friction brakes
 //
 // A device that does not rest, or is pushed back, is parked anew where it is.
 
@@ -27,14 +27,14 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
 
-/// Friction that the swing shows for sure [N].
+/// The lower bound of the friction that the swing has found [N].
 [[nodiscard]] inline double kinetic_friction(const motion_found& motion) noexcept {
   return motion.friction.at_least(3.0);
 }
 
 class break_away_experiment {
  public:
-  /// `relay` is what swings the device as found, with `force` [N].
+  /// `relay` swings the device as the swing_experiment has left it, with `force` [N].
   break_away_experiment(const identification_parameters& p, const motion_found& motion,
                         const eased_relay& relay, double force) noexcept
       : p_(p),
@@ -73,17 +73,17 @@ class break_away_experiment {
   }
 
   [[nodiscard]] bool done() const noexcept { return phase_ == phase::done; }
-  /// Why nothing can be concluded; null if something can, or may yet.
+  /// A sentence that says why nothing was found; null if something was, or may be yet.
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
-  /// Nothing moves it, and it does not move.
+  /// True while the device rests under a constant force.
   [[nodiscard]] bool at_rest() const noexcept {
     return phase_ == phase::rest && phase_.lasted() > 0.1;
   }
-  /// What the ramps have told, once it is done(), and what parks the device.
+  /// The result of the ramps, once it is done(), and the parking of the device.
   [[nodiscard]] const friction_ramp& ramps() const noexcept { return ramp_; }
   [[nodiscard]] const parking& parked() const noexcept { return parking_; }
 
-  /// States the bounds of what was found, of positions known to `step` [m].
+  /// Writes the bounds into `found`, for positions known to `step` [m].
   void state(axis_found& found, double step) const noexcept {
     for (int forward = 0; forward < 2; ++forward) {
       found.breakaway_least[forward] = ramp_.least(forward);
@@ -103,7 +103,7 @@ class break_away_experiment {
     phase_.enter(phase::done);
     return 0.0;
   }
-  /// The n-th of numbers in [0, 1) that never repeat and never crowd.
+  /// The n-th of a sequence in [0, 1) that is evenly spread and never repeats (golden ratio).
   [[nodiscard]] static double golden(int n) noexcept {
     const double x = 0.6180339887498949 * n;
     return x - std::floor(x);
@@ -119,7 +119,7 @@ class break_away_experiment {
     }
     return relay_.tick(seen, 0.8 * p_.stroke, force_);
   }
-  /// `force`, or the end, if it cannot be parked.
+  /// `force`, or the end of the experiment if the device cannot be parked.
   double or_give_up(double force) noexcept {
     return parking_.problem() != nullptr ? give_up(parking_.problem()) : force;
   }
@@ -206,7 +206,7 @@ class break_away_experiment {
   identification_parameters p_;
   motion_found motion_;
   eased_relay relay_;
-  double force_;  // of the kicks [N]
+  double force_;  // force of the kicks [N]
   parking parking_;
   friction_ramp ramp_;
   timed_phase<phase> phase_{phase::kick};

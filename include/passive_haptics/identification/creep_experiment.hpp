@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Third experiment: a force that comes and goes below break-away. A spring and a slider come back to where
-// they were; friction that creeps does not, and no ledger covers it (Dahl's and LuGre's drift: Dupont,
-// Hayward, Armstrong, Altpeter, 2002).
+// Third experiment: a force that comes and goes below break-away.
+// A spring and a slider come back to where they were; friction that creeps does not, and no ledger covers
+// that (Dahl's and LuGre's drift: Dupont, Hayward, Armstrong, Altpeter, 2002).
 //
 //     g(t) = s G (1 − cos 2πνt)/2 on friction,        G = the least of
-//         0.95 (1 − 1.25 r) c         friction in motion, r the share by which it varies      [N]
-//         the least break-away        of any ramp                                             [N]
+//         0.95 (1 − 1.25 r) c         friction in motion, r being the share by which it varies    [N]
+//         the least break-away        force of any ramp                                           [N]
 //
-// for s of 1 and down to 0.25, until the means over some cycles at the beginning and at the end agree to
-// within a step. ν is a quarter of what a mass m on a spring of friction's compliance C would ring at,
-// 1/(2π √(m C)), and 50 Hz at most.
+// with s falling from 1 to 0.25, until the mean positions over some cycles at the beginning and at the end agree
+// to within a step. ν is a quarter of the frequency 1/(2π √(m C)) of the mass m on a spring of friction's
+// compliance C, and at most 50 Hz.
 //
-// Dupont's friction creeps from 0.6 of the force at which it slips on, by about 3.2 (s − 0.6)³ p in a cycle.
-// Where all the cycles together would have crept by less than 1.6 steps, the encoder cannot show it, and the
-// share that Dupont gives, 0.6, is stated without a test; where a lower level had to be tried, 0.7 of the one
-// that came back.
+// Dupont's friction creeps above 0.6 of the force at which it slips, by about 3.2 (s − 0.6)³ p in a cycle. If all
+// cycles together would have crept by less than 1.6 steps, the encoder cannot show that, and the share of Dupont's
+// friction, 0.6, is stated untested. If a lower level than s = 1 was the first to come back, 0.7 of it is stated.
 
 #include <passive_haptics/identification/break_away_experiment.hpp>
 
@@ -25,7 +24,7 @@ namespace identification {
 
 class creep_experiment {
  public:
-  /// After the two others, with what they have found.
+  /// Takes the results of the two other experiments; `step` is the resolution of the positions [m].
   creep_experiment(const identification_parameters& p, const motion_found& motion,
                    const friction_ramp& ramps, const parking& parked, double step) noexcept
       : p_(p),
@@ -51,10 +50,10 @@ class creep_experiment {
   }
 
   [[nodiscard]] bool done() const noexcept { return phase_ == phase::done; }
-  /// Why nothing can be concluded; null if something can, or may yet.
+  /// A sentence that says why nothing was found; null if something was, or may be yet.
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
 
-  /// States friction and up to which share of it nothing creeps, of positions known to `step` [m].
+  /// Writes the friction, and the share up to which it does not creep, for positions known to `step` [m].
   void state(axis_found& found, double step) const noexcept {
     if (passed_ < 0) {
       found.remark = "dry friction: none to rely on, it creeps under a force that comes and goes";
@@ -82,7 +81,7 @@ class creep_experiment {
     [[nodiscard]] double mean() const noexcept { return count > 0 ? sum / count : 0.0; }
   };
   static constexpr double pi = 3.14159265358979323846;
-  static constexpr double untold = 0.6;  // share of friction below which none is taken to creep
+  static constexpr double untold = 0.6;  // share of friction up to which no creep is assumed
   static constexpr std::array levels{1.0, 0.85, 0.72, 0.61, 0.52, 0.4, 0.25};
 
   double give_up(const char* why) noexcept {

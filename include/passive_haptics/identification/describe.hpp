@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What was found, for people: a table, the composition to paste, and how stiff its walls may be.
+// The result of an identification as text: a table, the composition to paste, and its stiffness budget.
 
 #include <passive_haptics/identification/axis_found.hpp>
 
@@ -14,23 +14,41 @@ namespace identification {
 
 namespace detail {
 
-/// printf with numbers.
+/// The text of a printf of numbers.
 template <class... Numbers>
 [[nodiscard]] std::string text(const char* pattern, const Numbers&... numbers) {
-  char line[600];
+  char line[1200];
   std::snprintf(line, sizeof line, pattern, numbers...);
   return line;
 }
-/// A lower bound in three digits, and an upper one: never beyond what was found.
+/// A bound > 0 in three digits: an upper bound is rounded up, a lower bound down; 0 for others.
 [[nodiscard]] inline double rounded(double x, bool up) noexcept {
   if (!(x > 0.0)) return 0.0;
   const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2.0);
   return (up ? std::ceil(x / unit - 1e-9) : std::floor(x / unit + 1e-9)) * unit;
 }
 
+/// By hand: steps are felt and no dry friction pays for them, so nothing stiff is sure to last.
+[[nodiscard]] inline std::string on_steps_alone(double m, double b, double F, double q, double T,
+                                                int latency, double hand) {
+  return text(
+      "// By hand: no dry friction pays for the steps, so the wall is soft at first.\n"
+      "ph::local_model wall{scene{},\n"
+      "                     ph::followed<ph::half_space<scene>>{},\n"
+      "                     ph::turn_limited{.rate = 2},\n"
+      "                     ph::eased{ph::damped_spring{.mass = %.3g, .force_limit = %.3g}},\n"
+      "                     ph::quantised_energy{.damping = %.3g, .quantum = %.3g},\n"
+      "                     ph::bound_chain{\n"
+      "                         ph::reachable_bound{.mass = %.3g, .hand_force = %.3g},\n"
+      "                         ph::actuator_limit{.most = %.3g}},\n"
+      "                     ph::late_loop_limits<%d>{.longest_tick = %.3g},\n"
+      "                     ph::mass_observer{.mass = %.3g, .quantum = %.3g}};\n",
+      m, F, b, q, m, hand, F, latency, T, m, q);
+}
+
 }  // namespace detail
 
-/// One line for each number of an axis.
+/// A table with one line for each number of an axis.
 [[nodiscard]] inline std::string table_of(const axis_found& a) {
   using detail::text;
   if (a.problem != nullptr) return std::string("  ") + a.problem + '\n';
@@ -63,7 +81,7 @@ template <class... Numbers>
   return all;
 }
 
-/// The composition that rests on what was found, to be pasted, and its stiffness budget.
+/// The composition that rests on these bounds, to be pasted, and its stiffness budget.
 template <int Dof>
 [[nodiscard]] std::string composition_of(const device_found<Dof>& found,
                                          const design::intended_use& use = {}) {
@@ -76,44 +94,40 @@ template <int Dof>
            "with "
            "a longer stroke, a longer sweep_time or more force.\n";
   }
-  const double m = rounded(d.mass, false), q = rounded(d.quantum, true);
+  const double m = rounded(d.mass, false), b = rounded(d.damping, false);
+  const double F = rounded(d.force_limit, false), q = rounded(d.quantum, true);
+  const double T = rounded(d.longest_tick, true);
   std::string all = text("using scene = ph::space<double, %d>;\n", Dof);
-  all +=
-      "ph::local_model wall{scene{},\n"
-      "                     ph::followed<ph::half_space<scene>>{},\n"
-      "                     ph::turn_limited{.rate = 2},\n";
-  all += text("                     ph::damped_spring{.mass = %.3g, .force_limit = %.3g},\n", m,
-              rounded(d.force_limit, false));
-  if (!(q > 0.0)) {
-    all += text("                     ph::reduced_energy{.damping = %.3g},\n",
-                rounded(d.damping, false));
-  } else if (!(d.friction > 0.0)) {
-    all += text("                     ph::quantised_energy{.damping = %.3g, .quantum = %.3g},\n",
-                rounded(d.damping, false), q);
+  if (q > 0.0 && !(d.friction > 0.0))
+    return all + detail::on_steps_alone(m, b, F, q, T, found.latency(), use.hand_force);
+  if (q > 0.0) {
+    all += text(
+        "constexpr ph::encoder_device device{.mass = %.3g,\n"
+        "                                    .damping = %.3g,\n"
+        "                                    .friction = %.3g,\n"
+        "                                    .presliding = %.3g,\n"
+        "                                    .quantum = %.3g,\n"
+        "                                    .force_limit = %.3g,\n"
+        "                                    .longest_tick = %.3g,\n"
+        "                                    .latency = %d};\n",
+        m, b, rounded(d.friction, false), rounded(d.presliding, true), q, F, T, d.latency);
   } else {
     all += text(
-        "                     ph::dual_ledger{.damping = {.coefficient = %.3g,\n"
-        "                                                 .coulomb = %.3g,\n"
-        "                                                 .presliding = %.3g},\n"
-        "                                     .quantum = %.3g},\n",
-        rounded(d.damping, false), rounded(d.friction, false), rounded(d.presliding, true), q);
+        "constexpr ph::exact_device device{\n"
+        "    .mass = %.3g, .damping = %.3g, .force_limit = %.3g, .longest_tick = %.3g, .latency = "
+        "%d};\n",
+        m, b, F, T, d.latency);
   }
   all += text(
-      "                     ph::bound_chain{\n"
-      "                         ph::reachable_bound{.mass = %.3g, .hand_force = %.3g},\n"
-      "                         ph::actuator_limit{.most = %.3g}},\n",
-      m, use.hand_force, rounded(d.force_limit, false));
-  all += text("                     ph::late_loop_limits<%d>{.longest_tick = %.3g}",
-              found.latency(), rounded(d.longest_tick, true));
-  all += q > 0.0
-             ? text(",\n                     ph::mass_observer{.mass = %.3g, .quantum = %.3g}};\n",
-                    m, q)
-             : std::string("};\n");
-  all += "// ph::strict_bound{} in place of reachable_bound: for any hand, and softer.\n";
-  const design::budget b = design::stiffness_budget(d, use);
-  all += text("// Its ledger pays for walls of up to %.0f N/m: %s binds.\n", b.stiffness,
-              to_string(b.binding));
-  all += std::string("// ") + b.because() + '\n';
+      "auto wall = ph::make_touch<scene, ph::half_space<scene>, ph::late_loop_limits<%d>>(\n"
+      "    device, {.force = %.3g});\n",
+      d.latency, use.hand_force);
+  all += "// ph::any_hand in place of {.force = ...}: for any hand, and softer.\n";
+  if (!(q > 0.0)) return all;
+  const design::budget paid = design::stiffness_budget(d, use);
+  all += text("// Its ledger pays for walls of up to %.0f N/m: %s binds.\n", paid.stiffness,
+              to_string(paid.binding));
+  all += std::string("// ") + paid.because() + '\n';
   return all;
 }
 

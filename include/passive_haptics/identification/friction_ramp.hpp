@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Break-away force and presliding displacement, from a force that grows slowly until the device slips.
+// Break-away force and presliding displacement, from a force g [N] that grows slowly until the device slips.
 //
-// Up to break-away it gives way elastically: x = C g, and p = C times the break-away force. That it has
-// broken away is seen late, when it has gone so many steps: a mass m that a force beyond friction by R t
-// drives has gone R t³/(6 m) by then, against a damper alone R t²/(2 b). What the ramp has gained
-// meanwhile is taken off, so the break-away force is a lower bound: with a Stribeck curve the device
-// goes faster than that.
+// Up to break-away the device gives way elastically, x = C g, and p = C times the break-away force. The slip is
+// seen late, when the device has gone some steps: under a force R t beyond friction a mass m goes R t³/(6 m), and
+// against a damper alone R t²/(2 b). The growth of g in the sum of both times is subtracted, so the break-away
+// force is a lower bound; with a Stribeck curve the device goes faster, and even less would have to be subtracted.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -21,7 +20,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
 
-/// What is needed of the device to say how late a slip was seen.
+/// The numbers that decide how late a slip is seen.
 struct slip_detection {
   double rate = 0.0;     ///< R [N/s]
   double mass = 0.0;     ///< m [kg]
@@ -33,18 +32,18 @@ class friction_ramp {
  public:
   enum class state : std::uint8_t { holding, broken, backwards };
 
-  /// Begins a device whose friction is about `level` [N].
+  /// Begins with a new device, whose friction is about `level` [N].
   void begin_all(double level) noexcept {
     *this = {};
     width_ = level / 24.0;
   }
-  /// Begins a ramp that way, from rest at `position` [m].
+  /// Begins a ramp towards `way`, +1 or −1, from rest at `position` [m].
   void begin(int way, double position) noexcept {
     way_ = way;
     reference_ = position;
     bins_.fill({});
   }
-  /// A position [m] under the force g [N] along the way; it has slipped once it has gone so far, `distant` [m].
+  /// Adds a position x [m] under the force g [N] along the way. The device counts as slipped at `distant` [m].
   state book(double g, double x, double distant) noexcept {
     const double gone = way_ * (x - reference_);
     bin& b = bins_[(std::min)(static_cast<std::size_t>(g / width_), bins_.size() - 1)];
@@ -53,13 +52,13 @@ class friction_ramp {
     ++b.count;
     return gone > distant ? state::broken : gone < -distant ? state::backwards : state::holding;
   }
-  /// It has slipped, seen at g [N] and `distant` [m]. Where it was after a slip, and not parked by a
-  /// control that reacts to the very edges of the steps, its displacement counts.
+  /// Ends a ramp whose slip was seen at g [N] and `distant` [m]. `counts` says whether its displacement counts:
+  /// only after a slip, because a device parked by a control rests near the edges of the steps.
   void conclude(double g, double distant, bool counts, const slip_detection& by) noexcept {
     double low = kernels::larger(g - gained(by, distant + by.step), 0.0);
     const double softness =
         kernels::smaller(between(0.15 * low, 0.5 * low), between(0.5 * low, 0.8 * low));
-    double wobble = 0.0;  // of a mass on friction's spring
+    double wobble = 0.0;  // swing of the mass on friction's spring [m]
     for (const bin& b : bins_) {
       if (b.count == 0 || b.mean_force() > 0.4 * low) continue;
       wobble = kernels::larger(wobble, b.mean_gone() - softness * b.mean_force());
@@ -88,7 +87,7 @@ class friction_ramp {
   [[nodiscard]] double most(int forward) const noexcept { return side(forward).most; }
   [[nodiscard]] double least() const noexcept { return kernels::smaller(least(0), least(1)); }
   [[nodiscard]] double most() const noexcept { return kernels::larger(most(0), most(1)); }
-  /// By which share of its middle the break-away force varies from place to place.
+  /// The share of its mean by which the break-away force varies from place to place, 0 to 1.
   [[nodiscard]] double unevenness() const noexcept {
     double worst = 0.0;
     for (const auto& one : ways_) {
@@ -97,9 +96,9 @@ class friction_ramp {
     }
     return worst;
   }
-  /// C [m/N]: the mean, and three deviations above it, for positions known to `step` [m]. Where friction
-  /// rises along the way the device creeps up that slope before it breaks away, so the smaller forces,
-  /// which the steps hide more of, may say less.
+  /// C [m/N]: its mean, and a bound three deviations above that for positions known to `step` [m]. Where friction
+  /// rises along the way the device creeps up that slope before it breaks away; so the smaller of the C of small
+  /// and of large forces counts, though the steps hide more of small forces.
   [[nodiscard]] double compliance() const noexcept {
     return kernels::larger(kernels::smaller(early_.mean(), late_.mean()), 0.0);
   }
@@ -114,7 +113,7 @@ class friction_ramp {
     [[nodiscard]] double mean_gone() const noexcept { return gone / count; }
     [[nodiscard]] double mean_force() const noexcept { return force / count; }
   };
-  /// Displacement over force, of several ramps.
+  /// Displacement over force [m/N], summed over several ramps.
   struct give {
     double sum = 0.0, squares = 0.0, forces = 0.0;
     int count = 0;
@@ -130,7 +129,7 @@ class friction_ramp {
       if (count < 4) return std::numeric_limits<double>::infinity();
       const double n = count;
       const double spread = kernels::larger(squares / n - mean() * mean(), 0.0) / (n - 1.0);
-      const double rounded = 0.41 * step / (forces / n) / std::sqrt(n);  // two positions, by steps
+      const double rounded = 0.41 * step / (forces / n) / std::sqrt(n);  // √(1/6) q: two positions
       return kernels::larger(mean(), 0.0) + 3.0 * kernels::larger(std::sqrt(spread), rounded);
     }
   };
@@ -141,12 +140,12 @@ class friction_ramp {
     return ways_[forward > 0 ? 1 : 0];
   }
 
-  /// How much the ramp gains while a slip goes so far [N].
+  /// The growth of the ramp [N] while a slip goes `distant` [m].
   [[nodiscard]] static double gained(const slip_detection& by, double distant) noexcept {
     return by.rate * (std::cbrt(6.0 * by.mass * distant / by.rate) +
                       std::sqrt(2.0 * kernels::larger(by.damping, 0.0) * distant / by.rate));
   }
-  /// Displacement over force, of the forces from g1 to g2 [m/N].
+  /// Displacement over force [m/N] for the forces from g1 to g2 [N].
   [[nodiscard]] double between(double g1, double g2) const noexcept {
     double gone = 0.0, force = 0.0;
     for (const bin& b : bins_) {

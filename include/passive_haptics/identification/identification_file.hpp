@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What was found, as a text file that people read and programs read back:
+// The result of an identification as a text file for people and programs:
 //
 //     passive_haptics identification 1
 //     device = Falcon
@@ -11,9 +11,9 @@
 //     ...
 //     end
 //
-// save() writes beside the file and renames, so there is never half a file. load() refuses another
-// version, a line that is missing, twice or out of place, another unit, a number that is none, NaN or
-// infinity, and a file without its end: with the line, what stands there and what is wanted.
+// save() writes a file beside it and renames that, so there is never half a file. load() refuses another version,
+// another unit, a line that is missing, repeated or out of place, a number that is not finite, and a file without
+// its end; the text of the fault has the line, what stands there and what is wanted.
 
 #include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/identification/axis_found.hpp>
@@ -33,11 +33,11 @@ namespace detail {
 
 inline constexpr const char* file_heading = "passive_haptics identification 1";
 
-/// A number of an axis in the file. `whole` numbers are counts.
+/// A number of an axis in the file.
 struct file_entry {
   const char* key;
   const char* unit;
-  bool signed_number = false;
+  bool signed_number = false;  ///< false: a number < 0 is refused
 };
 inline constexpr file_entry file_entries[] = {{"mass_at_least", "kg"},
                                               {"damping_at_least", "N·s/m"},
@@ -119,7 +119,7 @@ using numbers = std::array<double, file_numbers>;
 
 }  // namespace detail
 
-/// The text of the file. A device that has a problem has none, and gives an empty text.
+/// The text of the file; empty for a device that has a problem.
 template <int Dof>
 [[nodiscard]] std::string file_text(const device_found<Dof>& found, const std::string& device) {
   if (found.problem() != nullptr) return {};
@@ -139,7 +139,7 @@ template <int Dof>
   return text.str();
 }
 
-/// Writes the file whole, or not at all: empty, or a sentence why not.
+/// Writes the whole file, or nothing. Returns an empty text, or a sentence that says why nothing was written.
 template <int Dof>
 [[nodiscard]] std::string save(const std::string& path, const device_found<Dof>& found,
                                const std::string& device) {
@@ -160,8 +160,8 @@ template <int Dof>
   return {};
 }
 
-/// What a file says; `fault` is empty, or a sentence with the line, what stands there and the remedy, and
-/// then nothing else counts.
+/// The content of a file. `fault` is empty, or a sentence with the line, what stands there and the remedy; then
+/// nothing else counts.
 template <int Dof>
 struct loaded_identification {
   std::string fault;
@@ -171,7 +171,7 @@ struct loaded_identification {
 
 namespace detail {
 
-/// Line after line; the first fault stays.
+/// Reads line after line and keeps the first fault.
 class identification_reader {
  public:
   identification_reader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
@@ -252,7 +252,7 @@ class identification_reader {
 
 }  // namespace detail
 
-/// Reads what file_text() wrote; `name` is how messages call it.
+/// Reads what file_text() wrote; messages begin with `name`.
 template <int Dof>
 [[nodiscard]] loaded_identification<Dof> read(std::istream& in, const std::string& name) {
   loaded_identification<Dof> loaded;

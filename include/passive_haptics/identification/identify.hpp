@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Identifies a device axis by axis, in a loop of its own, before a promise is made on it.
+// Identifies a device axis by axis, in a loop of its own, before a promise rests on its numbers.
 //
 //     std::printf("let go of the device: it will push with up to %g N\n", p.force);
 //     const auto found = identification::identify<scene>(device, p, [&] { return stop.load(); });
 //     if (found.problem()) std::puts(found.problem());
 //     else std::cout << identification::composition_of(found);        // describe.hpp
 //
-// A minute an axis. Meanwhile a soft damped spring keeps each of the others where it began. However it
-// ends, stopped or with a problem, the last command is a force of zero: hold the device by then. What is
-// one's own loop calls axis_identification::tick() instead.
+// It takes about a minute for each axis. Meanwhile a soft damped spring keeps each other axis where it began. The
+// last command is always a force of zero, also if it is stopped or has a problem: hold the device by then. In a
+// loop of your own call axis_identification::tick() instead.
 
 #include <passive_haptics/identification/axis_identification.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -20,8 +20,8 @@ namespace identification {
 
 namespace detail {
 
-/// Keeps an axis that is not measured where it was, softly: lighter than 30 g or later than 5 ticks it
-/// would ring.
+/// A soft damped spring that keeps an axis where it was. It rings on an axis lighter than 30 g, or in a loop more
+/// than 5 ticks late.
 class soft_hold {
  public:
   double tick(double position, seconds<double> length, double most) noexcept {
@@ -43,7 +43,7 @@ class soft_hold {
   bool begun_ = false;
 };
 
-/// Commands zero force at the end, however that comes.
+/// Commands zero force when it is destroyed.
 template <class P, class Device>
 struct no_force_at_the_end {
   Device& device;
@@ -55,7 +55,7 @@ struct no_force_at_the_end {
 
 }  // namespace detail
 
-/// Measures every axis of `device`, one after the other; stop() is asked once a tick.
+/// Identifies every axis of `device`, one after the other. It asks stop() once a tick; true ends it.
 template <port P, haptic_device_for<P> Device, class Stop>
 [[nodiscard]] device_found<P::dof> identify(Device& device, const identification_parameters& p,
                                             Stop&& stop) {

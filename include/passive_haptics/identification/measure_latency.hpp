@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How late is this loop? A calibration for any haptic device, before a promise is made on it.
+// Measures how many ticks late a loop is, for any haptic device, before a promise rests on that number.
 //
 //     const auto found = ph::measure_latency<scene>(device, {.force = 1.0});
 //     if (found.problem) std::puts(found.problem);
 //     else std::printf("late_loop_limits<%d>\n", found.ticks);
 //
-// It shakes one axis for some seconds with a force that changes sign at random, and looks when the
-// motion answers. Let go of the device. Not for a tick: it commands forces by itself.
+// It shakes one axis for some seconds with a force that changes sign at random, and finds when the motion
+// answers. Let go of the device. It commands forces by itself, so do not call it in a tick.
 
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -18,10 +18,9 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// How to shake.
 struct latency_parameters {
-  double force = 0.5;  ///< either way [N]; joints: [N·m]
-  int ticks = 4000;
+  double force = 0.5;  ///< size of the force [N]; joints: [N·m]
+  int ticks = 4000;    ///< length of the measurement, 500 to 1000000
   int axis = 0;
   std::uint64_t seed = 1;
 
@@ -35,25 +34,24 @@ struct latency_parameters {
   }
 };
 
-/// What the shaking has shown. `problem` is a sentence when that is nothing to rely on.
 struct latency_found {
   int ticks = 0;           ///< from a command to its holding, to the nearest tick
   double exactly = 0.0;    ///< the same with its fraction: 0.5 is a force that changes in mid-tick
   double explained = 0.0;  ///< share of the motion that the force explains, a load aside, in [0, 1]
   int sensor_ticks = 1;    ///< ticks for which the sensor shows the same place
-  const char* problem = nullptr;
+  const char* problem = nullptr;  ///< a sentence if the numbers are not reliable, else null
 };
 
 namespace detail {
 
-/// The answer y(n) = x(n) − 2x(n−W) + x(n−2W) of a mass m to commands c(n) that are held d ticks late is
-///     y(n) = T²/m Σ w(j) c(n−1−j−d),     w the triangle of base 2W with the corners cut
-/// whatever its velocity was; damper and dry friction answer alike to the velocity and to its sign, and a
-/// load that is always there adds a constant. The pair of d and d + 1 that explains y best, by least squares,
-/// is the latency, and how much each of the two takes its fraction.
+/// For any velocity, a mass m [kg] answers to commands c(n) [N] that are held d ticks late by
+///     y(n) = x(n) − 2x(n−W) + x(n−2W) = T²/m Σ w(j) c(n−1−j−d),     w the triangle of base 2W with cut corners
+/// A damper and dry friction answer in the same way to the velocity and to its sign, and a constant load adds a
+/// constant. The pair of d and d + 1 that explains y best by least squares is the latency; the shares of the two
+/// give its fraction.
 class latency_fit {
  public:
-  /// A command, and where the device was at the end of the tick that began with it.
+  /// Adds a command [N], and the position [m] at the end of the tick that began with it.
   void book(double command, double place) noexcept {
     shift(commands_, command);
     shift(places_, place);
@@ -66,7 +64,7 @@ class latency_fit {
     for (std::size_t d = 0; d < u.size(); ++d) u[d] = triangle(commands_, d);
     const double damped = triangle(moved_, 0);
     const double rubbed = triangle(turned_, 0);
-    const double load = window * window;  // as that of 1 N
+    const double load = window * window;  // the answer to a load of 1 N, but for T²/m
     yy_ += y * y;
     for (std::size_t d = 0; d + 1 < longest; ++d) {
       const std::array<double, causes> of{u[d], u[d + 1], damped, rubbed, load};
@@ -76,7 +74,7 @@ class latency_fit {
       }
     }
   }
-  /// A sample is missing: nothing that spans it counts.
+  /// Adds a missing sample: no y spans it.
   void interrupt() noexcept { booked_ = 0; }
 
   void conclude(latency_found& found) const noexcept {
@@ -110,7 +108,7 @@ class latency_fit {
     for (std::size_t j = of.size() - 1; j > 0; --j) of[j] = of[j - 1];
     of[0] = newest;
   }
-  /// Σ w(j) of(n−1−j−d), the newest being that of the tick that ended at n.
+  /// Σ w(j) of(n−1−j−d), of[0] being that of the tick that ended at n.
   [[nodiscard]] static double triangle(const line& of, std::size_t d) noexcept {
     double sum = 0.0;
     for (std::size_t j = 0; j < 2 * window; ++j) {
@@ -119,7 +117,7 @@ class latency_fit {
     }
     return sum;
   }
-  /// Gauss's elimination; what is next to nothing beside the others is left out.
+  /// Gauss's elimination; a cause that depends on the others is left out.
   [[nodiscard]] static bool solve(normal_equations a, shares& share) noexcept {
     for (std::size_t i = 0; i < causes; ++i) {
       if (!(a[i][i] > 0.0)) continue;
@@ -144,8 +142,8 @@ class latency_fit {
   std::array<normal_equations, longest - 1> sums_{};
 };
 
-/// A sensor that is k times slower than the loop shows a new place in every k-th tick only; one that
-/// shows the same twice because it stands still, or moves by less than a step, keeps no such time.
+/// Finds the period of a sensor. A sensor k times slower than the loop shows a new place in every k-th tick only.
+/// If a place repeats because the device rests, or moves by less than a step, the repeats have no such period.
 class sensor_clock {
  public:
   void book(int tick, double place) noexcept {
@@ -157,11 +155,11 @@ class sensor_clock {
       }
       ++intervals_;
     }
-    const bool is_first = !(place_ == place_);  // of which nobody knows when it came
+    const bool is_first = !(place_ == place_);  // its time of arrival is unknown
     changed_ = is_first ? -1 : tick;
     place_ = place;
   }
-  /// [ticks]; the longest that 19 of 20 intervals keep to.
+  /// The longest period [ticks] that divides 19 of 20 intervals between two changes.
   [[nodiscard]] int period() const noexcept {
     for (std::size_t k = divisible_.size() - 1; k > 1 && intervals_ >= enough; --k) {
       if (divisible_[k] * 20 >= intervals_ * 19) return static_cast<int>(k);
@@ -170,15 +168,15 @@ class sensor_clock {
   }
 
  private:
-  static constexpr int enough = 20;  // the slowest has 30 in the shortest measurement
-  std::array<int, 17> divisible_{};  // intervals between two changes that k divides
+  static constexpr int enough = 20;  // the slowest sensor has 30 in the shortest measurement
+  std::array<int, 17> divisible_{};  // number of intervals that k divides
   int intervals_ = 0, changed_ = -1;
   double place_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace detail
 
-/// Shakes `device`, and commands zero force at the end, whatever happened.
+/// Shakes `device`, and always commands zero force at the end.
 template <port P, haptic_device_for<P> Device>
 [[nodiscard]] latency_found measure_latency(Device& device,
                                             const latency_parameters& p = {}) noexcept {
@@ -187,7 +185,7 @@ template <port P, haptic_device_for<P> Device>
     found.problem = "a parameter is out of its range: see latency_parameters::check()";
     return found;
   }
-  constexpr int chip = 8;  // ticks of one sign, then as many of the other, so that it comes back
+  constexpr int chip = 8;  // ticks of one sign, then as many of the other: the axis comes back
   laws::samples random(p.seed);
   detail::latency_fit fit;
   detail::sensor_clock clock;

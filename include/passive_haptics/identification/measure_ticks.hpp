@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How long are the ticks of this loop? Let it run with force zero for a minute, under the load that it
-// will have, before a promise is made on it:
+// Measures the lengths of the ticks of a loop.
+// Run it with zero force for a minute, under the load that the loop will have, before a promise rests on them:
 //
 //     ph::tick_lengths ticks;
 //     while (ticks.count() < 60000) { device.exchange(0); ticks.book(clock.lap()); }
 //     ph::loop_limits{.longest_tick = 1.2 * ticks.longest()}
 //
-// What was not seen in that minute may still come: it is then an event::late_tick, and booked.
+// A longer tick than that may still come: it raises event::late_tick, and its energy is booked.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -16,7 +16,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The lengths of ticks so far [s]. What is no length, 0, negative, infinite or NaN, is only counted.
+/// The lengths of ticks so far [s]. A length that is not > 0 and finite is only counted, by refused().
 class tick_lengths {
  public:
   constexpr void book(double dt) noexcept {
@@ -31,7 +31,7 @@ class tick_lengths {
   }
 
   [[nodiscard]] constexpr std::uint64_t count() const noexcept { return count_; }
-  /// Of the clock: it stood still, stepped back, or gave no number.
+  /// How often the clock stood still, stepped back, or gave no finite number.
   [[nodiscard]] constexpr std::uint64_t refused() const noexcept { return refused_; }
   [[nodiscard]] constexpr double longest() const noexcept {
     return longest_;

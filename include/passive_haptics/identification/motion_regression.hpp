@@ -5,17 +5,17 @@
 //     m ẍ = f(t − d) − b± ẋ − c sgn ẋ + w − k (x − x₀)
 //
 // Positions with steps cannot be differentiated twice. So the equation is multiplied by φ(u) = (1 − u²)²
-// over a window of N ticks, u from −1 to 1, and summed; φ and its slope vanish at both ends, and by
-// parts every derivative falls on φ (Shinbrot, 1957; modulating functions, Preisig and Rippin, 1993):
+// over a window of N ticks, u from −1 to 1, and summed; φ and its slope vanish at both ends, and summation by
+// parts puts every derivative on φ (Shinbrot, 1957; modulating functions, Preisig and Rippin, 1993):
 //
 //     Σ φ Δv = (1/m) (Σ φ f h − b± Σ φ Δx − c Σ φ sgn h + w Σ φ h − k Σ φ x h)
 //
-// With this φ the left side is what a least-squares parabola through the N + 1 positions would give.
-// The tick lengths h are the measured ones, so jitter costs nothing. All of the steps' error is on the
-// left, so ordinary least squares has no bias from it; only windows in which the device goes one way,
-// faster than friction's low-speed part lasts, are taken. The latency d is the shift of the commands that
-// explains the left side best. Confidence is the jackknife's, leaving out one of twelve stretches of
-// time after the other (Miller, 1974): no error has to be white for it.
+// With this φ the left side is that of a least-squares parabola through the N + 1 positions. The tick lengths h
+// [s] are the measured ones, so ticks that vary cost nothing. The error of the steps is on the left alone, so
+// ordinary least squares has no bias from it. Only windows count in which the device goes one way, and faster
+// than the low-speed part of friction. The latency d is the shift of the commands that explains the left side
+// best. The deviation is that of the jackknife, which leaves out one of twelve stretches of time after the other
+// (Miller, 1974) and needs no white errors.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -35,7 +35,7 @@ struct estimate {
   double value = 0.0;
   double deviation = std::numeric_limits<double>::infinity();
 
-  /// What it is not below, and not above, by so many deviations.
+  /// The bounds `deviations` standard deviations below and above the value.
   [[nodiscard]] constexpr double at_least(double deviations) const noexcept {
     return value - deviations * deviation;
   }
@@ -44,46 +44,46 @@ struct estimate {
   }
 };
 
-/// What the regression has come to. Nothing of it counts while `windows` is 0.
+/// The result of the regression. It does not count while `windows` is 0.
 struct motion_found {
   estimate mass{};                    ///< m [kg]
   std::array<estimate, 2> damping{};  ///< b+ and b−, going forward and backward [N·s/m]
   estimate friction{};                ///< c, kinetic, the mean of both ways [N]
   estimate load{};                    ///< w, constant [N]
-  estimate stiffness{};               ///< k of whatever holds it like a spring [N/m]
+  estimate stiffness{};               ///< k of a spring that holds the device [N/m]
   int latency = 0;                    ///< d [ticks]
-  estimate exactly{};                 ///< d with its fraction
-  double explained = 0.0;  ///< share of the changes of velocity that the equation explains
-  int windows = 0;
+  estimate exactly{};                 ///< d with its fraction [ticks]
+  double explained = 0.0;  ///< share of the changes of velocity that the equation explains, ≤ 1
+  int windows = 0;         ///< windows that were booked
 };
 
-/// Needs no heap. sample() and commanded() once a tick, book() for the windows that shall count.
+/// Call sample() and commanded() once a tick, and book() for each window that shall count. It needs no heap.
 class motion_regression {
  public:
   static constexpr int longest_window = 96;  ///< [ticks]
   static constexpr int groups = 12;          ///< of the jackknife
   static constexpr double elastic = 0.4e-3;  ///< way after a turn that does not count [m]
 
-  /// The position [m] at the end of a tick of that length [s].
+  /// Adds the position [m] at the end of a tick of that length [s].
   void sample(double position, double length) noexcept {
     ++newest_;
     at(newest_).position = position;
     at(newest_ - 1).length = length;
     if (kept_ < capacity) ++kept_;
   }
-  /// What is commanded for the tick that begins now [N].
+  /// Adds the force commanded for the tick that begins now [N].
   void commanded(double force) noexcept { at(newest_).command = force; }
-  /// A sample is missing: nothing that spans it counts.
+  /// Adds a missing sample: no window spans it.
   void interrupt() noexcept { kept_ = 0; }
-  /// Forgets what was booked.
+  /// Forgets all windows.
   void clear() noexcept {
     sums_.fill(table::Zero());
     windows_ = 0;
   }
 
-  /// Books the window of the last `ticks` ticks in a group, if the device went one way in it, nowhere
-  /// slower than `slowest` [m/s], by positions known to `step` [m], and had left the place of its last
-  /// turn by more than friction is elastic. False if not.
+  /// Books the window of the last `ticks` ticks in group `group`, and returns true, if in it the device went one
+  /// way, in no quarter slower than `slowest` [m/s] by positions known to `step` [m], and had left the position
+  /// `turn` [m] of its last turn by more than friction is elastic.
   bool book(int ticks, int group, double slowest, double step, double turn) noexcept {
     if (ticks < 6 || ticks > longest_window || kept_ < ticks + latencies + 1) return false;
     if (!(kernels::magnitude(at(newest_ - ticks).position - turn) > elastic + step)) return false;
@@ -113,8 +113,8 @@ class motion_regression {
       z(sprung) -= phi * lasted * now.position;
       z(turned) += phi * changed;
     }
-    z *=
-        std::pow(static_cast<double>(ticks), 1.5);  // windows of different lengths are equally sure
+    z *= std::pow(static_cast<double>(ticks),
+                  1.5);  // so that windows of all lengths are equally sure
     sums_[static_cast<std::size_t>(group % groups)] += z * z.transpose();
     ++windows_;
     return true;
@@ -162,7 +162,7 @@ class motion_regression {
  private:
   static constexpr int capacity = 128;  // ticks kept, a power of two
   static constexpr int latencies = 9;   // tried: 0 to 8
-  // columns of a row: commands so many ticks late, then these
+  // The columns of a row are the commands 0 to 8 ticks late, followed by those below.
   static constexpr int forward = latencies, backward = forward + 1, rubbed = forward + 2,
                        loaded = forward + 3, sprung = forward + 4, turned = forward + 5,
                        columns = forward + 6;
@@ -172,12 +172,12 @@ class motion_regression {
   struct tick {
     double position = 0.0, length = 0.0, command = 0.0;
   };
-  /// m, b+, b−, c, w, k, and the sum of squares that is left.
+  /// m, b+, b−, c, w, k, and the residual sum of squares.
   struct solution {
     std::array<double, 6> of{};
     double left = 0.0;
   };
-  /// Estimates of n numbers, and what leaving out one group after the other does to them.
+  /// Estimates of N numbers, and their changes when one group after the other is left out.
   template <std::size_t N>
   struct jackknife {
     std::array<double, N> whole{}, sum{}, squares{};
@@ -203,7 +203,7 @@ class motion_regression {
     return ring_[static_cast<std::size_t>(i) % capacity];
   }
 
-  /// ±1 if each quarter of the window goes that way faster than `slowest`; 0 if not.
+  /// ±1 if each quarter of the window goes that way faster than `slowest` [m/s]; 0 if not.
   [[nodiscard]] int direction(int ticks, double slowest, double step) const noexcept {
     const bool up = at(newest_).position > at(newest_ - ticks).position;
     const double sign = up ? 1.0 : -1.0;
@@ -215,7 +215,7 @@ class motion_regression {
       const double way = sign * (at(to).position - at(from).position);
       if (!(way > slowest * lasted + step)) return 0;
     }
-    const int last = ticks / 8 > 2 ? ticks / 8 : 2;  // it may have begun to turn
+    const int last = ticks / 8 > 2 ? ticks / 8 : 2;  // its end, where it may have begun to turn
     double lasted = 0.0;
     for (int j = newest_ - last; j < newest_; ++j) lasted += at(j).length;
     const double way = sign * (at(newest_).position - at(newest_ - last).position);
@@ -226,7 +226,7 @@ class motion_regression {
   template <int Extra>
   using square = Eigen::Matrix<double, 6 + Extra, 6 + Extra>;
 
-  /// Least squares by Cholesky's factors of the scaled normal equations.
+  /// Least squares by Eigen's LDLT of the scaled normal equations.
   template <int Extra>
   [[nodiscard]] static bool least_squares(
       const table& z, const std::array<int, static_cast<std::size_t>(6 + Extra)>& which,
@@ -261,7 +261,7 @@ class motion_regression {
     for (int i = 1; i < 6; ++i) s.of[static_cast<std::size_t>(i)] = share(i) / share(0);
     return true;
   }
-  /// How much of the force comes a tick later still, or earlier if < 0.
+  /// The share of the force that comes a tick later than d, or if < 0 a tick earlier.
   [[nodiscard]] static double fraction(const table& z, int d) noexcept {
     double most = 0.0;
     for (const int other : {d - 1, d + 1}) {

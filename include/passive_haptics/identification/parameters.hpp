@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How a device is to be shaken while it is identified. State what it may do before it begins.
+// The limits of what a device does while it is identified.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -8,16 +8,16 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
 
-/// Metres and newtons; a joint is identified in radians and newton metres.
+/// In metres and newtons; a joint is identified in radians and newton metres.
 struct identification_parameters {
-  double force = 3.0;  ///< the most that is ever commanded, either way [N]
+  double force = 3.0;  ///< largest force that is ever commanded, either way [N]
   double stroke =
-      8e-3;  ///< how far it swings to either side of where it began [m]; the longer, the surer
+      8e-3;  ///< how far it swings to either side of its start [m]; a longer one is more accurate
   double workspace =
-      40e-3;  ///< farther than this from where it began, the force is zero for good [m]
-  double sweep_time = 8.0;  ///< of fast motion: mass, damping, friction, latency [s]
-  int places = 8;           ///< where friction is broken away, both ways
-  int creep_cycles = 150;   ///< of a force below break-away, at each level that is tried
+      40e-3;  ///< distance from its start [m], beyond which the force is zero for good
+  double sweep_time = 8.0;  ///< time of the swing for mass, damping, friction and latency [s]
+  int places = 8;           ///< number of places where it is pushed until it slips
+  int creep_cycles = 150;   ///< cycles of a force below break-away, at each level tried
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!passive_haptics::detail::positive(force)) return {"force", force, "finite and > 0 N"};

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The device brought to rest at a place, and left there to its friction alone.
+// Brings the device to rest at a place, and leaves it there to its friction alone.
 //
-//     park      f = −w − m ω² (x − target) − 1.6 m ω v      until it has moved nowhere for 0.1 s
-//     balance   f comes back to −w within 60 ms             until it has moved nowhere for 0.2 s
+//     park      f = −w − m ω² (x − target) − 1.6 m ω v      until it has been at rest for 0.1 s
+//     balance   f comes back to −w within 60 ms             until it has been at rest for 0.2 s
 //
-// m [kg] and the load w [N] are those of the swing, ω = 12 √(1 kg/m) [1/s], 12 to 40; the damping is 0.8 of
-// the critical one. A device that friction does not hold against what is left of the load moves on: it is
-// parked anew where it is, eight times in all.
+// m [kg] and the load w [N] are those of the swing, ω = 12 √(1 kg/m) [1/s], 12 to 40; the damping is 0.8 of the
+// critical one. If friction does not hold the device against the error of w, the device moves on and is parked
+// anew where it is, up to eight times.
 
 #include <passive_haptics/identification/axis_record.hpp>
 #include <passive_haptics/identification/timed_phase.hpp>
@@ -19,13 +19,13 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
 
-/// For how long nothing has moved, and where that was, once it had come to rest.
+/// The time for which the device has been at rest, and its mean position since then.
 class rest_watch {
  public:
-  static constexpr double quiet = 0.08;  ///< [s] before positions count for the mean
+  static constexpr double quiet = 0.08;  ///< time at rest before positions count for the mean [s]
 
   void restart() noexcept { time_ = -1.0; }
-  /// [s] for which x [m] has stayed within `tolerance` [m] of where it was.
+  /// Adds a position x [m]; returns the time [s] for which all have stayed within `tolerance` [m].
   double still(double x, double dt, double tolerance) noexcept {
     if (time_ < 0.0 || x - least_ > tolerance || most_ - x > tolerance) {
       count_ = 0;
@@ -52,21 +52,21 @@ class rest_watch {
 class parking {
  public:
   parking() noexcept = default;
-  /// Of a device of that mass [kg] and load [N]; `stroke` to either side of where it began [m].
+  /// For a device of that mass [kg] and load [N], with `stroke` [m] to either side of its start.
   parking(double mass, double load, double stroke) noexcept
       : mass_(mass), load_(load), stroke_(stroke) {}
 
-  /// Parks it at x [m].
+  /// Begins to park the device at x [m].
   void begin(double x) noexcept {
     target_ = x;
     watch_anew();
     phase_.enter(phase::park);
   }
-  /// Parks it where it is, or where the stroke ends.
+  /// Begins to park it where it is, or at half the stroke if it is farther out.
   void begin_here(const axis_record& seen) noexcept {
     begin(std::clamp(seen.x(), -0.5 * stroke_, 0.5 * stroke_));
   }
-  /// The same, because it did not stay. The force of the next tick [N].
+  /// The same for a device that did not stay; returns the force of the next tick [N].
   double begin_again(const axis_record& seen) noexcept {
     if (++slipped_ > 8) return give_up();
     begin_here(seen);
@@ -78,25 +78,25 @@ class parking {
     phase_.lasts(seen.dt());
     return phase_ == phase::park ? park(seen) : balance(seen);
   }
-  /// It stays where it is, held by nothing but friction.
+  /// True once it stays where it is, held by friction alone.
   [[nodiscard]] bool parked() const noexcept { return phase_ == phase::parked; }
-  /// It does not stay: why; null if it may yet.
+  /// A sentence if the device cannot be parked, else null.
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
 
-  /// The force that puts `force` on friction beside the load [N].
+  /// The command [N] that balances the load and leaves `force` [N] to friction.
   [[nodiscard]] double balanced(double force) const noexcept { return force - load_; }
-  /// For how long it has been at rest [s], but for what friction's spring rings; once a tick.
+  /// The time for which it has been at rest [s], ringing on friction's spring apart; call it once a tick.
   [[nodiscard]] double resting(const axis_record& seen) noexcept {
     return rest_.still(seen.x(), seen.dt(), 1.01 * seen.step() + elastic);
   }
-  /// resting() begins from zero.
+  /// Lets resting() begin from zero.
   void watch_anew() noexcept { rest_.restart(); }
-  /// Where it has been at rest, in the mean [m].
+  /// The mean position at rest [m].
   [[nodiscard]] double place() const noexcept { return rest_.mean(); }
 
  private:
   enum class phase : std::uint8_t { park, balance, parked };
-  static constexpr double elastic = 120e-6;  // motion that is no slip [m]
+  static constexpr double elastic = 120e-6;  // motion that does not count as a slip [m]
 
   double give_up() noexcept {
     problem_ = "dry friction: not found, it does not hold the device at rest";
@@ -117,7 +117,7 @@ class parking {
     }
     return force;
   }
-  /// The spring is let go; friction holds the device, or does not.
+  /// Lets the spring of park() go, so that friction alone holds the device, or does not.
   double balance(const axis_record& seen) noexcept {
     const double share = (std::min)(phase_.lasted() / 0.06, 1.0);
     const double force = balanced((1.0 - share) * (parked_force_ + load_));

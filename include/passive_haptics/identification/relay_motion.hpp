@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// To and fro by a force that only changes its sign, whatever the mass: a relay (Åström and Hägglund, 1984).
+// Swings any mass to and fro by a force that only changes its sign: a relay (Åström and Hägglund, 1984).
 //
-// The force pushes across the middle and then brakes. Where it changes over is moved by a share of how far
-// the last turn fell short of the stroke, so the swing comes to the stroke with friction, a load, a
-// latency, none of which has to be known.
+// The force pushes across the middle and then brakes. The point of change-over moves by 0.4 of the distance by
+// which the last turn fell short of the stroke, so friction, load and latency need not be known.
 
 #include <passive_haptics/base/kernels.hpp>
 #include <passive_haptics/identification/axis_record.hpp>
@@ -18,7 +17,8 @@ namespace identification {
 
 class relay_motion {
  public:
-  /// The force of the next tick at x [m] and v [m/s]. It has turned once it is `retreat` [m] back.
+  /// The next force, ±`force` [N], at x [m] and v [m/s], for a swing of `stroke` [m]. A turn is detected once the
+  /// axis has come back by `retreat` [m].
   double tick(double x, double v, double force, double stroke, double retreat) noexcept {
     ++ticks_;
     const double along = way_ * x;
@@ -38,13 +38,13 @@ class relay_motion {
     }
     return (braking_ ? -way_ : way_) * force;
   }
-  /// The force will be another: by so much the change-over moves on a device of that friction and load [N].
+  /// Moves the change-over for a new size of force, on a device of that friction and load [N].
   void change(double from, double to, double friction, double load, double stroke) noexcept {
     const double share = stroke * (1.0 / to - 1.0 / from);
     over_[1] = std::clamp(over_[1] + share * (friction - load), -0.9 * stroke, 0.7 * stroke);
     over_[0] = std::clamp(over_[0] + share * (friction + load), -0.9 * stroke, 0.7 * stroke);
   }
-  /// Begins anew from here; what it has learned stays.
+  /// Begins anew from x [m], and keeps the points of change-over.
   void restart(double x) noexcept {
     way_ = x > 0.0 ? -1.0 : 1.0;
     peak_ = way_ * x;
@@ -52,16 +52,16 @@ class relay_motion {
     ticks_ = 0;
   }
 
-  [[nodiscard]] double turned_at() const noexcept { return turned_at_; }  ///< the last time [m]
-  [[nodiscard]] int sweeps() const noexcept { return sweeps_; }           ///< so far
-  [[nodiscard]] int ticks_of_last() const noexcept { return last_; }      ///< sweep
+  [[nodiscard]] double turned_at() const noexcept { return turned_at_; }  ///< last turn [m]
+  [[nodiscard]] int sweeps() const noexcept { return sweeps_; }           ///< number so far
+  [[nodiscard]] int ticks_of_last() const noexcept { return last_; }      ///< last sweep [ticks]
   /// The shorter of the last two turns [m].
   [[nodiscard]] double reached() const noexcept {
     return kernels::smaller(reached_[0], reached_[1]);
   }
 
  private:
-  static constexpr double lead = 3e-3;  // what a latency and the estimate of v cost, roughly [s]
+  static constexpr double lead = 3e-3;  // rough delay by a latency and the estimate of v [s]
 
   std::array<double, 2> over_{}, reached_{};
   double way_ = 1.0, peak_ = 0.0, turned_at_ = 0.0;
@@ -69,18 +69,18 @@ class relay_motion {
   int ticks_ = 0, last_ = 0, sweeps_ = 0;
 };
 
-/// The relay of an axis that is recorded, whose force is eased to another by little and little: at most a
-/// fifth less at each turn, and each time the change-over is moved by what that costs.
+/// The relay of a recorded axis. Its force goes to a smaller one step by step, at most a fifth less at each turn,
+/// and each step moves the change-over accordingly.
 class eased_relay {
  public:
-  /// Begins with that force [N]; `stroke` is to either side of where the axis began [m].
+  /// Begins with that force [N]; `stroke` [m] is to either side of the start of the axis.
   eased_relay(double force, double stroke) noexcept : force_(force), stroke_(stroke) {}
 
   /// The force of the next tick [N], for a swing of that amplitude [m].
   double tick(const axis_record& seen, double amplitude) noexcept {
     return relay_.tick(seen.x(), seen.velocity(6), force_, amplitude, 1.5 * seen.step() + 20e-6);
   }
-  /// The same, on the way to a force that is `wanted` [N].
+  /// The same, on the way to the force `wanted` [N].
   double tick(const axis_record& seen, double amplitude, double wanted) noexcept {
     if (relay_.sweeps() != eased_at_) {
       eased_at_ = relay_.sweeps();
@@ -90,21 +90,21 @@ class eased_relay {
     }
     return tick(seen, amplitude);
   }
-  /// What is known of the device by now, roughly [N].
+  /// Takes rough values of the device's friction and load [N].
   void expect(double friction, double load) noexcept {
     friction_ = friction;
     load_ = load;
   }
-  /// Begins anew from here [m]; what it has learned stays.
+  /// Begins anew from x [m], and keeps the points of change-over.
   void restart(double x) noexcept { relay_.restart(x); }
 
   [[nodiscard]] const relay_motion& motion() const noexcept { return relay_; }
-  [[nodiscard]] int sweeps() const noexcept { return relay_.sweeps(); }  ///< so far
+  [[nodiscard]] int sweeps() const noexcept { return relay_.sweeps(); }  ///< number so far
 
  private:
   relay_motion relay_;
   double force_, stroke_, friction_ = 0.0, load_ = 0.0;
-  int eased_at_ = 0;  // sweep
+  int eased_at_ = 0;  // sweep of the last change of force
 };
 
 }  // namespace identification

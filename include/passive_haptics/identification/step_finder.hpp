@@ -2,12 +2,11 @@
 #pragma once
 // The step of a position sensor, from the positions that it shows.
 //
-// Positions with steps q lie on a lattice, so two of them differ by a multiple of q: the least difference
-// seen is a multiple of q, never less, and q itself once the device has turned round slowly. Whether they
-// do lie on a lattice is asked of every position. Where they do not (noise, kinematics behind the
-// encoders), third differences show the error of a position: under a force that does not change the
-// motion has next to none, and errors of deviation s have 20 s². A sum of three uniform errors, which is
-// what three encoders make of a position, is no wider than 6 s; a fifth is added.
+// Positions with steps q [m] lie on a lattice, so two of them differ by a multiple of q: the least difference seen
+// is a multiple of q, and q itself once the device has turned round slowly. Every position tests whether there is
+// a lattice. If there is none (noise, kinematics behind the encoders), third differences show the error of a
+// position: under a constant force those of the motion are small, and those of errors of deviation s have the
+// variance 20 s². A sum of three uniform errors, as three encoders make it, is at most 6 s wide; a fifth is added.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -21,12 +20,12 @@ namespace identification {
 
 class step_finder {
  public:
-  /// `rounding` is that of the scalar in which positions come.
+  /// `rounding` is the epsilon of the scalar of the positions.
   explicit step_finder(double rounding = std::numeric_limits<double>::epsilon()) noexcept
       : rounding_(rounding) {}
 
-  /// A position [m]; `resting` says that the device is at rest, `steady` that the force on it has not
-  /// changed for some ticks.
+  /// Adds a position [m]; `resting` says that the device is at rest, `steady` that the force on it has not changed
+  /// for some ticks.
   void book(double position, bool resting, bool steady) noexcept {
     ++count_;
     const double moved = kernels::magnitude(position - last_[0]);
@@ -52,25 +51,25 @@ class step_finder {
     }
     last_ = {position, last_[0], last_[1]};
   }
-  /// A sample is missing.
+  /// Adds a missing sample.
   void interrupt() noexcept { count_ = at_rest_ = 0; }
 
-  /// The positions lie on a lattice.
+  /// True if the positions lie on a lattice.
   [[nodiscard]] bool has_step() const noexcept {
     return asked_ >= 20 && misfits_ * 50 <= asked_ && kernels::is_finite(least_);
   }
   /// q [m], an upper bound; 0 if there is no lattice.
   [[nodiscard]] double step() const noexcept { return has_step() ? least_ + blur_ : 0.0; }
-  /// What a position may be off by beside the step, from end to end [m].
+  /// The width of the error of a position beside its step, from end to end [m].
   [[nodiscard]] double noise() const noexcept {
     if (has_step()) return kernels::larger(largest_turn_ - 2.0 * least_, 0.0);
     return kernels::larger(largest_turn_, 7.2 * deviation());
   }
-  /// To go on with while nothing is known for sure [m].
+  /// The resolution by now [m], for use while the experiments run.
   [[nodiscard]] double so_far() const noexcept { return has_step() ? least_ : 3.5 * deviation(); }
 
  private:
-  /// Is the way a multiple of the least difference?
+  /// Tests whether the difference `moved` [m] is a multiple of the least difference.
   void look(double moved) noexcept {
     const double steps = moved / least_;
     const double blurred = 0.02 + 2.0 * steps * blur_ / least_;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// First experiment: to and fro across the stroke, for what the device does in motion. Mass m [kg], damping
-// b± [N·s/m], kinetic friction c [N], load w [N] and latency d [ticks] are those of
+// First experiment: to and fro across the stroke, for the numbers of the device in motion.
+// Mass m [kg], damping b± [N·s/m], kinetic friction c [N], load w [N] and latency d [ticks] are those of
 //
 //     m ẍ = f(t − d) − b± ẋ − c sgn ẋ + w − k (x − x₀)            motion_regression.hpp
 //
-//   settle   1 to 4 s of all the force there may be, until the swing has come to the stroke
-//   sweep    sweep_time of a force of that on which the equation is well told, at least the largest of
-//                3 |w| + 2.5 c             what pulls and rubs does not stop it
-//                2 m stroke/(40 ms)²       it gets across in some tens of milliseconds
-//                a fifth of all the force
-//            and half as much again in every other six sweeps, 0.6 of the stroke in every other twelve:
-//            one force, or one stroke, would not tell damping from friction
+//   settle   1 to 4 s with the largest force allowed, until the swing has come to the stroke
+//   sweep    sweep_time with a force of at most that, and of the largest of
+//                3 |w| + 2.5 c             so that load and friction do not stop it
+//                2 m stroke/(40 ms)²       so that it gets across in some tens of milliseconds
+//                a fifth of the largest force allowed
+//            The force is 1.5 times that in every other six sweeps, and the stroke is 0.6 of itself in every other
+//            twelve, because one force, or one stroke, would not tell damping from friction.
 //
-// What moves it is a relay (relay_motion.hpp; Åström and Hägglund, 1984). A bound is three deviations of the
+// A relay moves the device (relay_motion.hpp; Åström and Hägglund, 1984). A bound is three deviations of the
 // jackknife (Miller, 1974) and 5 % away from the estimate.
 
 #include <passive_haptics/identification/measure_latency.hpp>
@@ -44,19 +44,19 @@ class swing_experiment {
     regression_.commanded(force);
     return force;
   }
-  /// A sample is missing.
+  /// Adds a missing sample.
   void interrupt() noexcept { regression_.interrupt(); }
 
   [[nodiscard]] bool done() const noexcept { return phase_ == phase::done; }
-  /// Why nothing can be concluded; null if something can, or may yet.
+  /// A sentence that says why nothing was found; null if something was, or may be yet.
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
-  /// What was found, once it is done().
+  /// The result, once it is done().
   [[nodiscard]] const motion_found& found() const noexcept { return motion_; }
-  /// What swings it, and the force that does so well [N].
+  /// The relay that swings the device, and the force of the sweeps [N].
   [[nodiscard]] const eased_relay& relay() const noexcept { return relay_; }
   [[nodiscard]] double force() const noexcept { return force_; }
 
-  /// States the bounds of what was found.
+  /// Writes the bounds into `found`.
   void state(axis_found& found) const noexcept {
     const motion_found& m = motion_;
     found.mass = kernels::larger(margin * m.mass.at_least(3.0), 0.0);
@@ -76,15 +76,15 @@ class swing_experiment {
 
  private:
   enum class phase : std::uint8_t { settle, sweep, done };
-  static constexpr double margin = 0.95;   // of what no statistics sees
-  static constexpr double slowest = 0.03;  // of the windows that count [m/s]
+  static constexpr double margin = 0.95;   // for errors that no statistics shows
+  static constexpr double slowest = 0.03;  // least speed of the windows that count [m/s]
 
   double fail(const char* why) noexcept {
     problem_ = why;
     phase_.enter(phase::done);
     return 0.0;
   }
-  /// It has turned round since the last time; a window is about half of the sweep from then on.
+  /// True if the axis has turned since the last call; then a window becomes half of the last sweep.
   bool turned() noexcept {
     if (relay_.sweeps() == window_since_) return false;
     window_since_ = relay_.sweeps();
@@ -95,7 +95,7 @@ class swing_experiment {
     regression_.book(window_, group, slowest, seen.step(), relay_.motion().turned_at());
   }
 
-  /// Finds out how fast it goes to and fro with all the force there may be.
+  /// Swings with the largest force, until the swing has come to the stroke, and chooses the force of the sweeps.
   double settle(const axis_record& seen) noexcept {
     const double force = relay_.tick(seen, p_.stroke);
     const int sweeps = relay_.sweeps();
@@ -178,7 +178,7 @@ class swing_experiment {
   timed_phase<phase> phase_{phase::settle};
   motion_found motion_{};
   const char* problem_ = nullptr;
-  double force_ = 0.0;  // of the sweeps [N]
+  double force_ = 0.0;  // force of the sweeps [N]
   int window_ = 16, window_since_ = 0;
 };
 

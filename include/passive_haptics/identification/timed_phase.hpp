@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// In which phase an experiment is, and for how long.
+// The phase of an experiment, and the time spent in it.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -17,9 +17,9 @@ class timed_phase {
     now_ = next;
     lasted_ = 0.0;
   }
-  /// A tick of that length [s] has passed in it.
+  /// Adds a tick of that length [s].
   void lasts(double dt) noexcept { lasted_ += dt; }
-  /// Since it was entered [s].
+  /// The time since the phase was entered [s].
   [[nodiscard]] double lasted() const noexcept { return lasted_; }
   [[nodiscard]] operator Phase() const noexcept { return now_; }
 

@@ -182,6 +182,23 @@ concept says_what_it_holds = requires(const Part p, const Effort f) {
   { p.can_hold(f) } -> std::same_as<bool>;
 };
 
+/// Tells a part of an explanation, if it has something to say of it.
+template <class Part, class... Facts>
+constexpr void explain(const Part& part, explanation& e, const Facts&... facts) noexcept {
+  if constexpr (requires { part.explain(e, facts...); }) part.explain(e, facts...);
+}
+/// The longest effort that can_hold() lets pass.
+template <class Part>
+concept knows_most_held = requires(const Part p) {
+  p.most_held();
+};
+/// A bound that looks whether the motion refutes what it rests on.
+template <class Part>
+concept looks_at_motion = requires(Part p, const Part c) {
+  p.look_on(true);
+  { c.seen() } -> std::same_as<event>;
+};
+
 /// Parts, one after the other: each is shown what those before it have left.
 template <class... Parts>
 struct sequence {
@@ -278,6 +295,43 @@ class sequence<First, Rest...>::on {
     if constexpr (says_what_it_holds<part_at<First, P>, effort>) all = first_.can_hold(held);
     if constexpr (says_what_it_holds<part_at<others, P>, effort>) all &= rest_.can_hold(held);
     return all;
+  }
+  /// The first that looks at the motion.
+  [[nodiscard]] constexpr auto& watching() noexcept
+      requires(looks_at_motion<part_at<First, P>> ||
+               requires(part_at<others, P> o) { o.watching(); }) {
+    if constexpr (looks_at_motion<part_at<First, P>>) {
+      return first_;
+    } else {
+      return rest_.watching();
+    }
+  }
+
+  /// What each of them makes of a stiffness.
+  constexpr void explain(explanation& e, const auto& damping, typename P::scalar T,
+                         int late) const noexcept {
+    detail::explain(first_, e, damping, T, late);
+    detail::explain(rest_, e, damping, T, late);
+  }
+  /// What the first that knows it says.
+  template <class Damping>
+  [[nodiscard]] constexpr unseen_work<typename P::scalar> unseen(
+      const seen_tick<P>& seen, const Damping& damping, const effort& f,
+      typename P::scalar t) const noexcept
+      requires(knows_reach<part_at<First, P>, P> || knows_reach<part_at<others, P>, P>) {
+    if constexpr (knows_reach<part_at<First, P>, P>) {
+      return first_.unseen(seen, damping, f, t);
+    } else {
+      return rest_.unseen(seen, damping, f, t);
+    }
+  }
+  [[nodiscard]] constexpr effort most_held() const noexcept
+      requires(knows_most_held<part_at<First, P>> || knows_most_held<part_at<others, P>>) {
+    if constexpr (knows_most_held<part_at<First, P>>) {
+      return first_.most_held();
+    } else {
+      return rest_.most_held();
+    }
   }
 
   template <class... States>

@@ -27,6 +27,7 @@
 // tick has reset(), which puts it back. Only energy observers and force bounds state `passivity`.
 
 #include <passive_haptics/base/event.hpp>
+#include <passive_haptics/base/explanation.hpp>
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/device/damping.hpp>
 #include <passive_haptics/device/device_sample.hpp>
@@ -60,9 +61,18 @@ inline namespace v0 {
 //   update(Δx, effort and   observer             passive_port          it fits no port that reports work
 //     work, dt)
 //   travel_error()          observer, not exact  passive_port          the motion shown is exact
+//   overdrawn()             observer             passive_port, event   any value below zero is a debt
 //   disturbed()             observer             passive_port, at a    faults are nothing to it
 //                                                refusal or a late tick
 //   can_hold(f)             bound                tick(device_sample)   any force that is a number may have been held
+//   explain(e, b, T, k)     bound                the port's explain()  it softens nothing
+//   explain(e, x, T, k)     source               passive_port          the port has no explain()
+//   softener                law                  local_contact         it is no softer than the surface
+//   unseen(seen, damping,   bound, beside one     passive_port, of what   any motion may have been
+//     f, t), most_held()      that says this      nobody saw
+//   looks(), look(…),       bound                passive_port          what it rests on is not held against the
+//     look_on(asked),                                                  motion (force_bound/watched.hpp)
+//     seen(), lets_go(), forgives()
 //   passivity               bound, on its port   passive_port          its `on<Port>` says it
 //   apply(f, states…)       sequence of parts    applied()             limit() or shape() answers
 //   only_reduces<States…>   sequence of parts    passive_port          what limit() or shape() returns says it
@@ -169,7 +179,8 @@ concept inertia_for = requires(const part_at<M, P> m, const typename P::effort f
 
 /// update() books one tick: the motion, the effort held while it happened, its length [s]; false, and
 /// nothing is booked, when the energy would be no finite number. forfeit() writes off a tick whose
-/// motion is unknown and never raises the ledger. value() is E1 [J]. `counts` is false for the one
+/// motion is unknown and never raises the ledger; one that takes a third number [J] writes off no more than that,
+/// and update() with a fourth takes no more than that for hidden by a turn. value() is E1 [J]. `counts` is false for the one
 /// that counts nothing; `exact` is false for one that takes positions as known to a step only. One that
 /// also books the work that a device reports takes it with the effort; one that books what is unsure of a
 /// turn says `turns`.
@@ -207,6 +218,39 @@ template <class Scalar>
 [[nodiscard]] constexpr bool can_be_held(Scalar size, Scalar most) noexcept {
   return size * Scalar(0.5) <= most;
 }
+/// The longest force of which that is so, along some axis.
+template <class Space>
+[[nodiscard]] constexpr typename Space::effort longest_held(typename Space::scalar most) noexcept {
+  typename Space::effort f = Space::zero();
+  Space::component(f, 0) = typename Space::scalar(2) * most;
+  return f;
+}
+}  // namespace detail
+
+namespace detail {
+/// A damping that any port has, for asking whether a bound fits.
+template <class P>
+using some_damping = typename diagonal_damping<P::dof>::template on<P>;
+/// The last tick that was seen, and what the motors hold.
+template <class P>
+struct seen_tick {
+  typename P::scalar square;        ///< |Δx|² over it (P::squared)
+  typename P::scalar dt;            ///< T₀ [s]
+  typename P::scalar travel_error;  ///< Δx is no farther from the true one than this
+  typename P::stored_effort held;   ///< no effort held then or since is longer
+};
+/// What a force can have done while nobody looked, at most.
+template <class Scalar>
+struct unseen_work {
+  Scalar done;    ///< [J]
+  Scalar beside;  ///< by how much f·Ω may have been more than f·θ, where the port turns [J]
+};
+/// A part that knows how far a device gets.
+template <class Part, class P>
+concept knows_reach = requires(const Part p, const seen_tick<P> seen, const some_damping<P> d,
+                               const typename P::effort f, typename P::scalar t) {
+  p.unseen(seen, d, f, t);
+};
 }  // namespace detail
 
 /// What its promise rests on. One that promises nothing rests on nothing.
@@ -222,12 +266,6 @@ template <class Bound>
   }
   return all;
 }
-
-namespace detail {
-/// A damping that any port has, for asking whether a bound fits.
-template <class P>
-using some_damping = typename diagonal_damping<P::dof>::template on<P>;
-}  // namespace detail
 
 /// What a bound promises at a port. A chain knows it there, any other bound at once.
 template <class Bound, class P>

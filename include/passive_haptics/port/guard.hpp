@@ -94,6 +94,8 @@ class guard : public last_tick<P, Latency> {
   }
   /// A bad sample: `passed` [s] more since the last good one.
   constexpr void lose_sight(scalar passed) noexcept { blind_ += passed; }
+  /// The time that those took [s].
+  [[nodiscard]] constexpr scalar blind() const noexcept { return blind_; }
 
  private:
   scalar blind_{};     ///< time since the last good sample that bad ones took [s]

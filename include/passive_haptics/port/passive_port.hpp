@@ -152,6 +152,7 @@ class passive_port {
     detail::restart(motion_);
     guard_.reset();
     watch_.reset();
+    stopped_ = event::nominal;
     begin();
   }
 
@@ -200,6 +201,25 @@ class passive_port {
     return tick(device_sample<P>{});
   }
 
+  /// How stiff a surface is shown now, why no stiffer, and what keeps the last force below that.
+  template <class Own = source_type>
+  requires requires(const Own s, explanation e, pose x, scalar T) { s.explain(e, x, T, 0); }
+  [[nodiscard]] constexpr explanation explain() const noexcept {
+    explanation e;
+    if (stopped_ != event::nominal) {
+      e.stiffness =
+          stopped_ == event::rejected_parameters ? softened_by::parameters : softened_by::refuted;
+      return e;
+    }
+    source_.explain(e, guard_.last(), limits_.longest_tick, latency);
+    detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
+    e.force = static_cast<double>(P::norm(guard_.commanded().front()));
+    const bool as_stiff = e.force > 0.95 * e.shown * e.depth;
+    if (as_stiff) e.now = softened_by::nothing;
+    if (!as_stiff && e.now == softened_by::nothing && e.depth > 0.0) e.now = softened_by::ledger;
+    return e;
+  }
+
   [[nodiscard]] constexpr scalar energy() const noexcept { return observer_.value(); }  ///< E1 [J]
   /// T [s], as stated, or as a loop that learns has come to know it.
   [[nodiscard]] constexpr scalar longest_tick() const noexcept { return limits_.longest_tick; }
@@ -222,17 +242,52 @@ class passive_port {
   /// A bound that only reduces, and remembers nothing, has no say where nothing is asked.
   static constexpr bool zero_stays_zero =
       detail::reduces<Bound, P, state_type>() && detail::keeps_nothing<Bound, P, state_type>();
+  /// The bound knows how far the device gets without being seen, and the ledger takes that into account.
+  static constexpr bool reaches = !trusting && detail::knows_reach<bound_type, P> &&
+                                  detail::knows_most_held<bound_type> &&
+                                  requires(observer_type o, const effort f, scalar s) {
+    o.forfeit(f, s, s);
+  };
+  static constexpr bool knows_hidden =
+      reaches && requires(observer_type o, const motion m, const held_type f, scalar s) {
+    o.update(m, f, s, s);
+  };
+  struct unasked {};
+  /// Of the last tick that was seen; of any square before there was one.
+  struct last_seen {
+    scalar square = kernels::largest<scalar>();  ///< |Δx|²
+    scalar dt{1};                                ///< [s]
+  };
   /// What is asked for is finite, and the bound makes it no larger: nobody has to look again.
   static constexpr bool always_numbers =
       source_type::asks_for_numbers && detail::reduces<Bound, P, state_type>();
+  static constexpr bool looks = detail::looks_at_motion<bound_type> || requires(bound_type b) {
+    b.watching();
+  };
+  /// Does the source say by itself that nothing is asked?
+  static constexpr bool says_nothing = zero_stays_zero && !detail::takes_efforts<source_type, P>;
+  [[nodiscard]] constexpr auto& watching() noexcept {
+    if constexpr (detail::looks_at_motion<bound_type> || !looks) {
+      return bound_;
+    } else {
+      return bound_.watching();
+    }
+  }
 
   [[nodiscard, gnu::always_inline, gnu::flatten]] constexpr result_type advance(
       const pose position, scalar dt, const held_type& held) noexcept {
     const typename P::stored_effort& force = detail::force_of<P>(held);
-    if (!sound_) [[unlikely]] {
+    if constexpr (looks) {
+      if (watching().looks()) [[unlikely]]
+        look(position, dt, force);
+    }
+    if (stopped_ != event::nominal) [[unlikely]] {
+      if constexpr (looks) return refuse_all(dt);
       return refuse(event::rejected_parameters, dt);
     }
     motion travel = P::between(guard_.last(), position);
+    [[maybe_unused]] scalar square{};
+    if constexpr (reaches) square = P::squared(travel);
     if constexpr (!trusting) {
       if (!guard_.believes(position, travel, dt, limits_)) [[unlikely]] {
         return refuse_sample(position, dt);
@@ -241,10 +296,12 @@ class passive_port {
     const bool known = guard_.knows_motion();
     if (!known) [[unlikely]] {
       travel = resume(force, dt);
+      square = kernels::largest<scalar>();
     } else if (!book(travel, held, dt)) [[unlikely]] {
       return refuse(event::rejected_sample, dt);
     }
     guard_.move_to(position);
+    if constexpr (reaches) seen_ = {square, dt};
     const bool late = is_late(dt, limits_.longest_tick);
     event what = booked_as(travel, dt, late);
     if constexpr (Limits::traits.learns) {
@@ -265,19 +322,45 @@ class passive_port {
         motion_.estimate(position, travel, force, dt, known), state, what);
     if constexpr (zero_stays_zero) {
       if (request.nothing) {
+        if constexpr (looks) watching().look_on(false);
         guard_.command(P::zero());
         return source_.answered(request, {P::zero(), observer_.value(), what, false});
       }
     }
-    const auto allowed = bounded(request.wanted, state, what);
+    auto allowed = bounded(request.wanted, state, what);
+    if constexpr (looks) {
+      watching().look_on(says_nothing || !(request.wanted == P::zero()));
+      if (watching().seen() != event::nominal) [[unlikely]] {
+        what = worse(what, watching().seen());
+        if (watching().lets_go()) allowed = {P::zero(), true};
+      }
+    }
     guard_.command(allowed.force);
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
   }
 
+  /// Shows the bound what its assumptions can be held against, before anything else of this tick.
+  [[gnu::noinline]] constexpr void look(typename P::stored_pose position, scalar dt,
+                                        typename P::stored_effort held) noexcept {
+    if constexpr (looks) {
+      const motion travel = P::between(guard_.last(), position);
+      bool known = guard_.knows_motion() && !is_late(dt, limits_.longest_tick);
+      if constexpr (!trusting) known = known && guard_.believes(position, travel, dt, limits_);
+      const bool doubted = watching().seen() != event::nominal;
+      watching().template look<Observer::exact>(known, travel, guard_.commanded().back(), held, dt,
+                                                observer_);
+      if (watching().seen() > event::outside_force) stopped_ = watching().seen();
+      if (doubted && watching().forgives()) disturbed();  // a hand has sunk in, which nobody paid
+    }
+  }
   /// Nobody knows what moved since the last good sample, so it counts as the worst; returns no motion.
   [[nodiscard, gnu::always_inline]] constexpr motion resume(const typename P::stored_effort& held,
                                                             scalar dt) noexcept {
-    if constexpr (!trusting) observer_.forfeit(held, limits_.held_for(dt));
+    if constexpr (reaches) {
+      write_off(held, dt);
+    } else if constexpr (!trusting) {
+      observer_.forfeit(held, limits_.held_for(dt));
+    }
     guard_.see_again();
     return P::zero();
   }
@@ -291,7 +374,12 @@ class passive_port {
         return event::late_tick;
       }
     }
-    return observer_.value() < scalar(0) ? event::debt : event::nominal;
+    return observer_.value() < scalar(0) && overdrawn() ? event::debt : event::nominal;
+  }
+  /// Has the hand been fed? A ledger that begins below zero, for what elastic friction may hold, says so itself.
+  [[nodiscard]] constexpr bool overdrawn() const noexcept {
+    if constexpr (requires { observer_.overdrawn(); }) return observer_.overdrawn();
+    return true;
   }
   /// What the bound leaves; nothing, and an event, if that is no number.
   [[nodiscard, gnu::always_inline]] constexpr detail::bounded<P> bounded(const effort& wanted,
@@ -313,7 +401,40 @@ class passive_port {
     if constexpr (!trusting) {
       if (dt > limits_.watchdog) return book_cut_short(travel, held, dt);
     }
+    if constexpr (knows_hidden) {
+      if (is_late(dt, limits_.longest_tick)) return book_late(travel, held, dt);
+    }
     return observer_.update(travel, held, dt);
+  }
+  /// What lemma C cannot tell of a long turn, the inertia may.
+  [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_late(typename P::stored_effort travel,
+                                                                   held_type held,
+                                                                   scalar dt) noexcept {
+    if constexpr (knows_hidden) {
+      return observer_.update(travel, held, dt, unseen(held, dt).beside);
+    } else {
+      return observer_.update(travel, held, dt);
+    }
+  }
+  /// The most that an effort can have done in the `dt` after the tick seen last that nobody saw.
+  [[nodiscard]] constexpr detail::unseen_work<scalar> unseen(const effort& held,
+                                                             scalar dt) const noexcept {
+    if constexpr (reaches) {
+      return bound_.unseen(
+          detail::seen_tick<P>{seen_.square, seen_.dt, travel_error(), bound_.most_held()},
+          observer_.damping(), held, dt);
+    } else {
+      return {kernels::largest<scalar>(), kernels::largest<scalar>()};
+    }
+  }
+  [[gnu::cold, gnu::noinline]] constexpr void write_off(typename P::stored_effort held,
+                                                        scalar dt) noexcept {
+    if constexpr (reaches) {
+      const scalar blind = guard_.blind() + kernels::larger(dt, limits_.longest_tick);
+      observer_.forfeit(held, limits_.held_for(dt), unseen(held, blind).done);
+    } else if constexpr (!trusting) {
+      observer_.forfeit(held, limits_.held_for(dt));
+    }
   }
   /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of
   /// the two, and what only one of them covers, a ledger that is more than a number forgets. Vectors by
@@ -321,7 +442,12 @@ class passive_port {
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_cut_short(
       typename P::stored_effort travel, held_type held, scalar dt) noexcept {
     observer_type dropped = observer_;
-    dropped.forfeit(detail::force_of<P>(held), limits_.watchdog);
+    if constexpr (reaches) {
+      dropped.forfeit(detail::force_of<P>(held), limits_.watchdog,
+                      unseen(detail::force_of<P>(held), limits_.watchdog).done);
+    } else {
+      dropped.forfeit(detail::force_of<P>(held), limits_.watchdog);
+    }
     if (!observer_.update(travel, held, dt)) return false;
     if constexpr (!Observer::exact) observer_.forfeit(P::zero(), limits_.watchdog);
     if (dropped.value() < observer_.value()) observer_ = dropped;
@@ -336,6 +462,9 @@ class passive_port {
     }
   }
 
+  [[gnu::cold, gnu::noinline]] constexpr result_type refuse_all(scalar dt) noexcept {
+    return refuse(stopped_, dt);
+  }
   [[gnu::cold, gnu::noinline]] constexpr result_type refuse_sample(typename P::stored_pose position,
                                                                    scalar dt) noexcept {
     const motion travel = P::between(guard_.last(), position);
@@ -347,7 +476,12 @@ class passive_port {
     const bool lasted = dt > scalar(0) && kernels::is_finite(dt);
     const scalar passed = lasted ? dt : limits_.longest_tick;
     if constexpr (!trusting) {
-      if (sound_) observer_.forfeit(guard_.commanded().back(), limits_.held_for(passed));
+      if constexpr (reaches) {
+        if (stopped_ == event::nominal) write_off(guard_.commanded().back(), passed);
+      } else {
+        if (stopped_ == event::nominal)
+          observer_.forfeit(guard_.commanded().back(), limits_.held_for(passed));
+      }
       disturbed();
     }
     guard_.lose_sight(passed);
@@ -374,7 +508,10 @@ class passive_port {
   }
   /// The parameters may be others.
   constexpr void begin() noexcept {
-    sound_ = !check();
+    if (stopped_ <= event::rejected_parameters) {
+      stopped_ = check() ? event::rejected_parameters : event::nominal;
+    }
+    if constexpr (reaches) seen_ = {};  // other motors may have held more
     detail::tell(source_, limits_.longest_tick, latency);
   }
 
@@ -385,7 +522,9 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
-  bool sound_ = true;  ///< are the parameters good?
+  event stopped_ = event::nominal;  ///< why there is no force until set(), or until reset()
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
+  std::conditional_t<reaches, last_seen, unasked> seen_;
 };
 
 /// One that lacks its limits, so that the compiler says so.

@@ -9,15 +9,15 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// f within f_LM ± `rate`·dt along the normal, f_LM the force at the depth in the local model: a change of
-/// the force by the hand's own motion passes at once, one by the environment (an update, a lost contact) at
-/// `rate`. The local surface then moves at rate/K m/s at most (A23). While the surface retreats the force
-/// may be above the desired one, so this stands before the energy bound, as every shaper does.
+/// Keeps the force along the normal within f_LM ± rate·dt and ≥ 0, where f_LM [N] is the force at the depth in
+/// the local model. A change that the hand's own motion makes passes at once, one that the environment makes
+/// (an update, a lost contact) at `rate`, so the local surface moves at rate/K [m/s] at most (A23). While the
+/// surface retreats the force may exceed the desired one: this stands before the energy bound, as any shaper.
 struct force_rate_limit {
   static constexpr bool needs_local_model = true;
   static constexpr bool needs_ledger = false;
 
-  double rate{};  ///< [N/s]
+  double rate{};  ///< fastest change that the environment makes [N/s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (detail::positive(rate)) return {};

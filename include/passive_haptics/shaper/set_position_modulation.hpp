@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Passive set-position modulation (PSPM): limits the energy that an update of the surface puts into the
-// contact spring, and nothing else.
+// Passive set-position modulation (PSPM) limits the energy that an update puts into the contact spring.
+// It limits nothing else.
 //
-//   set_position_modulation   ½ K d_new² ≤ ½ K d_old² + E      good against jumps of the environment;
-//                                                              blind to the leak of the hold
+//   set_position_modulation   ½ K d_new² ≤ ½ K d_old² + E      bounds what jumps of the environment bring,
+//                                                              and does not see the leak of the hold
 //
-// For walls stiffer than 2b/T take strict_bound for the port.
+// For walls stiffer than 2b/T put strict_bound behind it.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -18,17 +18,17 @@ inline namespace v0 {
 
 /// Who pays for the leak of the zero-order hold, K Δx²/2 per tick (lemma L2).
 enum class hold_leak : std::uint8_t {
-  paid,     ///< the damping pays for it first: passive for K ≤ 2b/T
-  ignored,  ///< the spring counts as one in continuous time, as published
+  paid,     ///< the damping pays for the leak first: passive for K ≤ 2b/T
+  ignored,  ///< nobody pays: the spring is taken for one in continuous time, as published
 };
 
-/// The contact spring is moved away from the device no farther than a tank covers. Between updates
-/// the spring is left alone. At an update:
+/// An update makes the contact spring deeper no farther than a tank of energy E [J] covers. Between updates
+/// the spring is left alone. At an update, d* being the depth that the environment asks for:
 ///     E ← min(E + D_min + ½ K d_old² − ½ K d_new², cap),     d_new the deepest ≤ d* with E ≥ 0
-///     D_min = (b − K T/2) (max x − min x)²/(t_k − t_{k−1})      b alone where the leak is ignored
-/// x is the travel along the normal since the last update. The gap between d* and d_new stays until the
-/// next update, or until the device leaves: then the surface follows it out, which costs nothing. If the
-/// motors held less than the spring asked for, the tank books that difference, too.
+///     D_min = (b − K T/2) (max x − min x)²/(t_k − t_{k−1})      with b alone where the leak is ignored
+/// x [m] is the travel along the normal since the last update. The gap d* − d_new stays until the next update,
+/// or until the device leaves: then the surface follows it out, which costs nothing. If the motors held less
+/// than the spring asked for, the tank books the difference, too.
 ///
 /// Source: Lee and Huang 2010, form from memory; proofs: docs/design/mathematics.md § 2(e) for
 /// continuous time. With the leak paid, for a hold of T, with S = ½ K d²:
@@ -45,8 +45,8 @@ struct basic_set_position_modulation {
   static constexpr bool needs_ledger = true;
 
   double loan{};                                         ///< E at the start [J]
-  double cap = std::numeric_limits<double>::infinity();  ///< most that E may hold [J]
-  double ask_again = 0.02;  ///< a target not reached is asked for again after this [s]
+  double cap = std::numeric_limits<double>::infinity();  ///< largest E [J]
+  double ask_again = 0.02;  ///< a gap that stays this long [s] counts as an update
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
@@ -117,7 +117,7 @@ class basic_set_position_modulation<Leak>::on {
     typename Space::coordinates normal{};
     scalar gap{};  ///< d* − d [m], ≥ 0
   };
-  /// What has happened since the last update.
+  /// The motion since the last update.
   struct interval {
     scalar inward{}, least{}, most{};             ///< travel along the normal, and its range [m]
     scalar time{};                                ///< [s]
@@ -128,8 +128,8 @@ class basic_set_position_modulation<Leak>::on {
     return depth > scalar(0) ? stiffness * depth * depth / scalar(2) : scalar(0);
   }
 
-  /// Books one tick of the spring as it was, and returns the energy that it stores at the end [J]. A tick
-  /// that was not seen, or was too long, leaves neither that energy nor credit.
+  /// Books the last tick for the spring of that tick, and returns the energy [J] that the spring stores at its
+  /// end. After a lost or a late tick there is neither that energy nor credit.
   constexpr scalar book(const auto& port) noexcept {
     if (!(spring_.stiffness > scalar(0))) return scalar(0);  // there was no target yet, so no force
     if (port.fate() != tick_fate::on_time) {
@@ -152,7 +152,7 @@ class basic_set_position_modulation<Leak>::on {
     return stored(spring_.stiffness, spring_.depth + inward);
   }
 
-  /// Puts D_min into the tank. (lemma L1)
+  /// E ← E + D_min. (lemma L1)
   constexpr void collect() noexcept {
     const scalar range = since_.most - since_.least;
     if (since_.time > scalar(0) && since_.damping > scalar(0)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Shapers that begin soft and grow stiff on what the ledger has to spare.
+// Shapers that begin soft and grow stiff as far as the ledger has energy to spare.
 //
 //   nonlinear_coupling    K_c grows all the time in contact        stiffens within one press
 //   stiffness_increment   K grows once per press and release       stiffens from touch to touch
@@ -10,10 +10,10 @@
 // guard decides what may grow. U(d) [J] is what the shaped spring gives back on a release from depth
 // d, and growth at d may raise it by no more than
 //     E_free = E1 − max(U(d), ¼ fᵀB⁻¹f)
-// U is a reservation in the ledger: pressing raises both, releasing lowers both, and each increment is
-// charged to U in full. So no energy is promised twice, and nothing has to be remembered through a lost
-// sample or a late tick. From E1 ≥ U, a spring up to 2b/T on a surface that stays put keeps E1 ≥ U in every
-// motion, so the strict law never cuts it.
+// U is reserved in the ledger: pressing raises both E1 and U, releasing lowers both, and each increment is
+// charged to U in full. So no energy is promised twice, and U needs no memory through a lost sample or a late
+// tick. A spring of up to 2b/T on a surface at rest that begins with E1 ≥ U keeps E1 ≥ U in every motion, so
+// the strict law never cuts its force.
 //
 // Each is INSPIRED BY the work it names; the published control laws are not confirmed. Formulas and
 // proofs: docs/design/mathematics.md § 2(f).
@@ -31,13 +31,13 @@ template <class Scalar, class Contact>
   return asked > Scalar(0) && contact.target_depth > Scalar(0) && motion_known;
 }
 
-/// The share of a force of `asked` [N] along the normal that leaves `most` [N], at most 1.
+/// The share, at most 1, that shortens a force of `asked` [N] along the normal to `most` [N].
 template <class Scalar>
 [[nodiscard]] constexpr Scalar at_most(Scalar asked, Scalar most) noexcept {
   return most < asked ? most / asked : Scalar(1);
 }
 
-/// E_free [J], ≥ 0: what the ledger has beyond the larger of U and the worst next tick of the force.
+/// E_free [J], ≥ 0: the credit beyond U = `release` [J] and beyond the worst outflow of the force `left`·f*.
 template <class Space>
 [[nodiscard]] constexpr typename Space::scalar spare(const typename Space::vector& desired,
                                                      typename Space::scalar left,
@@ -59,15 +59,15 @@ template <class Scalar>
 
 /// f = min(f*, K_f d), 1/K_f = 1/K_c + 1/K, and K_c grows in contact, each tick of length dt by
 ///     ΔK_c = min(rate·dt, most − K_c, 2 E_free/d²)       charged: ΔK_f d²/2 ≤ ΔK_c d²/2 [J]
-/// It is back at `initial` when contact, or a sample, is lost. U = K_f d²/2. Inspired by the nonlinear virtual
-/// coupling of the thesis (Fig. 1.7), of which only the idea is known. It costs what strict_bound costs, and a
-/// press starts soft.
+/// K_c is back at `initial` when the contact, or a sample, is lost. U = K_f d²/2. Inspired by the nonlinear
+/// virtual coupling of the thesis (Fig. 1.7), of which only the idea is known. The price is that of
+/// strict_bound, and each press starts soft.
 struct nonlinear_coupling {
   static constexpr bool needs_local_model = false;
   static constexpr bool needs_ledger = true;
 
   double initial{};                                       ///< K_c at first touch [N/m], ≤ 2b/T
-  double rate{};                                          ///< [N/(m·s)]
+  double rate{};                                          ///< fastest growth of K_c [N/(m·s)]
   double most = std::numeric_limits<double>::infinity();  ///< largest K_c [N/m]; infinite: up to K
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -125,12 +125,12 @@ struct nonlinear_coupling {
   };
 };
 
-/// f = min(f*, K_i d), and K_i grows when a press follows a release, after a bounce too, by
+/// f = min(f*, K_i d), and K_i grows when a press follows a release or a bounce, by
 ///     ΔK = min(step, K − K_i, 2 E_free/d²)               charged: ΔK d²/2 [J]
-/// It is back at `initial` after `reset_after` out of contact, or a lost sample. U = K_i d²/2.
+/// K_i is back at `initial` after `reset_after` out of contact, or a lost sample. U = K_i d²/2.
 /// Inspired by the successive stiffness increment (SSI) of Singh, Jafari and Ryu. A single tick that moves the
-/// other way counts as a turn, so quantised or noisy positions make it grow sooner; the guard holds all the
-/// same. It costs what strict_bound costs, and the first presses are soft.
+/// other way counts as a turn, so quantised or noisy positions make K_i grow sooner; E_free limits the growth
+/// all the same. The price is that of strict_bound, and the first presses are soft.
 struct stiffness_increment {
   static constexpr bool needs_local_model = false;
   static constexpr bool needs_ledger = true;
@@ -208,10 +208,10 @@ struct stiffness_increment {
 /// f = min(f*, K_L d + F), K_L = min(low, K), and where the motion turns, in or out, the offset F
 /// goes towards what is missing there, (K − K_L) d, by
 ///     ΔF = min(step, (K − K_L) d − F, E_free/d)          charged: ΔF d [J]
-/// or down by at most `step`. It is zero again when contact, or a sample, is lost. U = K_L d²/2 + F d,
-/// which min(f*, ·) can only make smaller. Inspired by the successive force augmentation (SFA) of Singh,
-/// Jafari and Ryu, of which only the abstract is known, so this update is ours. Turns are those of
-/// stiffness_increment. It costs what strict_bound costs, and the force steps by up to `step` at a turn.
+/// or down by at most `step`. F is zero again when the contact, or a sample, is lost. U = K_L d²/2 + F d,
+/// which min(f*, ·) can only lower. Inspired by the successive force augmentation (SFA) of Singh, Jafari and
+/// Ryu, of which only the abstract is known, so this update is ours. A turn is what stiffness_increment takes
+/// for one. The price is that of strict_bound, and the force steps by up to `step` at a turn.
 struct force_augmentation {
   static constexpr bool needs_local_model = false;
   static constexpr bool needs_ledger = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The rule of the thesis: strict when leaving and when the environment moves, unbounded on the way in.
+// The rule of the thesis: it bounds the force when the device leaves and when the environment moves.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -10,14 +10,14 @@ inline namespace v0 {
 /// The rule of the thesis (2.24-2.27, Fig. 3.2), in force form. With f_max = √(4 B E1):
 ///     leaving (Δx·n > 0):   |f| ≤ f_max
 ///     otherwise:            |f| ≤ max(f_LM, f_max)
-/// where f_LM is the force at the depth in the local model: on the way in that force is kept, and an update
-/// raises it up to f_max only. It looks at the contact, so it is a shaper:
+/// where f_LM [N] is the force at the depth in the local model. On the way in that force is kept, and an update
+/// raises it up to f_max only. The rule looks at the contact, so it is a shaper:
 ///     ph::shaped{ph::spring{}, ph::thesis_rule{}}
 ///
 /// NOT passive: the force on the way in is fixed before the motion is known. Enter a wall by δ in
-/// one tick and leave in the next: E1 falls by (K − 2B)δ² each time (A5, counterexample 1; a test shows it).
-/// It settles a contact by hysteresis, and it works well in practice. For a promise take reachable_bound or
-/// strict_bound, with it or without it.
+/// one tick and leave in the next: E1 falls by (K − 2B)δ² each time (A5; a test shows it). The rule settles a
+/// contact by hysteresis, and works well in practice. For a promise take reachable_bound or strict_bound, with
+/// this rule or without.
 struct thesis_rule {
   static constexpr bool needs_local_model = true;
   static constexpr bool needs_ledger = true;

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Adversaries: motions, hands and worlds that try to draw energy out of a controller
-// (docs/design/mathematics.md § 5). challenge.hpp throws them all at a model in one call; search.hpp
-// tunes one until it finds the worst.
+// Adversaries: motions, hands and worlds that try to draw energy out of a controller.
+// challenge.hpp exposes a model to all of them in one call; search.hpp tunes one for the largest loss. L and §
+// refer to docs/design/mathematics.md, A to audit.md.
 //
 //   adversary_motions.hpp   velocity sources, for prescribed_motion: no force can stop them
-//     nyquist_motion        in by δ, out by δ: −(K − 2B) δ² per two ticks, unbounded wall (A5)
+//     nyquist_motion        in by δ, out by δ: loses (K − 2B) δ² [J] in two ticks on an unbounded wall (A5)
 //     random_walk           any direction at any speed up to a limit, near the surface
-//     greedy_motion         presses, then leaves by the Δx that the proof calls worst (L3)
+//     greedy_motion         presses, then leaves by the worst Δx of the proof (L3)
 //     rocking_motion        rocks across an encoder step for false credit, then is greedy (§ 3)
 //     restless_motion       all of these in turn, and multiples of the worst Δx
-//   adversary_encoders.hpp  the same, smaller than the device can see or its friction resists
+//   adversary_encoders.hpp  motions smaller than the device can see or its friction resists
 //     in_step_motion        inside an encoder step, or a presliding displacement, in phase with the force
 //     worst_step_motion     presses, then leaves by the cheapest of a dozen steps
 //     dither_motion         forward 2, back 1 within p, on the way to a wall that it leaves greedily
 //   adversary_hands.hpp     force-limited, for the exact device
 //     striking_hand         taps the surface, or pushes where it is told to
-//   adversary_worlds.hpp    what else may go wrong
+//   adversary_worlds.hpp    surfaces, clocks and sensors
 //     jumping_surface       the surface moves by up to ±2 mm every 20-50 ms
 //     switching_stiffness   K low, K high, K low, ... every 20-50 ms
 //     erratic_surface       jumps, any normal (the opposite one too) and any stiffness, at random

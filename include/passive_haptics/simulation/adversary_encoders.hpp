@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Motions smaller than encoders show, or than dry friction resists; the menu is in adversary.hpp. They
-// drive prescribed_motion, which no force can stop.
+// Motions too small for encoders to show or for dry friction to resist; the menu is in adversary.hpp.
+// They drive prescribed_motion, which no force can stop.
 
 #include <passive_haptics/simulation/adversary_motions.hpp>
 
@@ -9,20 +9,19 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// With the force where it has grown, against it where it has fallen, on each axis by itself: the force
-/// gives more on the way out than it takes on the way back, and none of it is seen, or paid for by a
-/// friction that is elastic. From time to time it presses, or moves away, for some ticks, so that the
-/// force has something to be. It never goes farther at once than `reach`, nor, where there is any
-/// room, than the room there is.
+/// Moves on each axis along the force if the force has grown and against it if the force has fallen, so the
+/// force does more work on the way out than it takes on the way back. The encoders do not show the motion, and
+/// elastic friction does not take energy from it. From time to time it presses, or moves away, for some ticks,
+/// so that there is a force. A step is no longer than `reach`, and no longer than the room if there is room.
 template <class Space>
 struct in_step_motion {
   using vector = typename physical<Space>::vector;
   double reach = std::numeric_limits<double>::infinity();  ///< [m]
-  double nudge = 10e-6;  ///< what it moves by where there is neither room nor a reach [m]
-  double speed = 0.05;   ///< most of the presses [m/s]
-  typename physical<Space>::coordinates last{};  ///< force [N]
-  int pressing = 0, until_press = 0;             ///< ticks
-  double pace = 0.0;                             ///< of this press, inwards [m/s]
+  double nudge = 10e-6;  ///< length of a step where there is neither room nor a reach [m]
+  double speed = 0.05;   ///< largest speed of a press [m/s]
+  typename physical<Space>::coordinates last{};  ///< force of the last tick [N]
+  int pressing = 0, until_press = 0;             ///< ticks left of a press, and until the next
+  double pace = 0.0;                             ///< speed of this press, inwards [m/s]
 
   [[nodiscard]] vector next(const adversary_view<Space>& view, random_source& random) noexcept {
     const vector change = view.force - vector(last);
@@ -55,15 +54,15 @@ struct in_step_motion {
   }
 };
 
-/// Presses for 20 of 300 ticks; in the others it takes the cheapest of a dozen steps: to either end of
-/// the room it has, to some presliding displacements, or anywhere at speeds from 1 µm/s to 1 m/s. With
-/// its price it knows the memory of the friction, too.
+/// Presses for 20 of 300 ticks; in the others it takes the cheapest of twelve steps by price(): to either end
+/// of its room, by up to 3 presliding displacements, or anywhere at speeds from 1 µm/s to 1 m/s. As the
+/// price counts the memory of the friction, the motion knows that, too.
 template <class Space>
 struct worst_step_motion {
   using vector = typename physical<Space>::vector;
-  double range = 4e-3;  ///< farther than this from the surface it does not go [m]
+  double range = 4e-3;  ///< largest distance from the surface [m]
   int tick = 0;
-  double pace = 1e-3;  ///< of the presses [m/s]
+  double pace = 1e-3;  ///< speed of the presses [m/s]
 
   [[nodiscard]] vector next(const adversary_view<Space>& view, random_source& random) noexcept {
     if (tick++ % 300 == 0) pace = std::exp(random.uniform(std::log(1e-3), std::log(0.3)));
@@ -101,13 +100,13 @@ struct worst_step_motion {
   }
 };
 
-/// Goes to and fro before the surface by "forward 2 a, back a" with a ≤ p, for which a friction without
-/// a memory of reversals takes as little as a third of what it takes for the way gained; then it spends
-/// what a ledger has credited as greedy_motion does.
+/// Goes to and fro before the surface by "forward 2 a, back a" with a ≤ p. From that a friction without a memory
+/// of reversals takes as little as c/3 for each metre gained, where a ledger credits c. Then it spends the credit
+/// as greedy_motion does.
 template <class Space>
 struct dither_motion {
   using vector = typename physical<Space>::vector;
-  double range = 1e-3;  ///< how far it goes from the surface [m]
+  double range = 1e-3;  ///< largest distance from the surface [m]
   bool dithering = true, back = false, outwards = true;
   int ticks_left = 0;
   double amplitude = 1e-6;  ///< a [m]

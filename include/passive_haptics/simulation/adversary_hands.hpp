@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A hand that tries to draw energy out of a controller with a force it cannot exceed, on the exact
-// device; the menu is in adversary.hpp.
+// A hand of limited force that tries to draw energy out of a controller, on the exact device.
+// The menu is in adversary.hpp.
 
 #include <passive_haptics/simulation/hand.hpp>
 
@@ -9,15 +9,15 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// Either tapping_hand, which reverses at the surface and between two ticks if need be, or a push
-/// that the caller changes whenever it likes; never more than `limit`.
+/// Either a tapping_hand, which reverses at the surface and between two ticks if need be, or a push that the
+/// caller may change at any time. Its force is at most taps.limit [N].
 template <class Space>
 struct striking_hand {
   using vector = typename physical<Space>::vector;
   using coordinates = typename physical<Space>::coordinates;
 
-  tapping_hand<Space> taps{};  ///< its limit, surface and normal; used while `tapping`
-  coordinates push{};          ///< otherwise [N]
+  tapping_hand<Space> taps{};  ///< acts while `tapping`; its limit counts for the push, too
+  coordinates push{};          ///< force while not tapping [N]
   bool tapping = true;
 
   [[nodiscard]] constexpr vector force(double t, const vector& x, const vector& v) const noexcept {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Motions that try to draw energy out of a controller; the menu is in adversary.hpp. They drive
-// prescribed_motion, which no force can stop.
+// Motions that try to draw energy out of a controller; the menu is in adversary.hpp.
+// They drive prescribed_motion, which no force can stop.
 
 #include <passive_haptics/simulation/schedule.hpp>
 
@@ -11,24 +11,24 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// All an adversary knows when it moves. It sees the force before it has to.
+/// All that an adversary knows when it moves. It knows the force that will be held before it chooses.
 template <class Space>
 struct adversary_view {
   using vector = typename physical<Space>::vector;
   vector position;        ///< [m]
   vector normal;          ///< unit, outward
-  double depth;           ///< in the true surface [m], > 0 inside
-  vector force;           ///< that will be held while it moves [N]
+  double depth;           ///< depth in the true surface [m], > 0 inside
+  vector force;           ///< the force that will be held while it moves [N]
   double dt = 1e-3;       ///< length of the move [s]
   double damping = 0.03;  ///< b of the device [N·s/m]
 
-  /// How far it may go along each axis, either way, and nobody sees it move: to the end of the encoder's
-  /// step, or of what noise allows; ≥ 0 [m].
+  /// How far it may go along each axis, either way, without the sensors showing it: to the end of the encoder's
+  /// step, or of the noise; ≥ 0 [m].
   typename physical<Space>::coordinates room_below{}, room_above{};
   double presliding = 0.0;  ///< p of the device's friction [m]
 
-  /// The energy [J] that a move to `next` would book at the port, negative if it draws some. The
-  /// device knows it to the last bit, with the memory of its friction.
+  /// The energy [J] that a move to `next` [m] would book at the port, < 0 if it draws some. Where there is a
+  /// device, it computes that exactly, with the memory of its friction.
   [[nodiscard]] double price(const vector& next) const noexcept {
     if (ask != nullptr) return ask(device, next);
     const vector step = next - position;
@@ -38,7 +38,7 @@ struct adversary_view {
   double (*ask)(const void* device, const vector& next) = nullptr;
 };
 
-/// next(view, random): where to go within view.dt [m].
+/// next(view, random) is the position [m] to go to within view.dt [s].
 template <class M, class Space>
 concept adversary_for = requires(M m, const adversary_view<Space> view, random_source random) {
   { m.next(view, random) } -> std::same_as<typename physical<Space>::vector>;
@@ -60,8 +60,8 @@ struct nyquist_motion {
 template <class Space>
 struct random_walk {
   using vector = typename physical<Space>::vector;
-  double speed = 0.5;   ///< [m/s]
-  double range = 2e-3;  ///< farther than this from the surface it turns back [m]
+  double speed = 0.5;   ///< largest speed [m/s]
+  double range = 2e-3;  ///< distance from the surface at which it turns back [m]
 
   [[nodiscard]] vector next(const adversary_view<Space>& view,
                             random_source& random) const noexcept {
@@ -72,14 +72,14 @@ struct random_walk {
   }
 };
 
-/// Gain of a move: f·Δx − b ‖Δx‖²/dt, largest at Δx = f dt/(2b), shortened to what `speed` allows;
-/// the gain grows on the whole way there, so staying never beats it. It loads the wall in `press`
-/// of the ticks, and whenever nothing pushes back.
+/// Takes the move of the largest gain f·Δx − b ‖Δx‖²/dt [J], which is at Δx = f dt/(2b), shortened to what
+/// `speed` allows: the gain grows on the whole way there, so a shortened move is better than none. It
+/// presses in the share `press` of the ticks, and whenever the force is zero.
 template <class Space>
 struct greedy_motion {
   using vector = typename physical<Space>::vector;
-  double speed = 0.5;  ///< [m/s]
-  double press = 0.5;  ///< share of the ticks spent pressing
+  double speed = 0.5;  ///< largest speed [m/s]
+  double press = 0.5;  ///< share of the ticks spent pressing, 0 to 1
 
   [[nodiscard]] vector next(const adversary_view<Space>& view,
                             random_source& random) const noexcept {
@@ -93,8 +93,8 @@ struct greedy_motion {
   }
 };
 
-/// Rocks by a thousandth of a quantum across an edge of the encoder steps, outside the surface: a
-/// ledger of floored positions books b q²/dt for it on every axis and tick, the device hardly moves.
+/// Rocks by a thousandth of a quantum across an edge of the encoder steps, outside the surface: a ledger
+/// of floored positions books b q²/dt [J] for that on every axis and tick, though the device hardly moves.
 /// Then it spends that false credit as greedy_motion does, and comes back.
 template <class Space>
 struct rocking_motion {
@@ -127,16 +127,16 @@ struct rocking_motion {
   }
 };
 
-/// One of the others for 1 to 40 ticks, with amplitudes and speeds drawn anew, then another; or Δx at
-/// up to four times the worst of L3, which a bound that knows only the worst may not expect.
+/// Acts as one of the others for 1 to 40 ticks, with amplitudes and speeds drawn anew, then as another; or
+/// moves by up to four times the worst Δx of L3, for bounds that are tight at the worst Δx only.
 template <class Space>
 struct restless_motion {
   using vector = typename physical<Space>::vector;
-  double quantum = 60e-6;  ///< of the encoders, or any small length [m], > 0
-  double farthest = 2e-3;  ///< longest step of the last kind [m]
+  double quantum = 60e-6;  ///< q of the encoders, or any small length [m], > 0
+  double farthest = 2e-3;  ///< longest step by the worst Δx [m]
   int kind = 0;
   int ticks_left = 0;
-  double share = 1.0;  ///< of the motion's own amplitude, speed or multiple
+  double share = 1.0;  ///< factor of the motion's amplitude, speed or multiple, 0 to 1
   nyquist_motion<Space> tapping{};
   rocking_motion<Space> rocking{};
 

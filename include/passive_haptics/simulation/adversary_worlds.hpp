@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Surfaces, clocks and sensors at their worst; the menu is in adversary.hpp.
+// Surfaces, clocks and sensors that behave badly; the menu is in adversary.hpp.
 
 #include <passive_haptics/simulation/schedule.hpp>
 
@@ -8,7 +8,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// Where the surface has jumped to, along its normal [m].
+/// A surface that jumps to a random offset(time) along its normal [m] every 20-50 ms.
 class jumping_surface {
  public:
   constexpr explicit jumping_surface(double amplitude = 2e-3, std::uint64_t seed = 1) noexcept
@@ -25,7 +25,7 @@ class jumping_surface {
   random_source random_;
 };
 
-/// The stiffness of the moment [N/m].
+/// A stiffness(time) [N/m] that switches between two values every 20-50 ms.
 class switching_stiffness {
  public:
   constexpr switching_stiffness(double low, double high, std::uint64_t seed = 1) noexcept
@@ -40,7 +40,7 @@ class switching_stiffness {
   update_schedule schedule_;
 };
 
-/// A flat piece of surface at one moment, whatever the Space computes in.
+/// A flat surface at one moment, in double for any Space.
 template <class Space>
 struct surface_state {
   using vector = typename physical<Space>::vector;
@@ -54,16 +54,16 @@ struct surface_state {
   }
 };
 
-/// What an erratic surface may do at an update.
+/// What an erratic surface does at an update, and how often.
 struct surface_habits {
   bool jumps = false;  ///< it moves along its normal to within ±jump of where it started
   bool flips = false;  ///< any normal, often the opposite, at a depth within ±jump of the device
-  bool switches = false;  ///< its stiffness goes from the one end to the other, or anywhere between
-  bool hurries = false;   ///< every 1 to 10 ms
+  bool switches = false;  ///< its stiffness goes from one end to the other, or anywhere between
+  bool hurries = false;   ///< it updates every 1 to 10 ms
 };
 
-/// A surface that does one or several of these every 20-50 ms; with flips every 2-20 ms, unless it
-/// hurries.
+/// A surface that does these things at updates every 20-50 ms; if it flips every 2-20 ms, and if it
+/// hurries every 1-10 ms.
 template <class Space>
 class erratic_surface {
  public:
@@ -80,7 +80,7 @@ class erratic_surface {
         schedule_(schedule_of(habits, seed)),
         random_(~seed) {}
 
-  /// Moves on to this time [s], with the device at x [m]; true if anything has changed.
+  /// Moves on to `time` [s], with the device at x [m]; returns true if anything has changed.
   bool update(double time, const vector& x) noexcept {
     if (!schedule_.due(time) || !(habits_.jumps || habits_.flips || habits_.switches)) return false;
     const double offset = random_.uniform(-jump_, jump_);
@@ -115,8 +115,8 @@ class erratic_surface {
   random_source random_;
 };
 
-/// Periods [s]: all the same, or uniform in [½, 1] of it, and with `overruns` one in fifty 2 to 20
-/// times as long.
+/// Periods [s]: each is longest_tick, or with `jitter` uniform in [½, 1] of it; with `overruns` one in fifty
+/// is 2 to 20 times as long.
 struct erratic_clock {
   double longest_tick = 1e-3;  ///< [s]
   bool jitter = false;
@@ -128,7 +128,7 @@ struct erratic_clock {
   }
 };
 
-/// Every 25th sample or so is lost, and with it up to four that follow.
+/// With `dropouts` about every 25th sample is lost, and up to four that follow it.
 struct erratic_sensor {
   bool dropouts = false;
   int still_lost = 0;
@@ -142,16 +142,16 @@ struct erratic_sensor {
   }
 };
 
-/// How the error of a noisy sensor behaves. All of them are bounded; that is all a ledger may assume.
+/// How the error of a noisy sensor behaves. A ledger may assume of all of them that they are bounded, no more.
 enum class noise_habit : std::uint8_t {
-  uniform,      ///< drawn anew for each sample and axis
-  hiding,       ///< the position shown stays where it is for as long as it can
-  alternating,  ///< from one end to the other in each sample
-  with_force,   ///< at the end to which the force has changed
-  against_force,
+  uniform,        ///< drawn anew for each sample and axis
+  hiding,         ///< the position shown stays where it is for as long as it can
+  alternating,    ///< from one end to the other in each sample
+  with_force,     ///< at the end to which the force has changed
+  against_force,  ///< at the other end
 };
 
-/// Positions that are off by at most `width`/2 on each axis, either way.
+/// A sensor whose positions are off by at most `width`/2 [m] on each axis.
 template <class Space>
 class noisy_sensor {
  public:
@@ -194,7 +194,7 @@ class noisy_sensor {
     started_ = true;
     return e;
   }
-  /// How far the next position may lie below or above this one on axis i, and be shown the same [m].
+  /// How far [m] the next position may lie below or above this one on axis i while the sensor shows the same.
   [[nodiscard]] double room_below(int i) const noexcept { return half_ - component(error_, i); }
   [[nodiscard]] double room_above(int i) const noexcept { return half_ + component(error_, i); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// One run of challenge.hpp: who does what in the loop of a simulation. Compiled once per Space.
+// One run of challenge.hpp: an adversary in the loop of a simulation. It is compiled once per Space.
 
 #include <passive_haptics/simulation/attack_plan.hpp>
 #include <passive_haptics/simulation/device.hpp>
@@ -11,7 +11,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// One tick of a run, for whoever watches.
+/// One tick of a run, for the `watch` of replay().
 template <class Space>
 struct moment {
   int tick;
@@ -20,12 +20,12 @@ struct moment {
   surface_state<Space> surface;
   bool sample_lost;
   typename physical<Space>::vector force;  ///< commanded [N]
-  double energy;                           ///< at the port, so far [J]
+  double energy;                           ///< port energy so far, with dry friction [J]
 };
 
 namespace detail {
 
-/// Someone to call every tick, or nobody.
+/// A function to call every tick, or none.
 template <class Space>
 struct spectator {
   void* who = nullptr;
@@ -34,13 +34,12 @@ struct spectator {
 
 inline constexpr double nothing_known = std::numeric_limits<double>::quiet_NaN();
 
-/// What a run has shown.
 struct run_outcome {
-  double least_energy = 0.0;
-  double largest_force = 0.0;
+  double least_energy = 0.0;   ///< at the port [J], ≤ 0
+  double largest_force = 0.0;  ///< commanded [N]
 };
 
-/// A sample as a noisy sensor shows it, given the force that was commanded last.
+/// Adds the error of a noisy sensor to a sample, given the force that was commanded last [N].
 template <class Space>
 void spoil(device_sample<Space>& sample, noisy_sensor<Space>& noise,
            const typename physical<Space>::vector& position,
@@ -50,7 +49,7 @@ void spoil(device_sample<Space>& sample, noisy_sensor<Space>& noise,
       to_port<Space>(typename physical<Space>::vector(to_physical<Space>(sample.position) + e));
 }
 
-/// A run: world, sensor and clock as they are planned; move(device, command, period) is the hand.
+/// Plays a run with the world, sensor and clock of a plan; move(device, command, period) is the hand.
 template <class Space, class Device>
 run_outcome play(const subject<Space>& model, Device& device, erratic_surface<Space>& surface,
                  noisy_sensor<Space>& noise, const circumstances& world, const plan& how,
@@ -80,7 +79,7 @@ run_outcome play(const subject<Space>& model, Device& device, erratic_surface<Sp
   return {seen.least_energy, seen.largest_force};
 }
 
-/// The surface a run begins with: the model's own if that never moves, any through the origin if not.
+/// The surface at the start of a run: the model's own if that never moves, otherwise one through the origin.
 template <class Space>
 [[nodiscard]] surface_state<Space> first_surface(const subject<Space>& model,
                                                  const circumstances& world,
@@ -91,7 +90,7 @@ template <class Space>
   return surface;
 }
 
-/// use(device) of what no force can stop, with the friction of these circumstances.
+/// use(device) for a prescribed motion, which no force can stop, with the friction of `world`.
 template <class Space>
 [[nodiscard]] auto with_motion(const device_parameters<Space>& parameters,
                                const circumstances& world, auto use) noexcept {
@@ -102,7 +101,7 @@ template <class Space>
   prescribed_motion<Space> device(parameters);
   return use(device);
 }
-/// use(device) of the exact device with that hand on it.
+/// use(device) for the exact device with that hand on it.
 template <class Space>
 [[nodiscard]] auto with_hand(const device_parameters<Space>& parameters,
                              const striking_hand<Space>& hand, const circumstances& world,
@@ -116,7 +115,6 @@ template <class Space>
   return use(slides);
 }
 
-/// One run.
 template <class Space>
 run_outcome attack(const subject<Space>& model, adversary by, const circumstances& world,
                    std::uint64_t seed, const spectator<Space>& watch = {}) noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Who does what in a run of attack.hpp, and how a motion or a hand acts in one of its ticks.
+// The plan of a run of attack.hpp, and how a motion or a hand acts in one of its ticks.
 
 #include <passive_haptics/simulation/adversary.hpp>
 #include <passive_haptics/simulation/circumstances.hpp>
@@ -33,7 +33,7 @@ struct plan {
   bool jitter = false, overruns = false, dropouts = false;
 };
 
-/// Who does what; seeds differ in what else happens.
+/// The plan of an adversary. The seed chooses what the surface does besides.
 [[nodiscard]] constexpr plan plan_of(adversary by, std::uint64_t seed) noexcept {
   const bool even = seed % 2 == 0;
   const bool second = seed / 2 % 2 == 0;
@@ -78,7 +78,7 @@ struct plan {
   return {};
 }
 
-/// The velocity sources, one at a time.
+/// Any of the velocity sources.
 template <class Space>
 struct any_motion {
   actor who;
@@ -121,7 +121,7 @@ struct any_motion {
   }
 };
 
-/// What a velocity source sees before it moves.
+/// The view of a velocity source before it moves.
 template <class Space, class Friction>
 adversary_view<Space> view_of(const prescribed_motion<Space, Friction>& device,
                               const surface_state<Space>& surface,
@@ -147,7 +147,7 @@ struct priced {
   }
 };
 
-/// How far the device may go on axis i and the sensors show the same.
+/// Finds how far the device may go on each axis while the sensors show the same.
 template <class Space>
 void find_room(adversary_view<Space>& view, const circumstances& world,
                const noisy_sensor<Space>& noise) noexcept {
@@ -165,7 +165,7 @@ void find_room(adversary_view<Space>& view, const circumstances& world,
   }
 }
 
-/// A velocity source acts: where to, and in an overrun where to be when the force is dropped.
+/// A velocity source acts: it chooses the next position, and in an overrun the one at which the force is dropped.
 template <class Space, class Friction>
 void act(prescribed_motion<Space, Friction>& device, any_motion<Space>& motion,
          const surface_state<Space>& surface, const typename Space::vector& command, double period,
@@ -189,16 +189,16 @@ void act(prescribed_motion<Space, Friction>& device, any_motion<Space>& motion,
   device.move_via(state(x + best), random.chance(0.5) ? x : next);
 }
 
-/// What a force-limited hand keeps in mind.
+/// The memory of a force-limited hand.
 template <class Space>
 struct intention {
-  int ticks_left = 0;
-  double press = 0.0;                             ///< steadily, inwards [N]
-  double tremor = 0.0;                            ///< with the force, on each axis [N]
-  typename physical<Space>::coordinates force{};  ///< of the model, last [N]
+  int ticks_left = 0;   ///< until the hand changes its mind
+  double press = 0.0;   ///< steady force inwards [N]
+  double tremor = 0.0;  ///< force on each axis in phase with the model's [N]
+  typename physical<Space>::coordinates force{};  ///< last force of the model [N]
 };
 
-/// A force-limited hand presses and trembles: with the force where it has grown.
+/// A force-limited hand presses, and trembles along the force where it has grown, against it where it has fallen.
 template <class Space>
 void tremble(striking_hand<Space>& hand, intention<Space>& mind,
              const surface_state<Space>& surface, const typename physical<Space>::vector& force,
@@ -221,7 +221,7 @@ void tremble(striking_hand<Space>& hand, intention<Space>& mind,
   hand.push = push;
 }
 
-/// A force-limited hand acts: taps, trembles, or changes its mind every 1 to 40 ticks.
+/// A force-limited hand acts: it taps, trembles, or changes its push every 1 to 40 ticks.
 template <class Space, class Device>
 void act(Device& device, intention<Space>& mind, actor who, const surface_state<Space>& surface,
          const typename Space::vector& command, random_source& random) noexcept {

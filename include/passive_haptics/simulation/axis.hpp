@@ -4,13 +4,13 @@
 //
 //     m ẍ + b ẋ = F − f_c sign(ẋ),     lower ≤ x ≤ upper                       F held for a time h
 //
-//   flow          the linear part over a time h, in closed form: any b h/m from 0 upwards
+//   flow          the linear part over a time h, in closed form, for any b h/m ≥ 0
 //   axis          adds Coulomb friction with stiction and inelastic end stops, event by event
-//   axis_motion   what happened: the displacement, and where the energy went
+//   axis_motion   the displacement, and where the energy went
 //
 // A constant force leaves at most three events: the axis comes to rest, it turns or hits a stop, it
-// hits the other one. Not offered: a step size, elastic stops. Friction that is elastic, or has a
-// Stribeck curve: friction_axis.hpp.
+// hits the other stop. Not offered: a step size, elastic stops. For friction that is elastic or has a
+// Stribeck curve see friction_axis.hpp.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -21,15 +21,14 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// What m v̇ + b v = F, F constant, does in a time h. With r = b/m, z = r h, a = F/m:
+/// The solution of m v̇ + b v = F, F constant, over a time h. With r = b/m [1/s], z = r h, a = F/m [m/s²]:
 ///     v(h) = v + v (e⁻ᶻ − 1) + a h φ₁(z)    φ₁(z) = (1 − e⁻ᶻ)/z
 ///     Δx   = v h φ₁(z) + a h² φ₂(z)         φ₂(z) = (1 − φ₁)/z
 ///     ∫v²  = A (v + C a)² + D a²            A = h φ₁(2z),  C = h φ₁/(1 + e⁻ᶻ),
 ///                                           D = h³ (ψ − φ₁³/(2 + 2e⁻ᶻ)),  ψ = (φ₂ − φ₁²/2)/z
-/// The change of v is what is rounded, not the factor e⁻ᶻ: the error of a million steps stays
-/// random. The integral is a sum of squares, so it is never negative, and its form is well
-/// conditioned for all z (2 × 2 Hilbert matrix at z = 0): unlike F Δx − ½ m Δ(v²) it has no
-/// cancellation to fear.
+/// Rounding acts on the change of v and not on the factor e⁻ᶻ, so the errors of a million steps stay
+/// random. The integral is a sum of squares, so it is never negative, and its form is well conditioned
+/// for all z (2 × 2 Hilbert matrix at z = 0): unlike F Δx − ½ m Δ(v²) it does not cancel.
 class flow {
  public:
   flow() noexcept = default;
@@ -85,7 +84,7 @@ struct axis_state {
 };
 
 /// Δx [m] and the energy [J] that went into the damper (∫ b v² dt), into dry friction (here ∫ f_c|v| dt)
-/// and into the end stops. Each is ≥ 0. What elastic friction stores may be taken out again.
+/// and into the end stops, each ≥ 0, and into the springs of elastic friction, which is < 0 if they hand it back.
 ///     F Δx = Δ(½ m v²) + damping + friction + stops + stored
 struct axis_motion {
   double displacement = 0.0;
@@ -102,7 +101,7 @@ struct axis {
   double lower = -std::numeric_limits<double>::infinity();  ///< end stop [m]
   double upper = std::numeric_limits<double>::infinity();   ///< end stop [m]
 
-  /// The linear part over h [s]: make it once, use it for every interval of that length.
+  /// The linear part over h [s]. Make it once and use it for every interval of that length.
   [[nodiscard]] flow over(double h) const noexcept { return {damping / mass, h}; }
 
   axis_motion advance(axis_state& state, double force, double h) const noexcept {
@@ -131,7 +130,7 @@ struct axis {
  private:
   [[nodiscard]] double kinetic(double v) const noexcept { return mass * v * v / 2.0; }
 
-  /// The motion up to the next event or to the end of `ahead`; returns the time it took.
+  /// Moves up to the next event or the end of `ahead`; returns the time that took [s].
   double advance_to_event(axis_state& s, double force, double left, flow ahead,
                           axis_motion& done) const noexcept {
     const bool resting = s.velocity == 0.0;
@@ -162,14 +161,14 @@ struct axis {
     return ahead.duration();
   }
 
-  /// v e⁻ʳᵗ + a t φ₁(r t) = 0  ⇔  t = ln(1 + q)/r with q = −r v/a > 0
+  /// t [s] at which v e⁻ʳᵗ + a t φ₁(r t) = 0:  t = ln(1 + q)/r with q = −r v/a ≥ 0
   [[nodiscard]] double time_to_rest(double v, double a) const noexcept {
     const double q = -(damping / mass) * v / a;
     return -v / a * (q > 0.0 ? std::log1p(q) / q : 1.0);
   }
 
-  /// The time in [0, latest] at which a motion that does not turn has gone `distance` [m]: Newton's
-  /// iteration, kept in a bracket that halves whenever it would leave it.
+  /// The time [s] in [0, latest] at which a motion that does not turn has gone `distance` [m], by Newton's
+  /// iteration in a bracket, which is halved whenever an iterate would leave it.
   [[nodiscard]] double time_to_travel(double distance, double v, double a,
                                       double latest) const noexcept {
     const double way = distance > 0.0 ? 1.0 : -1.0;

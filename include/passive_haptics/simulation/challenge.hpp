@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// One call that throws any composed model at any adversary, and says what the hand got out of it:
+// One call that exposes any composed model to any adversary and says how much energy the hand drew:
 //
 //     for (const auto& v : sim::challenge_all(model)) {
 //       std::printf("%-16s %s\n", to_string(v.by), passes(v) ? "passive" : "loses");
 //     }
 //     double E = sim::replay(model, v.by, {}, v.worst_seed, [](const auto& now) { ... });
 //
-// Five more are smaller than what the device can tell: for encoders with steps or noise, and for dry
-// friction that is elastic before it slips.
+// Five more adversaries move less than the device can tell. They are for encoders with steps or noise, and for
+// dry friction that is elastic before it slips.
 //     sim::challenge_encoders(model, {.friction = 0.2, .presliding = 15e-6, .quantum = 60e-6});
 //
-// Any passive port will do. Where it has not just one contact, say how a surface is laid on it:
+// Any passive port will do. If it has not just one contact, state how a surface is laid on it:
 //     sim::challenge_all(corner, {}, 1000, 1, [](auto& port, const auto& surface) { ... });
 //
 // The judge is the exact port energy of the simulation, dry friction included, and never the model's
-// own observer. Seeds make every run repeatable. A model that survives has survived these runs: that
-// is a test, the proof is in its bound. Two adversaries are hands whose force is limited; to the
-// others no force is a hindrance, which is more than a `conditional` bound has promised to survive.
+// own observer. Seeds make every run repeatable. A model that survives has survived these runs only: this
+// is a test, and the proof is in its bound. Of the twelve, two are hands of limited force. No force can stop
+// the other ten, and a `conditional` bound does not promise to survive those.
 
 #include <passive_haptics/simulation/attack.hpp>
 
@@ -27,19 +27,19 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// What `runs` runs have shown. Energies at the port [J], each the least of its run; NaN if the
+/// The result of `runs` runs. Each run counts by its least port energy [J], which is NaN if the
 /// circumstances are impossible or a force was commanded that is no number.
 struct verdict {
   adversary by{};
   int runs = 0;
-  double least_energy = 0.0;     ///< of all runs
-  double mean_energy = 0.0;      ///< over the runs
-  double largest_force = 0.0;    ///< commanded [N]: a model that never pushes is no proof
-  std::uint64_t worst_seed = 0;  ///< replay() it
+  double least_energy = 0.0;     ///< least of all runs [J]
+  double mean_energy = 0.0;      ///< mean over the runs [J]
+  double largest_force = 0.0;    ///< commanded [N]; if it is 0 the model has shown nothing
+  std::uint64_t worst_seed = 0;  ///< seed of the least energy, for replay()
 };
 
-/// Not a joule lost, to rounding in double. In float a ledger of 1 mJ already rounds by 1e-10 J a
-/// tick: say what you accept.
+/// True if no run lost more than `accepted_loss` [J]. The default is rounding in double; in float a ledger
+/// of 1 mJ already rounds by 1e-10 J a tick, so state a larger one.
 [[nodiscard]] constexpr bool passes(const verdict& v, double accepted_loss = 1e-12) noexcept {
   return v.runs > 0 && v.least_energy >= -accepted_loss;
 }
@@ -66,8 +66,8 @@ verdict judge(const subject<Space>& model, adversary by, const circumstances& wo
 
 }  // namespace detail
 
-/// `runs` runs of one adversary, with seeds first_seed, first_seed + 1, ...; each works on a fresh
-/// copy of the model. Any passive port will do: `lay` says how a surface is laid on it (subject.hpp).
+/// `runs` runs of one adversary, with seeds first_seed, first_seed + 1, ...; each works on a fresh copy of the
+/// model. `lay` says how a surface is laid on the model (subject.hpp).
 template <class Model, lay_for<Model> Lay = usual_lay<Model>>
 [[nodiscard]] verdict challenge(const Model& model, adversary by, const circumstances& world = {},
                                 int runs = 1000, std::uint64_t first_seed = 1,
@@ -92,7 +92,7 @@ template <std::size_t N>
 
 }  // namespace detail
 
-/// The twelve in turn, `runs` runs each.
+/// The twelve adversaries of all_adversaries in turn, `runs` runs each.
 template <class Model, lay_for<Model> Lay = usual_lay<Model>>
 [[nodiscard]] auto challenge_all(const Model& model, const circumstances& world = {},
                                  int runs = 1000, std::uint64_t first_seed = 1,
@@ -100,7 +100,7 @@ template <class Model, lay_for<Model> Lay = usual_lay<Model>>
   return detail::challenge_each(all_adversaries, model, world, runs, first_seed, lay);
 }
 
-/// The five that are smaller than an encoder step, noise or a presliding displacement.
+/// The five of encoder_adversaries, which move less than an encoder step, noise or a presliding displacement.
 template <class Model, lay_for<Model> Lay = usual_lay<Model>>
 [[nodiscard]] auto challenge_encoders(const Model& model, const circumstances& world,
                                       int runs = 1000, std::uint64_t first_seed = 1,
@@ -108,7 +108,7 @@ template <class Model, lay_for<Model> Lay = usual_lay<Model>>
   return detail::challenge_each(encoder_adversaries, model, world, runs, first_seed, lay);
 }
 
-/// One run again: the least port energy [J] of that seed, to the last bit on the same machine and
+/// Repeats one run and returns its least port energy [J], equal to the last bit on the same machine and
 /// build. `watch(moment)` is called every tick.
 template <class Model, class Watch, lay_for<Model> Lay = usual_lay<Model>>
 double replay(const Model& model, adversary by, const circumstances& world, std::uint64_t seed,

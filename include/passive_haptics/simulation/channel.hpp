@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A bad network in virtual time: it delays, loses, duplicates and reorders.
+// A bad network in virtual time: it delays, loses, duplicates and reorders packets.
 //
 //   send(packet, now) ─▶ lost? ─▶ arrives at now + delay + U(0, jitter) ─▶ take(now)
 //                         twice?
@@ -17,8 +17,8 @@ inline namespace v0 {
 namespace simulation {
 
 struct channel_parameters {
-  double delay = 0.0;        ///< every packet [s]
-  double jitter = 0.0;       ///< up to this much on top, uniform, each packet its own [s]
+  double delay = 0.0;        ///< least delay of every packet [s]
+  double jitter = 0.0;       ///< most additional delay, uniform, drawn for each copy [s]
   double loss = 0.0;         ///< probability that a copy never arrives
   double duplication = 0.0;  ///< probability that a packet is sent twice
   bool in_order = false;     ///< a queue: no packet overtakes one that was sent before it
@@ -36,8 +36,8 @@ struct channel_parameters {
   }
 };
 
-/// One direction. Up to `Capacity` packets are on their way; what does not fit is lost, as in a
-/// router. Needs no heap. One whose check() names a fault loses everything.
+/// One direction of the network. Up to `Capacity` copies are on their way, and one that does not fit is lost, as
+/// in a router. It needs no heap. A channel whose check() names a fault loses everything.
 template <class Packet, std::size_t Capacity = 1024>
 class channel {
  public:
@@ -60,8 +60,8 @@ class channel {
     }
   }
 
-  /// The next packet that has arrived by `now` [s], by arrival, or null. It stays untouched until
-  /// the next send().
+  /// The next packet that has arrived by `now` [s], in the order of arrival, or null. It is valid until the
+  /// next send().
   [[nodiscard]] constexpr const Packet* take(double now) noexcept {
     if (count_ == 0 || slot(0).arrival > now) return nullptr;
     const Packet& first = slot(0).packet;
@@ -71,7 +71,7 @@ class channel {
   }
 
   [[nodiscard]] constexpr std::size_t in_flight() const noexcept { return count_; }
-  [[nodiscard]] constexpr std::uint64_t lost() const noexcept { return lost_; }  ///< copies
+  [[nodiscard]] constexpr std::uint64_t lost() const noexcept { return lost_; }  ///< lost copies
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return parameters_.check(); }
 
  private:
@@ -83,7 +83,7 @@ class channel {
   [[nodiscard]] constexpr in_transit& slot(std::size_t i) noexcept {
     return ring_[(head_ + i) % Capacity];
   }
-  /// Keeps the ring sorted by arrival; what arrives at the same instant keeps its order.
+  /// Keeps the ring sorted by arrival; packets that arrive at the same instant keep their order.
   constexpr void insert(const in_transit& entry) noexcept {
     std::size_t i = count_++;
     for (; i > 0 && slot(i - 1).arrival > entry.arrival; --i) slot(i) = slot(i - 1);
@@ -96,7 +96,7 @@ class channel {
   std::array<in_transit, Capacity> ring_{};
   std::size_t head_ = 0, count_ = 0;
   std::uint64_t lost_ = 0;
-  double latest_ = 0.0;  ///< the last arrival promised [s]
+  double latest_ = 0.0;  ///< arrival of the packet sent last [s]
 };
 
 }  // namespace simulation

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Who attacks in a challenge, and what is true there.
+// The adversaries of a challenge, and the true circumstances in which they attack.
 //
-//   adversary       one of twelve; all_adversaries, to_string, is_force_limited
-//                   or one of five that are smaller than an encoder step; encoder_adversaries
-//   circumstances   the device, its clock and its encoders as they are, and how wild the world is
+//   adversary       one of the twelve of all_adversaries, or of the five of encoder_adversaries, which
+//                   move less than an encoder step; to_string, is_force_limited
+//   circumstances   the true device, clock and encoders, and how wild the world is
 
 #include <passive_haptics/simulation/driver.hpp>
 #include <passive_haptics/simulation/friction_kind.hpp>
@@ -29,8 +29,8 @@ enum class adversary : std::uint8_t {
   dropouts,         ///< samples that never arrive
   tapping,          ///< a force-limited hand that reverses exactly at the surface
   random_tapping,   ///< the same hand, anywhere and at any moment
-  kitchen_sink,     ///< everything but the two hands, at once
-  in_step,          ///< inside an encoder step, or what noise hides, in phase with the force
+  kitchen_sink,     ///< everything but the hands, at once
+  in_step,          ///< inside an encoder step, or within the noise, in phase with the force
   presliding,       ///< the same, no farther than friction is elastic
   worst_step,       ///< presses, leaves by the cheapest of a dozen small steps
   dither,           ///< forward 2, back 1 within p, then greedy
@@ -43,8 +43,8 @@ inline constexpr std::array all_adversaries{
     adversary::overruns,        adversary::rocking,         adversary::dropouts,
     adversary::tapping,         adversary::random_tapping,  adversary::kitchen_sink};
 
-/// Smaller than a device with steps, noise or elastic friction can tell. Where there are none of these
-/// they move by some micrometres.
+/// The adversaries that move less than a device with steps, noise or elastic friction can tell. Without any of
+/// these they move by some micrometres.
 inline constexpr std::array encoder_adversaries{adversary::in_step, adversary::presliding,
                                                 adversary::worst_step, adversary::dither,
                                                 adversary::trembling};
@@ -89,34 +89,34 @@ inline constexpr std::array encoder_adversaries{adversary::in_step, adversary::p
   return "unknown adversary";
 }
 
-/// Is it a hand of at most circumstances::hand_force on a device of circumstances::mass, with
-/// periods that do not vary and no sample lost?
+/// True for a hand of at most circumstances::hand_force on a device of circumstances::mass. Its periods do
+/// not vary, and no sample is lost.
 [[nodiscard]] constexpr bool is_force_limited(adversary by) noexcept {
   return by == adversary::tapping || by == adversary::random_tapping || by == adversary::trembling;
 }
 
-/// The truth about the device, and how wild the world is. The model must have been told no more
-/// damping, mass and friction, no less hand force, longest tick, presliding and, of its encoders,
-/// quantum + noise, and just this latency and watchdog.
+/// The truth about the device, and how wild the world is. The model under test must state at most this damping,
+/// mass and friction, at least this hand force, longest tick, presliding and quantum + noise, and exactly this
+/// latency and watchdog.
 struct circumstances {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   double damping = 0.03;    ///< b [N·s/m]
-  double mass = 0.1;        ///< apparent, hand included [kg]; for the two hands
+  double mass = 0.1;        ///< apparent, hand included [kg]; counts for force-limited hands only
   double friction = 0.0;    ///< f_c, per axis [N]
   double presliding = 0.0;  ///< p, over which friction is elastic; 0: rigid [m]
-  friction_kind rubs_like = friction_kind::one_spring;  ///< where it is
-  double hand_force = 5.0;                              ///< most of the hands [N]
+  friction_kind rubs_like = friction_kind::one_spring;  ///< model of elastic friction
+  double hand_force = 5.0;                              ///< largest force of the hands [N]
   double quantum = 0.0;                                 ///< positions are floored to multiples [m]
-  double noise = 0.0;             ///< and off by up to half of this, per axis, either way [m]
-  double force_limit = infinity;  ///< of the actuators [N]
+  double noise = 0.0;             ///< positions are off by up to half of this, per axis [m]
+  double force_limit = infinity;  ///< largest force of the actuators [N]
   double longest_tick = 1e-3;     ///< the period, unless the adversary varies it [s]
   int latency = 0;                ///< ticks from a command to its holding
   bool watchdog = true;           ///< the driver drops a force after longest_tick: tell the model
-  double softest = 2e3;           ///< surface [N/m]
-  double stiffest = 22e3;         ///< surface [N/m]
+  double softest = 2e3;           ///< least stiffness of a surface [N/m]
+  double stiffest = 22e3;         ///< largest stiffness of a surface [N/m]
   double jump = 2e-3;             ///< farthest the surface jumps, either way [m]
-  int ticks = 600;                ///< of a run
+  int ticks = 600;                ///< length of a run
 
   [[nodiscard]] parameter_fault check() const noexcept {
     if (!(softest > 0.0)) return {"softest", softest, "> 0 N/m"};

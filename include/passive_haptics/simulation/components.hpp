@@ -7,7 +7,7 @@
 //   to_physical<Space>    from the port to the physics          to_port<Space>    and back
 //   clamp_norm            a vector shortened to a length, without overflow
 //
-// Includes no Eigen: a Space of two and more degrees of freedom has brought it along.
+// This header includes no Eigen, because a Space of two or more degrees of freedom has included it.
 
 #include <passive_haptics/device/space.hpp>
 
@@ -58,7 +58,7 @@ template <class Space, class Vector>
   return result;
 }
 
-/// v, or the vector along v of that length if v is longer. Exact on one axis; finite for every
+/// v, or the vector of length `length` along v if v is longer. It is exact on one axis, and finite for every
 /// finite v, even where ‖v‖ overflows.
 template <class Space>
 [[nodiscard]] constexpr typename physical<Space>::vector clamp_norm(

@@ -3,15 +3,14 @@
 // A simulated haptic device: position out, force in, one period per exchange, exact physics.
 //
 //   command ─▶ driver ─▶ held for T ─┐
-//              refuse, saturate,     ├─▶ m ẍ + b ẋ = f + load + F_hand, per axis ─▶ encoders ─▶
-//              sample delay       load, hand┘   friction, end stops, exactly              quantum
-//                                              └─▶ meter: E = ∫ b v² dt − Σ f·Δx, true positions
+//              refuse, saturate,     ├─▶ m ẍ + b ẋ = f + load + F_hand, per axis ─▶ encoders ─▶ sample
+//              delay      load, hand ┘   friction, end stops, exactly │             quantum
+//                                                                     └─▶ meter: E = ∫ b v² dt − Σ f·Δx
 //
-// The force is a zero-order hold over T, or until the watchdog drops it, and the hand one over
-// 1/substeps of each of the two parts; between those instants nothing is approximated, so energy
-// books close to rounding. With no_hand each part is one step. Dry friction is rigid; one that is elastic
-// before it slips is a third argument (friction.hpp), and then the motion is approximated, finely, and
-// the books close all the same.
+// The force is held over T, or until the watchdog drops it. The hand's force is held over 1/substeps of each
+// of these two parts, or over a whole part with no_hand. Between those instants the motion is exact, so the
+// energy balance closes to rounding. Dry friction is rigid by default. With a model of elastic friction as third
+// argument (friction.hpp) the motion is approximated in fine steps, and the balance closes all the same.
 
 #include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/simulation/axis.hpp>
@@ -27,10 +26,10 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// Models haptic_device_for<Space>. One whose check() names a fault answers with samples that are
-/// not valid, and does not move.
-///     device<scene, impedance_hand<scene>> falcon{{.mass = 0.15, .force_limit = 9.0}, {.limit
-///     = 5.0}}; sample = falcon.exchange(force);
+/// Models haptic_device_for<Space>. A device whose check() names a fault answers with samples that are not
+/// valid, and does not move.
+///     device<scene, impedance_hand<scene>> falcon{{.mass = 0.15, .force_limit = 9.0}, {.limit = 5.0}};
+///     sample = falcon.exchange(force);
 template <class Space, class Hand = no_hand<Space>, device_friction Friction = coulomb_friction>
 class device {
  public:
@@ -58,8 +57,8 @@ class device {
     sound_ = has_period && !check();
   }
 
-  /// Holds the force that is due for one period and returns what the device then knows: the
-  /// position at its end, the force held during it, its length.
+  /// Takes the command [N], holds the force that is due for one period, and returns the position at its end, the
+  /// force held during it and its length.
   device_sample<Space> exchange(const vector& force) noexcept {
     if (!sound_) return {};
     const vector held = driver_.next(force);
@@ -73,7 +72,7 @@ class device {
     return {measured<Space>(position_, parameters_.quantum), held, period_, true};
   }
 
-  /// The length of the coming periods [s], for jitter. False, and nothing changes, unless it is
+  /// Sets the length of the coming periods [s], for jitter. Returns false, and changes nothing, unless T is
   /// finite and > 0.
   bool set_period(double T) noexcept {
     const scalar rounded = static_cast<scalar>(T);
@@ -102,11 +101,11 @@ class device {
   [[nodiscard]] const Hand& hand() const noexcept { return hand_; }
   [[nodiscard]] const port_energy_meter& meter() const noexcept { return meter_; }
   [[nodiscard]] const parameters_type& parameters() const noexcept { return parameters_; }
-  /// ½ (m + m_hand) ‖v‖² [J]; the hand's mass is the one it had at the start.
+  /// ½ (m + m_hand) ‖v‖² [J], with the mass that the hand had at the start.
   [[nodiscard]] double kinetic() const noexcept {
     return moving_mass_ * physical<Space>::dot(velocity_, velocity_) / 2.0;
   }
-  /// The energy the books cannot explain [J]: zero to rounding, or the simulation is wrong.
+  /// The energy missing from the balance [J]: zero up to rounding, or the simulation is wrong.
   [[nodiscard]] double residual() const noexcept { return meter_.residual(kinetic()); }
 
  private:
@@ -115,7 +114,7 @@ class device {
     return parameters_.substeps > 1 ? parameters_.substeps : 1;
   }
 
-  /// One force of the actuators for `pieces()` holds of the hand.
+  /// Moves under one force of the actuators [N] for pieces() holds of the hand's force.
   void hold(double from, const flow& step, const state& actuator, const state& load) noexcept {
     for (int i = 0; i < pieces(); ++i) {
       const double t = from + i * step.duration();
@@ -125,7 +124,7 @@ class device {
     }
   }
 
-  /// All axes through one hold of the hand's force.
+  /// Moves all axes through one hold of the hand's force.
   energy_flows move(const flow& step, const state& actuator, const state& push,
                     const state& load) noexcept {
     energy_flows flows;
@@ -163,16 +162,16 @@ class device {
   parameters_type parameters_;
   Hand hand_;
   Friction friction_;
-  std::array<typename Friction::state, Space::dof> memory_{};  ///< by axis
+  std::array<typename Friction::state, Space::dof> memory_{};  ///< of the friction on each axis
   driver<Space> driver_;
   state position_, velocity_;
   double moving_mass_;
   port_energy_meter meter_;
-  flow driven_;    ///< one hold of the hand while the force lasts
-  flow coasting_;  ///< and after the watchdog has dropped it
+  flow driven_;    ///< one hold of the hand's force before the watchdog drops the force
+  flow coasting_;  ///< one hold of the hand's force after that
   scalar period_{};
   compensated_sum<double> time_;
-  bool sound_ = false;  ///< are the parameters good?
+  bool sound_ = false;  ///< check() names no fault
 };
 
 static_assert(haptic_device_for<device<space<float, 1>>, space<float, 1>>);

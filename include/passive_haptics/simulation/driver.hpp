@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a simulated device is made of, and what lies between a command and its motors.
+// The parameters of a simulated device, and the driver between a command and its motors.
 //
 //   device_parameters   every number of the device, with its unit and default
-//   driver              refuses what is no number, saturates, delays: returns the force REALLY held
+//   driver              refuses a force that is no number, saturates, delays: returns the force REALLY held
 //   driven_time         how much of a period the force lasts before the watchdog drops it
 
 #include <passive_haptics/base/parameter.hpp>
@@ -24,22 +24,22 @@ struct device_parameters {
   using coordinates = typename physical<Space>::coordinates;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int max_latency = 8;
-  // g++ 12 crashes where the first call of a function is a default below, in a device that is itself a
-  // member of a class: this is an earlier call.
+  // g++ 12 crashes if a default below is the first call of a function, in a device that is itself a member of a
+  // class; this call comes earlier.
   static_assert((static_cast<void>(every_axis<Space>(infinity)), true));
 
   double mass = 0.1;                                 ///< m [kg], the same along every axis
   double damping = 0.03;                             ///< b [N·s/m]
   double friction = 0.0;                             ///< f_c [N], Coulomb, per axis
-  double force_limit = infinity;                     ///< most ‖f‖ [N]; the direction is kept
+  double force_limit = infinity;                     ///< largest ‖f‖ [N]; the direction is kept
   double quantum = 0.0;                              ///< positions are floored to multiples [m]
   coordinates lower = every_axis<Space>(-infinity);  ///< end stops [m], inelastic
   coordinates upper = every_axis<Space>(infinity);   ///< end stops [m], inelastic
-  coordinates load{};                                ///< constant force, a weight [N]
+  coordinates load{};                                ///< constant force, such as a weight [N]
   double period = 1e-3;                              ///< T [s]
   coordinates start{};                               ///< position [m]
   coordinates start_velocity{};                      ///< [m/s]
-  int substeps = 20;                                 ///< times per period the hand is asked
+  int substeps = 20;                                 ///< how often per period the hand is asked
   int latency = 0;                                   ///< periods from a command to its holding
   double watchdog = infinity;                        ///< a force is held no longer than this [s]
 
@@ -69,8 +69,8 @@ struct device_parameters {
   }
 };
 
-/// The force commanded in period n is held during period n + latency; until then, zero. A command
-/// that is not finite is held as zero, as a real driver would.
+/// The force commanded in period n is held during period n + latency; before the first it holds zero. A
+/// command that is not finite is held as zero, as by a real driver.
 template <class Space>
 class driver {
  public:
@@ -88,7 +88,7 @@ class driver {
     queue_[0] = Space::is_finite(command) ? saturated(command) : Space::zero();
     return queue_[last];
   }
-  /// What next(command) would return.
+  /// The force [N] that next(command) would return.
   [[nodiscard]] vector upcoming(const vector& command) const noexcept {
     return driver(*this).next(command);
   }
@@ -103,16 +103,16 @@ class driver {
   std::array<typename Space::coordinates, parameters::max_latency + 1> queue_{};
 };
 
-/// For how long of a period [s] the force is held: all of it, or until the watchdog drops it. It is
-/// compared in the scalar of the port, so that a period equal to it does not trip it.
+/// The time [s] for which the force is held in a period: all of it, or until the watchdog drops it. The two
+/// are compared in the scalar of the port, so that a period equal to the watchdog's time does not trip it.
 template <class Space>
 [[nodiscard]] double driven_time(typename Space::scalar period, double watchdog) noexcept {
   const auto limit = static_cast<typename Space::scalar>(watchdog);
   return static_cast<double>(period > limit ? limit : period);
 }
 
-/// What the encoders show [m]: the true position floored to a multiple of `quantum`, in the Space's
-/// own scalar.
+/// The position that the encoders show [m]: the true one floored to a multiple of `quantum` [m], in the
+/// Space's own scalar.
 template <class Space>
 [[nodiscard]] typename Space::vector measured(const typename physical<Space>::vector& position,
                                               double quantum) noexcept {

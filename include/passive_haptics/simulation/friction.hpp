@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Dry friction that is elastic before it slips. Real friction gives way by a presliding displacement p
-// of some micrometres first, as a spring does, and hands back what it has stored; a controller that
-// credits c|Δx| for motions within p has credited what nobody paid.
+// Dry friction that is elastic before it slips.
+// Real friction first gives way by a presliding displacement p of some micrometres, like a spring, and hands the
+// stored energy back. A controller that credits c|Δx| [J] for motions within p credits energy that nobody paid.
 //
 //     sim::device<scene, sim::no_hand<scene>, sim::slider_and_spring> touch{{.mass = 0.045}, {},
 //                                            {.level = {0.26}, .presliding = {15e-6}}};
 //
-//   coulomb_friction     rigid: c = device_parameters::friction. The default, and exact
+//   coulomb_friction     rigid, with c = device_parameters::friction [N]: the default, and exact
 //   friction_elastic.hpp: these remember where they were reversed, and claim() c and p
 //     slider_and_spring    a spring c/p in series with a slider c (Prandtl, elasto-plastic)
 //     maxwell_slip<n>      n of them side by side (Iwan; Al-Bender and others, 2005)
 //     dupont_friction      one bristle that begins to creep at a share of p (Dupont and others, 2002)
 //     stribeck_friction    static and kinetic level, and a level that ripples along the way
-//   friction_bristle.hpp: these do not, and claim nothing: a dither of "forward 2, back 1" lowers what
-//   they take for each metre gained to a third
+//   friction_bristle.hpp: these forget where they were reversed, and claim nothing: under a dither of "forward 2,
+//   back 1" they take as little as c/3 for each metre gained
 //     dahl_friction        dF/dx = (c/p) (1 − (F/c) sgn ẋ)                       (Dahl, 1968)
 //     lugre_friction       the same with a Stribeck curve and a bristle damper   (Canudas and others, 1995)
-//   friction_axis.hpp      moves a mass against them: in short steps that lose no energy
+//   friction_axis.hpp      moves a mass against them in short steps that lose no energy
 //   friction_kind.hpp      any of them, chosen at run time, for a given c and p
 //
 // Each is a plain struct of numbers and acts on every axis by itself, as device_parameters::friction does.

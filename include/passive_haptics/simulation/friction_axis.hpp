@@ -4,14 +4,13 @@
 //
 //     m ẍ + b ẋ = F − F_f(x, ẋ, memory),     lower ≤ x ≤ upper
 //
-// The time is cut into steps δ of at most a sixteenth of a radian of mass and friction spring. In each,
-// F_f is the mean of what the friction does along the way Δ of that step, taken at constant velocity:
+// The time is cut into steps δ [s] of at most a sixteenth of a radian of the mass on the friction's spring. In
+// each step F_f is the mean friction along the way Δ [m] of that step, taken at constant velocity:
 //
 //     Δ = Δ(F) − s W(Δ)/Δ          Δ(F): the exact way without friction; s = Δ(1 N); W: slide().work
 //
-// So its work is W(Δ) and the books close to rounding, whatever the step (a discrete gradient). The
-// motion itself is of second order in δ: an undamped oscillation within p comes out slow by at most
-// 1/3000.
+// So the work of F_f is W(Δ), and the energy balance closes to rounding for any step (a discrete gradient). The
+// motion itself is of second order in δ: an undamped oscillation within p comes out slow by at most 1/3000.
 
 #include <passive_haptics/simulation/axis.hpp>
 #include <passive_haptics/simulation/friction_model.hpp>
@@ -24,10 +23,9 @@ namespace simulation {
 
 namespace detail {
 
-/// What the friction took in a step, and its mean over the way.
 struct slid {
-  friction_work took{};
-  double mean = 0.0;  ///< [N]
+  friction_work took{};  ///< work of a step against the friction [J]
+  double mean = 0.0;     ///< mean friction along its way [N]
 };
 
 /// One step: solves the equation above for Δ.
@@ -42,8 +40,7 @@ class friction_step {
         free_(ahead.displacement(from.velocity, force / along.mass)),
         ease_(ahead.displacement(0.0, 1.0 / along.mass)) {}
 
-  /// Δ by regula falsi in a bracket that is opened from the friction met at first, with the memory
-  /// moved along.
+  /// Solves for Δ by regula falsi, in a bracket that is opened from the first friction met, and moves the memory.
   [[nodiscard]] slid solve(typename Model::state& memory) const noexcept {
     const double first = free_ - ease_ * mean(memory, free_ < 0.0 ? -tiny : tiny);
     const double accepted = 4.0 * epsilon * (std::abs(free_) + std::abs(first));
@@ -94,8 +91,8 @@ class friction_step {
   double free_, ease_;
 };
 
-/// One step with inelastic end stops; returns the time it took, less than ahead.duration() if it ended
-/// at one.
+/// One step with inelastic end stops; returns the time it took [s], less than ahead.duration() if it ended at a
+/// stop.
 template <friction_model Model>
 double step_with_friction(const Model& model, typename Model::state& memory, const axis& along,
                           axis_state& s, double force, const flow& ahead,
@@ -150,7 +147,7 @@ double step_with_friction(const Model& model, typename Model::state& memory, con
 
 }  // namespace detail
 
-/// Moves `state` through whole.duration() under `force` [N], and the friction's memory along.
+/// Moves `state` and the friction's memory through whole.duration() under `force` [N].
 template <friction_model Model>
 axis_motion advance_with_friction(const Model& model, typename Model::state& memory,
                                   const axis& along, axis_state& state, double force,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Frictions without a memory of reversals; the menu is in friction.hpp. They are here as a control: what
-// they take can be lowered by a dither, so they claim() nothing, and no ledger covers them.
+// Frictions without a memory of reversals; the menu is in friction.hpp.
+// They are controls: a dither lowers the energy that they take, so they claim() nothing and no ledger covers them.
 
 #include <passive_haptics/simulation/friction_model.hpp>
 
@@ -12,13 +12,13 @@ inline namespace v0 {
 namespace simulation {
 
 /// F = σ₀ z + σ₁ ż,   dz/dx = 1 − (z/g) sgn ẋ,   g(v) = (c_k + (c_s − c_k) exp(−(v/v_s)²))/σ₀
-/// with σ₀ = c_s/p; the viscous term is the device's b. Canudas de Wit, Olsson, Åström, Lischinsky
-/// (1995). Exact along a piece of way at constant velocity, where it is an exponential. With a bristle
-/// damper σ₁ it is not passive by itself; without one what it dissipates is never negative.
+/// with σ₀ = c_s/p [N/m]; the viscous term is the device's b. Canudas de Wit, Olsson, Åström, Lischinsky
+/// (1995). It is exact along a piece of way at constant velocity, where z is an exponential. With a bristle
+/// damper σ₁ it is not passive by itself; without one the dissipated energy is never negative.
 ///
-/// Near c the bristle hardly gains on its way forward, and loses up to twice the way on its way back.
-/// "Forward 2 a, back a" with a much smaller than p therefore hovers where 2 (1 − z/p) = 1 + z/p, at
-/// z = p/3, and takes c/3 for each metre gained. A spring and a slider takes c.
+/// Near c the deflection hardly grows on the way forward, and falls by up to twice the way on the way back.
+/// So "forward 2 a, back a" with a much smaller than p hovers where 2 (1 − z/p) = 1 + z/p, at z = p/3, and
+/// takes c/3 [J] for each metre gained. A spring and a slider takes c.
 struct lugre_friction {
   using state = double;  ///< z [m]
 
@@ -40,7 +40,7 @@ struct lugre_friction {
     const double sign = way < 0.0 ? -1.0 : 1.0;
     const double length = kernels::magnitude(way);
     const double before = sign * z;
-    const double closer = -std::expm1(-length / most);  // share of the distance to `most`
+    const double closer = -std::expm1(-length / most);  // share of the way to `most`
     const double deflected = (most - before) * closer;
     z = sign * (before + deflected);
     const double bristle = k * most * (length - deflected);
@@ -62,7 +62,7 @@ struct lugre_friction {
   }
 };
 
-/// dF/dx = (c/p) (1 − (F/c) sgn ẋ): LuGre's with one level and no bristle damper.
+/// dF/dx = (c/p) (1 − (F/c) sgn ẋ): LuGre's friction with one level and no bristle damper (Dahl, 1968).
 struct dahl_friction {
   using state = double;  ///< z = F p/c [m]
 

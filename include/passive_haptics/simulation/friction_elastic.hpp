@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Frictions that remember where they were reversed; the menu is in friction.hpp. What they dissipate is
-// at least c times the way slipped, and what is slipped is the way less a deflection of at most p.
+// Frictions that remember where they were reversed; the menu is in friction.hpp.
+// They dissipate at least c times the way slipped [J], which is the way of the device less a deflection ≤ p.
 
 #include <passive_haptics/simulation/friction_model.hpp>
 
@@ -15,8 +15,8 @@ namespace simulation {
 
 namespace detail {
 
-/// A spring k with a slider that gives way at a deflection of `most`, moved by `way`; both are exact,
-/// and the work has no cancellation to fear however short the way.
+/// The work [J] of moving a spring k [N/m] by `way` [m] behind a slider that slips at the deflection `most` [m].
+/// It is exact, and does not cancel for short ways.
 [[nodiscard]] inline friction_work pull_slider(double& deflection, double k, double most,
                                                double way) noexcept {
   const double sign = way < 0.0 ? -1.0 : 1.0;
@@ -39,7 +39,7 @@ struct maxwell_slip {
 
   std::array<double, count> level{};       ///< cᵢ [N]
   std::array<double, count> presliding{};  ///< pᵢ [m], > 0
-  double start = 0.0;  ///< every deflection at the start, as a share of its pᵢ
+  double start = 0.0;  ///< every deflection at the start, as a share of its pᵢ, −1 to 1
 
   [[nodiscard]] state begin() const noexcept {
     state z = presliding;
@@ -77,16 +77,16 @@ struct maxwell_slip {
   }
 };
 
-/// F = (c/p) z, |z| ≤ p: Prandtl's element, the elasto-plastic friction with one spring.
+/// F = (c/p) z [N], |z| ≤ p: Prandtl's element, the elasto-plastic friction with one spring.
 using slider_and_spring = maxwell_slip<1>;
 
-/// One bristle that follows up to z_ba and creeps from there to p, where it slips altogether:
+/// One bristle that follows the way up to z_ba, creeps from there on, and slips without following at p:
 ///     F = σ₀ z,   dz/dx = 1 − α(z) |z|/p,   α = 0 for |z| ≤ z_ba and on the way back,
 ///     α = ½ + ½ sin(π (|z| − (p + z_ba)/2)/(p − z_ba)) up to p
-/// with σ₀ = c/z_ba; slipping, it takes c p/z_ba ≥ c. Dupont, Hayward, Armstrong, Altpeter (2002), with
-/// a steady level that does not depend on speed. Unlike a spring and a slider it has no corner; like one
-/// it returns to where it was under an oscillation within z_ba, which LuGre's does not. The differential
-/// equation is integrated by Runge and Kutta's fourth-order rule in steps of (p − z_ba)/16.
+/// with σ₀ = c/z_ba [N/m]; slipping, it takes c p/z_ba ≥ c [N]. Dupont, Hayward, Armstrong, Altpeter (2002),
+/// with a steady level that does not depend on speed. Its force has no corner, unlike that of a spring and a
+/// slider. Under an oscillation within z_ba it returns to where it was, which LuGre's does not. The
+/// differential equation is integrated by Runge and Kutta's fourth-order rule in steps of (p − z_ba)/16.
 struct dupont_friction {
   using state = double;  ///< z [m]
 
@@ -139,7 +139,7 @@ struct dupont_friction {
     const double alpha = 0.5 + 0.5 * std::sin(pi * (u - middle) / (presliding - breakaway));
     return alpha * u / presliding;
   }
-  /// What slips dissipates σ₀ u; what does not is stored.
+  /// Creeps by `way` [m]: the share that slips dissipates σ₀ u for each metre, the rest is stored.
   void creep(double& u, friction_work& sum, double way) const noexcept {
     const double k = stiffness();
     const double s1 = slip(u);
@@ -159,19 +159,18 @@ struct dupont_friction {
   static constexpr double pi = 3.14159265358979323846;
 };
 
-/// A spring and a slider whose level falls with the speed and ripples along the way, as that of gears and
-/// cables does:
-///     level(x, v) = (c_k + (c_s − c_k) exp(−(v/v_s)²)) (1 + r sin(2π x/λ))
-/// The spring is the same everywhere, so the deflection at which it slips goes with the level; where
-/// that shrinks, what the spring has too much is lost. Claims the least kinetic level, c_k (1 − r), and
-/// the deflection that belongs to the largest.
+/// A spring and a slider whose level falls with the speed and ripples along the way, as with gears and cables:
+///     level(x, v) = (c_k + (c_s − c_k) exp(−(v/v_s)²)) (1 + r sin(2π x/λ))      [N]
+/// The spring's stiffness is constant, so the deflection at which it slips is proportional to the level; where the
+/// level falls below the spring's force, the spring's excess energy is lost. It claims the least kinetic level,
+/// c_k (1 − r), and the deflection at the largest level.
 struct stribeck_friction {
   using state = double;  ///< z [m]
 
   double kinetic = 0.0;         ///< c_k [N]
   double static_level = 0.0;    ///< c_s [N], ≥ c_k
   double stribeck_speed = 0.0;  ///< v_s [m/s], > 0
-  double presliding = 0.0;      ///< p [m], deflection at the largest level
+  double presliding = 0.0;      ///< p [m], the deflection at the largest level
   double ripple = 0.0;          ///< r, 0 to 1
   double wavelength = 0.0;      ///< λ [m], > 0 if there is a ripple
   double start = 0.0;           ///< deflection at the start, as a share of p

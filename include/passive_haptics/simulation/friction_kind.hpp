@@ -4,7 +4,7 @@
 //
 //     sim::friction_like{sim::friction_kind::dupont, 0.26, 15e-6}      c = 0.26 N, p = 15 µm
 //
-// Those that claim something claim that level and that displacement; the others look as if they did.
+// A kind that claims something claims that level and displacement; dahl and lugre have them and claim nothing.
 
 #include <passive_haptics/simulation/friction_bristle.hpp>
 #include <passive_haptics/simulation/friction_elastic.hpp>
@@ -22,10 +22,10 @@ enum class friction_kind : std::uint8_t {
   one_spring,     ///< slider_and_spring
   three_springs,  ///< maxwell_slip<3>, of p/2, p and 3p/2
   dupont,         ///< creeps from 0.6 p on
-  stribeck,       ///< a static level of 1.5 c, gone at some 5 mm/s
-  rippled,        ///< the same, rippling by 30 % every 0.5 mm
-  dahl,           ///< control
-  lugre,          ///< control, with stribeck's levels
+  stribeck,       ///< a static level of 1.5 c, which falls to c with v_s = 5 mm/s
+  rippled,        ///< the same, rippling by 30 % every 0.5 mm; its least kinetic level is c
+  dahl,           ///< dahl_friction, a control
+  lugre,          ///< lugre_friction, a control with stribeck's levels
 };
 
 inline constexpr std::array all_friction_kinds{
@@ -55,7 +55,7 @@ inline constexpr std::array all_friction_kinds{
 
 namespace detail {
 
-/// ask(model) of the model of that kind.
+/// The result of ask(model) for the model of that kind.
 [[nodiscard]] auto ask_friction(friction_kind kind, double c, double p, double start,
                                 auto ask) noexcept {
   switch (kind) {
@@ -77,7 +77,7 @@ namespace detail {
   return ask(maxwell_slip<3>{{c, 0.0, 0.0}, {p, p, p}, start});
 }
 
-/// The part of a memory for any friction that one model has.
+/// The part that a model uses of a memory for any friction.
 template <class Model>
 [[nodiscard]] auto& memory_of(const Model& /*model*/, std::array<double, 3>& any) noexcept {
   if constexpr (std::same_as<typename Model::state, double>) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a friction model of a simulated device is; the menu is in friction.hpp.
+// The contract of a friction model of a simulated device; the menu is in friction.hpp.
 //
 //   friction_model     the contract: slide() along a piece of the way, one axis at a time
-//   friction_work      what that piece took, and how much of it is gone
-//   friction_claim     what a controller may state of a friction
-//   coulomb_friction   device_parameters::friction, rigid: what a device has unless it is told another
+//   friction_work      the work of that piece, and how much of it was dissipated
+//   friction_claim     the bounds that a controller may state of a friction
+//   coulomb_friction   rigid, of device_parameters::friction: the default of a device
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -17,19 +17,19 @@ namespace simulation {
 
 struct friction_work {
   double work = 0.0;        ///< done by the axis against the friction [J]
-  double dissipated = 0.0;  ///< of it, gone; the rest is what its springs have taken up [J]
+  double dissipated = 0.0;  ///< the part of it that is lost; the springs store the rest [J]
 };
 
-/// A friction that dissipates at least `level` times the way slipped, where what is slipped is the
-/// way of the device less a deflection z of at most `presliding`, and that stores at least c z²/(2p)
-/// meanwhile. That is all a ledger has to know. A level of zero claims nothing.
+/// Claims that the friction dissipates at least `level` times the way slipped [J], where the way slipped is
+/// the way of the device less a deflection z of at most `presliding`, and that it stores at least c z²/(2p)
+/// [J] meanwhile. A ledger needs no more. A level of zero claims nothing.
 struct friction_claim {
   double level = 0.0;       ///< c [N]
   double presliding = 0.0;  ///< p [m]
 };
 
-/// Friction along one axis, with the memory of it in `state`. slide() moves the axis from `from` [m]
-/// by `way` [m] at constant velocity in `time` [s].
+/// Friction along one axis, with its memory in `state`. slide(state, from, way, time) moves the axis from `from`
+/// [m] by `way` [m] at constant velocity in `time` [s].
 template <class F>
 concept friction_model = requires(const F f, typename F::state s, double x) {
   { f.begin() } -> std::same_as<typename F::state>;
@@ -40,14 +40,14 @@ concept friction_model = requires(const F f, typename F::state s, double x) {
   requires noexcept(f.begin())&& noexcept(f.slide(s, x, x, x));
 };
 
-/// Sticks rigidly and slips at a constant level, both exactly: axis.hpp.
+/// Rigid friction, which sticks and slips at a constant level; axis.hpp integrates it exactly.
 struct coulomb_friction {
   struct state {};
   [[nodiscard]] constexpr state begin() const noexcept { return {}; }
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
 };
 
-/// What a simulated device may rub with: dry friction without elasticity, or a model that has a state.
+/// The friction of a simulated device: dry friction without elasticity, or a model that has a state.
 template <class F>
 concept device_friction = std::same_as<F, coulomb_friction> || friction_model<F>;
 
@@ -62,8 +62,8 @@ template <device_friction F>
 
 namespace detail {
 
-/// The first fault in what every friction model has: a level, a presliding displacement, and the
-/// share of it that the friction is deflected by at the start.
+/// The first fault in the numbers of every friction model: its level [N], its presliding displacement [m], and the
+/// share of that by which it is deflected at the start.
 [[nodiscard]] constexpr parameter_fault friction_fault(double level, double presliding,
                                                        double start) noexcept {
   if (!passive_haptics::detail::not_negative(level)) {
@@ -76,7 +76,7 @@ namespace detail {
   return {};
 }
 
-/// `slide` piece by piece, none longer than `longest` [m]: what it takes is continuous in the way.
+/// Calls `slide` for pieces no longer than `longest` [m] and sums their work, which is continuous in the way.
 [[nodiscard]] constexpr friction_work slide_in_pieces(double way, double longest,
                                                       auto slide) noexcept {
   friction_work sum;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Hands: who pushes on the simulated device. A hand is a force, asked `substeps` times per period
-// and held in between, and a mass that moves with the device.
+// Hands that push on the simulated device.
+// A hand is a force [N], asked `substeps` times per period and held in between, and a mass [kg] that moves along.
 //
 //   no_hand           0                                             the device alone
 //   constant_hand     F, at most `limit`                            a steady press
 //   impedance_hand    k (x_h − x) + b_h (v_h − v), at most `limit`  a person following a target
-//   tapping_hand      ∓ limit·n outside / inside the surface        the worst force-limited hand
-//   (A5) stroke            x_h(t): a straight line, evenly or with minimum jerk
+//   tapping_hand      ∓ limit·n outside / inside the surface        the worst force-limited hand (A5)
+//   stroke            x_h(t): a straight line, evenly or with minimum jerk
 //
 // A hand that is a velocity source, stronger than any actuator, is prescribed_motion.hpp.
 
@@ -22,7 +22,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// force(time [s], position [m], velocity [m/s]) on the device [N]; mass() moves with it [kg].
+/// force(time [s], position [m], velocity [m/s]) is the force on the device [N]; mass() [kg] moves with it.
 template <class H, class Space>
 concept hand_for = requires(const H h, const typename physical<Space>::vector v, double t) {
   { h.force(t, v, v) } -> std::same_as<typename physical<Space>::vector>;
@@ -33,7 +33,7 @@ concept hand_for = requires(const H h, const typename physical<Space>::vector v,
 };
 
 namespace detail {
-/// "finite and ≥ 0", and for a limit infinity too.
+/// The first number that is not finite and ≥ 0; a limit may be infinite.
 [[nodiscard]] constexpr parameter_fault hand_fault(double stiffness, double damping, double mass,
                                                    double limit) noexcept {
   if (!(stiffness >= 0.0 && kernels::is_finite(stiffness))) {
@@ -78,9 +78,9 @@ struct constant_hand {
 };
 
 /// F = k (x_h(t) − x) + b_h (v_h − v), ‖F‖ ≤ limit, with x_h(t) = target + v_h (t − target_time).
-/// The caller moves the target whenever it likes. `own_mass` is held rigidly, so the device moves
-/// with apparent mass m + own_mass. Asked every h = T/substeps, it is stable for
-/// b_h h + k h² < 2 m, which leaves room for any human hand.
+/// The caller may move the target at any time. `own_mass` is held rigidly, so the device moves with the
+/// apparent mass m + own_mass. As it is asked every h = T/substeps, the hand is stable for
+/// b_h h + k h² < 2 m, which is so for any human hand.
 template <class Space>
 struct impedance_hand {
   using vector = typename physical<Space>::vector;
@@ -111,8 +111,8 @@ struct impedance_hand {
   }
 };
 
-/// Pushes with `limit` towards the surface through `surface` with unit outward `normal`, and as
-/// hard away from it as soon as it is inside: targeted tapping, counterexample 2 of A5.
+/// Pushes with `limit` towards the surface through `surface` with unit outward `normal`, and as hard
+/// away from it as soon as the device is inside: targeted tapping (A5).
 template <class Space>
 struct tapping_hand {
   using vector = typename physical<Space>::vector;
@@ -144,7 +144,7 @@ enum class stroke_profile : std::uint8_t {
   minimum_jerk,  ///< s³ (10 − 15 s + 6 s²), the reaching movement of Flash and Hogan (1985)
 };
 
-/// A target on its way from one point to another; it waits there before and after.
+/// A target that moves from one point to another, and rests before and after.
 template <class Space>
 struct stroke {
   using vector = typename physical<Space>::vector;

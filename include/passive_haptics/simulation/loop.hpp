@@ -14,8 +14,8 @@
 //     });
 //     CHECK(seen.least_energy >= -1e-12);
 //
-// Each of the three steps may be left out, and is sim::idle where a later one is not. One that returns
-// false ends the run.
+// Each of the three steps may be left out, and is sim::idle if a later one is given. A step that returns false
+// ends the run.
 
 #include <passive_haptics/device/device_sample.hpp>
 #include <passive_haptics/simulation/components.hpp>
@@ -30,7 +30,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// A device that knows the truth: where it is, what time it is, what its port has taken.
+/// A device that knows its true position, the time and the true energy at its port.
 template <class D>
 concept simulated_device = requires(D d, const D c, const typename D::space_type::vector f) {
   { d.exchange(f) } -> std::same_as<device_sample<typename D::space_type>>;
@@ -39,25 +39,24 @@ concept simulated_device = requires(D d, const D c, const typename D::space_type
   { c.meter() } -> std::convertible_to<const port_energy_meter&>;
 };
 
-/// One tick of a run, as far as it has come.
+/// One tick of a run. A step finds the fields that are known by then.
 template <class Space, class Answer>
 struct turn {
   int tick = 0;
   double time = 0.0;                          ///< at its start [s]
   typename physical<Space>::vector position;  ///< at its start, true [m]
-  device_sample<Space> sample;  ///< what the model is shown, spoilt or not; for watch, the next one
-  Answer out{};                 ///< the model's answer, all of it
+  device_sample<Space> sample;  ///< the sample that the model is given; for watch, the next one
+  Answer out{};                 ///< the whole answer of the model
   typename Space::vector force = Space::zero();  ///< commanded [N]
 };
 
-/// What a run has come to.
 template <class Space>
 struct run_result {
   double least_energy =
-      0.0;  ///< at the port, with what dry friction took and stores [J]; ≤ 0, or NaN
-  double largest_force = 0.0;   ///< commanded [N]: a model that never pushes is no proof
-  int ticks = 0;                ///< that came to their end
-  device_sample<Space> last{};  ///< which the model has not seen
+      0.0;  ///< least port energy, with what dry friction took and stores [J]; ≤ 0, or NaN
+  double largest_force = 0.0;   ///< commanded [N]; if it is 0 the model has shown nothing
+  int ticks = 0;                ///< number of ticks that ended
+  device_sample<Space> last{};  ///< the last sample, which the model has not been given
 };
 
 struct idle_step {
@@ -82,7 +81,7 @@ struct ask_model {
   }
 };
 
-/// It answers with a force, or with more than that.
+/// The force of an answer, which is a force or a result with one.
 template <class Answer>
 [[nodiscard]] constexpr auto force_of(const Answer& out) noexcept {
   if constexpr (requires { out.force; }) {
@@ -114,8 +113,8 @@ template <class Step, class Turn>
 
 }  // namespace detail
 
-/// `ticks` ticks; the device is read once before the first. A command that is no number ends the run
-/// before anything is done with it, and its least energy is NaN. Throws only what a step throws.
+/// Runs `ticks` ticks, after reading the device once. A command that is not finite ends the run before it is
+/// held, and the least energy is NaN. Throws only what a step throws.
 template <simulated_device Device, class Model, class World = idle_step, class Hand = idle_step,
           class Watch = idle_step>
 run_result<typename Device::space_type> run(

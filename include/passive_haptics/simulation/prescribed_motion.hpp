@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A hand that is a velocity source: it goes where the caller says, whatever the actuators do. It
-// needs no mass and no integration, and it is the worst case of every proof that names no mass.
+// A hand that is a velocity source: the device goes where the caller says, whatever the actuators do.
+// It needs no mass and no integration, and it is the worst case of every proof without a mass.
 
 #include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/simulation/driver.hpp>
@@ -17,13 +17,13 @@ namespace simulation {
 /// Models haptic_device_for<Space>: each exchange travels from one position to the next at constant
 /// velocity while the force is held. The meter books exactly
 ///     E += b ‖Δx‖²/T − f·Δx
-/// the equality of lemma L1. In a period T longer than the watchdog w the force is zero after w, so
-/// it works over w/T of the way; move_via() chooses where the device is at that instant. Dry
-/// friction, f_c Σ|Δxᵢ| or what a model of friction.hpp takes, is booked beside E, as in device.
+/// the equality of lemma L1. In a period T longer than the watchdog w the force is zero after w, so it
+/// works over w/T of the way; move_via() chooses the position at that instant. Dry friction, f_c Σ|Δxᵢ|
+/// or the work against a model of friction.hpp, is booked beside E, as in device.
 ///
-/// Of the parameters it takes damping, friction, force_limit, latency, quantum, period, watchdog and
-/// start; the rest means nothing to it. In float, the sample's position is rounded and the true one
-/// is not: next positions that are exact in float keep observer and meter comparable.
+/// It uses the parameters damping, friction, force_limit, latency, quantum, period, watchdog and start,
+/// and ignores the others. In float the sample's position is rounded and the true one is not; give
+/// positions that are exact in float, so that observer and meter can be compared.
 template <class Space, device_friction Friction = coulomb_friction>
 class prescribed_motion {
  public:
@@ -46,14 +46,14 @@ class prescribed_motion {
     memory_.fill(friction.begin());
   }
 
-  /// Where to be at the end of the next exchange [m]. One that is not finite is ignored.
+  /// Sets the position at the end of the next exchange [m]. A position that is not finite is ignored.
   void move_to(const state& next) noexcept {
     if (!physical<Space>::is_finite(next)) return;
     next_ = next;
     straight_ = true;
   }
-  /// The same, and where to be when the watchdog drops the force, in a period that it cuts short;
-  /// in any other, `dropped_at` means nothing.
+  /// The same, and sets the position [m] at which the watchdog drops the force. In a period that the
+  /// watchdog does not cut short, `dropped_at` is ignored.
   void move_via(const state& dropped_at, const state& next) noexcept {
     if (!physical<Space>::is_finite(dropped_at) || !physical<Space>::is_finite(next)) return;
     dropped_at_ = dropped_at;
@@ -73,12 +73,12 @@ class prescribed_motion {
       travel(dropped_at_, driven, to_physical<Space>(held));
       travel(next_, T - driven, physical<Space>::zero());
     }
-    straight_ = true;  // unless told again
+    straight_ = true;  // until the next move_via()
     time_ += T;
     return {measured<Space>(position_, parameters_.quantum), held, period_, true};
   }
 
-  /// The length of the coming periods [s], for jitter. False, and nothing changes, unless it is
+  /// Sets the length of the coming periods [s], for jitter. Returns false, and changes nothing, unless T is
   /// finite and > 0.
   bool set_period(double T) noexcept {
     const scalar rounded = static_cast<scalar>(T);
@@ -91,8 +91,8 @@ class prescribed_motion {
     if (const auto fault = parameters_.check()) return fault;
     return fault_of(friction_, parameters_.friction);
   }
-  /// The energy [J] that exchange(command) would book at the port with friction, if it went straight to
-  /// `next` in a period that the watchdog does not cut short.
+  /// The energy [J], friction included, that exchange(command) would book at the port if the device went straight
+  /// to `next` [m] in a period that the watchdog does not cut short.
   [[nodiscard]] double price(const state& next, const vector& command) const noexcept {
     auto trial = *this;
     trial.parameters_.watchdog = device_parameters<Space>::infinity;
@@ -111,7 +111,7 @@ class prescribed_motion {
   [[nodiscard]] const parameters_type& parameters() const noexcept { return parameters_; }
 
  private:
-  /// To `there` at constant velocity in `time` [s], against a constant force [N].
+  /// Moves to `there` [m] at constant velocity in `time` [s], under a constant force of the actuators [N].
   void travel(const state& there, double time, const state& force) noexcept {
     const state step = there - position_;
     const double damped = parameters_.damping * physical<Space>::dot(step, step) / time;
@@ -145,7 +145,7 @@ class prescribed_motion {
 
   parameters_type parameters_;
   Friction friction_;
-  std::array<typename Friction::state, Space::dof> memory_{};  ///< by axis
+  std::array<typename Friction::state, Space::dof> memory_{};  ///< of the friction on each axis
   driver<Space> driver_;
   state position_, next_, dropped_at_;
   bool straight_ = true;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Simulated devices named after what they resemble, for tests and benches.
+// Simulated devices named after the devices that they resemble, for tests and benches.
 //
 //     sim::device<scene> grip(sim::falcon_like.parameters<scene>());
 //     sim::device<scene, sim::no_hand<scene>, sim::slider_and_spring> soft(
 //         sim::falcon_like.without_friction<scene>(), {}, sim::falcon_like.friction_of(15e-6));
 //
-// Their numbers are ours: chosen to lie where such devices do, measured on none of them. What is known
-// of the real ones is in design/device_facts.hpp.
+// We have chosen their numbers in the range of such devices; none is measured. The known facts of the real ones
+// are in identification/device_facts.hpp.
 
 #include <passive_haptics/simulation/driver.hpp>
 #include <passive_haptics/simulation/friction_elastic.hpp>
@@ -23,17 +23,17 @@ struct device_preset {
   double mass = 0.1;         ///< m [kg]
   double damping = 0.03;     ///< b [N·s/m]
   double friction = 0.0;     ///< f_c [N]
-  double quantum = 0.0;      ///< [m]
-  double force_limit = 0.0;  ///< [N]
+  double quantum = 0.0;      ///< step of the encoders [m]
+  double force_limit = 0.0;  ///< largest force of the actuators [N]
 
-  /// With friction that is rigid.
+  /// The parameters of a device with rigid friction.
   template <class Space>
   [[nodiscard]] device_parameters<Space> parameters() const noexcept {
     auto p = without_friction<Space>();
     p.friction = friction;
     return p;
   }
-  /// For a device whose friction is a model of its own, such as friction_of().
+  /// The parameters of a device with a friction model of its own, such as friction_of().
   template <class Space>
   [[nodiscard]] device_parameters<Space> without_friction() const noexcept {
     device_parameters<Space> p;
@@ -43,7 +43,7 @@ struct device_preset {
     p.force_limit = force_limit;
     return p;
   }
-  /// Its friction, elastic over `presliding` > 0 [m].
+  /// The friction of this preset, elastic over `presliding` > 0 [m].
   [[nodiscard]] slider_and_spring friction_of(double presliding) const noexcept {
     return {.level = {friction}, .presliding = {presliding}};
   }
@@ -57,17 +57,16 @@ inline constexpr device_preset frictionless_10um{
     "frictionless, 10 µm", 0.1, 0.03, 0.0, 10e-6, 12.0};
 inline constexpr device_preset heavy_1kg{"heavy, 1 kg", 1.0, 2.0, 0.5, 20e-6, 30.0};
 
-/// A direct-drive steering wheel: 0.03 kg·m², 0.05 N·m·s/rad, 0.05 N·m of dry friction, 14 bit a turn,
-/// 8 N·m.
+/// A direct-drive steering wheel with an encoder of 14 bits a turn.
 struct wheel_preset {
   double inertia = 0.03;         ///< [kg·m²]
   double damping = 0.05;         ///< [N·m·s/rad]
-  double friction = 0.05;        ///< [N·m]
+  double friction = 0.05;        ///< dry friction [N·m]
   double quantum = 3.834952e-4;  ///< 2π/2¹⁴ [rad]
   double torque_limit = 8.0;     ///< [N·m]
-  double radius = 0.15;          ///< of the rim [m]
+  double radius = 0.15;          ///< radius of the rim [m]
 
-  /// As the hand meets it, at the rim, in metres and newtons.
+  /// The wheel as the hand meets it at the rim, in metres and newtons.
   [[nodiscard]] constexpr device_preset at_rim() const noexcept {
     return {"wheel, at its rim",
             inertia / (radius * radius),

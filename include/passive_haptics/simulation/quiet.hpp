@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Is a device quiet? Passivity says no word of it: what rings for ever may draw no energy.
+// Judges whether a device is quiet. Passivity does not say so: a device may ring for ever and draw no energy.
 //
 //     q1  force    rms of f − y over 100 ms,  ẏ = 2π 10 Hz (f − y)       ≤ 0.02 N      what is heard
-//     q2  motion   rms of max |n·v| over 100 ms, n of what presses       ≤ 1 mm/s      what is seen
+//     q2  motion   rms of max |n·v| over 100 ms, n of contacts that press  ≤ 1 mm/s    what is seen
 //     q3  step     largest |f(n) − f(n−1)| in 100 ms                     ≤ 0.02 N      what is felt
 //
 //     sim::quiet_judge<scene> judge;
 //     judge.add(force, velocity, 1e-3, pressing);      // in every tick; the unit normals that press
 //     judge.add_at(force, position, 1e-3, pressing);   // the same, from positions
 //     judge.news();                                    // the hand or the world has changed
-//     judge.since();                                   // quiet since then [s]; NaN: it is not
+//     judge.since();                                   // the time since which it is quiet [s]; NaN: it is not
 //
-// A tick's force is what is commanded. Of a rigid_body q1 and q3 take the larger of |f| and |τ|/lever, and
-// what presses are rows (n, r × n). Motion along a free direction is not charged: a hand of 100 N/m and
-// 1 N·s/m swings 1 kg on a plane without friction for 2 s by itself. A number that is none is not quiet. What
-// hops is quiet while it is in the air: let a run go on for a second after the time that since() must keep.
+// f is the force commanded. For a rigid_body q1 and q3 take the larger of |f| and |τ|/lever, and a contact that
+// presses is a row (n, r × n). Motion along a free direction does not count, because a hand of 100 N/m and
+// 1 N·s/m swings 1 kg on a plane without friction for 2 s by itself. NaN and infinity are not quiet. A device that
+// hops is quiet while it is in the air, so let a run go on for a second after the time that since() must keep.
 // Source: ours, docs/design/settling.md.
 
 #include <passive_haptics/base/parameter.hpp>
@@ -30,20 +30,20 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// What a window of 100 ms comes to, and what it may come to.
+/// The figures of a window of 100 ms; the defaults are the bars.
 struct quiet_figures {
-  double force = 0.02;  ///< q1 [N] rms above 10 Hz
-  double speed = 1e-3;  ///< q2 [m/s] rms along what presses
-  double step = 0.02;   ///< q3 [N] in a tick
+  double force = 0.02;  ///< q1, rms above 10 Hz [N]
+  double speed = 1e-3;  ///< q2, rms along the contacts that press [m/s]
+  double step = 0.02;   ///< q3, largest in a tick [N]
 };
 
-/// What a device in a hand has to keep; the figures are those of docs/design/settling.md.
+/// The bars for a device in a hand, as in docs/design/settling.md.
 struct quiet_bars : quiet_figures {
-  double lever = 0.03;  ///< of a tool: a torque counts as the force τ/lever [m]
+  double lever = 0.03;  ///< lever of a tool [m]: a torque τ counts as the force τ/lever
 
-  /// The same on encoders of step q [m] under a stiffness K [N/m] and a mass m [kg]. K d of what is shown steps by
-  /// K q; hunting between two of its values has an rms of K q/2, and moves m at (q/2)√(K/m), because inside a step
-  /// nothing is measured: no law of a depth can do better.
+  /// The bars on encoders of step q [m] under a stiffness K [N/m] and a mass m [kg]. The force K d of the position
+  /// shown steps by K q. Hunting between two values has an rms of K q/2 and moves m at (q/2)√(K/m). No law of a
+  /// depth can do better, because nothing is measured inside a step.
   [[nodiscard]] constexpr quiet_bars on_encoders(double q, double K, double m) const noexcept {
     quiet_bars floor = *this;
     floor.force = kernels::larger(force, K * q / 2.0);
@@ -60,14 +60,14 @@ struct quiet_bars : quiet_figures {
   }
 };
 
-/// A bar that a window has missed; of several the one that it missed by most.
+/// The bar that a window has missed, and of several the one that it missed by most.
 enum class quiet_bar : std::uint8_t { none, force, motion, step, number };
 [[nodiscard]] constexpr const char* to_string(quiet_bar b) noexcept {
   constexpr const char* names[] = {"none", "q1 force", "q2 motion", "q3 step", "no number"};
   return names[static_cast<int>(b)];
 }
 
-/// Judges ticks in windows of 100 ms, one after the other. Port is a space or a rigid_body.
+/// Judges ticks in consecutive windows of 100 ms. Port is a space or a rigid_body.
 template <class Port>
 requires(passive_haptics::detail::has_geometry<Port> ||
          passive_haptics::detail::moves_and_turns<Port>) class quiet_judge {
@@ -76,12 +76,12 @@ requires(passive_haptics::detail::has_geometry<Port> ||
   using motion = typename Port::motion;
   using pose = typename Port::pose;
   static constexpr double window = 0.1;  ///< [s]
-  static constexpr double cut = 10.0;    ///< of the low pass [Hz]
+  static constexpr double cut = 10.0;    ///< corner frequency of the low pass [Hz]
 
   explicit quiet_judge(const quiet_bars& bars = {}) noexcept : bars_(bars) {}
 
-  /// A tick of dt [s]: the effort commanded [N], [N·m], the motion per second, and the directions, or of a
-  /// rigid_body the rows, of the contacts that press.
+  /// Adds a tick of dt [s]: the effort commanded [N], [N·m], the velocity [m/s], [rad/s], and for each contact
+  /// that presses its normal, or for a rigid_body its row.
   void add(const effort& force, const motion& velocity, double dt,
            std::span<const motion> pressing) noexcept {
     const bool sound = passive_haptics::detail::positive(dt) && Port::is_finite(force) &&
@@ -99,7 +99,7 @@ requires(passive_haptics::detail::has_geometry<Port> ||
       close();
     }
   }
-  /// The same from where the device is; the first of them has no speed.
+  /// The same from the pose of the device; the first call counts as no speed.
   void add_at(const effort& force, const pose& at, double dt,
               std::span<const motion> pressing) noexcept {
     const motion travel = placed_ ? motion(Port::between(at_, at)) : motion(Port::zero());
@@ -107,25 +107,25 @@ requires(passive_haptics::detail::has_geometry<Port> ||
     placed_ = true;
     add(force, motion(travel * (scalar(1) / scalar(dt))), dt, pressing);
   }
-  /// The hand or the world has changed: the clock begins anew.
+  /// Starts the judgement anew, because the hand or the world has changed.
   void news() noexcept {
     news_ = since_ = time_;
     judged_ = false;
     begin();
   }
 
-  /// Is the last window within the bars?
+  /// True if the last window is within the bars.
   [[nodiscard]] bool quiet() const noexcept { return judged_; }
-  /// Since when it has been so [s], by the sum of the ticks; NaN where it is not.
+  /// The time since which it is quiet [s], as a sum of the ticks; NaN if it is not quiet.
   [[nodiscard]] double since() const noexcept {
     return judged_ ? since_ : std::numeric_limits<double>::quiet_NaN();
   }
-  /// From the last news until it was [s].
+  /// The time from the last news() until it was quiet [s]; NaN if it is not quiet.
   [[nodiscard]] double settling() const noexcept { return since() - news_; }
-  [[nodiscard]] double time() const noexcept { return time_; }  ///< of all ticks [s]
-  /// Of the last window.
+  [[nodiscard]] double time() const noexcept { return time_; }  ///< sum of all ticks [s]
+  /// The figures of the last window.
   [[nodiscard]] const quiet_figures& figures() const noexcept { return last_; }
-  /// What the last window that was not quiet has missed; none where there has been no such.
+  /// The bar that the last window which was not quiet has missed; none if every window was quiet.
   [[nodiscard]] quiet_bar missed() const noexcept { return missed_; }
 
  private:

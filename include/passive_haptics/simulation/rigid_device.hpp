@@ -6,8 +6,8 @@
 //     I ω̇ + ω × I ω = τ + …           about the centre of mass, which may be off the handle point
 //     E += ∫ (vᵀD v + ωᵀD_ω ω − w·(v, ω)) dt     true energy at the port, > 0: the hand has paid in
 //
-// Integrated by Runge and Kutta's fourth order in even steps, the energies with it. residual() is what of
-// the energy the steps have lost or made: the rounding that every figure of E stands for.
+// Motion and energies are integrated by Runge and Kutta's fourth-order rule in equal steps. residual() is the
+// energy that the steps have lost or made, which shows how accurate E is.
 
 #include <passive_haptics/device/device_sample.hpp>
 #include <passive_haptics/device/rigid_body.hpp>
@@ -18,7 +18,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// A body, in the frame of its handle, whose axes are its principal ones.
+/// A body, in the frame of its handle. The axes of that frame are its principal axes.
 struct rigid_device_parameters {
   double mass = 0.15;                                       ///< [kg]
   std::array<double, 3> moments{1e-4, 3e-4, 1.5e-4};        ///< about the centre of mass [kg·m²]
@@ -26,7 +26,7 @@ struct rigid_device_parameters {
   std::array<double, 3> linear_damping{0.03, 0.03, 0.03};   ///< at the handle point [N·s/m]
   std::array<double, 3> angular_damping{1e-4, 1e-4, 1e-4};  ///< [N·m·s/rad]
   double period = 1e-3;                                     ///< [s]
-  int substeps = 8;                                         ///< steps of the integration a tick
+  int substeps = 8;                                         ///< steps of integration per tick
   int latency = 0;  ///< ticks from command to holding, 0 or 1
 };
 
@@ -50,10 +50,10 @@ class rigid_device {
     kinetic_at_start_ = kinetic();
   }
 
-  /// What the hand pushes with at the handle point, in the world frame, until told otherwise [N], [N·m].
+  /// Sets the wrench of the hand at the handle point, in the world frame [N], [N·m].
   void push(const effort& hand) noexcept { hand_ = hand; }
 
-  /// Commands a wrench; a tick passes; where the handle is then, and what was held meanwhile.
+  /// Commands a wrench and lets a tick pass; returns the pose at its end and the wrench held during it.
   [[nodiscard]] device_sample<port_type> exchange(const effort& command) noexcept {
     held_ = p_.latency > 0 ? effort(waiting_) : command;
     waiting_ = command;
@@ -66,7 +66,7 @@ class rigid_device {
     const auto q = turned(state_);
     return {vector(get<0>(state_) - rotation::rotate(q, of(p_.centre))), q};
   }
-  /// Of the handle point [m/s], and of the handle [rad/s], in the world frame.
+  /// The velocity of the handle point [m/s] and the rate of the handle [rad/s], in the world frame.
   [[nodiscard]] vector velocity() const noexcept { return handle_velocity(state_, turned(state_)); }
   [[nodiscard]] vector rate() const noexcept {
     return rotation::rotate(turned(state_), get<6>(state_));
@@ -75,7 +75,7 @@ class rigid_device {
 
   /// True energy at the port [J].
   [[nodiscard]] double energy() const noexcept { return state_(13); }
-  /// Kinetic energy less what hand and port have brought in since the start [J]: zero, but for the steps.
+  /// ΔE_kin + E − the work of the hand since the start [J]: zero but for errors of the integration.
   [[nodiscard]] double residual() const noexcept {
     return kinetic() - kinetic_at_start_ + energy() - state_(14);
   }

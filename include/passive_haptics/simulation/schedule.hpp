@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// When a slow environment answers, in virtual time, and where all randomness comes from. The same
-// seed gives the same numbers on every platform, which the distributions of <random> do not.
+// The times at which a slow environment answers, in virtual time, and the source of all randomness.
+// The same seed gives the same numbers on every platform, which the distributions of <random> do not.
 //
 //   random_source     uniform numbers and directions
 //   update_schedule   due(time): every 20-50 ms, at random (20-50 Hz), or at a fixed period
-//   one_update_late   answers with what it was given one update ago: a pipelined environment
+//   one_update_late   answers with its input of one update ago, as a pipelined environment does
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/base/samples.hpp>
@@ -18,7 +18,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// The samples of the laws, and 53 of their bits as a double. Needs no heap and eight bytes.
+/// The samples of laws::samples, and 53 of their bits as a double. It takes eight bytes and no heap.
 class random_source {
  public:
   constexpr explicit random_source(std::uint64_t seed = 1) noexcept : source_(seed) {}
@@ -35,8 +35,8 @@ class random_source {
   [[nodiscard]] constexpr bool chance(double probability) noexcept {
     return uniform() < probability;
   }
-  /// A unit vector of any direction: a sign, a point of the circle or of the sphere, by rejection
-  /// from the cube (on average 1.9 tries on the sphere; the square root is all it asks of libm).
+  /// A unit vector of uniform direction (a sign, a point of the circle or of the sphere), by rejection from
+  /// the cube: on average 1.9 tries for the sphere. Of libm it uses the square root only.
   template <class Space>
   [[nodiscard]] constexpr typename physical<Space>::vector direction() noexcept {
     static_assert(Space::dof <= 3, "random_source::direction: rejection is for 1 to 3 axes");
@@ -54,22 +54,22 @@ class random_source {
 };
 
 /// The first update is due at once, the next ones after periods drawn uniformly from
-/// [shortest, longest). Periods count from due instant to due instant, so the way the caller polls
-/// does not stretch them. Equal bounds: a fixed period.
+/// [shortest, longest) [s]. Periods count from due instant to due instant, so the way the caller polls
+/// does not stretch them. Equal bounds give a fixed period.
 class update_schedule {
  public:
   constexpr explicit update_schedule(std::uint64_t seed = 1, double shortest = 0.020,
                                      double longest = 0.050) noexcept
       : shortest_(shortest), longest_(longest), random_(seed) {}
 
-  /// Is an update due at this virtual time [s]? True once per update; late polls do not pile up.
+  /// True if an update is due at the virtual time `time` [s], once per update; late polls do not pile up.
   [[nodiscard]] constexpr bool due(double time) noexcept {
     if (!(time >= next_)) return false;
     next_ += random_.uniform(shortest_, longest_);
     if (next_ <= time) next_ = time + random_.uniform(shortest_, longest_);
     return true;
   }
-  [[nodiscard]] constexpr double next() const noexcept { return next_; }  ///< due then [s]
+  [[nodiscard]] constexpr double next() const noexcept { return next_; }  ///< time of the next [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(shortest_ > 0.0)) return {"shortest", shortest_, "> 0 s"};
@@ -85,7 +85,7 @@ class update_schedule {
   random_source random_;
 };
 
-/// Returns the value of the update before: the environment computed with what it saw then.
+/// Returns the value of the update before, as an environment does that computed with its input of then.
 template <class T>
 class one_update_late {
  public:

@@ -7,9 +7,8 @@
 //     std::printf("%g J, by pressing %g m deep in %d ticks\n", found.energy,
 //                 found.parameters.depth, found.parameters.press_ticks);
 //
-// Both go round the cycle of tuned_motion.hpp, on time and with every sample, and an evolution
-// strategy looks for its worst numbers. What it finds is a counterexample; that it finds nothing
-// proves nothing.
+// Both repeat the cycle of tuned_motion.hpp, on time and with every sample, and an evolution strategy looks for
+// its worst numbers. A loss that it finds is a counterexample; if it finds none, that proves nothing.
 
 #include <passive_haptics/simulation/attack.hpp>
 #include <passive_haptics/simulation/tuned_motion.hpp>
@@ -18,21 +17,20 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// What a search has found. energy < 0: energy drawn from the port [J], by these parameters; −∞ if
-/// they led to a force that is no number, NaN if the circumstances are impossible.
+/// The worst cycle that a search has found.
 struct search_result {
   cycle_parameters parameters{};
-  double energy = 0.0;
+  double energy = 0.0;  ///< least port energy [J]; −∞: a force was no number; NaN: impossible world
   int evaluations = 0;
 };
 
 namespace detail {
 
-/// How bad a run was: the energy lost [J], or while nothing is lost, the smallest share of the
-/// damper's energy that was left, in [0, 1], so that a search has something to descend.
+/// How bad a run was: by the energy lost, or while nothing is lost by the smallest share that was left of the
+/// energy of damper and friction, so that a search has a slope to descend.
 struct damage {
-  double least = 0.0;
-  double share_left = 1.0;
+  double least = 0.0;       ///< least port energy [J]
+  double share_left = 1.0;  ///< in [0, 1]
   [[nodiscard]] bool worse_than(const damage& other) const noexcept {
     constexpr double nothing = -1e-13;  // rounding
     if (least < nothing || other.least < nothing) return least < other.least;
@@ -40,7 +38,7 @@ struct damage {
   }
 };
 
-/// One run through the cycle of `where`; act(device, surface, command) is the hand.
+/// One run of the cycle `where`; act(device, surface, command) is the hand.
 template <class Space, class Device>
 damage go_round(const subject<Space>& model, Device& device, surface_state<Space> surface,
                 bool moves, const cycle& where, const circumstances& situation, auto act) noexcept {
@@ -73,9 +71,9 @@ damage go_round(const subject<Space>& model, Device& device, surface_state<Space
   return {-std::numeric_limits<double>::infinity(), 0.0};  // a force that is no number
 }
 
-/// (1+1) evolution strategy on the unit cube: half of the numbers mutate at a time, the step grows
-/// with success and shrinks with failure (one-fifth rule), and starts anew from the best of eight
-/// random points when it has become small. Looks for the largest damage(point).
+/// Looks for the worst damage_of(point) by a (1+1) evolution strategy on the unit cube. Half of the numbers
+/// mutate at a time, the step grows with success and shrinks with failure (one-fifth rule), and when it has
+/// become small the search starts anew from the best of eight random points.
 template <class Point>
 std::pair<Point, damage> most_damage(auto damage_of, int evaluations, std::uint64_t seed) noexcept {
   random_source random(seed);
@@ -117,7 +115,7 @@ std::pair<Point, damage> most_damage(auto damage_of, int evaluations, std::uint6
   return {best, most};
 }
 
-/// Velocity source or limited force, against any model.
+/// The search with a velocity source, or if `limited` with a hand of limited force.
 template <class Space>
 search_result look_for_worst(const subject<Space>& model, const circumstances& world,
                              int evaluations, std::uint64_t seed, bool limited) noexcept {
@@ -167,7 +165,7 @@ search_result look_for_worst(const subject<Space>& model, const circumstances& w
 
 }  // namespace detail
 
-/// The worst cycle of a velocity source that so many runs of circumstances::ticks have found.
+/// The worst cycle of a velocity source found in `evaluations` runs of circumstances::ticks.
 template <class Model, lay_for<Model> Lay = usual_lay<Model>>
 [[nodiscard]] search_result worst_motion(const Model& model, const circumstances& world = {},
                                          int evaluations = 2000, std::uint64_t seed = 1,
@@ -176,8 +174,8 @@ template <class Model, lay_for<Model> Lay = usual_lay<Model>>
   return detail::look_for_worst(subject<space_of<Model>>(tested), world, evaluations, seed, false);
 }
 
-/// The worst one found of a hand of at most circumstances::hand_force on a device of
-/// circumstances::mass: it stays inside what reachable_bound and its like assume.
+/// The worst cycle found of a hand of at most circumstances::hand_force on a device of
+/// circumstances::mass, which reachable_bound and reachable_work_bound assume.
 template <class Model, lay_for<Model> Lay = usual_lay<Model>>
 [[nodiscard]] search_result worst_push(const Model& model, const circumstances& world = {},
                                        int evaluations = 2000, std::uint64_t seed = 1,

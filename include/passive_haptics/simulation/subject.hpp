@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Any passive port as challenge.hpp and search.hpp see it. Adversaries are compiled once per Space;
-// per model there are only four short functions.
+// The type-erased model of challenge.hpp and search.hpp.
+// Adversaries are compiled once per Space, and for each model only four short functions.
 //
-//   lay_constraint<C>   a constraint of type C through a point: half_space, segment, triangle
+//   lay_constraint<C>   makes a constraint of type C through a point: half_space, segment, triangle
 //   under_test          a model, and the copy of it that a run works on
-//   subject<Space>      a reference to it that forgets its type
+//   subject<Space>      a reference to an under_test of any model
 //
-// A model is whatever has tick(sample), which answers with a force or with a result that has one, and
-// a space_type or port_type. How is a surface laid on it? The callable `lay` is one of
+// A model is any type with tick(sample), which answers with a force or with a result that has one, and
+// with a space_type or port_type. A surface is laid on it by the callable `lay`, which is one of
 //     lay_constraint<C>       the default: a constraint for update() of the model or of its source
-//     lay(point, normal, K)   the same with a constraint of your making
-//     lay(model, surface)     whatever you do: for several contacts, for a renderer
-// A model whose constraint never moves brings its own.
+//     lay(point, normal, K)   the same with a constraint of your own
+//     lay(model, surface)     your own function, for several contacts or for a renderer
+// A model whose constraint never moves keeps that one.
 
 #include <passive_haptics/constraint_geometry/segment.hpp>
 #include <passive_haptics/constraint_geometry/triangle.hpp>
@@ -26,7 +26,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// operator()(point [m], unit outward normal, K [N/m]): the constraint of type C through that point.
+/// operator()(point [m], unit outward normal, K [N/m]) is the constraint of type C through that point.
 /// Specialise it for a constraint of your own.
 template <class C>
 struct lay_constraint;
@@ -44,7 +44,7 @@ struct lay_constraint<half_space<Space>> {
 template <class Space>
 struct lay_constraint<segment<Space>> {
   using vector = typename Space::vector;
-  typename Space::scalar length = typename Space::scalar(0.02);  ///< [m], the point in the middle
+  typename Space::scalar length = typename Space::scalar(0.02);  ///< [m]; the point is its middle
 
   [[nodiscard]] segment<Space> operator()(const vector& point, const vector& normal,
                                           typename Space::scalar K) const noexcept {
@@ -58,7 +58,7 @@ struct lay_constraint<segment<Space>> {
 template <class Space>
 struct lay_constraint<triangle<Space>> {
   using vector = typename Space::vector;
-  typename Space::scalar side = typename Space::scalar(0.04);  ///< [m], the point in the centre
+  typename Space::scalar side = typename Space::scalar(0.04);  ///< [m]; the point is its centre
 
   [[nodiscard]] triangle<Space> operator()(const vector& point, const vector& normal,
                                            typename Space::scalar K) const noexcept {
@@ -98,7 +98,7 @@ template <class Model>
   }
 }
 
-/// Who holds the constraint: the model, or its source.
+/// The holder of the constraint: the model, or its source.
 template <class Model>
 [[nodiscard]] constexpr auto& holder_of(Model& model) noexcept {
   if constexpr (requires { model.target(); }) {
@@ -138,16 +138,16 @@ concept has_its_own = requires(const Model& m, typename Space::vector v) {
 template <class Model>
 using space_of = decltype(detail::find_space<Model>());
 
-/// How a surface is laid on a model unless the caller says otherwise.
+/// The `lay` of a model by default.
 template <class Model>
 using usual_lay = decltype(detail::find_lay<Model>());
 
-/// Is it known how? A model with several contacts, or with none, needs a lay(model, surface).
+/// True if Lay can lay a surface on the model. A model with several contacts, or none, needs lay(model, surface).
 template <class Lay, class Model>
 concept lay_for = detail::can_be_moved<Model, Lay, space_of<Model>> ||
     (std::same_as<Lay, usual_lay<Model>>&& detail::has_its_own<Model, space_of<Model>>);
 
-/// The model as it was given, and the copy that the next run spoils.
+/// The model as it was given, and the copy that a run works on.
 template <class Model, class Lay>
 struct under_test {
   const Model& original;
@@ -164,18 +164,18 @@ class subject {
   explicit subject(under_test<Model, Lay>& tested) noexcept
       : tested_(&tested), verbs_(&verbs_of<Model, Lay>) {}
 
-  /// As it was given.
+  /// Puts the copy back to the model as it was given.
   void restart() const noexcept { verbs_->restart(tested_); }
-  /// The force commanded [N].
+  /// One tick of the model; returns the force commanded [N].
   [[nodiscard]] vector tick(const device_sample<Space>& sample) const noexcept {
     return verbs_->tick(tested_, sample);
   }
-  /// False: its constraint never moves, or it has refused this one.
+  /// Lays the surface on the model. Returns false if its constraint never moves or it refuses this one.
   bool update(const surface_state<Space>& next) const noexcept {
     return verbs_->update(tested_, next);
   }
-  /// Does it own a surface that never moves? Then `surface` becomes that one, at its point nearest
-  /// the origin.
+  /// True if the model owns a surface that never moves; `surface` then becomes that one, at its point
+  /// nearest the origin.
   bool brings_its_own(surface_state<Space>& surface) const noexcept {
     return verbs_->brings_its_own(tested_, surface);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The motion that search.hpp tunes: press, hold, retreat, rest, and once in that cycle the surface
-// may jump and change its stiffness. Eleven numbers say how.
+// The motion that search.hpp tunes by eleven numbers: press, hold, retreat, rest.
+// Once in that cycle the surface may jump and change its stiffness.
 
 #include <passive_haptics/simulation/adversary_motions.hpp>
 #include <passive_haptics/simulation/circumstances.hpp>
@@ -10,25 +10,25 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// The cycle. A hand that is limited in force presses with hand_force/press_ticks and pulls back
-/// with `retreat` of hand_force, at most all of it.
+/// The numbers of the cycle. A hand of limited force presses with hand_force/press_ticks and pulls back with
+/// hand_force·min(retreat, 1).
 struct cycle_parameters {
   static constexpr int count = 11;
   using unit_cube = std::array<double, count>;
 
   double depth = 1e-3;      ///< how deep it presses, 20 µm to 2 mm [m]
-  int press_ticks = 1;      ///< in how many ticks, 1 to 40
+  int press_ticks = 1;      ///< in how many ticks it presses, 1 to 39
   int hold_ticks = 0;       ///< how long it stays there, 0 to 40
   double retreat = 1.0;     ///< Δx of the way back as a multiple of f dt/(2b), 10⁻³ to 4
   double rest = 0.0;        ///< where it turns, as a share of depth above the surface, −0.9 to 1
   int rest_ticks = 0;       ///< how long it stays there, 0 to 40
-  double lateral = 0.0;     ///< sideways step as a share of depth, 0 to 1; with 2 axes and more
+  double lateral = 0.0;     ///< sideways step as a share of depth, 0 or 0.3 to 1; for 2 or 3 axes
   double jump = 0.0;        ///< of the surface and back, once a cycle [m]
-  double phase = 0.0;       ///< when in the cycle, 0 to 1
+  double phase = 0.0;       ///< time of the jump as a share of the cycle, 0 to 1
   double stiffness = 1e4;   ///< K before the jump [N/m]
-  double after_jump = 1e4;  ///< and after it [N/m]
+  double after_jump = 1e4;  ///< K after the jump [N/m]
 
-  /// Each number from its place between its least and its most.
+  /// The numbers at the point u of the unit cube, 0 standing for the least of each and 1 for the largest.
   [[nodiscard]] static cycle_parameters at(const unit_cube& u,
                                            const circumstances& world) noexcept {
     const auto logarithmic = [](double low, double high, double t) {
@@ -52,16 +52,16 @@ struct cycle_parameters {
 
 enum class cycle_stage : std::uint8_t { press, hold, retreat, rest };
 
-/// Where in its cycle an adversary is: a tuned_motion, or the hand of worst_push().
+/// The place of an adversary in its cycle, for a tuned_motion and the hand of worst_push().
 struct cycle {
   cycle_parameters p{};
   cycle_stage stage = cycle_stage::press;
   int in_stage = 0;  ///< ticks
   int in_cycle = 0;  ///< ticks
 
-  /// Goes on to the next stage if this one is over at that depth [m].
+  /// Goes on to the next stage if the present one is over at the depth `depth` [m].
   void advance(double depth) noexcept {
-    constexpr int too_long = 400;  // ticks in a stage that reaches nothing
+    constexpr int too_long = 400;  // ticks after which a stage ends anyway
     const double height = p.rest * p.depth;
     bool over = in_stage >= too_long;
     switch (stage) {
@@ -92,14 +92,14 @@ struct cycle {
     ++in_stage;
     ++in_cycle;
   }
-  /// Is the surface where it has jumped to?
+  /// True if the surface has jumped and not gone back yet.
   [[nodiscard]] bool jumped() const noexcept {
     const int length = p.press_ticks + p.hold_ticks + p.rest_ticks + 1;
     return in_cycle > static_cast<int>(p.phase * length);
   }
 };
 
-/// The velocity source. Where nothing pushes, it retreats as quickly as it came.
+/// The velocity source. Where no force pushes it retreats as quickly as it came.
 template <class Space>
 struct tuned_motion {
   using vector = typename physical<Space>::vector;

@@ -11,9 +11,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Parameters of the admittance side.
 struct admittance_parameters {
-  double stiffness{};  ///< K [N/m]: f changes by at most K ‖Δp‖ on a step; 0: f is held over it
+  double stiffness{};  ///< K [N/m]: in a step f changes by at most K ‖Δp‖; 0: f is held over a step
   double drift_rate{};  ///< share of the position drift that is made up for in a second [1/s]
   double top_speed = std::numeric_limits<double>::infinity();  ///< top speed of the tool [m/s]
   double loan{};                                               ///< E1 at the start [J]
@@ -29,14 +28,13 @@ struct admittance_parameters {
   }
 };
 
-/// What a step of the admittance side returns.
 template <class Space>
 struct admittance_result {
   typename Space::vector displacement;  ///< Δp', by which the environment is to move the tool [m]
   typename Space::vector drift;         ///< position of the hand less that of the tool [m]
   typename Space::scalar energy;        ///< E1 = E_in_rx − E_out [J]
-  event what = event::nominal;
-  bool limited = false;  ///< the controller changed the desired motion
+  event what = event::nominal;          ///< the worst that happened in the step
+  bool limited = false;                 ///< the controller changed the desired motion
 };
 
 /// The passivity controller β and its observer, in discrete time. Step k of the environment takes
@@ -53,12 +51,12 @@ struct admittance_result {
 /// Strict, K > 0: for every environment in continuous time whose force on the straight way changes
 /// by at most K per metre, and that moves by itself between steps only. The price is Colgate's: a
 /// motion costs K ‖Δp‖²/2 a step, in free space too, which the loan or a hand that works against a force must
-/// have paid in. settle() gives back what was not used. If K = 0 is stated for an environment with K > 0, it
-/// receives up to K ‖Δp'‖²/2 a step unseen.
+/// have paid in. settle() gives back what was not used. If K = 0 is stated for an environment with K > 0, that
+/// environment receives up to K ‖Δp'‖²/2 a step that no ledger counts.
 ///
 /// Drift: motion that was cut, or lost to top_speed, is missing for good, unless drift_rate > 0 adds the share
-/// drift_rate·dt of it to each step. That is part of Δp, so it spends only surplus. (The purpose is that of
-/// Chawda and O'Malley's drift compensators, from memory; the law is derived here.)
+/// drift_rate·dt of it to each step. It is added to Δp, so it is paid for like any motion. (The purpose is that
+/// of Chawda and O'Malley's drift compensators, from memory; the law is derived here.)
 ///
 /// It assumes that the tool moves as told, and that f is the force of that step.
 template <class Space, class Ledger = typename Space::scalar>
@@ -91,7 +89,7 @@ class admittance_side {
     return fault;
   }
 
-  /// Takes a packet {E_in, position} from the other side. A position that is not finite is left out.
+  /// Takes a packet {E_in [J], position [m]} from the other side. A position that is not finite is ignored.
   constexpr void receive(const packet_type& packet) noexcept {
     energy_ += received_.gain(packet.energy);
     cut();
@@ -100,8 +98,8 @@ class admittance_side {
     target_ = packet.payload;
   }
 
-  /// One step of the environment, of that length, that begins under `force` [N] on the tool. A
-  /// force that is not finite, or a length ≤ 0, moves nothing and is made up for in the next step.
+  /// Takes a step of the environment of `length` [s] that begins under `force` [N] on the tool. If the force is
+  /// not finite or the length ≤ 0, it moves nothing, says event::rejected_sample and makes up in the next step.
   [[nodiscard]] constexpr admittance_result<Space> step(const vector& force,
                                                         seconds<scalar> length) noexcept {
     const scalar dt = length.count();
@@ -120,7 +118,7 @@ class admittance_side {
     if (value() < scalar(0)) what = worse(what, event::debt);
     return result(moved, what, !(moved == wanted));
   }
-  /// A number where the length belongs could be a force as well: this does not compile.
+  /// Does not compile: a bare number as the length could as well be a force.
   template <std::convertible_to<scalar> Number>
   admittance_result<Space> step(const vector& /*force*/, const Number& /*length*/) noexcept {
     detail::refuse_bare_time<Number>();
@@ -136,7 +134,7 @@ class admittance_side {
     cut();
   }
 
-  /// {E_in, force} for the other side, to send after each step; `force` is the new one [N].
+  /// The packet {E_in [J], force [N]} for the other side, to send after each step; `force` is the new one.
   [[nodiscard]] constexpr packet_type packet(const vector& force) noexcept {
     return {static_cast<scalar>(promised_), ++number_, force};
   }
@@ -168,8 +166,8 @@ class admittance_side {
     return detail::number<scalar>(parameters_.stiffness) * Space::dot(motion, motion) / scalar(2);
   }
 
-  /// The motion nearest to `wanted` with −f·Δp ≤ E1; with a leak it is then shortened until E1 covers that,
-  /// too. Rounding errors are on the safe side.
+  /// The motion nearest to `wanted` with −f·Δp ≤ E1; for K > 0 it is then shortened until E1 covers the leak,
+  /// too. Rounding only ever shortens it.
   [[nodiscard]] constexpr vector affordable(const vector& wanted,
                                             const vector& force) const noexcept {
     const scalar rounding = scalar(8) * std::numeric_limits<scalar>::epsilon();
@@ -192,7 +190,8 @@ class admittance_side {
     return moved * (s * (scalar(1) - rounding));
   }
 
-  /// Books the work of the environment on the tool [J]: > 0 is promised to the other side, < 0 is spent.
+  /// Books the work of the environment on the tool [J]: work > 0 is promised to the other side, work < 0 is
+  /// taken from E1.
   constexpr void book(scalar work) noexcept {
     reserved_ = work;
     (work > scalar(0) ? promised_ : energy_) += work;

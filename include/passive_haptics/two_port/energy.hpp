@@ -17,10 +17,10 @@ inline namespace v0 {
 /// E_in is promised to the other side, so it is no credit here; the damping stays here and is
 /// promised to nobody. share = 1 is the published bookkeeping (§ 2(d)).
 ///
-/// Drops into any passive_port and impedance_side; with strict_bound E1 ≥ 0 by lemma L3, because a tick
-/// changes E1 by ΔxᵀBΔx − f·Δx when f·Δx > 0 and never lowers it otherwise.
+/// It fits any passive_port and impedance_side. With strict_bound E1 ≥ 0 by lemma L3, because a tick changes
+/// E1 by ΔxᵀBΔx − f·Δx when f·Δx > 0 and never lowers it otherwise.
 ///
-/// The price is that what the hand puts in comes back over the channel or not at all. Pressed slowly from an
+/// The price: the energy that the hand puts in comes back over the channel or not at all. Pressed slowly from an
 /// empty ledger, strict_bound shows at most 2B (1 − share) N/m, B = b/T (lemma L4 without the promised part).
 /// With share = 1 it shows only what the damping and the other side have paid for.
 template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
@@ -30,7 +30,7 @@ struct basic_two_port_energy {
   static constexpr bool exact = true;
 
   Damping damping{};   ///< b [N·s/m], a lower bound
-  double share = 1.0;  ///< share of what the hand puts in that is promised, 0 to 1
+  double share = 1.0;  ///< share of the hand's energy that is promised to the other side, 0 to 1
   double loan{};       ///< E1 at the start [J]
   double cap = std::numeric_limits<double>::infinity();  ///< most credit to keep [J] (L7)
 
@@ -72,7 +72,7 @@ class basic_two_port_energy<Damping, Sum>::on {
             .loan = static_cast<double>(loan_),
             .cap = static_cast<double>(cap_)};
   }
-  /// Reset both sides together: a side that starts anew alone spends again what it has spent already.
+  /// Reset both sides together: a side that is reset alone spends again what it has spent already.
   constexpr void reset() noexcept {
     energy_ = loan_;
     promised_ = scalar(0);
@@ -90,11 +90,11 @@ class basic_two_port_energy<Damping, Sum>::on {
     cut();
     return true;
   }
-  /// A tick that nobody saw promises nothing and costs the worst that `held` can have done.
+  /// Writes off a tick of unknown motion: it promises nothing and costs ¼ fᵀB⁻¹f [J] of the force `held`.
   constexpr void forfeit(const effort& held, scalar T) noexcept {
     energy_ = detail::written_off(value(), damping_.worst_outflow(held, T));
   }
-  /// Takes the other side's E_in [J] from a packet, in whatever order they come.
+  /// Takes the other side's E_in [J] from a packet; packets may come in any order.
   constexpr void receive(scalar other) noexcept {
     energy_ += received_.gain(other);
     cut();
@@ -102,7 +102,7 @@ class basic_two_port_energy<Damping, Sum>::on {
 
   [[nodiscard]] constexpr scalar value() const noexcept { return static_cast<scalar>(energy_); }
   [[nodiscard]] constexpr const damping_type& damping() const noexcept { return damping_; }
-  /// E_in to send [J].
+  /// E_in [J], to be sent.
   [[nodiscard]] constexpr scalar outgoing() const noexcept {
     return static_cast<scalar>(promised_);
   }

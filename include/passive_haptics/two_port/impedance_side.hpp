@@ -17,8 +17,8 @@ inline namespace v0 {
 ///     master.receive(packet);                                // as many as have come, in any order
 ///     device.command(master.tick(sample).force);
 ///     channel.send(master.packet());                         // {E_in, position}
-/// If the channel falls silent, the last force is held until the ledger is spent, or until it is stale
-/// where the given_force states `stale_after`.
+/// If the channel falls silent, the last force is held until the ledger is spent, or until the force is older
+/// than `stale_after`, where the given_force states that.
 template <class Space, class Observer, class Bound, class Limits = loop_limits>
 class impedance_side : public passive_port<Space, given_force, Observer, Bound, Limits> {
   using side = passive_port<Space, given_force, Observer, Bound, Limits>;
@@ -33,14 +33,14 @@ class impedance_side : public passive_port<Space, given_force, Observer, Bound, 
                            const given_force& rule = {.stale_after = infinity}) noexcept
       : side(where, rule, observer, bound, limits) {}
 
-  /// Takes a packet {E_in, force} from the other side. A force with NaN or infinity is refused, and the
+  /// Takes a packet {E_in [J], force [N]} from the other side. A force that is not finite is refused, and the
   /// next tick says so.
   constexpr void receive(const packet_type& packet) noexcept {
     this->observer().receive(packet.energy);
     if (packet.number <= newest_) return;
     if (this->source().update(packet.payload)) newest_ = packet.number;
   }
-  /// {E_in, position} for the other side, to send after each tick.
+  /// The packet {E_in [J], position [m]} for the other side, to send after each tick.
   [[nodiscard]] constexpr packet_type packet() noexcept {
     if (this->has_position()) ++number_;  // 0: no position yet
     return {this->observer().outgoing(), number_, this->position()};

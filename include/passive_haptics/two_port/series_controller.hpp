@@ -2,7 +2,6 @@
 #pragma once
 // The published passivity controller of the impedance side, for comparison.
 
-#include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/port/concepts.hpp>
 #include <passive_haptics/two_port/packet.hpp>
 
@@ -15,13 +14,13 @@ inline namespace v0 {
 ///     E_out += max(f·v dt, 0)      E_in += max(−f·v dt, 0)
 ///     E_out > E_in_rx and ‖v‖ > v_min:   α = (E_out − E_in_rx)/(dt v²) ≤ max_gain
 ///                                        f' = f − α v,   E_out −= α v² dt
-/// (§ 2(d), from memory; thresholds as seen in public code.) What max_gain leaves of E_out is carried on.
+/// (§ 2(d), from memory; thresholds as seen in public code.) A deficit that max_gain leaves stays in E_out.
 ///
 /// This would be passive if f and v were constant over one and the same sample. But f' is held during the
-/// NEXT displacement, and on a sampled stiff wall this bookkeeping sees no leak at all (lemma L2).
-/// impedance_side is the form that keeps the promise.
+/// NEXT displacement, and on a sampled stiff wall these sums see no leak at all (lemma L2). For a promise
+/// take impedance_side.
 struct two_port_series_parameters {
-  double min_speed = 1e-3;  ///< v_min; nothing is done below it [m/s]
+  double min_speed = 1e-3;  ///< v_min [m/s]; below it f' = f
   double max_gain =
       std::numeric_limits<double>::infinity();  ///< largest α [N·s/m]; stable up to 0.5 m/T
 
@@ -48,32 +47,28 @@ class two_port_series_controller {
     return fault;
   }
 
+  /// Takes the other side's E_in [J] from a packet.
   constexpr void receive(scalar other) noexcept { static_cast<void>(received_.gain(other)); }
   [[nodiscard]] constexpr scalar in() const noexcept { return in_; }    ///< E_in [J]
   [[nodiscard]] constexpr scalar out() const noexcept { return out_; }  ///< E_out [J]
 
-  /// The force to command [N] for the force received [N] and the displacement [m] of the tick of
-  /// that length, > 0, that has just ended.
-  [[nodiscard]] constexpr vector force(const vector& desired, const vector& displacement,
-                                       seconds<scalar> length) noexcept {
-    const scalar dt = length.count();
+  struct ended_tick {
+    vector desired = Space::zero();       ///< f, the force received [N]
+    vector displacement = Space::zero();  ///< Δx, during the tick [m]
+    scalar dt{};                          ///< its length, > 0 [s]
+  };
+  /// f', the force to command [N].
+  [[nodiscard]] constexpr vector force(const ended_tick& tick) noexcept {
     const scalar min_speed = detail::number<scalar>(parameters_.min_speed);
     const scalar max_gain = detail::number<scalar>(parameters_.max_gain);
-    const scalar gave = Space::dot(desired, displacement);
+    const scalar gave = Space::dot(tick.desired, tick.displacement);
     (gave > scalar(0) ? out_ : in_) += kernels::magnitude(gave);
-    const scalar square = Space::dot(displacement, displacement) / (dt * dt);
+    const scalar square = Space::dot(tick.displacement, tick.displacement) / (tick.dt * tick.dt);
     const scalar excess = out_ - received_.newest;
-    if (!(excess > scalar(0)) || !(square > min_speed * min_speed)) return desired;
-    const scalar alpha = kernels::smaller(excess / (dt * square), max_gain);
-    out_ += -alpha * square * dt;
-    return desired - displacement * (alpha / dt);
-  }
-  /// A number where the length belongs could be a force as well: this does not compile.
-  template <std::convertible_to<scalar> Number>
-  vector force(const vector& desired, const vector& /*displacement*/,
-               const Number& /*length*/) noexcept {
-    detail::refuse_bare_time<Number>();
-    return desired;
+    if (!(excess > scalar(0)) || !(square > min_speed * min_speed)) return tick.desired;
+    const scalar alpha = kernels::smaller(excess / (tick.dt * square), max_gain);
+    out_ += -alpha * square * tick.dt;
+    return tick.desired - tick.displacement * (alpha / tick.dt);
   }
 
  private:

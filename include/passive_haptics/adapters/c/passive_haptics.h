@@ -87,7 +87,10 @@ enum ph_event {
   PH_STALE_TARGET = 6,       ///< nothing good was published for too long: the force fades
   PH_OUTSIDE_WORKSPACE = 7,  ///< millimetres for metres? Force zero
   PH_REJECTED_SAMPLE = 8,  ///< lost, NaN, dt ≤ 0, an impossible jump: force zero, credit forfeited
-  PH_REJECTED_PARAMETERS = 9  ///< there is no port: force zero
+  PH_REJECTED_PARAMETERS = 9,  ///< there is no port: force zero
+  PH_OUTSIDE_FORCE = 10,   ///< it moves as the mass and hand stated cannot move it: a strict bound
+  PH_UNTOLD_LATENCY = 11,  ///< it holds a force later, or sooner, than was stated: force zero
+  PH_WRONG_SIGN = 12       ///< it does the opposite of what it is told: force zero for good
 };
 
 /// How far a composition is passive, as in the library.
@@ -132,6 +135,17 @@ typedef struct ph_result {
   int32_t capped;   ///< not 0: the plane is stiffer than the device can pay for, and is felt softer
 } ph_result;
 
+/// How stiff a surface is shown, and why no stiffer.
+typedef struct ph_explanation {
+  uint32_t size;  ///< sizeof(ph_explanation), set by the caller
+  int32_t now;    ///< not 0: `force` is less than `shown` times `depth`, and `because` says why
+  double asked;   ///< stiffness of the plane [N/m]; infinite for a guard, which does not know it
+  double shown;   ///< what is felt of it at rest, as long as the motors hold it [N/m]
+  double depth;   ///< of the device in the plane, at the last tick [m]; 0 outside, and in a guard
+  double force;   ///< commanded last [N]
+  const char* because;  ///< what binds and what would raise it, in English, for ever
+} ph_explanation;
+
 /// The version of the library that is loaded: 10000 major + 100 minor + patch.
 PH_API uint32_t ph_version(void) PH_NOTHROW;
 
@@ -149,9 +163,10 @@ PH_API uint32_t ph_version(void) PH_NOTHROW;
 ///   "encoder_guard"    quantum, friction, presliding                    strict
 ///
 /// A touch presses back from the plane that is published. A guard bounds a force that the caller has.
-/// "touch" is the library's make_touch, "encoder_touch" its make_encoder_touch, which alone takes
-/// continuous_force and winding_time; "force_guard" is make_force_guard, and lets what a renderer leaves ringing
-/// settle; "strict_guard" is make_strict_guard behind whose bound the motors' limit stands, and is soft. Those that do not take `quantum` take positions as exact, and refuse one that is stated.
+/// "touch" is the library's make_touch of an exact_device, "encoder_touch" of an encoder_device, which alone takes
+/// continuous_force and winding_time; "force_guard" is make_guard, and lets what a renderer leaves ringing settle;
+/// "strict_guard" is make_strict_guard, and is soft. Those that do not take `quantum` take positions as exact, and
+/// refuse one that is stated.
 /// What a composition does not take it does not look at.
 PH_API int32_t ph_create(const char* composition, const ph_parameters* parameters, ph_port** port,
                          char* why, size_t room) PH_NOTHROW;
@@ -181,6 +196,10 @@ PH_API int32_t ph_tick_wanted(ph_port* port, const double position[3], double dt
 /// the force commanded `latency` ticks ago: motors that saturate, gravity compensation. For that tick only,
 /// from its thread. A force that is no number loses the sample.
 PH_API int32_t ph_held(ph_port* port, const double force[3]) PH_NOTHROW;
+
+/// How stiff the plane is shown, or how stiff a renderer may be that the guard settles, and why no stiffer. Not in
+/// every tick, from their thread. A strict guard has nothing to explain: PH_NOT_OF_THIS_COMPOSITION.
+PH_API int32_t ph_explain(const ph_port* port, ph_explanation* explanation) PH_NOTHROW;
 
 /// How stiff a plane may be on this device before its ledger runs dry in ordinary use [N/m], what binds it,
 /// and what would raise it: the cap of "encoder_touch". `because` may be NULL; its text is for ever.

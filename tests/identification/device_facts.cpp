@@ -2,7 +2,7 @@
 // What is known of devices says where it is from, and is of the size that devices have.
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
-#include <passive_haptics/design/device_facts.hpp>
+#include <passive_haptics/identification/device_facts.hpp>
 
 #include <string>
 #include <vector>

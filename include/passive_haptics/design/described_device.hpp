@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A device as a promise may state it: mass, damping and friction as lower bounds, the rest as upper bounds, in SI
+// units. identify finds them; half of what you identified is a good lower bound.
+//
+//   exact_device     its steps are not felt: positions are taken for exact
+//   encoder_device   the steps of its encoders are felt, and dry friction is known
+//
+// A device that turns says `rotary`, and has rad for m, N·m for N and kg·m² for kg. check() names what cannot be,
+// doubt() what can be and is surely a slip, as milliseconds where seconds belong.
+
+#include <passive_haptics/base/parameter.hpp>
+
+#include <limits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+struct exact_device {
+  double mass{};               ///< m, smallest apparent mass, over all directions and poses [kg]
+  double damping{};            ///< b [N·s/m]
+  double force_limit{};        ///< F, the most that the motors hold [N]
+  double longest_tick = 1e-3;  ///< T, the worst tick of YOUR loop [s]
+  int latency = 0;       ///< k, ticks by which the force is late: late_loop_limits<k> has it, too
+  bool rotary = false;   ///< it turns: rad, N·m, kg·m²
+  double top_speed = 0;  ///< faster is a sensor fault [m/s]; 0: 5 m/s, or 500 rad/s
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept;
+  [[nodiscard]] constexpr parameter_fault doubt() const noexcept;
+};
+
+struct encoder_device {
+  double mass{};               ///< m, smallest apparent mass, over all directions and poses [kg]
+  double damping{};            ///< b [N·s/m]
+  double friction{};           ///< c, dry friction; its least level where it varies [N]
+  double presliding = none;    ///< p, over which friction is elastic [m]; stated where c > 0
+  double quantum{};            ///< q, step of the position and noise from peak to peak, added [m]
+  double force_limit{};        ///< F, the most that the motors hold [N]
+  double longest_tick = 1e-3;  ///< T, the worst tick of YOUR loop [s]
+  int latency = 0;  ///< k, ticks by which the force is late: late_loop_limits<k> has it, too
+
+  double continuous_force =
+      std::numeric_limits<double>::infinity();  ///< what they hold without time limit [N]
+  double winding_time = 0.0;  ///< time constant of their warming, if that is less [s]
+  bool rotary = false;        ///< it turns: rad, N·m, kg·m²
+  double top_speed = 0;  ///< faster is a sensor fault [m/s]; 0: 5 m/s, or 500 rad/s, or 8 q a tick
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept;
+  [[nodiscard]] constexpr parameter_fault doubt() const noexcept;
+
+ private:
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+};
+
+namespace detail {
+
+template <class Device>
+[[nodiscard]] constexpr parameter_fault fault_of_any(const Device& d) noexcept {
+  if (!positive(d.mass)) return {"mass", d.mass, "finite and > 0 kg"};
+  if (!positive(d.force_limit)) return {"force_limit", d.force_limit, "finite and > 0 N"};
+  if (!positive(d.longest_tick)) return {"longest_tick", d.longest_tick, "finite and > 0 s"};
+  if (d.latency < 0) return {"latency", static_cast<double>(d.latency), "≥ 0 ticks"};
+  if (!not_negative(d.top_speed)) return {"top_speed", d.top_speed, "finite and ≥ 0 m/s"};
+  return {};
+}
+template <class Device>
+[[nodiscard]] constexpr parameter_fault doubt_of_any(const Device& d) noexcept {
+  if (const auto fault = d.check()) return fault;
+  if (d.mass > (d.rotary ? 0.5 : 20.0)) {
+    return {"mass", d.mass, "seen from the hand: below 20 kg, 0.5 kg·m² of what is rotary"};
+  }
+  if (d.longest_tick > 0.02) {
+    return {"longest_tick", d.longest_tick, "in seconds: a hand feels every tick above 20 ms"};
+  }
+  if (d.damping * d.longest_tick > 0.1 * d.mass) {
+    return {"damping", d.damping, "≤ 0.1 m/T: more stops the device within ten ticks"};
+  }
+  if (d.force_limit > 500.0) return {"force_limit", d.force_limit, "what a hand survives: < 500 N"};
+  return {};
+}
+/// Faster is a sensor fault: what the device says, or what no hand does, and no less than 8 steps a tick.
+[[nodiscard]] constexpr double top_speed_of(double said, bool rotary, double q, double T) noexcept {
+  if (said > 0.0) return said;
+  return kernels::larger(rotary ? 500.0 : 5.0, 8.0 * q / T);
+}
+
+}  // namespace detail
+
+constexpr parameter_fault exact_device::check() const noexcept {
+  if (!detail::positive(damping)) return {"damping", damping, "finite and > 0 N·s/m"};
+  return detail::fault_of_any(*this);
+}
+constexpr parameter_fault exact_device::doubt() const noexcept {
+  return detail::doubt_of_any(*this);
+}
+
+constexpr parameter_fault encoder_device::check() const noexcept {
+  if (const auto fault = detail::fault_of_any(*this)) return fault;
+  if (!detail::not_negative(damping)) return {"damping", damping, "finite and ≥ 0 N·s/m"};
+  if (!detail::not_negative(friction)) return {"friction", friction, "finite and ≥ 0 N"};
+  if (friction > 0.0 && !detail::not_negative(presliding)) {
+    return {"presliding", presliding,
+            "finite and ≥ 0 m, stated: over how far the friction is elastic"};
+  }
+  if (!detail::not_negative(quantum)) return {"quantum", quantum, "finite and ≥ 0 m"};
+  if (!(continuous_force >= 0.0)) return {"continuous_force", continuous_force, "≥ 0 N"};
+  if (continuous_force < force_limit && !detail::positive(winding_time)) {
+    return {"winding_time", winding_time, "finite and > 0 s"};
+  }
+  return {};
+}
+constexpr parameter_fault encoder_device::doubt() const noexcept {
+  return detail::doubt_of_any(*this);
+}
+
+}  // namespace v0
+}  // namespace passive_haptics

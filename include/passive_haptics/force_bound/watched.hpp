@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Is what was stated of a device possible? The motion can refute it, and then the bound relies on it no longer.
+//
+//   watched{reachable_bound{…}}   as the bound itself while nothing contradicts it
+
+#include <passive_haptics/port/composing.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A mass of at least m, pushed by the motors' f and by at most F besides, accelerates no more than both allow. Of two
+/// windows A, B of two ticks each (four where the sensor's steps e ask for it), with mean velocities V, it is necessary
+///     |J| ≤ ε     or     |J| ≤ ε + u·L + A_w (9/8 F + 2b(|V_A| + |V_B|))      [N·s]                   (§ 12)
+///     J = m (V_B − V_A),   L = ∫ w f dt, w the hat over both, of area A_w = (T_A + T_B)/2,   ε = m e (1/T_A + 1/T_B)
+/// with a unit vector u that is ε/|J| from J at most,
+/// for all that reachable_bound rests on. It is looked for from the beginning of a contact on, then ever more rarely,
+/// every 96 ticks at last, and without a pause where more than half of the slack is used.
+///
+/// A window that refutes it, an outlier or a blow on the handle, is an event::outside_force, and for 0.1 s of contact
+/// the force is bounded strictly, ¼fᵀB⁻¹f ≤ E1. Four of them, each within 0.25 s of contact after the last, are not
+/// forgiven until reset(). While all of them are explained by one of these, the force is zero for 25 ms in place of
+/// that, and after three it is so until reset():
+///     wrong_sign       the device does −f; at once if it reports so for three ticks
+///     untold_latency   f is held one to three ticks later than stated, or one sooner; seen in reports as well
+/// What else there is, a lighter or compliant device, a stronger hand, another port, stays outside_force.
+///
+/// It promises nothing that the bound does not: what stays within 9/8 F and the slack is not seen. It is wrong about a
+/// hand that pushes harder than F where nothing resists, an end stop, jumps of the sensor, and time stamps that are off
+/// by more than about A_w F/(m |V|) of a window.
+template <class Bound>
+requires requires(const Bound b) {
+  b.mass, b.hand_force;
+}  // what can be refuted
+struct watched {
+  static constexpr guarantee passivity = Bound::passivity;
+  static constexpr bound_traits traits = Bound::traits;
+
+  Bound bound{};
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept { return bound.check(); }
+  template <port P>
+  class on;
+};
+template <class Bound>
+watched(Bound) -> watched<Bound>;
+
+template <class Bound>
+requires requires(const Bound b) {
+  b.mass, b.hand_force;
+}
+template <port P>
+class watched<Bound>::on : public part_at<Bound, P> {
+  using kept = part_at<Bound, P>;
+  using stored = typename P::stored_effort;
+
+ public:
+  using typename kept::effort, typename kept::scalar;
+  template <class Parameters>
+  static constexpr int takers = detail::takers<Parameters, Bound, P>;
+
+  constexpr explicit on(const watched& p) noexcept : kept(p.bound), stated_(p) {}
+  constexpr void set(const watched& p) noexcept {
+    stated_ = p;
+    rely(what_);
+  }
+  template <class Parameters>
+  constexpr void take(const Parameters& p) noexcept {
+    part_at<Bound, P> next(stated_.bound);
+    detail::take<Bound, P>(next, p);
+    set({next.parameters()});
+  }
+  [[nodiscard]] constexpr watched parameters() const noexcept { return stated_; }
+  constexpr void reset() noexcept { *this = on(stated_); }
+
+  /// Does it look at this tick? From the second of a contact on, and not while it pauses.
+  [[nodiscard]] constexpr bool looks() const noexcept { return rest_ < 0; }
+  /// The tick that is over: its motion, if it is known, what was to be held and what was, its length, and the ledger.
+  template <bool Exact>
+  constexpr void look(bool known, const stored& travel, const stored& told, const stored& held,
+                      scalar dt, const auto& ledger) noexcept {
+    scalar b = ledger.damping().along_axis(0), error(0);
+    for (int i = 1; i < P::dof; ++i) b = kernels::larger(b, ledger.damping().along_axis(i));
+    if constexpr (Exact) {  // no sensor shows less than its steps
+      const scalar moved = P::norm(travel);
+      if (known && moved > scalar(0) && moved < step_) step_ = moved;
+      error = step_;
+    } else {
+      error = ledger.travel_error();
+    }
+    watch(known, travel, told, held, dt, error, b);
+  }
+  /// Is something asked in this tick? Where nothing is, the next contact is looked at from its beginning.
+  constexpr void look_on(bool asked) noexcept {
+    if (!asked) at_ = rest_ = pause_ = 0;
+    if (asked) --rest_;
+  }
+  /// What it has come to; what is worse than outside_force stops the port.
+  [[nodiscard]] constexpr event seen() const noexcept { return what_; }
+  /// Is the force to be zero meanwhile? What letting go changes tells a cause from a strong hand.
+  [[nodiscard]] constexpr bool lets_go() const noexcept { return lets_go_; }
+  /// Has there been one such window only, and is it relied upon again?
+  [[nodiscard]] constexpr bool forgives() const noexcept {
+    return what_ == event::nominal && doubts_ == 1;
+  }
+
+ private:
+  static constexpr int N = 4;               ///< ticks of half a window
+  static constexpr int lag = 3;             ///< ticks of latency that are looked for
+  static constexpr int longest_pause = 96;  ///< between looks at what is far from refuted [ticks]
+  static constexpr int enough = 4;          ///< windows that are not forgiven
+  static constexpr int says_no = 3;         ///< ticks in a row, reported to have been the opposite
+  static constexpr std::uint8_t sign = 1, late = 2 + 8 + 16 + 32, all_causes = sign + late;
+  static constexpr scalar mistrust = scalar(0.1), letting_go = scalar(0.025),
+                          memory = scalar(0.25);   // [s]
+  static constexpr scalar unsaid = scalar(60e-6);  ///< steps of "exact" positions, at most [m]
+
+  struct tick_seen {
+    stored travel, told, held;
+    scalar dt;
+  };
+
+  /// A hand of any force is what leaves the strict bound.
+  constexpr void rely(event what) noexcept {
+    what_ = what;
+    Bound p = stated_.bound;
+    if (what != event::nominal) p.hand_force = 1e30;
+    static_cast<kept&>(*this) = kept(p);
+  }
+
+  [[nodiscard]] constexpr scalar mass() const noexcept {
+    return detail::number<scalar>(stated_.bound.mass);
+  }
+  [[nodiscard]] constexpr scalar force() const noexcept {
+    return detail::number<scalar>(stated_.bound.hand_force);
+  }
+
+  constexpr void trust_again() noexcept {
+    lets_go_ = false;
+    if (what_ != event::nominal) rely(event::nominal);
+  }
+
+  constexpr void watch(bool good, const stored& travel, const stored& told, const stored& held,
+                       scalar dt, scalar error, scalar b) noexcept {
+    rest_ = 0;
+    if (doubts_ >= enough) return;
+    if (at_ == 0) {  // a contact begins, or motion that is known
+      trust_again();
+      quiet_ += mistrust / scalar(2);
+      if (!alert_) at_ = lag;
+      half_ = mass() * error <= force() * dt * dt ? N / 2 : N;
+    }
+    if (!good) {
+      at_ = 0;
+      return;
+    }
+    opposed_ = P::dot(held, told) * scalar(-4) > P::dot(told, told) ? opposed_ + 1 : 0;
+    if (opposed_ == says_no) {
+      doubts_ = enough;
+      return rely(event::wrong_sign);
+    }
+    seen_[static_cast<std::size_t>(at_)] = {travel, told, held, dt};
+    const int one_more = alert_ ? 1 : 0;
+    if (++at_ < lag + 2 * half_ + one_more) return;
+    judge(error, b);
+    at_ = 0;
+    if (rest_ > 0) return;
+    for (; at_ < lag + one_more; ++at_) {
+      seen_[static_cast<std::size_t>(at_)] = seen_[static_cast<std::size_t>(at_ + 2 * half_)];
+    }
+  }
+
+  /// A window of 2N ticks, `lag` before it and one after it.
+  constexpr void judge(scalar error, scalar b) noexcept {
+    const auto at = [this](int i) -> const tick_seen& {
+      return seen_[static_cast<std::size_t>(lag + i)];
+    };
+    effort XA = P::zero(), XB = P::zero();
+    scalar TA(0), TB(0);
+    for (int i = 0; i < half_; ++i) {
+      XA = effort(XA + effort(at(i).travel));
+      XB = effort(XB + effort(at(half_ + i).travel));
+      TA += at(i).dt;
+      TB += at(half_ + i).dt;
+    }
+    const effort VA = P::scaled(XA, scalar(1) / TA), VB = P::scaled(XB, scalar(1) / TB);
+    const effort J = P::scaled(P::difference(VB, VA), mass());
+    const scalar size = P::norm(J);
+    const scalar reach = (TA + TB) / scalar(2) *
+                         (force() * scalar(1.125) + scalar(2) * b * (P::norm(VA) + P::norm(VB)));
+    const scalar off = mass() * error * (scalar(1) / TA + scalar(1) / TB);
+    /// How much of the reach J needs, if `force(i)` was held in tick i [N·s].
+    const auto needed = [&](const auto& force) {
+      if (!(size > off)) return scalar(0);  // it may have been none
+      effort L = P::zero();
+      scalar passed(0);
+      for (int i = 0; i < 2 * half_; ++i) {
+        if (i == half_) passed = scalar(0);
+        const scalar dt = at(i).dt, mid = passed + dt / scalar(2);
+        L = effort(L + P::scaled(force(i), dt * (i < half_ ? mid / TA : scalar(1) - mid / TB)));
+        passed += dt;
+      }
+      scalar along = P::dot(J, L) / size;
+      if constexpr (P::dof > 1) {  // the true J may lie beside the one seen, by an angle of sine s
+        const scalar s = off / size, c = kernels::square_root(scalar(1) - s * s);
+        const scalar length = P::norm(L);
+        const scalar across =
+            kernels::square_root(kernels::larger(length * length - along * along, scalar(0)));
+        along = along >= c * length ? length : c * along + s * across;
+      }
+      return size - off - along;
+    };
+    const scalar used = needed([&](int i) { return effort(at(i).held); });
+    const bool others = reports_others();
+    const std::uint8_t reported = alert_ && others ? misreported() : std::uint8_t{0};
+    const bool refuted = reported != 0 || !(used <= reach);
+    if (doubts_ == 0 && !refuted) {
+      if (!others && used * scalar(2) <= reach) {
+        rest_ = pause_;
+        pause_ = used * scalar(8) <= reach && pause_ < longest_pause ? 2 * pause_ + 4 : pause_;
+        alert_ = false;
+      } else {
+        alert_ = alert_ || others;
+      }
+      return;
+    }
+    std::uint8_t possible = reported;
+    if (reported == 0) {
+      if (needed([&](int i) { return P::scaled(at(i).told, scalar(-1)); }) <= reach) {
+        possible = sign;
+      }
+      for (int k = -1; k <= lag && alert_; ++k) {
+        if (needed([&](int i) { return effort(at(i - k).told); }) <= reach) possible |= later_by(k);
+      }
+    }
+    if (!alert_) possible |= late;  // there was nothing to tell by
+    if (doubts_ == 0) could_be_ = all_causes;
+    could_be_ &= possible;
+    if (refuted) {
+      lets_go_ = (could_be_ & (alert_ ? all_causes : sign)) != 0;
+      ++doubts_;
+      quiet_ = scalar(0);
+      rely(event::outside_force);
+    } else {
+      lets_go_ = lets_go_ && could_be_ != 0;
+      quiet_ += TA + TB;
+    }
+    alert_ = true;
+    if (doubts_ >= (lets_go_ ? enough - 1 : enough)) {
+      doubts_ = enough;
+      if (lets_go_) rely((could_be_ & sign) != 0 ? event::wrong_sign : event::untold_latency);
+    } else if (quiet_ > memory) {
+      doubts_ = 0;
+    }
+    if (doubts_ < enough && quiet_ > (lets_go_ ? letting_go : mistrust)) trust_again();
+  }
+
+  /// Σ |held − told, k ticks later|² over the window [N²].
+  [[nodiscard]] constexpr scalar off_by(int k) const noexcept {
+    scalar sum(0);
+    for (int i = lag; i < lag + 2 * half_; ++i) {
+      const effort off = P::difference(seen_[static_cast<std::size_t>(i)].held,
+                                       seen_[static_cast<std::size_t>(i - k)].told);
+      sum += P::dot(off, off);
+    }
+    return sum;
+  }
+  /// Is it reported to have held other forces than it was to, by 3 %?
+  [[nodiscard]] constexpr bool reports_others() const noexcept {
+    scalar told(0);
+    for (int i = lag; i < lag + 2 * half_; ++i) {
+      const effort f = seen_[static_cast<std::size_t>(i)].told;
+      told += P::dot(f, f);
+    }
+    return off_by(0) * scalar(1024) > told;
+  }
+  /// The latencies that explain such a report.
+  [[nodiscard]] constexpr std::uint8_t misreported() const noexcept {
+    std::uint8_t found = 0;
+    for (int k = -1; k <= lag; ++k) {
+      if (off_by(k) * scalar(16) <= off_by(0)) found |= later_by(k);
+    }
+    return found;
+  }
+  /// The bit of a latency that is k ticks more than stated.
+  [[nodiscard]] static constexpr std::uint8_t later_by(int k) noexcept {
+    return k == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(1 << (k + 2));
+  }
+
+  watched stated_;
+  scalar step_ = unsaid;  ///< the least that the sensor has moved by [m]
+  scalar quiet_{};        ///< contact since then [s]
+  int rest_ = 0;          ///< ticks until it looks again, which it does below 0
+  int half_ = N;          ///< ticks of half a window
+  int pause_ = 0;         ///< the next of them
+  int at_ = 0;            ///< ticks seen in a row
+  int doubts_ = 0;        ///< windows that refuted it
+  int opposed_ = 0;
+  std::uint8_t could_be_ = 0;  ///< causes that explain all that was seen since the first of them
+  bool alert_ = false;         ///< windows are looked at with what is around them
+  bool lets_go_ = false;
+  event what_ = event::nominal;
+  std::array<tick_seen, lag + 2 * N + 1> seen_{};
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

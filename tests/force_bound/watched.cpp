@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the motion refutes of what was stated, what it does not, and what becomes of it.
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/compositions.hpp>
+#include <passive_haptics/simulation/compliant_device.hpp>
+#include <passive_haptics/simulation/device.hpp>
+
+#include <random>
+
+namespace sim = ph::simulation;
+
+namespace {
+
+constexpr double T = 1e-3;
+constexpr ph::exact_device told{.mass = 0.1, .damping = 0.1, .force_limit = 9.0};
+constexpr ph::known_hand hand{.force = 5.0};
+
+/// A port that gives what it is asked for, and looks.
+template <class Space>
+auto given_port(double mass, double F, double damping) {
+  return ph::passive_port{
+      Space{}, ph::given_force{}, ph::reduced_energy{.damping = damping, .loan = 1e6},
+      ph::watched{ph::reachable_bound{.mass = mass, .hand_force = F}},
+      ph::loop_limits{.longest_tick = 1.2 * T, .top_speed = 1e3, .workspace = 1e6}};
+}
+
+/// A mass under a force that jumps from tick to tick, and others of `push` and −`drag`·v, exactly. Ticks that were
+/// refuted, and the worst event.
+struct outcome {
+  int refuted = 0;
+  ph::event worst = ph::event::nominal;
+};
+struct pushed {
+  double mass = 0.1, push = 0.0, drag = 0.0, told_damping = 1e-6, jitter = 0.2, quantum = 0.0;
+  double most = 3.0;        ///< of the force asked for [N]
+  double stop_after = 1e9;  ///< pushes until then [s]
+  double quiet = 0.05;      ///< before it begins [s]
+  int late = 0;             ///< ticks until the device holds it
+};
+template <class Space = d1>
+outcome ran(const pushed& how, int ticks = 450) {
+  auto port = given_port<Space>(0.1, 5.0, how.told_damping);
+  std::mt19937 g(4);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  double x = 0.0, v = 1e-6, dt = T,
+         t = -how.quiet;  // so slowly at first that the sensor is seen to be fine
+  std::array<double, 4> given{};
+  outcome all;
+  for (int n = 0; n < ticks; ++n) {
+    const double seen = how.quantum > 0.0 ? std::floor(x / how.quantum) * how.quantum : x;
+    const double f = t < 0.0 ? 1e-9 : how.most * (n % 7 == 0 ? u(g) : 0.5 + 0.5 * u(g));
+    const auto out = [&] {
+      if constexpr (Space::dof == 1) {
+        return port.tick(seen, ph::seconds{dt}, f);
+      } else {
+        return port.tick(typename Space::vector(0.6 * seen, 0.8 * seen, 0.0), ph::seconds{dt},
+                         typename Space::vector(0.6 * f, 0.8 * f, 0.0));
+      }
+    }();
+    all.refuted += out.what >= ph::event::outside_force;
+    all.worst = ph::worse(all.worst, out.what);
+    for (std::size_t k = 3; k > 0; --k) given[k] = given[k - 1];
+    if constexpr (Space::dof == 1) {
+      given[0] = out.force;
+    } else {
+      given[0] = out.force.dot(typename Space::vector(0.6, 0.8, 0.0));
+    }
+    dt = T * (1.0 + how.jitter * u(g));
+    const double push = t > 0.0 && t < how.stop_after ? how.push : 0.0;
+    for (int i = 0; i < 50; ++i) {
+      const double h = dt / 50;
+      const double a = (given[static_cast<std::size_t>(how.late)] + push - how.drag * v) / how.mass;
+      x += v * h + a * h * h / 2.0;
+      v += a * h;
+    }
+    t += dt;
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a mass that is pushed by 9/8 of the force stated is believed, and by more is not",
+          "[force_bound][watched]") {
+  for (const double sign : {1.0, -1.0}) {
+    CAPTURE(sign);
+    CHECK(ran({.push = sign * 5.6}).worst == ph::event::nominal);
+    CHECK(ran({.push = sign * 5.7}).worst >= ph::event::outside_force);
+    CHECK(ran<d3>({.push = sign * 5.6}).worst == ph::event::nominal);
+    CHECK(ran<d3>({.push = sign * 5.7}).worst >= ph::event::outside_force);
+  }
+}
+
+TEST_CASE("a heavier device than stated is believed, a lighter one is not",
+          "[force_bound][watched]") {
+  for (const double mass : {0.1, 0.15, 0.3, 3.0}) {
+    for (const double push : {5.0, -5.0, 0.0}) {
+      CAPTURE(mass, push);
+      CHECK(ran({.mass = mass, .push = push, .most = 9.0}).worst == ph::event::nominal);
+    }
+  }
+  CHECK(ran({.mass = 0.07, .push = 5.0}).worst >= ph::event::outside_force);
+}
+
+TEST_CASE("a damper of twice what is stated is believed, and of five times is not",
+          "[force_bound][watched]") {
+  // What coasts at 20 m/s is braked by nothing else. (4 b times the mean is the slack, and 9/8 F.)
+  const auto braked = [](double drag) {
+    auto port = given_port<d1>(0.1, 5.0, 0.5);
+    double x = 0.0, v = 20.0;
+    ph::event worst = ph::event::nominal;
+    for (int n = 0; n < 100; ++n) {
+      worst = ph::worse(worst, port.tick(x, 1ms, 1e-9).what);
+      for (int i = 0; i < 50; ++i) {
+        const double a = -drag * v / 0.1, h = T / 50;
+        x += v * h + a * h * h / 2.0;
+        v += a * h;
+      }
+    }
+    return worst;
+  };
+  CHECK(braked(1.0) == ph::event::nominal);
+  CHECK(braked(2.1) == ph::event::nominal);
+  CHECK(braked(2.5) == ph::event::outside_force);
+}
+
+TEST_CASE("the steps of a sensor are no force, and a coarser one is no reason to stop looking",
+          "[force_bound][watched]") {
+  for (const double quantum : {1e-6, 10e-6, 30e-6, 60e-6}) {
+    CAPTURE(quantum);
+    CHECK(ran({.push = 5.0, .quantum = quantum}).worst == ph::event::nominal);
+    CHECK(ran({.push = -5.0, .quantum = quantum}).worst == ph::event::nominal);
+    CHECK(ran({.push = 9.0, .quantum = quantum}).worst >= ph::event::outside_force);
+  }
+}
+
+TEST_CASE("a push that is too strong is forgiven, and one that goes on is not",
+          "[force_bound][watched]") {
+  const outcome once = ran({.push = 20.0, .stop_after = 6e-3, .quiet = 3e-3});
+  CHECK(once.worst == ph::event::outside_force);
+  CHECK(once.refuted > 20);
+  CHECK(once.refuted < 130);  // 0.1 s of contact
+  const outcome always = ran({.push = 20.0});
+  CHECK(always.worst == ph::event::outside_force);
+  CHECK(always.refuted > 380);
+}
+
+TEST_CASE("a force that is held later than stated is named", "[force_bound][watched]") {
+  for (const int late : {1, 2, 3}) {
+    CAPTURE(late);
+    CHECK(ran({.most = 30.0, .late = late}, 2000).worst == ph::event::untold_latency);
+  }
+  CHECK(ran({.most = 30.0}, 2000).worst == ph::event::nominal);
+}
+
+namespace {
+
+/// The wall of make_touch, pressed by a hand of at most 4 N, and a device that may not do as it is told.
+struct session {
+  bool opposite = false, reports = true;
+  int late = 0;
+  double hand = 4.0;
+};
+struct course {
+  ph::event worst = ph::event::nominal, last = ph::event::nominal;
+  double lost = 0.0;      ///< [J]
+  double stopped = -1.0;  ///< after the first force [s]
+  double force = 0.0;     ///< at the end [N]
+};
+template <class Port>
+course pressed(Port& port, const session& how, int ticks = 600) {
+  (void)port.update({.point = 0, .normal = 1, .stiffness = 2000});
+  sim::device<d1, sim::impedance_hand<d1>> d(
+      {.mass = 0.1, .damping = 0.2, .start = 0.005, .latency = how.late},
+      {.stiffness = 300, .damping = 1, .limit = how.hand, .target = -0.01});
+  auto s = d.exchange(0);
+  course all;
+  int first = -1;
+  for (int n = 0; n < ticks; ++n) {
+    const auto out = how.reports ? port.tick(s) : port.tick(s.position, ph::seconds{s.dt});
+    all.worst = ph::worse(all.worst, out.what);
+    all.last = out.what;
+    if (first < 0 && out.force > 0.0) first = n;
+    if (all.stopped < 0.0 && first >= 0 && out.what > ph::event::outside_force) {
+      all.stopped = (n - first) * T;
+    }
+    s = d.exchange(how.opposite ? -out.force : out.force);
+    all.force = out.force;
+  }
+  all.lost = -d.meter().minimum();
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a device that does the opposite is let go of and named, however it reports",
+          "[force_bound][watched]") {
+  auto reported = ph::make_touch<d1>(told, hand);
+  const course seen = pressed(reported, {.opposite = true});
+  CHECK(seen.last == ph::event::wrong_sign);
+  CHECK(seen.force == 0.0);
+  CHECK(seen.stopped <= 5e-3);
+  CHECK(seen.lost < 5e-3);
+
+  auto moved = ph::make_touch<d1>(told, hand);
+  const course felt = pressed(moved, {.opposite = true, .reports = false});
+  CHECK(felt.last == ph::event::wrong_sign);
+  CHECK(felt.force == 0.0);
+  CHECK(felt.lost < 0.1);
+
+  auto unwatched = ph::make_touch<d1>(told, ph::trusted_hand{hand});
+  CHECK(pressed(unwatched, {.opposite = true, .reports = false}).lost > 1.0);
+  auto honest = ph::make_touch<d1>(told, hand);
+  const course right = pressed(honest, {});
+  CHECK(right.worst < ph::event::outside_force);
+  CHECK(right.force > 2.0);
+}
+
+TEST_CASE("two ticks that report the opposite are no wrong sign yet", "[force_bound][watched]") {
+  auto port = given_port<d1>(0.1, 5.0, 1e-6);
+  auto tick = [&, x = 0.0](double held) mutable {
+    x += 1e-9;
+    return port.tick(ph::device_sample<d1>{x, held, T, true}, 1.0).what;
+  };
+  for (int n = 0; n < 3; ++n) (void)tick(n == 0 ? 0.0 : 1.0);
+  CHECK(tick(-1.0) == ph::event::nominal);
+  CHECK(tick(-1.0) == ph::event::nominal);
+  CHECK(tick(1.0) < ph::event::untold_latency);
+}
+
+TEST_CASE("a device that reports its force by a tenth wrong is not late",
+          "[force_bound][watched]") {
+  auto port = ph::make_touch<d1>(told, hand);
+  (void)port.update({.point = 0, .normal = 1, .stiffness = 2000});
+  sim::device<d1, sim::impedance_hand<d1>> d(
+      {.mass = 0.1, .damping = 0.2, .start = 0.005},
+      {.stiffness = 300, .damping = 1, .limit = 4, .target = -0.01});
+  std::mt19937 g(1);
+  std::uniform_real_distribution<double> u(0.9, 1.1);
+  auto s = d.exchange(0);
+  ph::event worst{};
+  for (int n = 0; n < 2000; ++n) {
+    s.held *= u(g);
+    const auto out = port.tick(s);
+    worst = ph::worse(worst, out.what);
+    s = d.exchange(out.force);
+  }
+  CHECK(worst < ph::event::outside_force);
+}
+
+TEST_CASE("a latency that is reported and was not stated is named", "[force_bound][watched]") {
+  for (const int late : {1, 2, 3}) {
+    CAPTURE(late);
+    auto port = ph::make_touch<d1>(told, hand);
+    const course all = pressed(port, {.late = late});
+    CHECK(all.last == ph::event::untold_latency);
+    CHECK(all.force == 0.0);
+  }
+  auto told_late = told;
+  told_late.latency = 1;
+  auto sooner = ph::make_touch<d1, ph::half_space<d1>, ph::late_loop_limits<1>>(told_late, hand);
+  CHECK(pressed(sooner, {}).last == ph::event::untold_latency);
+}
+
+TEST_CASE("what is latched stays through set(), and reset() ends it", "[force_bound][watched]") {
+  auto port = ph::make_touch<d1>(told, hand);
+  REQUIRE(pressed(port, {.opposite = true}).last == ph::event::wrong_sign);
+  REQUIRE_FALSE(port.set(ph::reachable_bound{.mass = 0.09, .hand_force = 5.0}));
+  CHECK(port.tick(-1e-3, 1ms).what == ph::event::wrong_sign);
+  CHECK(port.tick(0.1, 1ms).what == ph::event::wrong_sign);  // in the air as well
+  port.reset();
+  const course again = pressed(port, {});
+  CHECK(again.worst < ph::event::outside_force);
+  CHECK(again.force > 2.0);
+
+  const auto bound = given_port<d1>(0.1, 5.0, 0.1).bound();
+  CHECK(bound.parameters().bound.hand_force == 5.0);
+}
+
+namespace {
+
+template <class Hand>
+double lost_by_a_cable() {
+  auto port = ph::make_touch<d1, ph::half_space<d1>, ph::late_loop_limits<2>>(
+      {.mass = 0.1, .damping = 0.025, .force_limit = 17.0, .latency = 2}, Hand{hand});
+  (void)port.update({.point = 0, .normal = 1, .stiffness = 7000});
+  sim::compliant_device<d1, sim::impedance_hand<d1>> d(
+      {.mass = 0.1,
+       .share = 0.16,
+       .mode = 120,
+       .damping = 0.05,
+       .force_limit = 17.0,
+       .start = 0.004,
+       .latency = 2},
+      {.stiffness = 350, .damping = 2.6, .limit = 5, .target = -0.013});
+  auto s = d.exchange(0);
+  for (int n = 0; n < 1000; ++n) s = d.exchange(port.tick(s).force);
+  CHECK(std::abs(d.residual()) < 0.05 * (1e-3 + std::abs(d.minimum())));
+  return -d.minimum();
+}
+
+}  // namespace
+
+TEST_CASE("a compliant device told its whole mass falls back and loses little",
+          "[force_bound][watched]") {
+  const double without = lost_by_a_cable<ph::trusted_hand>();
+  const double with = lost_by_a_cable<ph::known_hand>();
+  CAPTURE(without, with);
+  CHECK(without > 1.0);
+  CHECK(with < 0.2);
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a composition says of the stiffness that it shows, against the slope that a finger finds.
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/compositions.hpp>
+#include <passive_haptics/contact/contact_set.hpp>
+#include <passive_haptics/contact/virtual_coupling.hpp>
+#include <passive_haptics/simulation/presets.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace sim = ph::simulation;
+using Catch::Matchers::WithinRel;
+using ph::softened_by;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr ph::exact_device grip{
+    .mass = 0.1, .damping = 0.1, .force_limit = 9.0, .longest_tick = 1e-3};
+constexpr ph::known_hand hand{.force = 5.0};
+constexpr ph::half_space<d1> wall(double K) {
+  return {.point = 0.0, .normal = 1.0, .stiffness = K};
+}
+
+struct pressed {
+  double slope = 0.0;   ///< of force on true depth [N/m]
+  bool covered = true;  ///< the ledger bound in no tick
+};
+/// A finger comes from 100 mm at 0.1 m/s and presses at 5 mm/s: from 1 to 3 N, or from 0.3 to 0.9 of what the
+/// motors hold if that is less. Positions are shown in steps of q.
+template <class Touch>
+pressed press(Touch touch, double T, double q, double motors) {
+  const auto shown = [q](double x) { return q > 0.0 ? q * (std::floor(x / q) + 0.5) : x; };
+  pressed found;
+  double x = 0.1, n = 0.0, d = 0.0, f = 0.0, dd = 0.0, df = 0.0;
+  for (double force = 0.0; force < std::min(3.0, 0.9 * motors) && x > -0.2;) {
+    x -= (x > 1e-4 ? 0.1 : 5e-3) * T;
+    force = touch.tick(shown(x), ph::seconds{T}).force;
+    if (force < std::min(1.0, 0.3 * motors)) continue;
+    if (touch.explain().now == softened_by::ledger) found.covered = false;
+    n += 1.0;
+    d -= x;
+    f += force;
+    dd += x * x;
+    df -= x * force;
+  }
+  found.slope = (n * df - d * f) / (n * dd - d * d);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("the stiffness that explain() says is the slope that a finger finds", "[port]") {
+  int true_to_it = 0, of = 0;
+  const auto judge = [&](auto touch, double K, double T, double q, double motors) {
+    const auto news = touch.update(wall(K));
+    REQUIRE(news);
+    const auto said = touch.explain();
+    CHECK(said.asked == K);
+    CHECK_THAT(said.shown, WithinRel(news.stiffness, 1e-12));
+    CHECK((said.stiffness == softened_by::nothing) == (said.shown == K));
+    const pressed found = press(touch, T, q, motors);
+    const double off = std::abs(found.slope / said.shown - 1.0);
+    ++of;
+    true_to_it += off < 0.05;
+    CAPTURE(K, T, q, motors, to_string(said.stiffness));
+    if (found.covered) CHECK(off < 0.06);
+  };
+  for (const auto& d : sim::all_presets) {
+    for (const double K : {300.0, 1000.0, 3000.0, 10e3, 30e3}) {
+      for (const double T : {0.5e-3, 1e-3, 2e-3, 5e-3}) {
+        const double b = d.damping / 2.0;
+        judge(ph::make_touch<d1>(
+                  {.mass = d.mass, .damping = b, .force_limit = d.force_limit, .longest_tick = T},
+                  {.force = 5.0}),
+              K, T, 0.0, d.force_limit);
+        if (!(d.friction > 0.0)) continue;
+        judge(ph::make_touch<d1>(ph::encoder_device{.mass = d.mass,
+                                                    .damping = b,
+                                                    .friction = d.friction / 2.0,
+                                                    .presliding = 5e-6,
+                                                    .quantum = d.quantum,
+                                                    .force_limit = d.force_limit,
+                                                    .longest_tick = T},
+                                 hand),
+              K, T, d.quantum, d.force_limit);
+      }
+    }
+  }
+  CAPTURE(true_to_it, of);
+  CHECK(true_to_it > of * 19 / 20);
+}
+
+TEST_CASE("explain() says what makes a surface softer than it was asked for", "[port]") {
+  const auto why = [](auto touch, double K) {
+    touch.update(wall(K));
+    return touch.explain().stiffness;
+  };
+  const auto with = [](auto law, auto bound) {
+    return ph::local_model{d1{},
+                           ph::followed<ph::half_space<d1>>{},
+                           ph::turn_limited{.rate = 2.0},
+                           law,
+                           ph::reduced_energy{.damping = 0.1},
+                           bound,
+                           ph::loop_limits{.longest_tick = 1e-3}};
+  };
+  const ph::damped_spring law{.mass = 0.1};
+  auto slow = grip;
+  slow.longest_tick = 2e-2;
+  CHECK(why(ph::make_touch<d1>(grip, hand), 2000.0) == softened_by::nothing);
+  CHECK(why(ph::make_touch<d1>(slow, hand), 2000.0) == softened_by::mass_and_tick);
+  CHECK(why(with(law, ph::strict_bound{}), 150.0) == softened_by::nothing);
+  CHECK(why(with(law, ph::strict_bound{}), 2000.0) == softened_by::damping_and_tick);
+  CHECK(why(with(law, ph::memoryless_bound{}), 2000.0) == softened_by::damping_and_tick);
+  CHECK(why(with(law, ph::bound_chain{ph::strict_bound{}, ph::actuator_limit{9.0}}), 2000.0) ==
+        softened_by::damping_and_tick);
+  CHECK(why(with(ph::virtual_coupling{.stiffness = 100.0}, ph::strict_bound{}), 150.0) ==
+        softened_by::coupling);
+  CHECK(why(with(ph::capped{law, 500.0}, ph::no_bound{}), 2000.0) == softened_by::encoder_steps);
+  CHECK(why(with(law, ph::actuator_limit{-1.0}), 2000.0) == softened_by::parameters);
+  CHECK(ph::make_touch<d1>(grip, hand).explain().stiffness == softened_by::no_surface);
+  const auto guard = ph::make_guard<d1>(grip, hand);
+  CHECK(guard.explain().asked == infinity);
+  CHECK(guard.explain().shown == guard.source().parameters().most_stiffness(1e-3));
+  // 2b/T sampled at 1 kHz, 0.1 N·s/m
+  auto strict = with(law, ph::strict_bound{});
+  CHECK_THAT(strict.update(wall(2000.0)).stiffness, WithinRel(2000.0, 1e-12));  // the law's own
+  CHECK_THAT(strict.explain().shown, WithinRel(200.0, 1e-12));
+}
+
+TEST_CASE("explain() says what keeps the force of this tick below that", "[port]") {
+  auto touch = ph::make_touch<d1>(grip, hand);
+  const auto still = [&](double x, int ms) {
+    for (int n = 0; n < ms; ++n) (void)touch.tick(x, 1ms);
+    return touch.explain();
+  };
+  REQUIRE(touch.update(wall(2000.0)));
+  auto said = still(1e-5, 1);
+  CHECK(said.depth == 0.0);
+  CHECK(said.force == 0.0);
+  CHECK(said.now == softened_by::nothing);
+  for (int n = 1; n < 200; ++n) said = still(1e-5 - 1e-6 * n, 1);  // 1 mm/s, from an empty ledger
+  CHECK_THAT(said.depth, WithinRel(189e-6, 1e-9));
+  CHECK(said.now == softened_by::ledger);
+  for (int n = 0; n < 180; ++n) said = still(-0.2e-3 - 1e-5 * n, 1);
+  said = still(-2e-3, 1);
+  CHECK(said.now == softened_by::nothing);
+  CHECK_THAT(said.force, WithinRel(4.0, 1e-9));
+  REQUIRE(touch.update({.point = 1e-3, .normal = 1.0, .stiffness = 2000.0}));
+  CHECK(still(-2e-3, 2).now == softened_by::news);
+  CHECK(still(-2e-3, 400).now == softened_by::nothing);
+  CHECK_THAT(touch.explain().force, WithinRel(6.0, 1e-9));
+  touch.release();
+  CHECK(still(-2e-3, 20).now == softened_by::silence);
+  CHECK(still(-2e-3, 500).stiffness == softened_by::no_surface);
+  REQUIRE(touch.update(wall(2000.0)));
+  for (int n = 0; n < 900; ++n) {
+    if (n % 30 == 0) REQUIRE(touch.update(wall(2000.0)));
+    said = still(-1e-5 * n, 1);
+  }
+  CHECK(said.now == softened_by::motors);
+  CHECK_THAT(said.force, WithinRel(9.0, 1e-9));
+}
+
+TEST_CASE("explain() of a set is about the contact that presses most", "[port][contacts]") {
+  ph::passive_port corner{
+      d3{},
+      ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{},
+                      ph::slots<ph::half_space<d3>, 3>{}},
+      ph::reduced_energy{.damping = 0.1},
+      ph::bound_chain{ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}, ph::actuator_limit{9.0}},
+      ph::loop_limits{.longest_tick = 1e-3}};
+  CHECK(corner.explain().stiffness == softened_by::no_surface);
+  corner.source().update(0, {d3::zero(), d3::vector(0, 0, 1), 800.0});
+  corner.source().update(1, {d3::zero(), d3::vector(0, 1, 0), 20e3});
+  for (int n = 0; n < 100; ++n) (void)corner.tick({0, 0, -1e-5 * n}, 1ms);
+  auto said = corner.explain();
+  CHECK(said.asked == 800.0);
+  CHECK(said.stiffness == softened_by::nothing);
+  CHECK(said.now == softened_by::nothing);
+  for (int n = 0; n < 40; ++n) (void)corner.tick({0, -1e-5 * n, -1e-3}, 1ms);
+  said = corner.explain();
+  CHECK(said.asked == 20e3);
+  CHECK_THAT(said.shown, WithinRel(0.95 * 0.1 * 0.1 / 1e-6, 1e-9));
+  CHECK(said.stiffness == softened_by::mass_and_tick);
+}
+
+TEST_CASE("every reason has a name and a sentence", "[port]") {
+  for (int i = 0; i <= static_cast<int>(softened_by::ledger); ++i) {
+    ph::explanation e;
+    e.stiffness = static_cast<softened_by>(i);
+    CHECK(std::string(to_string(e.stiffness)) != "unknown reason");
+    CHECK(std::string(e.because()).size() > 25);
+    ph::explanation now{.stiffness = softened_by::mass_and_tick};
+    now.now = static_cast<softened_by>(i);
+    if (i > 0) CHECK(std::string(now.because()) == e.because());
+  }
+  CHECK(std::string(to_string(static_cast<softened_by>(99))) == "unknown reason");
+}
