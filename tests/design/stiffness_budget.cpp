@@ -4,14 +4,17 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/design/stiffness_budget.hpp>
+#include <passive_haptics/energy_observer/dual_ledger.hpp>
 #include <passive_haptics/motion_estimator/edge_observer.hpp>
 #include <passive_haptics/simulation/presets.hpp>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace design = ph::design;
 namespace sim = ph::simulation;
+using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 using design::stated_device;
 using design::stiffness_budget;
@@ -72,6 +75,12 @@ constexpr auto late_touch = [] {
 static_assert(near(late_touch.limit(stiffness_limit::sampled_mass), 500.0));
 static_assert(near(late_touch.limit(stiffness_limit::slow_kneading), 0.13025 / (55e-6 + 5e-6)));
 static_assert(near(late_touch.working_capital, 3.0 * (27.5e-6 + 110e-6 + 3 * 8e-6 / 0.045)));
+// any latency that check() accepts is counted with: an overflow would not compile
+static_assert([] {
+  stated_device d = touch;
+  d.latency = std::numeric_limits<int>::max();
+  return !d.check() && stiffness_budget(d).stiffness >= 0.0;
+}());
 
 // a light device with fine encoders is held by its mass; a slow loop, by its sampling
 static_assert(near(
@@ -199,6 +208,28 @@ TEST_CASE("a budget leaves a swing at either end of its speeds what it costs, an
     const double worst = std::min(left_of_friction(edges(q), 1.06 * K, q, use.slowest, 1e-3),
                                   left_of_friction(edges(q), 1.06 * K, q, use.fastest, 1e-3));
     CHECK(worst < 0.0);
+  }
+}
+
+TEST_CASE("an edge crossed to and fro costs the ledger itself two crossings", "[design][devices]") {
+  const double q = 10e-6;
+  for (const double p : {0.0, 3e-6, 9e-6, 15e-6, 1.0}) {
+    const bool rubs = p < 1.0;
+    const stated_device device{
+        .mass = 1.0, .friction = rubs ? c : 0.0, .presliding = p, .quantum = q, .force_limit = 9.0};
+    const double K = 100.0;
+    const double crossing = design::detail::crossing(device, K);
+    ph::part_at<ph::dual_ledger, d1> ledger(ph::dual_ledger{
+        .damping = {.coefficient = 1e-9, .coulomb = device.friction, .presliding = rubs ? p : 0.0},
+        .quantum = q,
+        .loan = 1.0});
+    const double before = ledger.value();
+    for (int i = 0; i < 1000; ++i) {
+      REQUIRE(ledger.update(-q, 0.0, 1e-3));  // in, and the motors hold what was before the edge
+      REQUIRE(ledger.update(q, K * q, 1e-3));
+    }
+    CAPTURE(p, crossing);
+    CHECK_THAT(before - ledger.value(), WithinAbs(2000 * crossing, 1e-3 * 2000 * K * q * q));
   }
 }
 

@@ -37,7 +37,7 @@
 // Without dry friction only b v/q is left at slow speeds, some newtons per metre: nothing stiff is guaranteed
 // there, and the budget is 0.
 
-#include <passive_haptics/base/parameter.hpp>
+#include <passive_haptics/design/described_device.hpp>
 
 #include <array>
 #include <cstddef>
@@ -48,45 +48,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace design {
 
-/// A device as a promise may state it: mass, damping and friction as lower bounds, the rest as upper bounds.
-struct stated_device {
-  double mass{};               ///< m, smallest over all directions [kg]
-  double damping{};            ///< b [N·s/m]
-  double friction{};           ///< c, dry friction; its least level where it varies [N]
-  double presliding = none;    ///< p, over which friction is elastic [m]; stated where c > 0
-  double quantum{};            ///< q, step of the position and noise from peak to peak, added [m]
-  double force_limit{};        ///< the most that the motors hold [N]
-  double longest_tick = 1e-3;  ///< T [s]
-  int latency = 0;  ///< k, ticks by which the force is late, as late_loop_limits<k> has it
-
-  double continuous_force =
-      std::numeric_limits<double>::infinity();  ///< what they hold without time limit [N]
-  double winding_time = 0.0;  ///< time constant of their warming, if that is less [s]
-
-  [[nodiscard]] constexpr parameter_fault check() const noexcept {
-    const auto not_negative = [](double x) { return passive_haptics::detail::not_negative(x); };
-    const auto positive = [](double x) { return passive_haptics::detail::positive(x); };
-    if (!positive(mass)) return {"mass", mass, "finite and > 0 kg"};
-    if (!not_negative(damping)) return {"damping", damping, "finite and ≥ 0 N·s/m"};
-    if (!not_negative(friction)) return {"friction", friction, "finite and ≥ 0 N"};
-    if (friction > 0.0 && !not_negative(presliding)) {
-      return {"presliding", presliding,
-              "finite and ≥ 0 m, stated: over how far the friction is elastic"};
-    }
-    if (!not_negative(quantum)) return {"quantum", quantum, "finite and ≥ 0 m"};
-    if (!positive(force_limit)) return {"force_limit", force_limit, "finite and > 0 N"};
-    if (!positive(longest_tick)) return {"longest_tick", longest_tick, "finite and > 0 s"};
-    if (latency < 0) return {"latency", static_cast<double>(latency), "≥ 0 ticks"};
-    if (!(continuous_force >= 0.0)) return {"continuous_force", continuous_force, "≥ 0 N"};
-    if (continuous_force < force_limit && !positive(winding_time)) {
-      return {"winding_time", winding_time, "finite and > 0 s"};
-    }
-    return {};
-  }
-
- private:
-  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-};
+using stated_device = encoder_device;
 
 /// What the wall is to be sustained for.
 struct intended_use {
@@ -128,19 +90,9 @@ enum class stiffness_limit : std::uint8_t {
 };
 
 [[nodiscard]] constexpr const char* to_string(stiffness_limit limit) noexcept {
-  switch (limit) {
-    case stiffness_limit::sampled_mass:
-      return "sampled mass";
-    case stiffness_limit::slow_kneading:
-      return "slow kneading";
-    case stiffness_limit::fast_kneading:
-      return "fast kneading";
-    case stiffness_limit::holding:
-      return "holding still";
-    case stiffness_limit::not_stated:
-      return "not stated";
-  }
-  return "unknown limit";
+  constexpr const char* names[] = {"sampled mass", "slow kneading", "fast kneading",
+                                   "holding still", "not stated"};
+  return limit <= stiffness_limit::not_stated ? names[static_cast<int>(limit)] : "unknown limit";
 }
 
 struct budget {
@@ -212,6 +164,13 @@ namespace detail {
   return low;
 }
 
+/// What the ledger pays at each edge of a swing over one edge, to and fro [J]: q/2 for each newton that the force
+/// changes by, and as much again because the force held is that of the sample before; or p for each newton where
+/// friction takes the change.
+[[nodiscard]] constexpr double crossing(const stated_device& d, double K) noexcept {
+  return K * d.quantum * (d.friction > 0.0 ? kernels::smaller(d.presliding, d.quantum) : d.quantum);
+}
+
 }  // namespace detail
 
 /// The largest stiffness that the ledger of this device sustains in that use. The surplus is concave in v,
@@ -239,12 +198,11 @@ namespace detail {
     }
   }
   const double faster = (F + use.hand_force) * T * T / device.mass;  // travel added per tick [m]
-  const int ticks = device.latency + 1;
-  const double reach = ticks * (q + (ticks + 1) / 2.0 * faster);
+  const double ticks = device.latency + 1.0;  // A latency may be any int; its sums must not wrap.
+  const double reach = ticks * (q + (ticks + 1.0) / 2.0 * faster);
   b.working_capital = F * (q / 2.0 + reach);
   b.loan = device.force_limit * q;
-  b.crossing =
-      b.stiffness * q * (device.friction > 0.0 ? kernels::smaller(device.presliding, q) : q);
+  b.crossing = detail::crossing(device, b.stiffness);
   return b;
 }
 
