@@ -281,10 +281,8 @@ class passive_port {
       if (watching().looks()) [[unlikely]]
         look(position, dt, force);
     }
-    if (stopped_ != event::nominal) [[unlikely]] {
-      if constexpr (looks) return refuse_all(dt);
-      return refuse(event::rejected_parameters, dt);
-    }
+    if (stopped_ != event::nominal) [[unlikely]]
+      return refuse(stopped_, dt);
     motion travel = P::between(guard_.last(), position);
     [[maybe_unused]] scalar square{};
     if constexpr (reaches) square = P::squared(travel);
@@ -356,11 +354,7 @@ class passive_port {
   /// Nobody knows what moved since the last good sample, so it counts as the worst; returns no motion.
   [[nodiscard, gnu::always_inline]] constexpr motion resume(const typename P::stored_effort& held,
                                                             scalar dt) noexcept {
-    if constexpr (reaches) {
-      write_off(held, dt);
-    } else if constexpr (!trusting) {
-      observer_.forfeit(held, limits_.held_for(dt));
-    }
+    if constexpr (!trusting) write_off(held, dt);
     guard_.see_again();
     return P::zero();
   }
@@ -429,11 +423,18 @@ class passive_port {
   }
   [[gnu::cold, gnu::noinline]] constexpr void write_off(typename P::stored_effort held,
                                                         scalar dt) noexcept {
-    if constexpr (reaches) {
+    if constexpr (!trusting) {
       const scalar blind = guard_.blind() + kernels::larger(dt, limits_.longest_tick);
-      observer_.forfeit(held, limits_.held_for(dt), unseen(held, blind).done);
-    } else if constexpr (!trusting) {
-      observer_.forfeit(held, limits_.held_for(dt));
+      forfeit(observer_, held, limits_.held_for(dt), blind);
+    }
+  }
+  /// `t` [s] under an effort of which nobody saw anything for `blind` [s].
+  constexpr void forfeit(observer_type& ledger, const effort& held, scalar t,
+                         [[maybe_unused]] scalar blind) const noexcept {
+    if constexpr (reaches) {
+      ledger.forfeit(held, t, unseen(held, blind).done);
+    } else {
+      ledger.forfeit(held, t);
     }
   }
   /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of
@@ -442,12 +443,7 @@ class passive_port {
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_cut_short(
       typename P::stored_effort travel, held_type held, scalar dt) noexcept {
     observer_type dropped = observer_;
-    if constexpr (reaches) {
-      dropped.forfeit(detail::force_of<P>(held), limits_.watchdog,
-                      unseen(detail::force_of<P>(held), limits_.watchdog).done);
-    } else {
-      dropped.forfeit(detail::force_of<P>(held), limits_.watchdog);
-    }
+    forfeit(dropped, detail::force_of<P>(held), limits_.watchdog, limits_.watchdog);
     if (!observer_.update(travel, held, dt)) return false;
     if constexpr (!Observer::exact) observer_.forfeit(P::zero(), limits_.watchdog);
     if (dropped.value() < observer_.value()) observer_ = dropped;
@@ -462,9 +458,6 @@ class passive_port {
     }
   }
 
-  [[gnu::cold, gnu::noinline]] constexpr result_type refuse_all(scalar dt) noexcept {
-    return refuse(stopped_, dt);
-  }
   [[gnu::cold, gnu::noinline]] constexpr result_type refuse_sample(typename P::stored_pose position,
                                                                    scalar dt) noexcept {
     const motion travel = P::between(guard_.last(), position);
@@ -476,12 +469,7 @@ class passive_port {
     const bool lasted = dt > scalar(0) && kernels::is_finite(dt);
     const scalar passed = lasted ? dt : limits_.longest_tick;
     if constexpr (!trusting) {
-      if constexpr (reaches) {
-        if (stopped_ == event::nominal) write_off(guard_.commanded().back(), passed);
-      } else {
-        if (stopped_ == event::nominal)
-          observer_.forfeit(guard_.commanded().back(), limits_.held_for(passed));
-      }
+      if (stopped_ == event::nominal) write_off(guard_.commanded().back(), passed);
       disturbed();
     }
     guard_.lose_sight(passed);
