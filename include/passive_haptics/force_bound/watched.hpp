@@ -77,6 +77,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
   [[nodiscard]] constexpr watched parameters() const noexcept { return stated_; }
   constexpr void reset() noexcept { *this = on(stated_); }
 
+  [[nodiscard]] constexpr on& watching() noexcept { return *this; }
   /// Does it look at this tick? From the second of a contact on, and not while it pauses.
   [[nodiscard]] constexpr bool looks() const noexcept { return rest_ < 0; }
   /// The tick that is over: its motion, if it is known, what was to be held and what was, its length, and the ledger.

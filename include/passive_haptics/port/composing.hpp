@@ -194,9 +194,8 @@ concept knows_most_held = requires(const Part p) {
 };
 /// A bound that looks whether the motion refutes what it rests on.
 template <class Part>
-concept looks_at_motion = requires(Part p, const Part c) {
-  p.look_on(true);
-  { c.seen() } -> std::same_as<event>;
+concept looks_at_motion = requires(Part p) {
+  { p.watching().seen() } -> std::same_as<event>;
 };
 
 /// Parts, one after the other: each is shown what those before it have left.
@@ -296,17 +295,6 @@ class sequence<First, Rest...>::on {
     if constexpr (says_what_it_holds<part_at<others, P>, effort>) all &= rest_.can_hold(held);
     return all;
   }
-  /// The first that looks at the motion.
-  [[nodiscard]] constexpr auto& watching() noexcept
-      requires(looks_at_motion<part_at<First, P>> ||
-               requires(part_at<others, P> o) { o.watching(); }) {
-    if constexpr (looks_at_motion<part_at<First, P>>) {
-      return first_;
-    } else {
-      return rest_.watching();
-    }
-  }
-
   /// What each of them makes of a stiffness.
   constexpr void explain(explanation& e, const auto& damping, typename P::scalar T,
                          int late) const noexcept {
@@ -314,24 +302,20 @@ class sequence<First, Rest...>::on {
     detail::explain(rest_, e, damping, T, late);
   }
   /// What the first that knows it says.
+  [[nodiscard]] constexpr auto& watching() noexcept
+      requires(looks_at_motion<part_at<First, P>> || looks_at_motion<part_at<others, P>>) {
+    return first_if<looks_at_motion<part_at<First, P>>>(*this).watching();
+  }
   template <class Damping>
   [[nodiscard]] constexpr unseen_work<typename P::scalar> unseen(
       const seen_tick<P>& seen, const Damping& damping, const effort& f,
       typename P::scalar t) const noexcept
       requires(knows_reach<part_at<First, P>, P> || knows_reach<part_at<others, P>, P>) {
-    if constexpr (knows_reach<part_at<First, P>, P>) {
-      return first_.unseen(seen, damping, f, t);
-    } else {
-      return rest_.unseen(seen, damping, f, t);
-    }
+    return first_if<knows_reach<part_at<First, P>, P>>(*this).unseen(seen, damping, f, t);
   }
   [[nodiscard]] constexpr effort most_held() const noexcept
       requires(knows_most_held<part_at<First, P>> || knows_most_held<part_at<others, P>>) {
-    if constexpr (knows_most_held<part_at<First, P>>) {
-      return first_.most_held();
-    } else {
-      return rest_.most_held();
-    }
+    return first_if<knows_most_held<part_at<First, P>>>(*this).most_held();
   }
 
   template <class... States>
@@ -347,6 +331,14 @@ class sequence<First, Rest...>::on {
   }
 
  private:
+  template <bool IsFirst, class Self>
+  [[nodiscard]] static constexpr auto& first_if(Self& self) noexcept {
+    if constexpr (IsFirst) {
+      return self.first_;
+    } else {
+      return self.rest_;
+    }
+  }
   template <class Self, class... States>
   [[nodiscard, gnu::always_inline]] static constexpr bounded<P> one_after_the_other(
       Self& self, const effort& desired, const States&... states) noexcept {

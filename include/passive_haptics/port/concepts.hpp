@@ -70,9 +70,8 @@ inline namespace v0 {
 //   softener                law                  local_contact         it is no softer than the surface
 //   unseen(seen, damping,   bound, beside one     passive_port, of what   any motion may have been
 //     f, t), most_held()      that says this      nobody saw
-//   looks(), look(…),       bound                passive_port          what it rests on is not held against the
-//     look_on(asked),                                                  motion (force_bound/watched.hpp)
-//     seen(), lets_go(), forgives()
+//   watching()              bound                passive_port          what it rests on is not held against the
+//                                                                      motion (force_bound/watched.hpp)
 //   passivity               bound, on its port   passive_port          its `on<Port>` says it
 //   apply(f, states…)       sequence of parts    applied()             limit() or shape() answers
 //   only_reduces<States…>   sequence of parts    passive_port          what limit() or shape() returns says it

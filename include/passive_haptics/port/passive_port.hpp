@@ -261,24 +261,15 @@ class passive_port {
   /// What is asked for is finite, and the bound makes it no larger: nobody has to look again.
   static constexpr bool always_numbers =
       source_type::asks_for_numbers && detail::reduces<Bound, P, state_type>();
-  static constexpr bool looks = detail::looks_at_motion<bound_type> || requires(bound_type b) {
-    b.watching();
-  };
+  static constexpr bool looks = detail::looks_at_motion<bound_type>;
   /// Does the source say by itself that nothing is asked?
   static constexpr bool says_nothing = zero_stays_zero && !detail::takes_efforts<source_type, P>;
-  [[nodiscard]] constexpr auto& watching() noexcept {
-    if constexpr (detail::looks_at_motion<bound_type> || !looks) {
-      return bound_;
-    } else {
-      return bound_.watching();
-    }
-  }
 
   [[nodiscard, gnu::always_inline, gnu::flatten]] constexpr result_type advance(
       const pose position, scalar dt, const held_type& held) noexcept {
     const typename P::stored_effort& force = detail::force_of<P>(held);
     if constexpr (looks) {
-      if (watching().looks()) [[unlikely]]
+      if (bound_.watching().looks()) [[unlikely]]
         look(position, dt, force);
     }
     if (stopped_ != event::nominal) [[unlikely]]
@@ -320,17 +311,17 @@ class passive_port {
         motion_.estimate(position, travel, force, dt, known), state, what);
     if constexpr (zero_stays_zero) {
       if (request.nothing) {
-        if constexpr (looks) watching().look_on(false);
+        if constexpr (looks) bound_.watching().look_on(false);
         guard_.command(P::zero());
         return source_.answered(request, {P::zero(), observer_.value(), what, false});
       }
     }
     auto allowed = bounded(request.wanted, state, what);
     if constexpr (looks) {
-      watching().look_on(says_nothing || !(request.wanted == P::zero()));
-      if (watching().seen() != event::nominal) [[unlikely]] {
-        what = worse(what, watching().seen());
-        if (watching().lets_go()) allowed = {P::zero(), true};
+      bound_.watching().look_on(says_nothing || !(request.wanted == P::zero()));
+      if (bound_.watching().seen() != event::nominal) [[unlikely]] {
+        what = worse(what, bound_.watching().seen());
+        if (bound_.watching().lets_go()) allowed = {P::zero(), true};
       }
     }
     guard_.command(allowed.force);
@@ -344,11 +335,12 @@ class passive_port {
       const motion travel = P::between(guard_.last(), position);
       bool known = guard_.knows_motion() && !is_late(dt, limits_.longest_tick);
       if constexpr (!trusting) known = known && guard_.believes(position, travel, dt, limits_);
-      const bool doubted = watching().seen() != event::nominal;
-      watching().template look<Observer::exact>(known, travel, guard_.commanded().back(), held, dt,
-                                                observer_);
-      if (watching().seen() > event::outside_force) stopped_ = watching().seen();
-      if (doubted && watching().forgives()) disturbed();  // a hand has sunk in, which nobody paid
+      const bool doubted = bound_.watching().seen() != event::nominal;
+      bound_.watching().template look<Observer::exact>(known, travel, guard_.commanded().back(),
+                                                       held, dt, observer_);
+      if (bound_.watching().seen() > event::outside_force) stopped_ = bound_.watching().seen();
+      if (doubted && bound_.watching().forgives())
+        disturbed();  // a hand has sunk in, which nobody paid
     }
   }
   /// Nobody knows what moved since the last good sample, so it counts as the worst; returns no motion.
