@@ -77,7 +77,8 @@ struct hand {
 /// What is true of a device and of the hand on it.
 struct truth {
   std::string name;
-  double mass = 0.1, damping = 0.1, friction = 0.0, presliding = 15e-6, quantum = 0.0, limit = 9.0;
+  double mass = 0.1, damping = 0.1, friction = 0.0, presliding = 15e-6, quantum = 0.0,
+         force_limit = 9.0;
   double hand_force = 5.0, jitter = 0.0, K = 1000.0, stated_mass = 1.0;
   int latency = 0;
   hand on_it{};
@@ -165,7 +166,7 @@ template <int Latency, class Hand>
 [[nodiscard]] auto touch_of(const truth& w, double T) {
   const ph::exact_device d{.mass = w.mass * w.stated_mass,
                            .damping = w.damping / 2.0,
-                           .force_limit = w.limit,
+                           .force_limit = w.force_limit,
                            .longest_tick = T,
                            .latency = Latency};
   return wall_of<Hand, Latency>(d, w);
@@ -177,11 +178,20 @@ template <int Latency, class Hand>
                        .friction = w.friction / 2.0,
                        .presliding = w.presliding,
                        .quantum = w.quantum};
-  d.force_limit = d.continuous_force = w.limit;
+  d.force_limit = d.continuous_force = w.force_limit;
   d.winding_time = 10.0;
   d.longest_tick = T;
   d.latency = Latency;
   return wall_of<Hand, Latency>(d, w);
+}
+
+/// Gives one the facts of another.
+constexpr void be_like(const auto& one, auto& other) noexcept {
+  other.mass = one.mass;
+  other.damping = one.damping;
+  other.friction = one.friction;
+  other.quantum = one.quantum;
+  other.force_limit = one.force_limit;
 }
 
 /// One session; the port is an encoder's where there are steps and friction.
@@ -198,22 +208,16 @@ template <int Latency, class Hand>
     w.on_it.most *= how.amount;
     w.on_it.stiffness *= how.amount;
   }
-  p.mass = w.mass;
-  p.damping = w.damping;
-  p.friction = w.friction;
-  p.quantum = w.quantum;
-  p.force_limit = w.limit;
+  be_like(w, p);
   p.start = 0.004;
   p.period = nominal;
   const auto with = [&](const auto& port) {
     if (how.kind == lie::compliant) {
       sim::compliant_parameters<line> c;
-      c.mass = w.mass;
+      be_like(w, c);
+      c.friction = 0.0;
       c.share = how.share;
       c.mode = how.amount;
-      c.damping = w.damping;
-      c.quantum = w.quantum;
-      c.force_limit = w.limit;
       c.start = p.start;
       c.latency = w.latency;
       return played(port, sim::compliant_device<line, hand>(c, w.on_it), w, how, seconds);
@@ -256,7 +260,7 @@ inline void draw_hand(truth& w, dice& g) {
   w.seed = seed;
   w.mass = spread(g, 0.03, 0.5);
   w.damping = spread(g, 0.04, 1.0);
-  w.limit = spread(g, 3.0, 20.0);
+  w.force_limit = spread(g, 3.0, 20.0);
   w.hand_force = between(g, 2.0, 8.0);
   w.K = spread(g, 300.0, 1e4);
   w.stated_mass = between(g, 0.6, 1.0);
@@ -277,18 +281,14 @@ inline void draw_hand(truth& w, dice& g) {
   if (which < sim::all_presets.size()) {
     const auto& d = sim::all_presets[which];
     w.name = d.name;
-    w.mass = d.mass;
-    w.damping = d.damping;
-    w.friction = d.friction;
-    w.quantum = d.quantum;
-    w.limit = d.force_limit;
+    be_like(d, w);
   } else {
     const auto& d = ph::design::devices::all[which - sim::all_presets.size()];
     w.name = d.name;
     if (d.mass) w.mass = d.mass.value;
     if (d.friction) w.friction = d.friction.value;
     if (d.quantum[0]) w.quantum = d.rotary ? d.quantum[0].value * 0.03 : d.quantum[0].value;
-    if (d.peak_force) w.limit = d.peak_force.value;
+    if (d.peak_force) w.force_limit = d.peak_force.value;
     if (d.latency) w.latency = static_cast<int>(d.latency.value);
   }
   return w;
