@@ -236,7 +236,7 @@ template <port P, class Damping = isotropic_damping, class Motors = actuator_lim
           bound_chain{strict_bound{}, motors}, loop_limits{.longest_tick = longest_tick}};
 }
 
-// The names of 0.1 and their arguments, for one version more.
+// The names before, for one version more.
 
 struct known_device {
   double mass{};         ///< [kg]
