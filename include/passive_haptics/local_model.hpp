@@ -12,8 +12,7 @@ inline namespace v0 {
 template <class Scalar>
 struct news_taken {
   bool taken = false;
-  Scalar
-      stiffness{};  ///< what is shown of the surface's, at rest [N/m]; explain() says why no more
+  Scalar stiffness{};  ///< what is shown of the surface's, at rest [N/m]; explain() says why
 
   constexpr operator bool() const noexcept { return taken; }  // NOLINT(google-explicit-constructor)
 };
@@ -40,6 +39,7 @@ class local_model : public passive_port<Space, local_contact<Space, Supply, Norm
  public:
   using space_type = Space;
   using constraint_type = typename Supply::constraint_type;
+  using typename base::scalar;
 
   constexpr local_model() noexcept = default;
   constexpr local_model(Space /*scene*/, const Supply& supply, const Normals& normals,
@@ -49,10 +49,9 @@ class local_model : public passive_port<Space, local_contact<Space, Supply, Norm
 
   /// The environment's newest constraint, and the end of it: see local_contact.
   template <class Owner = Supply>
-  requires(Owner::moves) constexpr news_taken<typename Space::scalar> update(
-      const constraint_type& next) noexcept {
+  requires(Owner::moves) constexpr news_taken<scalar> update(const constraint_type& next) noexcept {
     if (!this->source().update(next)) return {};
-    return {true, this->source().shown_stiffness(this->longest_tick(), base::latency)};
+    return {true, shown_stiffness(this->target().stiffness)};
   }
   template <class Owner = Supply>
   requires(Owner::moves) constexpr void release() noexcept { this->source().release(); }
@@ -68,15 +67,17 @@ class local_model : public passive_port<Space, local_contact<Space, Supply, Norm
   /// By what the force steps [N] where a surface of K [N/m] is pressed on the encoders that the ledger knows of: K_s q
   /// for a step q of one axis, K_s the stiffness shown; √dof of that where all axes step at once, which this is. At rest,
   /// too: no law of a depth is quieter (docs/design/settling.md). 0 where the ledger takes positions as exact.
-  [[nodiscard]] constexpr typename Space::scalar force_step(
-      typename Space::scalar K) const noexcept {
+  [[nodiscard]] constexpr scalar force_step(scalar K) const noexcept {
     if constexpr (Observer::exact) {
       return 0;
     } else {
-      auto shown = law();
-      detail::tell(shown, K, this->longest_tick(), base::latency);
-      return this->observer().travel_error() / shown.depth(1, 0);
+      return this->observer().travel_error() * shown_stiffness(K);
     }
+  }
+
+ private:
+  [[nodiscard]] constexpr scalar shown_stiffness(scalar K) const noexcept {
+    return this->source().shown_stiffness(K, this->longest_tick(), base::latency);
   }
 };
 

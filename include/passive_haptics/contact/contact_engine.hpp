@@ -133,16 +133,9 @@ class contact_engine {
     slots_.for_each([&](const auto& slot, std::size_t) {
       if (!slot.taken() || !(slot.pressed() > most)) return;
       most = slot.pressed();
-      const auto& surface = slot.target();
-      e = {.asked = static_cast<double>(surface.stiffness),
-           .shown = static_cast<double>(surface.stiffness)};
-      e.soften(static_cast<double>(spring_.sampled(surface.stiffness).stiffness),
-               softened_by::mass_and_tick);
-      const auto here = surface.at(x);
-      if (!(here.depth > scalar(0)) || !here.covered()) return;
-      e.depth = static_cast<double>(here.depth);
-      if (!(slot.lag() == scalar(0))) e.now = softened_by::news;
-      if (slot.stale()) e.now = softened_by::silence;
+      e.stiffness = softened_by::nothing;
+      explain_surface(e, slot.target(), x, spring_.sampled(slot.target().stiffness).stiffness,
+                      softened_by::mass_and_tick, !(slot.lag() == scalar(0)), slot.stale());
     });
   }
 

@@ -43,6 +43,21 @@ template <class Law>
   return false;
 }
 
+/// Tells of a surface to a device at x: how stiff it is and how deep that is, and of what is shown of it [N/m] why it
+/// is no more; while it is touched, whether it has news to make up for, or fades.
+template <class Surface, class Scalar>
+constexpr void explain_surface(explanation& e, const Surface& surface, const auto& x, Scalar shown,
+                               softened_by why, bool lags, bool fades) noexcept {
+  const auto here = surface.at(x);
+  const bool touched = here.depth > Scalar(0) && here.covered();
+  e.asked = e.shown = static_cast<double>(surface.stiffness);
+  e.soften(static_cast<double>(shown), why);
+  e.depth = touched ? static_cast<double>(here.depth) : 0.0;
+  e.now = softened_by::nothing;
+  if (touched && lags) e.now = softened_by::news;
+  if (touched && fades) e.now = softened_by::silence;
+}
+
 /// Is what a supply brings, if it says what, a constraint?
 template <class Supply, class Space>
 [[nodiscard]] constexpr bool supplies_no_other_than_constraints() noexcept {
@@ -152,21 +167,16 @@ class local_contact {
         return;
       }
     }
-    e.asked = e.shown = static_cast<double>(supply_.target().stiffness);
-    const law_type law = law_for(T, late);
-    e.soften(1.0 / static_cast<double>(law.depth(scalar(1), scalar(0))), softener(law));
-    const auto here = supply_.target().at(x);
-    if (!(here.depth > scalar(0)) || !here.covered()) return;
-    e.depth = static_cast<double>(here.depth);
-    if (lags()) e.now = softened_by::news;
-    if constexpr (Supply::moves) {
-      if (supply_.weight() < scalar(1)) e.now = softened_by::silence;
-    }
+    const scalar K = supply_.target().stiffness;
+    bool fades = false;
+    if constexpr (Supply::moves) fades = supply_.weight() < scalar(1);
+    detail::explain_surface(e, supply_.target(), x, shown_stiffness(K, T, late),
+                            softener(law_for(K, T, late)), lags(), fades);
   }
 
-  /// What is shown of the newest surface's stiffness, likewise [N/m].
-  [[nodiscard]] constexpr scalar shown_stiffness(scalar T, int late) const noexcept {
-    return scalar(1) / law_for(T, late).depth(scalar(1), scalar(0));
+  /// What is shown of a surface of K, likewise [N/m].
+  [[nodiscard]] constexpr scalar shown_stiffness(scalar K, scalar T, int late) const noexcept {
+    return scalar(1) / law_for(K, T, late).depth(scalar(1), scalar(0));
   }
 
   /// Hands over the environment's newest constraint, from the haptic thread. False: it is unusable
@@ -217,8 +227,7 @@ class local_contact {
     const bool from_the_side = pass_beside(behind && !in_target);
     [[maybe_unused]] const law_type before = law_;  // with the stiffness up to now
     if constexpr (!eases) {
-      if (fresh())
-        detail::tell(law_, supply_.target().stiffness, port.longest_tick, state::latency);
+      if (fresh()) adopt(port.longest_tick, state::latency);
     }
     if constexpr (Shortcut && shapers_keep_zero<state>()) {
       if (!in_target) return nothing_asked(weight);
@@ -289,10 +298,10 @@ class local_contact {
  private:
   static constexpr bool eases = Supply::moves && detail::eases_news<law_type>;
   struct no_memory {};
-  /// The law as the newest surface has it.
-  [[nodiscard]] constexpr law_type law_for(scalar T, int late) const noexcept {
+  /// The law as a surface of K has it.
+  [[nodiscard]] constexpr law_type law_for(scalar K, scalar T, int late) const noexcept {
     law_type law = law_;
-    detail::tell(law, supply_.target().stiffness, T, late);
+    detail::tell(law, K, T, late);
     return law;
   }
   [[nodiscard]] static constexpr softened_by softener(const law_type& law) noexcept {
@@ -372,8 +381,7 @@ class local_contact {
     const scalar counted = supply_.last_weight();
     const bool known = counted > scalar(0) && was.covered();
     const law_type before = law_;
-    detail::tell(law_, supply_.target().stiffness, port.longest_tick,
-                 std::remove_cvref_t<decltype(port)>::latency);
+    adopt(port.longest_tick, std::remove_cvref_t<decltype(port)>::latency);
     const scalar compliance = law_.depth(scalar(1), scalar(0));
     scalar own = known ? was.depth - lag_.offset() : scalar(0);
     const bool as_stiff = before.depth(scalar(1), scalar(0)) == compliance;
