@@ -18,6 +18,22 @@
 namespace passive_haptics {
 inline namespace v0 {
 
+namespace detail {
+/// b of the axis of a port that damps least, and of the one that damps most [N·s/m].
+template <class P>
+[[nodiscard]] constexpr typename P::scalar least_damping(const auto& damping) noexcept {
+  typename P::scalar b = damping.along_axis(0);
+  for (int i = 1; i < P::dof; ++i) b = kernels::smaller(b, damping.along_axis(i));
+  return b;
+}
+template <class P>
+[[nodiscard]] constexpr typename P::scalar most_damping(const auto& damping) noexcept {
+  typename P::scalar b = damping.along_axis(0);
+  for (int i = 1; i < P::dof; ++i) b = kernels::larger(b, damping.along_axis(i));
+  return b;
+}
+}  // namespace detail
+
 /// b·I. Converts from the plain number, so `.damping = 0.03` reads as it should.
 struct isotropic_damping {
   double coefficient{};  ///< b [N·s/m], > 0

@@ -20,14 +20,6 @@ namespace passive_haptics {
 inline namespace v0 {
 
 namespace detail {
-/// The smallest damping of any axis [N·s/m].
-template <class Space>
-[[nodiscard]] constexpr typename Space::scalar least_damping(const auto& damping) noexcept {
-  typename Space::scalar least = damping.along_axis(0);
-  for (int i = 1; i < Space::dof; ++i) least = kernels::smaller(least, damping.along_axis(i));
-  return least;
-}
-
 /// The largest share of `force` [N] whose energy f²/(2 c2) the last tick has paid for, c2 in [N/m]:
 ///     f²/(2 c2) ≤ h²/(2 c2) + Δxᵀ(b/dt)Δx − h·Δx
 /// where h² counts up to `promised` [N²] only; energy_bounding gives the square of its last command there.
@@ -54,14 +46,10 @@ template <class Space>
 /// At Δx = 0 the published law freezes the force; here the limit of the window holds, |f| ≤ |h|, with
 /// the same proof. The published algorithm bounds each axis by itself; the vector form is ours.
 ///
-/// Proof: −h·Δx = (f − h)·Δx − f·Δx. The half-space says that the damper, over the MEASURED dt, pays
-/// for the first term; the ball is −f·Δx ≥ (‖f‖² − ‖h‖²)/(2 c2). So E ≥ ‖f‖²/(2 c2) for ever. The
-/// window is not empty for c2 ≤ c1 and c2 ≤ b/T (f = h − c2 Δx is in it). As c2 ≤ b/T, the energy put
-/// aside is twice what f can cost in the next tick. So zero force is always safe, too, and a tick of up to
-/// 2 longest_tick, or a held force of up to √2 times the command, costs nothing. A force held beyond the
-/// command is given no credit, so a motor that is a little too strong cannot wind the force up.
-///
-/// Apart from those two allowances it assumes what memoryless_bound does; the direction of the held force
+/// E ≥ ‖f‖²/(2 c2), and with c2 ≤ b/T that is twice what f can cost in the next tick. So zero force is always
+/// safe, too, and a tick of up to 2 longest_tick, or a held force of up to √2 times the command, costs nothing.
+/// A force held beyond the command is given no credit, so a motor that is a little too strong cannot wind the
+/// force up. Apart from those two allowances it assumes what memoryless_bound does; the direction of the held force
 /// is free. The price: it shows at most b/T N/m, half of what the others show, and it does NOT only reduce.
 /// While the device moves out, the force falls by at most c1 per metre, so it goes on pushing its way after
 /// the contact is lost. It starts no force of its own, and a force that is no longer desired ends at once
@@ -153,10 +141,7 @@ class energy_bounding::on {
 
 /// ‖f‖² ≤ ‖h‖² + 2 c2 (Δxᵀ(b/dt)Δx − h·Δx), the direction kept: the sum of the two inequalities of
 /// energy_bounding, so no surplus of the one is lost to the other (§ 2(b), ours). With c2 = 2b/T and
-/// isotropic damping it is memoryless_bound; a smaller c2 shows a softer wall, a spring of c2 N/m.
-///
-/// Proof: the right side is 2 c2 (S(n) + ΔE) with S = ‖h‖²/(2 c2), so E ≥ S for ever; it is never
-/// negative for c2 ≤ 2b/T, as S then covers the worst the held force can cost (L3).
+/// isotropic damping it is memoryless_bound; a smaller c2 shows a softer wall, a spring of c2 N/m. E ≥ ‖f‖²/(2 c2).
 ///
 /// It assumes what memoryless_bound does; the direction of the held force is free.
 struct tight_energy_bounding {

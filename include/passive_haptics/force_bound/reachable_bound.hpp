@@ -90,10 +90,11 @@ class reachable_bound::on {
       scalar dt) const noexcept {
     const scalar travel = kernels::square_root(seen.square) + seen.travel_error;
     const scalar force = Space::norm(f), held = kernels::larger(force, Space::norm(seen.held));
-    return {force * kernels::longest_path(
-                        scalar(travel / seen.dt), scalar((held + hand_force_) / mass_),
-                        scalar(scalar(2) * most_damped(damping, scalar(1)) / mass_), seen.dt, dt),
-            scalar(0)};
+    return {
+        force * kernels::longest_path(
+                    scalar(travel / seen.dt), scalar((held + hand_force_) / mass_),
+                    scalar(scalar(2) * detail::most_damping<Space>(damping) / mass_), seen.dt, dt),
+        scalar(0)};
   }
 
  private:
@@ -109,7 +110,7 @@ class reachable_bound::on {
   }
   template <int J, class State>
   constexpr void promise(scalar& credit, const State& state) const noexcept {
-    const effort h = coming<J>(state);
+    const effort h = state.coming(J);
     const scalar force = Space::norm(h);
     if (force > scalar(0)) {
       scalar beyond = force;
@@ -121,12 +122,6 @@ class reachable_bound::on {
     if constexpr (J < State::latency) promise<J + 1>(credit, state);
   }
 
-  /// The command that is held in the J-th coming tick [N].
-  template <int J, class State>
-  [[nodiscard]] static constexpr effort coming(const State& state) noexcept {
-    return state.commanded[static_cast<std::size_t>(State::latency - J)];
-  }
-
   /// δ(J) along `direction`, of length `length` [m]; `last` is the force in tick J [N].
   template <int J, class State>
   [[nodiscard]] constexpr scalar reach(const effort& direction, scalar length, scalar last,
@@ -134,7 +129,8 @@ class reachable_bound::on {
     const scalar T = state.longest_tick;
     scalar moved = Space::norm(state.travel);
     if constexpr (!State::exact) moved += state.travel_error;
-    const scalar other = hand_force_ + scalar(2) * most_damped(state.damping, T) * moved;
+    const scalar other =
+        hand_force_ + scalar(2) * (detail::most_damping<Space>(state.damping) / T) * moved;
     if constexpr (J == 1) {
       if (!state.motion_known) return kernels::largest<scalar>();  // at any speed
       scalar outward = Space::dot(state.travel, direction) / length +
@@ -143,17 +139,10 @@ class reachable_bound::on {
       return kernels::outward_reach(outward, Space::norm(state.held), last, other, mass_, state.dt,
                                     T);
     } else {
-      const scalar before = Space::norm(coming<J - 1>(state));
+      const scalar before = Space::norm(effort(state.coming(J - 1)));
       return reach<J - 1>(direction, length, before, state) +
              kernels::outward_reach(scalar(0), before, last, other, mass_, T, T);
     }
-  }
-
-  /// B of the axis that damps most, so that no damper holds more than B|Δx| [N/m].
-  [[nodiscard]] static constexpr scalar most_damped(const auto& damping, scalar T) noexcept {
-    scalar b = damping.along_axis(0);
-    for (int i = 1; i < Space::dof; ++i) b = kernels::larger(b, damping.along_axis(i));
-    return b / T;
   }
 
   scalar mass_, hand_force_;
@@ -225,7 +214,7 @@ class basic_reachable_work_bound<Inertia>::on {
  private:
   template <int J, class State>
   constexpr void promise(scalar& credit, const State& state) const noexcept {
-    const effort h = coming<J>(state);
+    const effort h = state.coming(J);
     const scalar norm = inertia_.norm(h);
     if (norm > scalar(0)) {
       const scalar W = state.damping.worst_outflow(h, state.longest_tick);
@@ -233,10 +222,6 @@ class basic_reachable_work_bound<Inertia>::on {
                 (scalar(1) + kernels::rounding<scalar>());
     }
     if constexpr (J < State::latency) promise<J + 1>(credit, state);
-  }
-  template <int J, class State>
-  [[nodiscard]] static constexpr effort coming(const State& state) noexcept {
-    return state.commanded[static_cast<std::size_t>(State::latency - J)];
   }
 
   /// η(J) of an effort of that norm [J]; `last` is the norm of what is held in tick J.
@@ -255,7 +240,7 @@ class basic_reachable_work_bound<Inertia>::on {
           (inertia_.norm(state.held) + other) * state.dt * T + (last + other) * T * T;
       return outward * T / state.dt + norm * pushed / scalar(2) * up;
     } else {
-      const scalar before = inertia_.norm(coming<J - 1>(state));
+      const scalar before = inertia_.norm(effort(state.coming(J - 1)));
       return reach<J - 1>(f, norm, before, state) +
              norm * (before + last + scalar(2) * other) * T * T / scalar(2) * up;
     }

@@ -105,7 +105,7 @@ class rigid_reachable_bound::on {
     scalar before = norm;
     scalar later(0);
     if constexpr (State::latency > 0) {
-      const effort coming = state.commanded[0];
+      const effort coming = state.coming(1);
       before = inertia_.norm(coming);
       later = kernels::later_reach(norm, before, norm, all.pushed, T);
       if (before > scalar(0)) {

@@ -19,10 +19,7 @@ inline namespace v0 {
 /// the environment never makes the force jump. Inspired by the input-to-state-stable approach
 /// (Jafari, Ryu), whose own law is not confirmed; law and proof are ours (§ 2(f)).
 ///
-/// Proof, with F = F_held + σ s:  (b/dt)s² + F_held s = ½(F_held + F)s + (b/dt − σ/2)s². As σ ≤ 2b/T
-/// ≤ 2b/dt the last term is not negative, and the one before is at least (F² − F_held²)/(2β) on both
-/// branches. So E ≥ F²/(2β), and as β ≤ 2b/T that covers the worst the next tick can do. A force below
-/// the window, down to zero, is safe as well; the lower edges are for the feel alone.
+/// E ≥ F²/(2β). A force below the window, down to zero, is safe as well; the lower edges are for the feel alone.
 ///
 /// It assumes what memoryless_bound does. A force held beyond the last command is given no credit, so a
 /// motor that is a little too strong cannot wind the force up. It is not offered with latency. The price:

@@ -24,10 +24,7 @@ namespace detail {
 template <class P>
 constexpr void soften_by_damping(explanation& e, const auto& damping, typename P::scalar T,
                                  int late) noexcept {
-  double b = static_cast<double>(damping.along_axis(0));
-  for (int i = 1; i < P::dof; ++i) {
-    b = kernels::smaller(b, static_cast<double>(damping.along_axis(i)));
-  }
+  const auto b = static_cast<double>(least_damping<P>(damping));
   e.soften(2.0 * b / ((1.0 + late) * static_cast<double>(T)), softened_by::damping_and_tick);
 }
 }  // namespace detail
@@ -58,7 +55,6 @@ struct strict_bound {
                                                             const auto& state) const noexcept {
       return {state.damping.affordable(desired, state.credit(), state.longest_tick)};
     }
-    /// 2b/((k + 1) T), b of the axis that damps least.
     constexpr void explain(explanation& e, const auto& damping, typename P::scalar T,
                            int late) const noexcept {
       detail::soften_by_damping<P>(e, damping, T, late);
@@ -71,12 +67,6 @@ struct strict_bound {
 ///     fᵀB⁻¹f ≤ wᵀB⁻¹w,   w = h − 2B Δx                                  (§ 2, memoryless_bound)
 /// The conservative of the two variants that the thesis mentions without a formula is this one or
 /// per_axis_bound; the form and the proof are ours. It reads no ledger, only the damping.
-///
-/// Proof: S(h) = ¼ hᵀB⁻¹h with B = b/T, T the longest tick, is the most that h can cost (L3), and
-/// the tick of measured length dt ≤ T brought ΔE ≥ Δxᵀ(b/dt)Δx − h·Δx (L1). The law says
-/// S(f) ≤ S(h) + ΔE, tick after tick, so E ≥ S ≥ 0 for ever; its right side is never negative,
-/// because b/dt ≥ B. In a loop k ticks late the force that the last tick paid for is held k + 1 ticks
-/// after it: the ticks fall into k + 1 chains, each with a storage of its own, and nothing else changes.
 ///
 /// It assumes what strict_bound does, and exact positions, because it reads Δx itself. The force really held
 /// may be shorter than the command in the same direction or, with isotropic damping, in any direction. A held

@@ -84,8 +84,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
   template <bool Exact>
   constexpr void look(bool known, const stored& travel, const stored& told, const stored& held,
                       scalar dt, const auto& ledger) noexcept {
-    scalar b = ledger.damping().along_axis(0), error(0);
-    for (int i = 1; i < P::dof; ++i) b = kernels::larger(b, ledger.damping().along_axis(i));
+    scalar error(0);
     if constexpr (Exact) {  // no sensor shows less than its steps
       const scalar moved = P::norm(travel);
       if (known && moved > scalar(0) && moved < step_) step_ = moved;
@@ -93,7 +92,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
     } else {
       error = ledger.travel_error();
     }
-    watch(known, travel, told, held, dt, error, b);
+    watch(known, travel, told, held, dt, error, detail::most_damping<P>(ledger.damping()));
   }
   /// Is something asked in this tick? Where nothing is, the next contact is looked at from its beginning.
   constexpr void look_on(bool asked) noexcept {

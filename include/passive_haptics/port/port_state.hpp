@@ -73,6 +73,10 @@ struct port_state {
   bool motion_known;  ///< false: the last sample was lost, Δx is unknown and given as zero
   bool late;          ///< dt is longer than was allowed for
 
+  /// The command that is held in the j-th coming tick, 1 ≤ j ≤ Latency.
+  [[nodiscard]] constexpr const typename Port::stored_effort& coming(int j) const noexcept {
+    return commanded[static_cast<std::size_t>(Latency - j)];
+  }
   [[nodiscard]] constexpr tick_fate fate() const noexcept {
     if (!motion_known) return tick_fate::lost;
     return late ? tick_fate::late : tick_fate::on_time;
