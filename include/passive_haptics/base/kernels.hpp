@@ -69,6 +69,12 @@ template <real S>
   return a < b ? b : a;
 }
 
+/// x, kept within [least, most].
+template <real S>
+[[nodiscard]] constexpr S clamped(S x, S least, S most) noexcept {
+  return smaller(larger(x, least), most);
+}
+
 template <real S>
 [[nodiscard]] constexpr S magnitude(S a) noexcept {
   if constexpr (std::floating_point<S>) {

@@ -9,6 +9,9 @@
 
 #include <passive_haptics/base/kernels.hpp>
 
+#include <array>
+#include <cstddef>
+
 namespace passive_haptics {
 inline namespace v0 {
 
@@ -45,6 +48,14 @@ template <real S>
     if (size > 0.0 && size < least) return S(x < 0.0 ? -least : least);
   }
   return static_cast<S>(x);
+}
+
+/// The same of an array of them; of doubles, back to what a user states.
+template <real To, real From, std::size_t N>
+[[nodiscard]] constexpr std::array<To, N> numbers(const std::array<From, N>& all) noexcept {
+  std::array<To, N> same{};
+  for (std::size_t i = 0; i < N; ++i) same[i] = number<To>(static_cast<double>(all[i]));
+  return same;
 }
 
 /// The type that computes at a port: Part::on<Port>, or the part itself where it is written for one port.

@@ -124,8 +124,7 @@ requires(Space::dof == 3) struct distance_brick {
       if (!(squared > scalar(0))) break;
       x += here.pushing * (here.depth / squared);
       for (int axis = 0; axis < 3; ++axis) {
-        x(axis) = kernels::smaller(kernels::larger(x(axis), least(axis)),
-                                   least(axis) + scalar(2) * spacing);
+        x(axis) = kernels::clamped(x(axis), least(axis), least(axis) + scalar(2) * spacing);
       }
     }
     scalar steepest(0);

@@ -27,7 +27,7 @@ template <class Space>
   scalar t(0);
   if (across > smallest || across < -smallest) {
     t = Space::dot(Space::difference(p, from), n) / across;
-    t = kernels::smaller(kernels::larger(t, scalar(0)), scalar(1));
+    t = kernels::clamped(t, scalar(0), scalar(1));
   }
   const vector node = vector(from) + line * t;
   return vector(node + vector(n) * Space::dot(Space::difference(p, node), n));

@@ -97,10 +97,9 @@ requires(Space::dof >= 2) struct segment_core {
   }
   [[nodiscard]] constexpr core_point<Space> closest(const vector& x) const noexcept {
     const vector along = Space::difference(b, a);
-    const scalar s = kernels::smaller(
-        kernels::larger(scalar(Space::dot(Space::difference(x, a), along) / length_squared()),
-                        scalar(0)),
-        scalar(1));
+    const scalar s =
+        kernels::clamped(scalar(Space::dot(Space::difference(x, a), along) / length_squared()),
+                         scalar(0), scalar(1));
     return {vector(vector(a) + along * s), Space::orthogonal(vector(along / Space::norm(along))),
             false};
   }
@@ -158,7 +157,7 @@ requires(Space::dof == 3) struct box_core {
       }
     }
     for (std::size_t i = 0; i < 3; ++i) {
-      scalar within = kernels::smaller(kernels::larger(own[i], scalar(-half[i])), half[i]);
+      scalar within = kernels::clamped(own[i], scalar(-half[i]), half[i]);
       if (inside && i == face) within = own[i] < scalar(0) ? scalar(-half[i]) : half[i];
       point = vector(point + axis[i] * within);
     }

@@ -71,9 +71,8 @@ template <class Space>
     if (share[(i + 2) % 3] > scalar(0)) continue;  // x is on the inner side of this edge
     const vector edge = *corner[j] - *corner[i];
     const vector way = x - *corner[i];
-    const scalar s = kernels::smaller(
-        kernels::larger(scalar(Space::dot(way, edge) / Space::dot(edge, edge)), scalar(0)),
-        scalar(1));
+    const scalar s = kernels::clamped(scalar(Space::dot(way, edge) / Space::dot(edge, edge)),
+                                      scalar(0), scalar(1));
     const vector missing = way - edge * s;
     const scalar squared = Space::dot(missing, missing);
     if (!(squared < shortest)) continue;

@@ -139,7 +139,7 @@ class contacts<Sources...>::on {
     if (port.limited) {
       const scalar square = Space::dot(r.wanted, r.wanted);
       left = square > scalar(0) ? Space::dot(port.force, r.wanted) / square : scalar(0);
-      left = kernels::smaller(kernels::larger(left, scalar(0)), scalar(1));
+      left = kernels::clamped(left, scalar(0), scalar(1));
     }
     result_type sum{port.force, scalar(0), port.energy, port.what, port.limited};
     const auto answer = [&](auto& source, const auto& one) {

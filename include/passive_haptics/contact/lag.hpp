@@ -74,7 +74,7 @@ class news_pace::at {
         kernels::larger(usual_ * compliance, its_own) - kernels::larger(same_way, Scalar(0));
     const Scalar wanted =
         kernels::smaller(Scalar(3) * size / interval, kernels::larger(calm, size / Scalar(0.8)));
-    return kernels::smaller(kernels::larger(wanted, least_ * compliance), most_ * compliance);
+    return kernels::clamped(wanted, least_ * compliance, most_ * compliance);
   }
   [[nodiscard]] constexpr Scalar most() const noexcept { return most_; }        ///< R_most [N/s]
   [[nodiscard]] constexpr Scalar longest() const noexcept { return longest_; }  ///< [s]

@@ -224,12 +224,12 @@ class settled_force::on : private part_at<given_force, P> {
     if constexpr (P::dof == 1) {
       notice(change, v, dt);
       const scalar most = scalar(-2) * w;
-      return w - clipped(B * v, kernels::smaller(w, most), kernels::larger(w, most));
+      return w - kernels::clamped(B * v, kernels::smaller(w, most), kernels::larger(w, most));
     } else {
       const scalar size = kernels::square_root(squared);
       const effort n = turned(w, size, dt);
       const scalar along = P::dot(n, w), speed = P::dot(n, v);
-      const scalar brake = clipped(B * speed, scalar(-2) * along, along);
+      const scalar brake = kernels::clamped(B * speed, scalar(-2) * along, along);
       const effort sideways = less(v, n, speed);
       const scalar rise = P::dot(n, change);
       notice(rise, speed, dt);
@@ -266,9 +266,6 @@ class settled_force::on : private part_at<given_force, P> {
                                                                    scalar most) noexcept {
     const scalar squared = P::dot(a, a);
     return squared > most * most ? most / kernels::square_root(squared) : scalar(1);
-  }
-  [[nodiscard]] static constexpr scalar clipped(scalar x, scalar least, scalar most) noexcept {
-    return kernels::smaller(kernels::larger(x, least), most);
   }
   /// a − b s.
   [[nodiscard, gnu::always_inline]] static constexpr effort less(const effort& a, const effort& b,

@@ -114,13 +114,10 @@ struct diagonal_damping {
     static_assert(Port::dof == Dof,
                   "passive_haptics: diagonal_damping needs one number for each axis of the port");
 
-    constexpr explicit on(const diagonal_damping& p) noexcept {
-      for (std::size_t i = 0; i < b_.size(); ++i) b_[i] = detail::number<scalar>(p.coefficients[i]);
-    }
+    constexpr explicit on(const diagonal_damping& p) noexcept
+        : b_(detail::numbers<scalar>(p.coefficients)) {}
     [[nodiscard]] constexpr diagonal_damping parameters() const noexcept {
-      diagonal_damping p;
-      for (std::size_t i = 0; i < b_.size(); ++i) p.coefficients[i] = static_cast<double>(b_[i]);
-      return p;
+      return {detail::numbers<double>(b_)};
     }
 
     [[nodiscard]] constexpr scalar dissipated(const motion& dx, scalar dt) const noexcept {
@@ -157,7 +154,7 @@ struct diagonal_damping {
     static constexpr bool rubs = false;
 
    private:
-    std::array<scalar, static_cast<std::size_t>(Dof)> b_{};
+    std::array<scalar, static_cast<std::size_t>(Dof)> b_;
   };
 };
 

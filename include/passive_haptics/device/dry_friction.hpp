@@ -174,26 +174,18 @@ class diagonal_damping_and_friction<Dof>::on : public diagonal_damping<Dof>::tem
   using typename dampers::effort, typename dampers::motion, typename dampers::scalar;
 
   constexpr explicit on(const diagonal_damping_and_friction& p) noexcept
-      : dampers(diagonal_damping<Dof>{p.coefficients}) {
-    for (std::size_t i = 0; i < c_.size(); ++i) {
-      c_[i] = detail::number<scalar>(p.coulomb[i]);
-      p_[i] = detail::number<scalar>(p.presliding[i]);
-    }
-  }
+      : dampers(diagonal_damping<Dof>{p.coefficients}),
+        c_(detail::numbers<scalar>(p.coulomb)),
+        p_(detail::numbers<scalar>(p.presliding)) {}
   [[nodiscard]] constexpr diagonal_damping_and_friction parameters() const noexcept {
-    diagonal_damping_and_friction p;
-    p.coefficients = dampers::parameters().coefficients;
-    for (std::size_t i = 0; i < c_.size(); ++i) {
-      p.coulomb[i] = static_cast<double>(c_[i]);
-      p.presliding[i] = static_cast<double>(p_[i]);
-    }
-    return p;
+    return {.coefficients = dampers::parameters().coefficients,
+            .coulomb = detail::numbers<double>(c_),
+            .presliding = detail::numbers<double>(p_)};
   }
 
   [[nodiscard]] constexpr scalar dissipated(const motion& dx, scalar dt) const noexcept {
-    scalar rubbed(0);
-    for (int i = 0; i < Dof; ++i) rubbed += c(i) * kernels::magnitude(Port::component(dx, i));
-    return viscous(dx, dt) + rubbed;
+    return viscous(dx, dt) +
+           sum([&](int i) { return c(i) * kernels::magnitude(Port::component(dx, i)); });
   }
   [[nodiscard]] constexpr scalar worst_outflow(const effort& f, scalar T) const noexcept {
     effort beyond = f;
@@ -234,7 +226,7 @@ class diagonal_damping_and_friction<Dof>::on : public diagonal_damping<Dof>::tem
     effort nearest = f;
     for (int i = 0; i < Dof; ++i) {
       scalar& along = Port::component(nearest, i);
-      along = kernels::smaller(kernels::larger(along, -c(i)), c(i));
+      along = kernels::clamped(along, scalar(-c(i)), c(i));
     }
     return nearest;
   }
@@ -247,33 +239,32 @@ class diagonal_damping_and_friction<Dof>::on : public diagonal_damping<Dof>::tem
     return against;
   }
   [[nodiscard]] constexpr scalar most_friction() const noexcept {
-    scalar sum(0);
-    for (int i = 0; i < Dof; ++i) sum += c(i) * c(i);
-    return kernels::square_root(sum);
+    return kernels::square_root(sum([&](int i) { return c(i) * c(i); }));
   }
   [[nodiscard]] constexpr scalar hysteresis(const effort& change) const noexcept {
-    scalar sum(0);
-    for (int i = 0; i < Dof; ++i) sum += p(i) * kernels::magnitude(Port::component(change, i));
-    return sum * (scalar(1) + kernels::rounding<scalar>());
+    return sum([&](int i) { return p(i) * kernels::magnitude(Port::component(change, i)); }) *
+           (scalar(1) + kernels::rounding<scalar>());
   }
   [[nodiscard]] constexpr scalar stored(const effort& u) const noexcept {
-    scalar sum(0);
-    for (int i = 0; i < Dof; ++i) {
+    const auto of = [&](int i) {
       const scalar along = Port::component(u, i);
-      if (c(i) > scalar(0)) sum += along * along * (p(i) / (scalar(2) * c(i)));
-    }
-    return sum * (scalar(1) + kernels::rounding<scalar>());
+      return c(i) > scalar(0) ? along * along * (p(i) / (scalar(2) * c(i))) : scalar(0);
+    };
+    return sum(of) * (scalar(1) + kernels::rounding<scalar>());
   }
   [[nodiscard]] constexpr scalar most_stored() const noexcept {
-    scalar sum(0);
-    for (int i = 0; i < Dof; ++i) sum += c(i) * p(i) / scalar(2);
-    return sum;
+    return sum([&](int i) { return c(i) * p(i) / scalar(2); });
   }
 
  private:
+  [[nodiscard]] static constexpr scalar sum(const auto& of) noexcept {
+    scalar all(0);
+    for (int i = 0; i < Dof; ++i) all += of(i);
+    return all;
+  }
   [[nodiscard]] constexpr scalar c(int i) const noexcept { return c_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] constexpr scalar p(int i) const noexcept { return p_[static_cast<std::size_t>(i)]; }
-  std::array<scalar, static_cast<std::size_t>(Dof)> c_{}, p_{};
+  std::array<scalar, static_cast<std::size_t>(Dof)> c_, p_;
 };
 
 }  // namespace v0

@@ -8,9 +8,6 @@
 
 #include <passive_haptics/base/parameter.hpp>
 
-#include <array>
-#include <cstddef>
-
 namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
@@ -121,20 +118,17 @@ struct encoder_steps {
     static_assert(P::dof == Dof,
                   "passive_haptics: encoder_steps needs one number for each axis of the port");
 
-    constexpr explicit on(const encoder_steps& p) noexcept {
-      for (std::size_t i = 0; i < q_.size(); ++i) q_[i] = detail::number<scalar>(p.widths[i]);
-    }
+    constexpr explicit on(const encoder_steps& p) noexcept
+        : q_(detail::numbers<scalar>(p.widths)) {}
     [[nodiscard]] constexpr encoder_steps parameters() const noexcept {
-      encoder_steps p;
-      for (std::size_t i = 0; i < q_.size(); ++i) p.widths[i] = static_cast<double>(q_[i]);
-      return p;
+      return {detail::numbers<double>(q_)};
     }
     [[nodiscard]] constexpr scalar along_axis(int i) const noexcept {
       return q_[static_cast<std::size_t>(i)];
     }
 
    private:
-    std::array<scalar, static_cast<std::size_t>(Dof)> q_{};
+    std::array<scalar, static_cast<std::size_t>(Dof)> q_;
   };
 };
 

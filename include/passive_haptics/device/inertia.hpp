@@ -8,9 +8,6 @@
 
 #include <passive_haptics/base/parameter.hpp>
 
-#include <array>
-#include <cstddef>
-
 namespace passive_haptics {
 inline namespace v0 {
 
@@ -62,13 +59,10 @@ struct diagonal_inertia {
     static_assert(Port::dof == Dof,
                   "passive_haptics: diagonal_inertia needs one number for each axis of the port");
 
-    constexpr explicit on(const diagonal_inertia& p) noexcept {
-      for (std::size_t i = 0; i < m_.size(); ++i) m_[i] = detail::number<scalar>(p.masses[i]);
-    }
+    constexpr explicit on(const diagonal_inertia& p) noexcept
+        : m_(detail::numbers<scalar>(p.masses)) {}
     [[nodiscard]] constexpr diagonal_inertia parameters() const noexcept {
-      diagonal_inertia p;
-      for (std::size_t i = 0; i < m_.size(); ++i) p.masses[i] = static_cast<double>(m_[i]);
-      return p;
+      return {detail::numbers<double>(m_)};
     }
     [[nodiscard]] constexpr scalar norm(const typename Port::effort& f) const noexcept {
       scalar sum(0);
@@ -80,7 +74,7 @@ struct diagonal_inertia {
     }
 
    private:
-    std::array<scalar, static_cast<std::size_t>(Dof)> m_{};
+    std::array<scalar, static_cast<std::size_t>(Dof)> m_;
   };
 };
 

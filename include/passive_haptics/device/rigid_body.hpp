@@ -111,8 +111,8 @@ struct rigid_body : detail::rigid_poses<Scalar> {
   }
   /// The larger of |Δp|² and (0.1 m/rad · |θ|)² [m²].
   [[nodiscard]] static Scalar squared(const motion& m) noexcept {
-    const Scalar gone = m(0) * m(0) + m(1) * m(1) + m(2) * m(2);
-    const Scalar turned = (m(3) * m(3) + m(4) * m(4) + m(5) * m(5)) / Scalar(100);
+    const Scalar gone = detail::squared_from<rigid_body, 0>(m);
+    const Scalar turned = detail::squared_from<rigid_body, 3>(m) / Scalar(100);
     return turned > gone || turned != turned ? turned : gone;  // a NaN stays
   }
 };

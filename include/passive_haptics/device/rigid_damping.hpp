@@ -92,13 +92,9 @@ class rigid_damping::on {
   static constexpr bool rubs = false;
 
  private:
-  /// |.|² of the three components from `First` on.
   template <int First>
   [[nodiscard]] static constexpr scalar squared(const motion& m) noexcept {
-    const scalar x = Port::component(m, First);
-    const scalar y = Port::component(m, First + 1);
-    const scalar z = Port::component(m, First + 2);
-    return x * x + y * y + z * z;
+    return detail::squared_from<Port, First>(m);
   }
   [[nodiscard]] static constexpr auto cross(const motion& m, const effort& held) noexcept {
     return detail::vectors<scalar, 3>::cross(Port::angular(m), Port::angular(held));

@@ -5,6 +5,7 @@
 //   rigid_inertia   mass, least moment of inertia, spread of the moments, offset of the centre of mass
 
 #include <passive_haptics/base/parameter.hpp>
+#include <passive_haptics/device/space.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -91,10 +92,7 @@ class rigid_inertia::on {
   /// Their square.
   template <int First>
   [[nodiscard]] static constexpr scalar squared(const typename Port::effort& w) noexcept {
-    const scalar x = Port::component(w, First);
-    const scalar y = Port::component(w, First + 1);
-    const scalar z = Port::component(w, First + 2);
-    return x * x + y * y + z * z;
+    return detail::squared_from<Port, First>(w);
   }
 
  private:

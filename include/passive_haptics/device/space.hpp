@@ -46,6 +46,15 @@ concept moves_and_turns = requires(typename P::motion m) {
   P::angular(m);
 };
 
+/// |.|² of the three components from `First` on: f or Δp from 0, τ or θ from 3.
+template <class P, int First>
+[[nodiscard]] constexpr typename P::scalar squared_from(const typename P::motion& m) noexcept {
+  const typename P::scalar x = P::component(m, First);
+  const typename P::scalar y = P::component(m, First + 1);
+  const typename P::scalar z = P::component(m, First + 2);
+  return x * x + y * y + z * z;
+}
+
 /// The algebra of `Dof` numbers. Specialised here for one, in eigen_space.hpp for more.
 ///   scalar        a number
 ///   vector        what is computed with: Scalar for Dof 1, Eigen::Matrix<Scalar, Dof, 1> above

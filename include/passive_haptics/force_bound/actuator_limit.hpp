@@ -99,13 +99,10 @@ struct motor_limits {
     static_assert(P::dof == Dof,
                   "passive_haptics: motor_limits needs one number for each axis of the port");
 
-    constexpr explicit on(const motor_limits& p) noexcept {
-      for (std::size_t i = 0; i < most_.size(); ++i) most_[i] = detail::number<scalar>(p.most[i]);
-    }
+    constexpr explicit on(const motor_limits& p) noexcept
+        : most_(detail::numbers<scalar>(p.most)) {}
     [[nodiscard]] constexpr motor_limits parameters() const noexcept {
-      motor_limits p;
-      for (std::size_t i = 0; i < most_.size(); ++i) p.most[i] = static_cast<double>(most_[i]);
-      return p;
+      return {detail::numbers<double>(most_)};
     }
     [[nodiscard]] constexpr share<scalar> limit(const typename P::effort& desired,
                                                 const auto& /*state*/) const noexcept {
@@ -127,7 +124,7 @@ struct motor_limits {
     }
 
    private:
-    std::array<scalar, static_cast<std::size_t>(Dof)> most_{};
+    std::array<scalar, static_cast<std::size_t>(Dof)> most_;
   };
 };
 

@@ -69,7 +69,7 @@ class sector_bound::on {
     const scalar most = kernels::larger(held + gentlest * against, scalar(0));
     const scalar least =
         against < scalar(0) ? kernels::larger(held + steepest * against, scalar(0)) : held;
-    last_ = kernels::smaller(kernels::larger(desired * side, least), most);
+    last_ = kernels::clamped(desired * side, least, most);
     return side * last_;
   }
 

@@ -148,7 +148,7 @@ class per_axis_bound::on {
       const scalar B = state.damping.along_axis(i) / state.longest_tick;
       const scalar most = kernels::strict_force_bound(saved, B);
       scalar& along = P::component(force, i);
-      along = kernels::smaller(kernels::larger(along, -most), most);
+      along = kernels::clamped(along, -most, most);
     }
     return force;
   }

@@ -142,7 +142,7 @@ class edge_observer::on {
   }
 
   [[nodiscard]] constexpr scalar within(scalar x, scalar step) const noexcept {
-    return kernels::smaller(kernels::larger(x, step), step + quantum_);
+    return kernels::clamped(x, step, step + quantum_);
   }
 
   /// True while the device swings within q + 2p. low_ and high_ are the steps at which it turned last.

@@ -97,7 +97,7 @@ class mass_observer::on {
 
     const scalar a = driven + w;
     const scalar predicted = x + (v + a * dt / scalar(2)) * dt;
-    x = kernels::smaller(kernels::larger(predicted, step), step + quantum_);
+    x = kernels::clamped(predicted, step, step + quantum_);
     const scalar c = x - predicted;
     v += a * dt + gain * c / dt;
     w += gain * gain * c / (scalar(8) * dt * dt);

@@ -82,7 +82,7 @@ struct late_loop_limits {
     }
     /// How long a force may have been held in a tick that took `dt` [s].
     [[nodiscard]] constexpr scalar held_for(scalar dt) const noexcept {
-      return kernels::smaller(kernels::larger(dt, longest_tick), watchdog);
+      return kernels::clamped(dt, longest_tick, watchdog);
     }
   };
 };

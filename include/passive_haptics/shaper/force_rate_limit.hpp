@@ -41,7 +41,7 @@ struct force_rate_limit {
       const scalar asked = Space::dot(desired, contact.normal);
       const scalar least = kernels::larger(contact.local_force - step, scalar(0));
       const scalar most = contact.local_force + step;
-      return contact.normal * kernels::smaller(kernels::larger(asked, least), most);
+      return contact.normal * kernels::clamped(asked, least, most);
     }
 
    private:

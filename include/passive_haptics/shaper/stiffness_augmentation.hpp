@@ -184,7 +184,7 @@ struct stiffness_increment {
       away_ = scalar(0);
       const scalar d = contact.target_depth;
       const scalar half = d * d / scalar(2);
-      stiffness_ = kernels::smaller(kernels::larger(stiffness_, initial_), contact.stiffness);
+      stiffness_ = kernels::clamped(stiffness_, initial_, contact.stiffness);
       const scalar outward = Space::dot(port.travel, contact.normal);
       if (outward > scalar(0)) released_ = true;
       if (outward < scalar(0) && released_) {
