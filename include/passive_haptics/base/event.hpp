@@ -29,35 +29,15 @@ enum class event : std::uint8_t {
 
 /// The text of an event, for logs.
 [[nodiscard]] constexpr const char* to_string(event e) noexcept {
-  switch (e) {
-    case event::nominal:
-      return "nominal";
-    case event::debt:
-      return "debt";
-    case event::late_tick:
-      return "late tick";
-    case event::repeated_sample:
-      return "repeated sample";
-    case event::no_target:
-      return "no target";
-    case event::stale_target:
-      return "stale target";
-    case event::rejected_target:
-      return "rejected target";
-    case event::outside_workspace:
-      return "outside workspace";
-    case event::rejected_sample:
-      return "rejected sample";
-    case event::rejected_parameters:
-      return "rejected parameters";
-    case event::outside_force:
-      return "outside force";
-    case event::untold_latency:
-      return "untold latency";
-    case event::wrong_sign:
-      return "wrong sign";
-  }
-  return "unknown event";
+  constexpr const char* names[] = {"nominal",         "debt",
+                                   "late tick",       "repeated sample",
+                                   "no target",       "rejected target",
+                                   "stale target",    "outside workspace",
+                                   "rejected sample", "rejected parameters",
+                                   "outside force",   "untold latency",
+                                   "wrong sign"};
+  static_assert(sizeof(names) / sizeof(*names) == static_cast<int>(event::wrong_sign) + 1);
+  return e <= event::wrong_sign ? names[static_cast<int>(e)] : "unknown event";
 }
 
 [[nodiscard]] constexpr event worse(event a, event b) noexcept {
@@ -79,15 +59,8 @@ namespace detail {
 enum class guarantee : std::uint8_t { none, conditional, strict };
 
 [[nodiscard]] constexpr const char* to_string(guarantee g) noexcept {
-  switch (g) {
-    case guarantee::none:
-      return "none";
-    case guarantee::conditional:
-      return "conditional";
-    case guarantee::strict:
-      return "strict";
-  }
-  return "unknown guarantee";
+  constexpr const char* names[] = {"none", "conditional", "strict"};
+  return g <= guarantee::strict ? names[static_cast<int>(g)] : "unknown guarantee";
 }
 
 }  // namespace v0
