@@ -13,16 +13,13 @@
 //   contact/                depth to force; several contacts; a force of your own
 //   shaper/                 shapes the wanted force by the contact, before the bound
 //   base/exchange.hpp       the newest value from another thread
+//   firmware.hpp            what of all this needs no Eigen
 //   laws.hpp                what a part of your own must obey; not in here
 //   six_dof.hpp             devices that turn, or sense that they do; not in here
 
-#include <passive_haptics/base/exchange.hpp>
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/constraint_geometry/distance_brick.hpp>
 #include <passive_haptics/constraint_geometry/distance_field.hpp>
-#include <passive_haptics/constraint_geometry/fixed.hpp>
-#include <passive_haptics/constraint_geometry/followed.hpp>
-#include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/patch.hpp>
 #include <passive_haptics/constraint_geometry/quadric.hpp>
 #include <passive_haptics/constraint_geometry/segment.hpp>
@@ -32,43 +29,11 @@
 #include <passive_haptics/constraint_geometry/triangle.hpp>
 #include <passive_haptics/contact/capped.hpp>
 #include <passive_haptics/contact/contact_set.hpp>
-#include <passive_haptics/contact/contacts.hpp>
-#include <passive_haptics/contact/damped_spring.hpp>
 #include <passive_haptics/contact/eased.hpp>
-#include <passive_haptics/contact/given_force.hpp>
 #include <passive_haptics/contact/local_contact.hpp>
 #include <passive_haptics/contact/manifold.hpp>
-#include <passive_haptics/contact/settled_force.hpp>
 #include <passive_haptics/contact/shaped.hpp>
-#include <passive_haptics/contact/spring.hpp>
-#include <passive_haptics/contact/virtual_coupling.hpp>
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/device/joint_space.hpp>
-#include <passive_haptics/energy_observer/dual_ledger.hpp>
-#include <passive_haptics/energy_observer/forgiving.hpp>
-#include <passive_haptics/energy_observer/no_observer.hpp>
-#include <passive_haptics/energy_observer/quantised_energy.hpp>
-#include <passive_haptics/energy_observer/reduced_energy.hpp>
-#include <passive_haptics/force_bound/actuator_limit.hpp>
-#include <passive_haptics/force_bound/bound_chain.hpp>
-#include <passive_haptics/force_bound/energy_bounding.hpp>
-#include <passive_haptics/force_bound/energy_tank.hpp>
+#include <passive_haptics/firmware.hpp>
 #include <passive_haptics/force_bound/parallel_passivity_controller.hpp>
-#include <passive_haptics/force_bound/passivity_controller.hpp>
-#include <passive_haptics/force_bound/reachable_bound.hpp>
-#include <passive_haptics/force_bound/sector_bound.hpp>
-#include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/force_bound/thermal_limit.hpp>
-#include <passive_haptics/force_bound/watched.hpp>
-#include <passive_haptics/local_model.hpp>
-#include <passive_haptics/motion_estimator/edge_observer.hpp>
-#include <passive_haptics/motion_estimator/mass_observer.hpp>
-#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
-#include <passive_haptics/normal_interpolation/turn_limited.hpp>
-#include <passive_haptics/port/passive_port.hpp>
-#include <passive_haptics/shaper/force_rate_limit.hpp>
-#include <passive_haptics/shaper/reference_energy.hpp>
-#include <passive_haptics/shaper/set_position_modulation.hpp>
-#include <passive_haptics/shaper/stiffness_augmentation.hpp>
-#include <passive_haptics/shaper/thesis_rule.hpp>
-#include <passive_haptics/version.hpp>
