@@ -78,8 +78,7 @@ namespace passivity {
 /// Largest K of a fixed wall H(z) = z⁻ᵏ (K + D (1 − z⁻¹)/T):   b > K (T/2 + t_d) + |D|
 /// Colgate and Schenkel (1994, 1997), confirmed in two secondary sources and derived in § 2(g).
 /// Exact for k = 0 or D = 0, sufficient otherwise. Assumes exact positions and ticks of one length;
-/// of the hand only that it is passive. A wall that only pushes is no worse (proof with
-/// contact/virtual_coupling.hpp, for k = 0 and D ≥ 0).
+/// of the hand only that it is passive. A wall that only pushes is no worse (§ 2(g) 1, for k = 0 and D ≥ 0).
 [[nodiscard]] constexpr double colgate_schenkel(const loop& l) noexcept {
   if (l.check() || l.quantum > 0.0) return 0.0;
   const double left = l.damping - kernels::magnitude(l.virtual_damping);
@@ -131,13 +130,8 @@ template <class H>
 /// e.g. [=](frequency w) { return D_c + K_c * T / w.difference(); }, which for D_c ≥ 0 and k = 0
 /// gives K_c < 2(b − D_c)/T.
 ///
-/// This is Llewellyn's criterion of Adams and Hannaford (1999) for an impedance display, with the
-/// two-port [[Z_d, ZOH], [−1, 1/Z_c]]: 2 Re Z_d Re(1/Z_c) ≥ |ZOH| (1 − cos arg ZOH). As remembered,
-/// theirs has ZOH = (1 + z⁻¹)/2, which lets a pure spring pass up to 8b/T; the exact sampled device
-/// is unstable above 2b/T. Here Re Z_d = b and ZOH = z⁻¹⁻ᵏ. Proof (ours): b > −Re{z⁻¹⁻ᵏ Z} is
-/// Colgate's condition for H = Z (1 − z⁻¹)/T. With Y = 1/Z it says that Y lies outside the circle
-/// around −z⁻¹⁻ᵏ/(2b) through 0; Y = 1/Z_c + 1/Z_world may be anything with Re Y ≥ Re(1/Z_c), and
-/// the circle's rightmost point is (1 − cos((k + 1)θ))/(2b).
+/// This is Llewellyn's criterion of Adams and Hannaford (1999) for an impedance display, with the exact hold in
+/// place of (1 + z⁻¹)/2, which lets a pure spring pass up to 8b/T. Proof (ours): § 2(g) 5.
 template <class Z>
 [[nodiscard]] constexpr double adams_hannaford(const loop& l, Z coupling_impedance,
                                                frequency_grid grid = {}) noexcept {
@@ -151,10 +145,9 @@ template <class Z>
 
 /// Largest K of a fixed wall seen through sensor steps Δ, on one axis, by β = b/(KT), σ = f_c/(KΔ):
 ///     β ≥ ½ + t_d/T and σ ≥ ½,   K ≤ min(b/(T/2 + t_d), 2 f_c/Δ)
-/// Diolaiti and others (2006), confirmed in one secondary source. Proof (ours): the steps add at
-/// most KΔ/2 and a constant to the spring's force, and K Δ/2 |v| ≤ f_c |v| is what friction takes.
-/// Not offered: the borders of their other regions (limit cycles, local stability), which are not
-/// confirmed. No virtual damping: quantised speed is another matter.
+/// Diolaiti and others (2006), confirmed in one secondary source; proof (ours): § 2(g) 3. Not offered:
+/// the borders of their other regions (limit cycles, local stability), which are not confirmed. No
+/// virtual damping: quantised speed is another matter.
 [[nodiscard]] constexpr double diolaiti(const loop& l) noexcept {
   if (l.check() || l.virtual_damping != 0.0) return 0.0;
   const double sampled = l.damping / l.half_period_and_delay();
@@ -173,10 +166,9 @@ template <class Z>
 namespace stability {
 
 /// Largest K of a linear spring and damper against a free mass: K < (b + D)/(T/2 + t_d)
-/// Gil and others, Hulin and others (form from memory). The true limit comes from the poles of the
-/// sampled device; the mass hardly matters. Measured on the exact device, m = 0.05 to 0.5 kg, k = 0
-/// to 5: for D = 0 and b ≤ 0.3 N·s/m the true limit is above the formula, by less than 1 %. With
-/// virtual damping it is BELOW: by up to 5 % at D = 1 and 27 % at D = 5 N·s/m. No guarantee, then.
+/// Gil and others, Hulin and others (form from memory). No guarantee: measured on the exact device, m = 0.05 to
+/// 0.5 kg, k = 0 to 5, b ≤ 0.3 N·s/m, the true limit is less than 1 % above it for D = 0, but with virtual damping
+/// BELOW it: by up to 5 % at D = 1 and 27 % at D = 5 N·s/m.
 [[nodiscard]] constexpr double gil_hulin(const loop& l) noexcept {
   if (l.check() || l.quantum > 0.0) return 0.0;
   return kernels::larger(l.damping + l.virtual_damping, 0.0) / l.half_period_and_delay();

@@ -3,19 +3,14 @@
 // The equations, one function each: plain scalars in, a plain scalar out, no state, no branch that
 // is not in the formula. Whoever writes a loop of their own needs this header only.
 //
-//   2.5    damping_per_tick          B = b/T
-//   2.14   worst_outflow             f²/(4B)            most energy the next tick can take
-//   2.17   strict_force_bound        √(4 B E1)
-//   2.27   depth_bound               f/K
-//   L6     outward_reach             how far the device can come out in the next tick
-//   2(a′)  reachable_force_bound     largest force whose work over that reach the ledger covers
-//   2(a′)  reachable_outflow         most energy a force can hand over within that reach
-//   2(a′)  reachable_share, reachable_work             the same two in joules, for any port
-//   2(a″)  longest_path, unseen_arc                    how far a device can have gone, and turned aside, unseen
-//   C      coning, coning_share      work that the end poses of a turn do not show, and the torque limit for it
-//   § 9    sampled_stiffness, sampled_damping          what a sampled mass can take
-//   -      spendable, sure_gain, sum_rounded_down     rounding lowers the force and never breaks the promise
-//   2.30   half_angle_turn           cos φ and sin φ of a small turn, without cos and sin
+//   damping_per_tick, worst_outflow, strict_force_bound, strict_scale, depth_bound    the strict law (2.5 to 2.27)
+//   outward_reach, reachable_force_bound, reachable_outflow     what the next tick can reach (L6, § 2(a′));
+//   reachable_share, reachable_work, later_reach                the same in joules, for any port
+//   longest_path, unseen_arc                                    what can have gone on unseen (§ 2(a″))
+//   coning, coning_share, unseen_turn                           what the end poses of a turn do not show (lemma C)
+//   sampled_stiffness, sampled_damping                          what a sampled mass can take (§ 9)
+//   spendable, sure_gain, sum_rounded_down                      rounding lowers the force, never breaks the promise
+//   half_angle_turn                                             a small turn without cos and sin (2.30)
 //
 // Numbers with a dot are equations of McWilliam's 2017 thesis "Local Model Interpolation for Stable
 // Haptic Interaction" with the signs put right (docs/design/audit.md); L and § refer to

@@ -60,17 +60,7 @@ struct point_frame {
       return motion.along(n);
     }
     [[nodiscard]] constexpr vector velocity(const spot& /*s*/) const noexcept {
-      if constexpr (requires { vector(motion.travel * (scalar(1) / motion.dt)); }) {
-        return motion.travel * (scalar(1) / motion.dt);
-      } else {
-        vector v = Space::zero();
-        for (int i = 0; i < Space::dof; ++i) {
-          vector axis = Space::zero();
-          Space::component(axis, i) = scalar(1);
-          Space::component(v, i) = motion.along(axis);
-        }
-        return v;
-      }
+      return velocity_of<Space>(motion);
     }
     [[nodiscard]] constexpr vector travel(const point& /*p*/, const spot& /*s*/) const noexcept {
       return travelled;

@@ -16,10 +16,8 @@ inline namespace v0 {
 /// Static stiffness is K exactly, up to the cap κ m/T² (10 kN/m for 0.1 kg at 1 kHz). Source:
 /// docs/design/mathematics.md § 9; the defaults settle on an ideal device, κ = 0.3 does not.
 ///
-/// With a `force_limit` F, deeper than F/K_s, the motors cannot give K_s d, and a damper of that
-/// stiffness would act only in the last millimetre. There the spring is the secant F/d:
-///     f* = max(0, F − min(D_s, 2ζ√(F m/d)) max(0, v_out))
-/// which lets a heavy device out at a speed it can be stopped from.
+/// Deeper than F/K_s, F the `force_limit`, the spring is the secant F/d, which lets a heavy device out at a speed it
+/// can be stopped from:  f* = max(0, F − min(D_s, 2ζ√(F m/d)) max(0, v_out)).
 struct damped_spring {
   double mass{};                    ///< m, apparent mass of the device [kg], a lower bound
   double stiffness_fraction = 0.1;  ///< κ, of m/T²

@@ -16,9 +16,7 @@
 // an equal id first, whatever c; then pairs in the order of rising c (a stable matching, so the order of what is
 // told has no say); what is left over takes a slot that is free, or else the one that presses least; and a slot
 // that nobody has claimed is released. One that is still receding may be claimed. Of more surfaces than slots
-// the deepest are kept. Each surface is looked at once, and compared with each slot at most twice before m are
-// chosen; those claim their slots in m² comparisons, and as many again for each that has to give way.
-// Source: ours, docs/design/contacts.md.
+// the deepest are kept. Source, and what it costs: docs/design/contacts.md.
 
 #include <passive_haptics/contact/contact_engine.hpp>
 

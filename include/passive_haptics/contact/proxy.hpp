@@ -24,9 +24,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// How the contacts of a device press. K and B of each as damped_spring has them, K at most (1 − ε) κ m/T²;
-/// the damping is two-sided, or shallow cones swing on; on the way in it adds no more than the spring has, so that nothing
-/// steps at the touch.
+/// How the contacts of a device press. K and B of each as damped_spring has them, K at most (1 − ε) κ m/T²; the
+/// damping is two-sided, or shallow cones swing on.
 struct proxy_spring {
   double mass{};                    ///< m, apparent mass of the device [kg], a lower bound
   double stiffness_fraction = 0.1;  ///< κ, of m/T²

@@ -26,9 +26,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// How fast what is felt follows the world. `stale_after` is no freshness (port/freshness.hpp): that lowers the
-/// weight of old news and keeps its rule beside each age, while an old slot recedes at ρ as one that has
-/// vanished does, and all slots share one rule.
+/// How fast what is felt follows the world. What is older than `stale_after` recedes as what has vanished does.
 struct pursuit {
   double speed = 0.05;       ///< ρ, of a surface under the finger, at least [m/s]
   double catch_up = 0.04;    ///< t_c, in which news of what is pressed are made up for [s]

@@ -8,13 +8,9 @@
 //     D_F = min(D_s, 2ζ√(F m/d))      deeper than F/K_s, where the motors give F [N] and no more, and the
 //                                     spring is the secant F/d: a heavy device is stopped all the way out
 //
-// Where a command is held k ticks late, κ ≤ min(0.2, 0.9/(k+1))/(k+1)² and D_s ≤ 2.25(k+1) T K_s, or 6(k+1) T K_s
-// of a damper that acts on the way out only, or the contact rings for ever; what falls onto it comes back with
-// 0.85 of its speed at most; and D_s ≥ 1.5(k+1) T K_s unless ζ or β is 0, because what lags needs that much to
-// come to rest at all. settles() says which contacts do: docs/design/mathematics.md § 9.
-//
-// Several contacts share one coupling, so K_s of each is (1 − ε) κ m/T² at most (proxy.hpp). Source:
-// docs/design/mathematics.md § 9, and docs/design/settling.md for D_F.
+// Where commands are held late, κ and D_s are less, or the contact rings for ever (late_limits); settles() says which
+// contacts come to rest. Several contacts share one coupling, so K_s of each is (1 − ε) κ m/T² at most (proxy.hpp).
+// Source: docs/design/mathematics.md § 9, and docs/design/settling.md for D_F.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -70,7 +66,8 @@ template <class Scalar>
                      static_cast<double>(s.settling / T), late);
 }
 
-/// κ, σ and β = κ σ that a contact may have at most, k > 0 ticks late.
+/// κ, σ and β = κ σ that a contact may have at most, k > 0 ticks late: what falls onto it comes back with 0.85 of its
+/// speed at most. And the σ that it needs to come to rest at all. (§ 9)
 template <class Scalar>
 struct late_limits {
   Scalar stiffness = kernels::largest<Scalar>(), damping = kernels::largest<Scalar>();

@@ -39,8 +39,7 @@ struct settled_force {
   double fade = 0.05;        ///< how long it then takes to end [s]
   bool softens = true;       ///< what is too steep; without, it goes out as it is, and rings
 
-  /// The ranges are those in which most_stiffness was found, and, of lead and slide, what was not seen to ring
-  /// and is not felt as mud.
+  /// The ranges are those in which most_stiffness was found, and what is not felt as mud.
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
     if (!(damping_fraction > 0.0 && damping_fraction <= 0.5)) {
@@ -55,9 +54,8 @@ struct settled_force {
     return given_force{stale_after, fade}.check();
   }
   /// The stiffest renderer [N/m] that settles along n, K (k + l + 3/2) T ≤ B: its force is k = `renderer_late` ticks
-  /// old, a tick T [s], the loop l = `loop_late` ≤ 2 ticks late. Linear, without clip or bound, on a grid of k, l and β
-  /// (§ 10); a device that falls on it may bounce above ¾ of that. What is stiffer is as passive, and may ring.
-  /// Across n, σ > k + l + 1/2 is needed as well.
+  /// old, a tick T [s], the loop l = `loop_late` ≤ 2 ticks late (§ 10). A device that falls on it may bounce above ¾ of
+  /// that; what is stiffer is as passive, and may ring. Across n, σ > k + l + 1/2 is needed as well.
   [[nodiscard]] constexpr double most_stiffness(double T, int renderer_late = 0,
                                                 int loop_late = 0) const noexcept {
     const double late = static_cast<double>(renderer_late) + static_cast<double>(loop_late);
@@ -150,7 +148,7 @@ class settled_force::on : private part_at<given_force, P> {
     const scalar share = within(softly, most_);
     const scalar secant = share < scalar(1) ? kernels::square_root(share) : scalar(1);
     const effort w = P::scaled(softly, share);
-    const effort f = settled(w, velocity(motion), per_tick_ * secant, port.dt);
+    const effort f = settled(w, detail::velocity_of<P>(motion), per_tick_ * secant, port.dt);
     return {P::is_finite(f) ? f : w};  // f of an absurd force, or of next to none, is no number
   }
 
@@ -272,21 +270,6 @@ class settled_force::on : private part_at<given_force, P> {
                                                                  scalar s) noexcept {
     return P::difference(a, P::scaled(b, s));
   }
-  /// What the motion estimator says, axis by axis where it has more to say than travel and time [m/s].
-  [[nodiscard, gnu::always_inline]] static constexpr effort velocity(const auto& motion) noexcept {
-    if constexpr (requires { motion.travel / motion.dt; }) {
-      return P::scaled(motion.travel, scalar(1) / motion.dt);
-    } else {
-      effort v = P::zero();
-      for (int i = 0; i < P::dof; ++i) {
-        effort axis = P::zero();
-        P::component(axis, i) = scalar(1);
-        P::component(v, i) = motion.along(axis);
-      }
-      return v;
-    }
-  }
-
   scalar mass_{}, fraction_{}, slide_{}, lead_{}, turn_time_{}, most_{};
   scalar per_tick_{};                 ///< m/T [N·s/m]
   scalar longest_tick_{};             ///< T [s]

@@ -20,11 +20,8 @@ inline namespace v0 {
 ///
 /// Without any ledger it is passive on a surface that stays put, sampled every T and held, if
 ///     K_f ≤ 2 (b − D_c)/T,      for which K_c ≤ 2 (b − D_c)/T is enough, whatever K is
-/// (§ 2(g); Colgate's condition). With Δ = the change of d in a tick, the tick books b Δ²/T + f Δ,
-/// and f Δ ≥ K_f/2 (change of max(d, 0)²) − K_f/2 Δ² − D_c/(2T) (Δ² + Δ'²), Δ' of the tick before;
-/// max(0, ·) and the surface keep the sign. Nothing is asked of the hand. Ticks that vary, delay
-/// and a surface that moves break it: then the bound has to answer. Nyquist motion in contact takes
-/// (K_f/2 + D_c/T − b/T) Δ² a tick.
+/// (§ 2(g); Colgate's condition). Nothing is asked of the hand. Ticks that vary, delay and a surface that moves
+/// break it: then the bound has to answer.
 struct virtual_coupling {
   double stiffness = std::numeric_limits<double>::infinity();  ///< K_c [N/m], may be infinite
   double damping{};                                            ///< D_c [N·s/m]

@@ -14,28 +14,16 @@
 //
 //     K (q/2 + max(r, v T/2) + k v T) ≤ c + b v − 2 c p/D,     D = S/K the depth of the swing
 //
-// On the left is what a position costs of which only the step is known: changes of the force K q/2, and K r
-// for holding the force of an edge_observer, which lags by q/3 once it has seen four edges after a turn and
-// by q/2 before, r = q/3 + q/6 min(1, 4 q/D), or K v T/2 for motion between two samples (lemma L2), if that
-// is more. Each of k ticks of latency adds K v T. On the right is what dry friction and damping take, less
-// what the presliding p gives back at every reversal (ours; docs/design/mathematics.md § 6).
+// Left is what positions known to a step cost: changes of the force, q/2 a newton, and the lag of the force held,
+// r = q/3 + q/6 min(1, 4 q/D) of an edge_observer, v T/2 of motion between two samples, k v T of latency. Right is
+// what dry friction and damping take, less what the presliding p gives back at every reversal. Two more limits:
+// K ≤ 2 c/q, for the chatter of a hand that holds still at the edge of a step (Abbott and Okamura, 2005), and
+// K ≤ κ m/((2k + 1) T)², which a sampled mass can be held with. (Ours; docs/design/mathematics.md § 6 and § 9)
 //
-// With no latency, v T < q, D < 4 q and p = 0 this is K ≤ (c + b v)/q; as q → 0 it is 2 b/T + 2 c/(v T),
-// Colgate's 2 b/T for fast motions. Two more limits: K ≤ 2 c/q, for the chatter of a hand that holds still at
-// the edge of a step (Abbott and Okamura, 2005), and K ≤ κ m/((2k + 1) T)², which a sampled mass can be held
-// with (§ 6 and § 9).
-//
-// A hand that kneads f times a second with a force F moves by F/K, so no faster than v = π f F/K. Of a
-// swing H of the hand the friction leaves the wall S = H − 2 c, or H − 4 c where the device has twice the
-// friction stated.
-//
-// Nothing pays for a swing within the presliding, to and fro over 2p and more than a step, because friction
-// gives back all that it takes. Where c > K p, edge_observer rests during such a swing, and the swing
-// drains nothing (measured: docs/design/encoders.md); with another estimator each step of it drains
-// `crossing`.
-//
-// Without dry friction only b v/q is left at slow speeds, some newtons per metre: nothing stiff is guaranteed
-// there, and the budget is 0.
+// A hand that kneads f times a second with a force F is no faster than v = π f F/K; of a swing H of it the friction
+// leaves the wall S = H − 2 c, or H − 4 c where the device has twice the friction stated. A swing within the
+// presliding pays nothing: where c > K p, edge_observer rests during it, and with another estimator each step of it
+// drains `crossing` (docs/design/encoders.md). Without dry friction nothing stiff is guaranteed: the budget is 0.
 
 #include <passive_haptics/design/described_device.hpp>
 

@@ -9,9 +9,8 @@
 //     ph::dual_ledger{.damping = {.coefficient = 0.05, .coulomb = 0.13, .presliding = 15e-6},
 //                     .quantum = 55e-6}
 //
-// On encoders it is dry friction that pays: while the position shown stays the same, the force may change by
-// 2c at no cost, and each step that the device moves pays c q. How stiff a wall may be for that to last is
-// said by design/stiffness_budget.hpp.
+// On encoders it is dry friction that pays. How stiff a wall may be for that to last is said by
+// design/stiffness_budget.hpp.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/device/dry_friction.hpp>

@@ -12,9 +12,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A ledger that is kept to the letter trusts nobody again after one false sample: what a jump of 4 mm has cost on
-/// paper, 36 mJ at 9 N, a hand that holds still never pays. When a pause θ has gone by without a fault, this one
-/// writes a debt off, once, and lends for τ = ½ s
+/// A ledger that is kept to the letter trusts nobody again after one false sample. When a pause θ has gone by without
+/// a fault, this one writes a debt off, once, and lends for τ = ½ s
 ///     E1 += min(A dt/τ, A − E1)  where E1 < A;
 /// a refused sample or a late tick that is the first fault in 10 s it forgives at once, E1 = max(E1, A), and only so.
 /// A fault is a sample that is refused, a late tick, or a debt, of A/64 where positions are known to a step only: the

@@ -10,8 +10,8 @@
 // Both repay a deficit that has already happened, and only if the motion (of the dual: the force) goes on as
 // it did. With a hand that damps they are hardly felt.
 //
-// The published pairing of the NEW force with the last displacement is not offered. On a sampled wall that
-// pairing counts the leak of the hold with the wrong sign and never acts (lemma L2; a test shows it).
+// The published pairing of the NEW force with the last displacement is not offered: on a sampled wall it never acts
+// (lemma L2; a test shows it).
 
 #include <passive_haptics/force_bound/own_ledger.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -35,9 +35,8 @@ enum class damping_credit : std::uint8_t {
 /// no_observer is enough unless the damping is counted. f may push inwards. Sources: Hannaford and Ryu 2002
 /// (the idea and α); for the pairing with the held force docs/design/mathematics.md § 2(c).
 ///
-/// NOT passive. Uncapped, E(n+1) = −f*·Δx(n+1) + E(n)(1 − Δx(n+1)/Δx(n)): the deficit is repaid if
-/// the motion goes on and DOUBLES if it turns round. A damper of α on a free mass m is stable for
-/// α < 2 m/T and overshoots above 0.343 m/T: take max_damping ≤ 0.35 to 0.5 m/T.
+/// NOT passive: the deficit is repaid if the motion goes on and DOUBLES if it turns round. A damper of α on a free
+/// mass m is stable for α < 2 m/T and overshoots above 0.343 m/T: take max_damping ≤ 0.35 to 0.5 m/T.
 template <damping_credit Credit = damping_credit::none>
 struct basic_series_controller {
   static constexpr guarantee passivity = guarantee::none;

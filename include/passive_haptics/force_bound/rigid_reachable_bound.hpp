@@ -23,9 +23,8 @@ inline namespace v0 {
 /// and the last term covers the turn of the last tick that its end poses do not show (docs/design/six_dof.md), as
 /// the rate of turn changed by α = (‖held‖ + F)/√I [rad/s²] at most. Over η the share s hands out at most E1:
 ///     s = E1/η + η/(4W) where η² < 4 W E1,  √(E1/W) elsewhere
-/// In a loop that is one tick late the wrench h on its way is covered first: it takes from E1 the largest
-/// η' − η'²/(4W(h)) over 0 ≤ η' ≤ η(h). Then w is covered over the tick after it, with h held in between:
-///     η₂ = w·Δξ T/T₀ + ‖w‖ ((‖held‖ + F) T₀T + (‖h‖ + F) T²)/2 + … + ‖w‖ ((‖h‖ + F) + (‖w‖ + F)) T²/2
+/// In a loop that is one tick late the wrench on its way is covered first, and w over the tick after it, as
+/// reachable_work_bound covers them.
 ///
 /// Passive (the true E ≥ 0; the ledger, which knows less, may show a debt) under ALL of these:
 ///   - the inertia is nowhere below that of rigid_inertia, in any pose; the hand's wrench at the handle point

@@ -18,11 +18,9 @@ inline namespace v0 {
 ///     between edges     x ← x + v dt             up to 2/3 q past the edge, with |v| ≤ q/t
 ///     none for 100 ms   x → the middle of the step, with a time constant of 200 ms: it rests
 ///
-/// So a device that chatters at one edge soon causes no change of force, one that rests costs nothing, and
-/// one that moves meets each edge with nearly the force that belongs there. Such a force costs a sure ledger
-/// least: a swing into a wall K costs 5/6 K q per metre of motion, where the middle of the step costs K q and
-/// a position that lags by a step 3/2 K q. Speeds below q/(8 dt) do not count, because a damper on them would
-/// change the force with every edge.
+/// So a device that chatters at one edge soon causes no change of force, one that rests costs nothing, and one
+/// that moves meets each edge with nearly the force that belongs there: that costs a sure ledger least (§ 6).
+/// Speeds below q/(8 dt) do not count, because a damper on them would change the force with every edge.
 ///
 /// It settles where dry friction holds the device within a step, K q ≤ 2c. Without friction the wall hunts:
 /// take mass_observer there. Measured: docs/design/encoders.md. With q = 0 it is last_difference.

@@ -338,6 +338,23 @@ struct some_estimate {
   typename P::stored_pose position;
   [[nodiscard]] typename P::scalar along(const typename P::motion& n) const noexcept;
 };
+/// What an estimate says of the velocity [m/s], axis by axis where it has more to say than travel and time.
+template <class P>
+[[nodiscard, gnu::always_inline]] constexpr typename P::vector velocity_of(
+    const auto& motion) noexcept {
+  using scalar = typename P::scalar;
+  if constexpr (requires { motion.travel / motion.dt; }) {
+    return P::scaled(motion.travel, scalar(1) / motion.dt);
+  } else {
+    typename P::vector v = P::zero();
+    for (int i = 0; i < P::dof; ++i) {
+      typename P::vector axis = P::zero();
+      P::component(axis, i) = scalar(1);
+      P::component(v, i) = motion.along(axis);
+    }
+    return v;
+  }
+}
 /// What stands where a part should, so that the compiler can say which part is missing.
 struct left_out {};
 }  // namespace detail

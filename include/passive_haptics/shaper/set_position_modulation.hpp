@@ -30,10 +30,8 @@ enum class hold_leak : std::uint8_t {
 /// or until the device leaves: then the surface follows it out, which costs nothing. If the motors held less
 /// than the spring asked for, the tank books the difference, too.
 ///
-/// Source: Lee and Huang 2010, form from memory; proofs: docs/design/mathematics.md § 2(e) for
-/// continuous time. With the leak paid, for a hold of T, with S = ½ K d²:
-///     K ≤ 2b/T  ⇒  ΔE1 ≥ ΔS + (b/T − K/2) Δx² within an update, so  E1 ≥ S + E ≥ 0 throughout,
-/// and a tick cannot take more than it leaves, (K d)²/(4B) ≤ S.
+/// Source: Lee and Huang 2010, form from memory. With the leak paid E1 ≥ ½ K d² + E ≥ 0 throughout
+/// (docs/design/mathematics.md § 2(e), with the proofs).
 ///
 /// Where the leak is paid it assumes: every K that the environment sends is ≤ 2b/T; b is a lower bound;
 /// every tick ≤ longest_tick; positions are exact; there is no latency; the contact law asks for K d at

@@ -6,17 +6,12 @@
 //   stiffness_increment   K grows once per press and release       stiffens from touch to touch
 //   force_augmentation    an offset is added where motion turns    steady force, soft feel
 //
-// All three only reduce the desired force. strict_bound behind them alone makes them passive; the
-// guard decides what may grow. U(d) [J] is what the shaped spring gives back on a release from depth
-// d, and growth at d may raise it by no more than
+// All three only reduce the desired force, and strict_bound behind them alone makes them passive. With U(d) [J] what
+// the shaped spring gives back on a release from depth d, growth at d may raise it by no more than
 //     E_free = E1 − max(U(d), ¼ fᵀB⁻¹f)
-// U is reserved in the ledger: pressing raises both E1 and U, releasing lowers both, and each increment is
-// charged to U in full. So no energy is promised twice, and U needs no memory through a lost sample or a late
-// tick. A spring of up to 2b/T on a surface at rest that begins with E1 ≥ U keeps E1 ≥ U in every motion, so
-// the strict law never cuts its force.
-//
-// Each is INSPIRED BY the work it names; the published control laws are not confirmed. Formulas and
-// proofs: docs/design/mathematics.md § 2(f).
+// so no energy is promised twice. A spring of up to 2b/T on a surface at rest that begins with E1 ≥ U keeps E1 ≥ U
+// in every motion, and the strict law never cuts its force. Each is INSPIRED BY the work it names; the published
+// control laws are not confirmed. Formulas and proofs: docs/design/mathematics.md § 2(f).
 
 #include <passive_haptics/port/concepts.hpp>
 
