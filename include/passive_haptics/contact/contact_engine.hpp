@@ -29,9 +29,12 @@ struct contact_parameters {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS Friction friction{};
 
   constexpr contact_parameters() noexcept = default;
-  constexpr contact_parameters(const Spring& s, const pursuit& p, const Friction& f,
+  constexpr contact_parameters(const Spring& s, const pursuit& p,
+                               const std::type_identity_t<Friction>& f,
                                const Slots&... /*room*/) noexcept
       : spring(s), pace(p), friction(f) {}
+  constexpr contact_parameters(const Spring& s, const pursuit& p, const Slots&... /*room*/) noexcept
+      : spring(s), pace(p) {}
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = spring.check()) return fault;

@@ -114,11 +114,7 @@ struct contact_set : contact_parameters<proxy_spring, Friction, Slots...> {
 
   constexpr contact_set() noexcept = default;
   constexpr contact_set(const base& p) noexcept : base(p) {}  // NOLINT: the same
-  constexpr contact_set(const proxy_spring& s, const pursuit& p,
-                        const std::type_identity_t<Friction>& f, const Slots&... room) noexcept
-      : base(s, p, f, room...) {}
-  constexpr contact_set(const proxy_spring& s, const pursuit& p, const Slots&... room) noexcept
-      : base(s, p, Friction{}, room...) {}
+  using base::base;
 
   template <port Space>
   class on;

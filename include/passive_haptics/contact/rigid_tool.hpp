@@ -194,11 +194,7 @@ struct rigid_tool : contact_parameters<tool_spring, Friction, Slots...> {
 
   constexpr rigid_tool() noexcept = default;
   constexpr rigid_tool(const base& p) noexcept : base(p) {}  // NOLINT: the same
-  constexpr rigid_tool(const tool_spring& s, const pursuit& p,
-                       const std::type_identity_t<Friction>& f, const Slots&... room) noexcept
-      : base(s, p, f, room...) {}
-  constexpr rigid_tool(const tool_spring& s, const pursuit& p, const Slots&... room) noexcept
-      : base(s, p, Friction{}, room...) {}
+  using base::base;
 
   template <port Body>
   class on;

@@ -61,6 +61,8 @@ class basic_reduced_energy<Damping, Sum>::on {
       "passive_haptics: this port turns, and a turn may do other work than its ends show: "
       "reduced_energy needs rigid_damping there, which knows by how much");
 
+  static constexpr scalar any = std::numeric_limits<scalar>::infinity();  ///< [J]
+
   constexpr explicit on(const basic_reduced_energy& p) noexcept
       : damping_(p.damping), loan_(detail::number<scalar>(p.loan)), energy_(loan_) {}
   constexpr void set(const basic_reduced_energy& p) noexcept {
@@ -71,22 +73,16 @@ class basic_reduced_energy<Damping, Sum>::on {
     return {.damping = damping_.parameters(), .loan = static_cast<double>(loan_)};
   }
 
-  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held,
-                                               scalar dt) noexcept {
+  /// A turn may hide no more than `hidden` [J].
+  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held, scalar dt,
+                                               [[maybe_unused]] scalar hidden = any) noexcept {
     scalar gain = detail::sure_gain<P>(damping_.dissipated(dx, dt), held, dx);
-    if constexpr (detail::turns<P>()) gain -= damping_.unsure(dx, held, dt);
+    if constexpr (detail::turns<P>()) {
+      gain -= kernels::smaller(damping_.unsure(dx, held, dt), hidden);
+    }
     if (!kernels::is_finite(value() + gain)) [[unlikely]] {
       return false;
     }
-    detail::book(energy_, gain);
-    return true;
-  }
-  /// The same of a turn that hides no more than `hidden` [J].
-  constexpr bool update(const motion& dx, const effort& held, scalar dt, scalar hidden) noexcept
-      requires(detail::turns<P>()) {
-    const scalar gain = detail::sure_gain<P>(damping_.dissipated(dx, dt), held, dx) -
-                        kernels::smaller(damping_.unsure(dx, held, dt), hidden);
-    if (!kernels::is_finite(value() + gain)) return false;
     detail::book(energy_, gain);
     return true;
   }
@@ -101,13 +97,9 @@ class basic_reduced_energy<Damping, Sum>::on {
     return true;
   }
 
-  /// A tick passed and nobody saw the motion: the worst that `held` can have done is written off, down to an
-  /// empty ledger. A bound that kept its promise has covered exactly that.
-  constexpr void forfeit(const effort& held, scalar T) noexcept {
-    energy_ = detail::written_off(value(), damping_.worst_outflow(held, T));
-  }
-  /// The same of one that can have done no more than `most` [J].
-  constexpr void forfeit(const effort& held, scalar T, scalar most) noexcept {
+  /// A tick passed and nobody saw the motion: the worst that `held` can have done, or `most` [J] if that is less, is
+  /// written off, down to an empty ledger. A bound that kept its promise has covered exactly that.
+  constexpr void forfeit(const effort& held, scalar T, scalar most = any) noexcept {
     energy_ = detail::written_off(value(), kernels::smaller(damping_.worst_outflow(held, T), most));
   }
 

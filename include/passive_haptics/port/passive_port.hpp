@@ -249,7 +249,8 @@ class passive_port {
     o.forfeit(f, s, s);
   };
   static constexpr bool knows_hidden =
-      reaches && requires(observer_type o, const motion m, const held_type f, scalar s) {
+      reaches && detail::turns<P>() &&
+      requires(observer_type o, const motion m, const held_type f, scalar s) {
     o.update(m, f, s, s);
   };
   struct unasked {};
