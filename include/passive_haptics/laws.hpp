@@ -7,28 +7,17 @@
 // policy models, but for those marked *, and names the first that it breaks. A surface is tried in the
 // neighbourhood that its around() tells, else within a metre of the origin. The laws themselves:
 //
-//   any          models_a_role             it has the shape of one of the roles below
-//   damping      covers_the_worst_motion   worst_outflow() is never below f·Δx − dissipated
-//                affords_what_is_there     what it affords costs at most the energy given
-//   inertia      is_a_norm                 ‖sf‖ = s‖f‖, ‖f + g‖ ≤ ‖f‖ + ‖g‖
-//   observer     never_overstates          it counts at most what the device has taken
-//                forfeit_never_credits     a tick that nobody saw never raises the ledger
-//                books_numbers_only        NaN and infinity are not booked
-//                reset_forgets             reset() leads back to the first value
-//   bound        answers_with_a_number     in debt and in plenty
-//                scales_down               a share is s·f*, 0 ≤ s ≤ 1
-//                loses_to_no_motion        a port under it loses to no motion, late or not (strict)
-//                reset_starts_anew         after reset() it answers as at first
-//              * spends_at_most_the_ledger ¼ fᵀB⁻¹f ≤ E1; not all strict bounds obey this one
-//   normal       stays_a_normal            unit length, and the target is a fixed point
-//              * turns_at_most             no faster than the rate, and it arrives
-//   contact law  presses_outwards          f* ≥ 0, zero outside, monotone in depth, depth() inverts it
-//   constraint   measures_depth            unit normal, depth along it; toward() puts x at the depth
-//   surface      refuses_no_stiffness      prepare() refuses a stiffness that is not finite and > 0
-//                has_a_unit_normal         everywhere
-//                pushes_along_its_gradient push(), or outward(), is −∇depth
-//                changes_depth_steadily    depth does not jump
-//   supply     * keeps_the_newest          updates, refusals, the end of a contact
+//   any          models_a_role: it has the shape of one of the roles below
+//   damping      covers_the_worst_motion, affords_what_is_there
+//   inertia      is_a_norm
+//   observer     never_overstates, forfeit_never_credits, books_numbers_only, reset_forgets
+//   bound        answers_with_a_number, scales_down, loses_to_no_motion (of a strict one), reset_starts_anew;
+//              * spends_at_most_the_ledger, which not all strict bounds obey
+//   normal       stays_a_normal; * turns_at_most
+//   contact law  presses_outwards
+//   constraint   measures_depth
+//   surface      refuses_no_stiffness, has_a_unit_normal, pushes_along_its_gradient, changes_depth_steadily
+//   supply     * keeps_the_newest
 
 #include <passive_haptics/laws/contact_laws.hpp>
 #include <passive_haptics/laws/port_laws.hpp>

@@ -29,6 +29,9 @@ struct parameter_fault {
 
 namespace detail {
 
+/// The default of a parameter that limits nothing unless it is stated.
+inline constexpr double no_limit = std::numeric_limits<double>::infinity();
+
 [[nodiscard]] constexpr bool positive(double x) noexcept {
   return x > 0.0 && kernels::is_finite(x);
 }

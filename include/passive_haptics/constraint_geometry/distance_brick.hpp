@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A piece of a sampled distance field (the menu is in half_space.hpp).
-//
-//   distance_brick   4³ nodes of a signed distance          Dof 3; voxels, scans, implicit surfaces
 
 #include <passive_haptics/constraint_geometry/distance_field.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>

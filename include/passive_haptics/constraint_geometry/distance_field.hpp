@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A surface given by its signed distance (the menu is in half_space.hpp).
-//
-//   distance_field   a function of your own                any Dof
 
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A supply whose constraint the environment moves (the menu is in fixed.hpp).
-//
-//   followed    the environment publishes targets, and the local model follows as fast as the bound allows
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A piece of a mesh with its edges and corners (the menu is in half_space.hpp).
-//
-//   patch        up to M triangles, the closest feature   Dof 3; dents and ridges of a mesh
 
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A piece of a surface with its two curvatures (the menu is in half_space.hpp).
-//
-//   quadric      a point, a normal, two curvatures        Dof 3; what a smooth mesh publishes
 
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A piece of a curve in the plane, with ends (the menu is in half_space.hpp).
-//
-//   segment      two nodes                               Dof 2
 
 #include <passive_haptics/constraint_geometry/follow_node.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Balls and cavities (the menu is in half_space.hpp).
-//
-//   sphere       a centre and a radius, solid or hollow   any Dof
 
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A piece of a surface in space, with edges (the menu is in half_space.hpp).
-//
-//   triangle     three nodes, with edge tests            Dof 3; the local model of the thesis
 
 #include <passive_haptics/constraint_geometry/follow_node.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>

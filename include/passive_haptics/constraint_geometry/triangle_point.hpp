@@ -39,9 +39,8 @@ template <class Space>
 /// A point of a triangle, and how it is made of the corners.
 template <class Space>
 struct triangle_point {
-  typename Space::vector point;  ///< [m]
-  std::array<typename Space::scalar, 3>
-      weights;  ///< barycentric; exactly zero for corners that have no part in it
+  typename Space::vector point;                   ///< [m]
+  std::array<typename Space::scalar, 3> weights;  ///< exactly zero for corners with no part in it
 };
 
 /// The point of the triangle a, b, c closest to x: the foot of x on its plane if that lies within the edges,

@@ -2,8 +2,6 @@
 #pragma once
 // A contact law that is never stiffer than what the device can pay for (the menu is in spring.hpp).
 //
-//   capped     the law it wraps, with K at most `most`
-//
 //     constexpr auto budget = design::stiffness_budget(grip);
 //     ph::capped law{ph::damped_spring{.mass = grip.mass, .force_limit = 9.0}, budget.stiffness};
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // The contact law that settles (the menu is in spring.hpp).
-//
-//   damped_spring     f* = K_s d − D_s max(0, v_out)   (§ 9); needs the device's mass
 
 #include <passive_haptics/contact/sampled_spring.hpp>
 #include <passive_haptics/port/concepts.hpp>

@@ -2,8 +2,6 @@
 #pragma once
 // A contact law whose force does not step when the environment has news (the menu is in spring.hpp).
 //
-//   eased      the law it wraps, told the depth in a surface that follows the world's smoothly
-//
 //     ph::eased{ph::damped_spring{.mass = 0.1}}
 
 #include <passive_haptics/contact/lag.hpp>

@@ -109,9 +109,8 @@ class pursuit::on {
 /// What one slot has to say in a tick.
 template <class Space>
 struct felt_surface {
-  typename Space::vector normal;  ///< of its own, unit, outward
-  typename Space::vector
-      push;  ///< direction of the force for a depth of 1; the normal, for a distance
+  typename Space::vector normal;   ///< of its own, unit, outward
+  typename Space::vector push;     ///< −∇depth; the normal, for a distance
   typename Space::scalar depth{};  ///< of its own, ≤ 0 outside [m]
   bool chases = false;             ///< it is not yet what the world has told
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // The contact law that a fixed wall needs no ledger for (the menu is in spring.hpp).
-//
-//   virtual_coupling  f* = max(0, K_f d − D_c v_out)   (§ 2(g)); 1/K_f = 1/K_c + 1/K
 
 #include <passive_haptics/port/concepts.hpp>
 

@@ -39,8 +39,7 @@ struct encoder_device {
   double longest_tick = 1e-3;  ///< T, the worst tick of YOUR loop [s]
   int latency = 0;  ///< k, ticks by which the force is late: late_loop_limits<k> has it, too
 
-  double continuous_force =
-      std::numeric_limits<double>::infinity();  ///< what they hold without time limit [N]
+  double continuous_force = detail::no_limit;  ///< what they hold without time limit [N]
   double winding_time = 0.0;  ///< time constant of their warming, if that is less [s]
   bool rotary = false;        ///< it turns: rad, N·m, kg·m²
   double top_speed = 0;  ///< faster is a sensor fault [m/s]; 0: 5 m/s, or 500 rad/s, or 8 q a tick

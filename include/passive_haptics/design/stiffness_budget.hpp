@@ -87,9 +87,7 @@ struct budget {
   double stiffness = 0.0;  ///< K [N/m], the least of the limits
   stiffness_limit binding = stiffness_limit::not_stated;
   std::array<double, 4> limits{};  ///< each of them, in the order of stiffness_limit [N/m]
-  double working_capital =
-      0.0;            ///< F (q/2 + reach), what the force in use needs in the ledger [J];
-                      ///< reach: how far the device can get in the next k + 1 ticks [m]
+  double working_capital = 0.0;  ///< F (q/2 + reach of the next k + 1 ticks): the force in use [J]
   double loan = 0.0;  ///< F_max q: what lets a first touch from rest be stiff; E ≥ −loan then [J]
   double crossing = 0.0;  ///< what crossing an edge costs the ledger at K, within presliding [J]
 

@@ -8,13 +8,8 @@
 // Dry friction gives way like a spring over its first micrometres, the presliding displacement p, and
 // hands back what that spring has stored, so a motion smaller than p pays next to nothing. That is why p must
 // be stated along with c. A device is covered if its friction takes at least c joules per metre of slip, and
-// if slip and motion never differ by more than a deflection of p:
-//
-//   covered        sliders behind springs, one or many (Maxwell, Iwan): c = Σ cᵢ, p = Σ cᵢpᵢ/c;
-//                  elasto-plastic (Dupont): p the largest deflection of the bristle;
-//                  Stribeck: c the least kinetic level, p from the static one
-//   not covered    Dahl, LuGre: they forget where they were reversed, so that "forward 2 µm, back 1"
-//                  moves on for less than c a metre, for ever, whatever p is stated
+// if slip and motion never differ by more than a deflection of p: sliders behind springs (Maxwell, Iwan),
+// elasto-plastic and Stribeck friction are, Dahl's and LuGre's are not (docs/design/mathematics.md § 6).
 //
 // State the least c, when warm and worn, and the largest p. Measure p as half the way from sliding in one
 // direction to sliding in the other. Where each of n axes has a friction of its own, damping_and_friction

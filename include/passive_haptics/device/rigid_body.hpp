@@ -6,10 +6,9 @@
 //     motion   (Δp, θ) [m], [rad]   θ = Log(R₁R₀ᵀ), the shortest turn, in the WORLD frame
 //     effort   (f, τ) [N], [N·m]    at the handle point, in the world frame, held there over the tick
 //
-// The work of a wrench is counted with (Δp, θ): the logarithm of SE(3), 2 vec(q) and the travel of a tip
-// beside the handle would all book another work than the wrench did (docs/design/six_dof.md). Where the path
-// of a tick is not straight, even f·Δp + τ·θ may differ from the true work. rigid_damping knows by how much
-// (lemma C), so this port needs it. Where a driver reports what its motors did, use reported_work.hpp.
+// The work of a wrench is counted with (Δp, θ), and where the path of a tick is not straight, f·Δp + τ·θ may differ
+// from the true work: rigid_damping knows by how much, so this port needs it (lemma C, docs/design/six_dof.md).
+// Where a driver reports what its motors did, use reported_work.hpp.
 //
 // Metres and radians do not add up: a motion or an effort has no length here, and what would measure one
 // refuses this port. loop_limits::top_speed counts a radian as 0.1 m, so 5 m/s is 50 rad/s, too.

@@ -183,10 +183,8 @@ class friction_certificates {
   std::array<certificate, 2> slipped_{following_, following_};
   std::size_t directions_ = 0;  ///< how many of slipped_ count on friction
   scalar missed_{};  ///< what a certificate against the present motion would have earned by now [J]
-  scalar
-      leaving_{};  ///< the most that a lead falls by when a certificate drops all its friction [J]
-  scalar
-      dearest_{};  ///< the most that a lead falls by when a certificate takes up some friction [J]
+  scalar leaving_{};  ///< most that a lead falls by when a certificate drops all its friction [J]
+  scalar dearest_{};  ///< most that a lead falls by when a certificate takes up some friction [J]
 };
 
 }  // namespace detail

@@ -131,11 +131,10 @@ struct basic_capped_energy {
   static constexpr bool exact = true;
   static constexpr bool turns = true;
 
-  Damping damping{};                                     ///< b [N·s/m], a lower bound
-  double loan{};                                         ///< E1 at the start [J]
-  double cap = std::numeric_limits<double>::infinity();  ///< most credit to keep [J] (A9)
-  double reset_after =
-      std::numeric_limits<double>::infinity();  ///< force-free time that voids it [s]
+  Damping damping{};                      ///< b [N·s/m], a lower bound
+  double loan{};                          ///< E1 at the start [J]
+  double cap = detail::no_limit;          ///< most credit to keep [J] (A9)
+  double reset_after = detail::no_limit;  ///< force-free time that voids it [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(cap >= 0.0)) return {"cap", cap, "≥ 0 J"};

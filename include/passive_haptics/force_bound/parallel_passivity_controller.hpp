@@ -33,16 +33,10 @@ struct parallel_controller_parameters {
 /// port; call it once per tick, as the last step before the velocity goes out.
 ///     E(n) = E(n−1) + dt v_held·f̄(n)
 ///     v = v* + β f̄,   β = (E_thr − E − dt v*·f̄) / (dt ‖f̄‖²)  in [0, max_mobility]
-/// f̄(n) [N] is the MEAN force of the hand over the tick that has just ended, the one over which
-/// v_held was held: with it E is the energy at the port exactly, whatever the force did in between.
-/// A force sampled at the end of the tick understates it for a springy hand, k v²dt²/2 per tick; a
-/// force sampled at its start, which is the published pairing, overstates it by as much and never
-/// sees a sampled virtual mass go active (the dual of lemma L2). Source: Hannaford and Ryu 2002
-/// (β); the pairing is derived here.
+/// f̄(n) [N] is the MEAN force of the hand over the tick that has just ended, the one over which v_held was held: with
+/// it E is the energy at the port exactly. Sources: Hannaford and Ryu 2002 (β); for the pairing § 2(c).
 ///
-/// NOT passive. While β is not capped, ‖f̄‖ ≥ least_force and all ticks are as long,
-///     E(n+1) ≥ E_thr + dt v·(f̄(n+1) − f̄(n))
-/// so a constant force cannot draw energy, and one that turns round within a tick can. The controller
+/// NOT passive: a constant force cannot draw energy, and one that turns round within a tick can. The controller
 /// assumes that the robot holds the velocity it was told, or that the velocity it held is given.
 template <class Space>
 class parallel_passivity_controller {

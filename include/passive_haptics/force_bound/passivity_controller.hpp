@@ -46,9 +46,8 @@ struct basic_series_controller {
   double threshold{};     ///< E_thr [J]; below zero it is a loan
   double least_speed{};   ///< no action for ‖v‖ below this [m/s]
   double least_travel{};  ///< no action for ‖Δx‖ below this [m], one quantum of the encoder
-  double reset_after =
-      std::numeric_limits<double>::infinity();  ///< force-free time that voids E > 0 [s]
-  double loan{};                                ///< E at the start [J]
+  double reset_after = detail::no_limit;  ///< force-free time that voids E > 0 [s]
+  double loan{};                          ///< E at the start [J]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(max_damping)) {

@@ -113,8 +113,7 @@ struct per_axis_bound {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true};
 
-  double cap =
-      std::numeric_limits<double>::infinity();  ///< most credit to keep on an axis [J] (L7)
+  double cap = detail::no_limit;  ///< most credit to keep on an axis [J] (L7)
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(cap >= 0.0)) return {"cap", cap, "≥ 0 J"};

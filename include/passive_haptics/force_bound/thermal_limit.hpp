@@ -2,8 +2,6 @@
 #pragma once
 // The limit of motors that hold a larger force for a while than for ever (the menu is in actuator_limit.hpp).
 //
-//   thermal_limit   |f| ≤ peak, and its mean square stays below the continuous one's
-//
 //     ph::thermal_limit motors{.peak = 3.3, .continuous = 0.88, .time_constant = 20.0};  // a Touch, say
 
 #include <passive_haptics/port/concepts.hpp>

@@ -92,7 +92,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
     } else {
       error = ledger.travel_error();
     }
-    watch(known, travel, told, held, dt, error, detail::most_damping<P>(ledger.damping()));
+    watch(known, {travel, told, held, dt}, error, detail::most_damping<P>(ledger.damping()));
   }
   /// Is something asked in this tick? Where nothing is, the next contact is looked at from its beginning.
   constexpr void look_on(bool asked) noexcept {
@@ -144,26 +144,26 @@ class watched<Bound>::on : public part_at<Bound, P> {
     if (what_ != event::nominal) rely(event::nominal);
   }
 
-  constexpr void watch(bool good, const stored& travel, const stored& told, const stored& held,
-                       scalar dt, scalar error, scalar b) noexcept {
+  constexpr void watch(bool good, const tick_seen& now, scalar error, scalar b) noexcept {
     rest_ = 0;
     if (doubts_ >= enough) return;
     if (at_ == 0) {  // a contact begins, or motion that is known
       trust_again();
       quiet_ += mistrust / scalar(2);
       if (!alert_) at_ = lag;
-      half_ = mass() * error <= force() * dt * dt ? N / 2 : N;
+      half_ = mass() * error <= force() * now.dt * now.dt ? N / 2 : N;
     }
     if (!good) {
       at_ = 0;
       return;
     }
-    opposed_ = P::dot(held, told) * scalar(-4) > P::dot(told, told) ? opposed_ + 1 : 0;
+    const effort told = now.told;
+    opposed_ = P::dot(now.held, told) * scalar(-4) > P::dot(told, told) ? opposed_ + 1 : 0;
     if (opposed_ == says_no) {
       doubts_ = enough;
       return rely(event::wrong_sign);
     }
-    seen_[static_cast<std::size_t>(at_)] = {travel, told, held, dt};
+    seen_[static_cast<std::size_t>(at_)] = now;
     const int one_more = alert_ ? 1 : 0;
     if (++at_ < lag + 2 * half_ + one_more) return;
     judge(error, b);

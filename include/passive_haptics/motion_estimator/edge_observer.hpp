@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A motion estimator for encoders with steps on a device with dry friction (the menu is in
-// last_difference.hpp).
-//
-//   edge_observer   at an edge between two steps the position is known; between edges it is extrapolated
+// A motion estimator for encoders with steps and dry friction (the menu is in last_difference.hpp).
 
 #include <passive_haptics/port/concepts.hpp>
 

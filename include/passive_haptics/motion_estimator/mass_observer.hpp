@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A motion estimator for encoders whose steps are felt (the menu is in last_difference.hpp).
-//
-//   mass_observer   a mass under the force held, kept within the step shown
 
 #include <passive_haptics/port/concepts.hpp>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Normal interpolation at a limited rate (the menu is in turn_at_once.hpp).
-//
-//   turn_limited     at most `rate` rad/s
 
 #include <passive_haptics/port/concepts.hpp>
 

@@ -202,12 +202,11 @@ concept energy_observer_for = plain_value<part_at<O, P>, P> &&
 /// What a force bound needs. What is not stated is taken as the worst:
 ///     static constexpr bound_traits traits{.needs_ledger = true, .latency = any_latency};
 struct bound_traits {
-  bool needs_ledger = false;  ///< it spends what an observer must have counted
-  bool exact_travel = true;   ///< it takes Δx as exact: not for encoders with steps
-  int latency = 0;            ///< most ticks of delay for which it holds
-  bool turns = false;         ///< it holds at a port that turns
-  bool reported_work =
-      false;  ///< it reads nothing of a tick but the ledger: the work may be reported
+  bool needs_ledger = false;   ///< it spends what an observer must have counted
+  bool exact_travel = true;    ///< it takes Δx as exact: not for encoders with steps
+  int latency = 0;             ///< most ticks of delay for which it holds
+  bool turns = false;          ///< it holds at a port that turns
+  bool reported_work = false;  ///< it reads nothing but the ledger: the work may be reported
 };
 inline constexpr int any_latency = kernels::largest<int>();
 
@@ -224,9 +223,6 @@ template <class Space>
   Space::component(f, 0) = typename Space::scalar(2) * most;
   return f;
 }
-}  // namespace detail
-
-namespace detail {
 /// A damping that any port has, for asking whether a bound fits.
 template <class P>
 using some_damping = typename diagonal_damping<P::dof>::template on<P>;
@@ -487,9 +483,8 @@ struct contact_state {
   typename Space::scalar stiffness;     ///< K of the target [N/m]
   typename Space::scalar depth;         ///< in the local model, ≤ 0 outside [m]
   typename Space::scalar target_depth;  ///< in the environment's newest constraint [m]
-  typename Space::scalar
-      local_force;      ///< what the contact law gives at `depth`, along `normal` [N]
-  bool target_changed;  ///< a new constraint arrived since the last tick
+  typename Space::scalar local_force;   ///< what the law gives at `depth`, along `normal` [N]
+  bool target_changed;                  ///< a new constraint arrived since the last tick
 };
 
 /// shape() takes the desired force, the contact and the port, and answers as a force bound does.

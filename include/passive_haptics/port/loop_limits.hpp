@@ -44,12 +44,10 @@ struct late_loop_limits {
   using guard_type = guard<Port, Latency>;  ///< what looks at the samples
   static constexpr double never = std::numeric_limits<double>::infinity();
 
-  double longest_tick{};   ///< T [s], > 0: the worst tick of YOUR loop
-  double top_speed = 5.0;  ///< faster than this is a sensor fault [m/s]; joints: [rad/s]
-  double workspace =
-      2.0;  ///< farther from the origin is no position of the device [m]; joints: not asked
-  double watchdog =
-      never;  ///< the driver drops a force so long after its command [s], ≥ longest_tick
+  double longest_tick{};    ///< T [s], > 0: the worst tick of YOUR loop
+  double top_speed = 5.0;   ///< faster than this is a sensor fault [m/s]; joints: [rad/s]
+  double workspace = 2.0;   ///< farther from the origin is no position [m]; joints: not asked
+  double watchdog = never;  ///< the driver drops a force that long after its command [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(longest_tick)) {

@@ -2,10 +2,9 @@
 #pragma once
 // reported_work<P>: the port P of a device whose driver reports what its motors did.
 //
-// Motors hold torques in their joints, and Jᵀf held over a tick is no constant force f at the handle: paired
-// with Δx it books another work than the motors did, by ½|f||Δx|²/r, r the smallest radius of curvature of
-// the joints' coordinates. The work τ·Δq is exact for any mechanism and any path (lemma J,
-// docs/design/six_dof.md). So the driver adds it up, and the ledger books
+// Motors hold torques in their joints, which is no constant force f at the handle: f·Δx is another work than the
+// motors did. The work τ·Δq is exact for any mechanism and any path (lemma J, docs/design/six_dof.md). So the
+// driver adds it up, and the ledger books
 //     E1 += Δxᵀ(b/dt)Δx − work
 //
 //     using device = ph::reported_work<ph::space<double, 3>>;
