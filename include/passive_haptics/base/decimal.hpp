@@ -83,11 +83,8 @@ template <read_by_charconv Real>
 template <class Real = double>
 [[nodiscard]] std::optional<Real> to_decimal(std::string_view text) {
   if (!is_decimal(text)) return std::nullopt;
-  if constexpr (detail::read_by_charconv<Real>) {
-    return detail::decimal_by_charconv<Real>(text);
-  } else {
-    return detail::decimal_by_stream(text);
-  }
+  if constexpr (detail::read_by_charconv<Real>) return detail::decimal_by_charconv<Real>(text);
+  return detail::decimal_by_stream(text);
 }
 
 }  // namespace v0

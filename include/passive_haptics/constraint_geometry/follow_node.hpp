@@ -44,11 +44,8 @@ template <class Space>
     const typename Space::coordinates& from, const typename Space::coordinates& to,
     const typename Space::coordinates& through,
     const typename Space::coordinates& normal) noexcept {
-  if constexpr (saves_bytes) {
-    return call_node_on_plane<Space>(from, to, through, normal);
-  } else {
-    return node_on_plane<Space>(from, to, through, normal);
-  }
+  if constexpr (saves_bytes) return call_node_on_plane<Space>(from, to, through, normal);
+  return node_on_plane<Space>(from, to, through, normal);
 }
 
 }  // namespace detail

@@ -35,11 +35,8 @@ namespace detail {
 /// −∇depth as the probe tells it, along which a spring must push.
 template <class Space>
 [[nodiscard]] constexpr typename Space::vector steepest_push(const auto& probe) noexcept {
-  if constexpr (says_push<decltype(probe)>) {
-    return probe.push();
-  } else {
-    return probe.outward();
-  }
+  if constexpr (says_push<decltype(probe)>) return probe.push();
+  return probe.outward();
 }
 
 /// The last axis, for where no direction is better than another.

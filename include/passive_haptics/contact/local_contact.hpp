@@ -315,9 +315,8 @@ class local_contact {
   [[nodiscard]] static constexpr bool shapers_reduce() noexcept {
     if constexpr (detail::is_shaped<Law, Space>) {
       return detail::reduces<typename Law::sequence_type, Space, contact_state<Space>, State>();
-    } else {
-      return true;
     }
+    return true;
   }
   /// Shapers that only reduce, and remember nothing, have no say where nothing is asked.
   template <class State>
@@ -326,9 +325,8 @@ class local_contact {
       using shapers = typename Law::sequence_type;
       return shapers_reduce<State>() &&
              detail::keeps_nothing<shapers, Space, contact_state<Space>, State>();
-    } else {
-      return true;
     }
+    return true;
   }
 
   /// How far the contact counts, in [0, 1]: 1 while the environment's news are fresh, less while a silent

@@ -52,13 +52,10 @@ class known_to_a_step {
   }
   /// How far the true Δx may be from the one shown [m].
   [[nodiscard]] constexpr scalar travel_error() const noexcept {
-    if constexpr (Self::alike) {
-      return self().along_axis(0) * kernels::square_root(scalar(P::dof));
-    } else {
-      scalar sum(0);
-      for (int i = 0; i < P::dof; ++i) sum += self().along_axis(i) * self().along_axis(i);
-      return kernels::square_root(sum);
-    }
+    if constexpr (Self::alike) return self().along_axis(0) * kernels::square_root(scalar(P::dof));
+    scalar sum(0);
+    for (int i = 0; i < P::dof; ++i) sum += self().along_axis(i) * self().along_axis(i);
+    return kernels::square_root(sum);
   }
 
  private:

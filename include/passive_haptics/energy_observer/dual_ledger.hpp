@@ -196,11 +196,8 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
 
   /// 5/2 c p [J], the most that elastic friction may hold back for a while.
   [[nodiscard]] constexpr scalar reserve() const noexcept {
-    if constexpr (rubs) {
-      return kernels::smaller(scalar(5) * damping_.most_stored(), most_kept());
-    } else {
-      return scalar(0);
-    }
+    if constexpr (rubs) return kernels::smaller(scalar(5) * damping_.most_stored(), most_kept());
+    return scalar(0);
   }
   /// Adds a tick to the window; returns what the damper has surely taken beyond what is booked [J].
   [[nodiscard]] constexpr scalar damped(credit_window& now, const motion& shown,
@@ -217,11 +214,8 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     return gained;
   }
   [[nodiscard]] constexpr scalar viscous(const motion& dx, scalar dt) const noexcept {
-    if constexpr (rubs) {
-      return damping_.viscous(dx, dt);
-    } else {
-      return damping_.dissipated(dx, dt);
-    }
+    if constexpr (rubs) return damping_.viscous(dx, dt);
+    return damping_.dissipated(dx, dt);
   }
   constexpr void begin_window() noexcept {
     window_now_ = {};

@@ -128,12 +128,11 @@ class basic_series_controller<Credit>::on {
   constexpr void book(const auto& state) noexcept {
     const scalar any = kernels::largest<scalar>();
     const scalar environment = -Space::dot(state.held, state.travel);
+    scalar device(0);
     if constexpr (Credit == damping_credit::counted) {
-      const scalar device = state.damping.dissipated(state.travel, state.dt);
-      if (!ledger_.book(state, any, environment, device)) return;
-    } else {
-      if (!ledger_.book(state, any, environment)) return;
+      device = state.damping.dissipated(state.travel, state.dt);
     }
+    if (!ledger_.book(state, any, environment, device)) return;
     idle_ = Space::dot(state.held, state.held) > scalar(0) ? scalar(0) : idle_ + state.dt;
     if (idle_ >= reset_after_) ledger_.keep_no_credit();
   }

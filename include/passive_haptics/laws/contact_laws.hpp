@@ -136,11 +136,8 @@ template <class Space, class Constraint>
 /// Where the laws look for faults of a surface: in its around(), else within 1 m of the origin.
 template <class Space, class Surface>
 [[nodiscard]] constexpr neighbourhood<Space> where_to_look(const Surface& surface) noexcept {
-  if constexpr (requires { surface.around(); }) {
-    return surface.around();
-  } else {
-    return {Space::zero(), typename Space::scalar(1)};
-  }
+  if constexpr (requires { surface.around(); }) return surface.around();
+  return {Space::zero(), typename Space::scalar(1)};
 }
 
 /// prepare() takes the surface, and refuses a stiffness that is zero, negative or no finite number.

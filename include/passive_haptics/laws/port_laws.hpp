@@ -204,9 +204,8 @@ template <class P>
                                                  const auto& state) noexcept {
   if constexpr (requires { bound.limit(desired, state).factor; }) {
     return desired * bound.limit(desired, state).factor;
-  } else {
-    return detail::applied<P>(bound, desired, state).force;
   }
+  return detail::applied<P>(bound, desired, state).force;
 }
 
 /// Visits `ticks` random states; true if test(desired, allowed, state) holds in all of them.

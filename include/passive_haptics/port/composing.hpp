@@ -50,11 +50,8 @@ constexpr void tell(Source& source, Scalar longest_tick, int late) noexcept {
 /// were given.
 template <class Law, class Scalar>
 constexpr void tell(Law& law, Scalar K, Scalar T, int late) noexcept {
-  if constexpr (requires { law.adopt(K, T, late); }) {
-    law.adopt(K, T, late);
-  } else {
-    law.adopt(K, T);
-  }
+  if constexpr (requires { law.adopt(K, T, late); }) return law.adopt(K, T, late);
+  law.adopt(K, T);
 }
 
 /// Does an observer book what is unsure of a turn?

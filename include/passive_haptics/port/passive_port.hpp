@@ -397,11 +397,8 @@ class passive_port {
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_late(typename P::stored_effort travel,
                                                                    held_type held,
                                                                    scalar dt) noexcept {
-    if constexpr (knows_hidden) {
-      return observer_.update(travel, held, dt, unseen(held, dt).beside);
-    } else {
-      return observer_.update(travel, held, dt);
-    }
+    if constexpr (knows_hidden) return observer_.update(travel, held, dt, unseen(held, dt).beside);
+    return observer_.update(travel, held, dt);
   }
   /// The most that an effort can have done in the `dt` after the tick seen last that nobody saw.
   [[nodiscard]] constexpr detail::unseen_work<scalar> unseen(const effort& held,
@@ -424,11 +421,8 @@ class passive_port {
   /// `t` [s] under an effort of which nobody saw anything for `blind` [s].
   constexpr void forfeit(observer_type& ledger, const effort& held, scalar t,
                          [[maybe_unused]] scalar blind) const noexcept {
-    if constexpr (reaches) {
-      ledger.forfeit(held, t, unseen(held, blind).done);
-    } else {
-      ledger.forfeit(held, t);
-    }
+    if constexpr (reaches) return ledger.forfeit(held, t, unseen(held, blind).done);
+    ledger.forfeit(held, t);
   }
   /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of
   /// the two, and what only one of them covers, a ledger that is more than a number forgets. Vectors by
@@ -476,11 +470,8 @@ class passive_port {
   }
   /// A force that the device may have held: finite, and no more than motors can, where the bound knows that.
   [[nodiscard]] constexpr bool can_hold(const effort& held) const noexcept {
-    if constexpr (requires { bound_.can_hold(held); }) {
-      return bound_.can_hold(held);
-    } else {
-      return P::is_finite(held);
-    }
+    if constexpr (requires { bound_.can_hold(held); }) return bound_.can_hold(held);
+    return P::is_finite(held);
   }
   /// The longest tick is the longest so far, up to what the driver lets a force be held for.
   [[gnu::cold, gnu::noinline]] constexpr void learn(scalar dt) noexcept {

@@ -94,19 +94,13 @@ struct port_state {
   /// What friction that is counted on may hold back while those commands are held, 2 c p in each tick [J]
   /// (§ 6).
   [[nodiscard]] constexpr scalar held_back() const noexcept {
-    if constexpr (Latency > 0 && Damping::rubs) {
-      return scalar(4 * Latency) * damping.most_stored();
-    } else {
-      return scalar(0);
-    }
+    if constexpr (Latency > 0 && Damping::rubs) return scalar(4 * Latency) * damping.most_stored();
+    return scalar(0);
   }
   /// The credit that a new effort may spend [J]: E1 less what is on its way already.
   [[nodiscard]] constexpr scalar credit() const noexcept {
-    if constexpr (Latency == 0) {
-      return energy;
-    } else {
-      return energy - in_flight();
-    }
+    if constexpr (Latency == 0) return energy;
+    return energy - in_flight();
   }
   /// What the last tick brought, Δxᵀ(b/dt)Δx − f_held·Δx [J], rounded down, at least.
   [[nodiscard]] constexpr scalar gain() const noexcept {
