@@ -116,7 +116,6 @@ class local_contact {
   using law_type = part_at<Law, Space>;
   using normals_type = part_at<Normals, Space>;
   using result_type = tick_result<Space>;
-  using supply_type = Supply;
   static constexpr bool asks_for_numbers = true;
   static constexpr bool needs_ledger = detail::spends_ledger<Law>();  ///< a shaper of it does
 

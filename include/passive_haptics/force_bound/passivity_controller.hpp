@@ -17,7 +17,6 @@
 #include <passive_haptics/port/concepts.hpp>
 
 #include <cstdint>
-#include <limits>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -7,8 +7,6 @@
 
 #include <passive_haptics/port/concepts.hpp>
 
-#include <limits>
-
 namespace passive_haptics {
 inline namespace v0 {
 

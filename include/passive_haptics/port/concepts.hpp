@@ -35,9 +35,7 @@
 #include <passive_haptics/port/port_state.hpp>
 
 #include <concepts>
-#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
 namespace passive_haptics {
