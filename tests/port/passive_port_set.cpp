@@ -47,6 +47,21 @@ TEST_CASE("a force limit changes while it is pressed, and the ledger is kept", "
   }
 }
 
+TEST_CASE(
+    "what was commanded before the motors were said to be weaker is believed where it is reported",
+    "[port][set]") {
+  auto touch = pressed();
+  const d3::vector held = touch.tick(here, 1ms).force;
+  REQUIRE(held(2) > 1.0);
+  REQUIRE_FALSE(touch.set(ph::actuator_limit{.most = 0.25}));
+  auto other = touch;  // the control: another force as large cannot have been held
+  const auto out = touch.tick(ph::device_sample<d3>{here, held, 1e-3, true});
+  CHECK(out.what == ph::event::nominal);
+  CHECK_THAT(out.force(2), WithinRel(0.25, 1e-12));
+  const auto refused = other.tick(ph::device_sample<d3>{here, held * 1.01, 1e-3, true});
+  CHECK(refused.what == ph::event::rejected_sample);
+}
+
 TEST_CASE("a hand that is said to be stronger is given less, and the ledger is kept",
           "[port][set]") {
   auto touch = pressed();

@@ -470,8 +470,12 @@ class passive_port {
   }
   /// A force that the device may have held: finite, and no more than motors can, where the bound knows that.
   [[nodiscard]] constexpr bool can_hold(const effort& held) const noexcept {
-    if constexpr (requires { bound_.can_hold(held); }) return bound_.can_hold(held);
-    return P::is_finite(held);
+    if constexpr (requires { bound_.can_hold(held); }) {
+      // What was commanded was possible, whatever set() has made of the motors since.
+      return bound_.can_hold(held) || held == effort(guard_.commanded().back());
+    } else {
+      return P::is_finite(held);
+    }
   }
   /// The longest tick is the longest so far, up to what the driver lets a force be held for.
   [[gnu::cold, gnu::noinline]] constexpr void learn(scalar dt) noexcept {
