@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shape of a real application: a slow environment thread, and a haptic loop that measures its
-// ticks and never waits. One exchange carries the constraint to the loop, a second one carries the
-// device's position back; both hold the newest value only, and nobody ever blocks.
+// ticks and never waits. One exchange carries the constraint to the loop, a second one carries where the
+// device is and what it feels back; both hold the newest value only, and nobody ever blocks.
 
 #include <passive_haptics/passive_haptics.hpp>
 
@@ -13,16 +13,18 @@
 namespace ph = passive_haptics;
 using scene = ph::space<float, 3>;
 using plane = ph::half_space<scene>;
-using position = scene::coordinates;  // scene::vector is Eigen's and stays in its thread
+struct felt {
+  scene::coordinates position, force;  // scene::vector is Eigen's and stays in its thread
+};
 
 /// Any slow simulation: here a soft plane that gives way to the device, a little more each time.
-void environment(ph::exchange<plane>& to_loop, ph::exchange<position>& from_loop) {
+void environment(ph::exchange<plane>& to_loop, ph::exchange<felt>& from_loop) {
   float height = 0;
   for (int updates = 20; updates > 0;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(3));  // solving …
-    const position* device = from_loop.take();
-    if (device == nullptr) continue;
-    if (scene::vector(*device)(2) < height) height -= 1e-4F;
+    const felt* newest = from_loop.take();
+    if (newest == nullptr) continue;
+    if (newest->position[2] < height) height -= 1e-4F;
     const float K = --updates == 0 ? 1000 : 500;  // N/m; marks the last one
     to_loop.publish({.point = {0, 0, height}, .normal = {0, 0, 1}, .stiffness = K});
   }
@@ -30,7 +32,7 @@ void environment(ph::exchange<plane>& to_loop, ph::exchange<position>& from_loop
 
 int main() {
   ph::exchange<plane> to_loop;
-  ph::exchange<position> from_loop;
+  ph::exchange<felt> from_loop;
   auto touch = ph::make_touch<scene>(
       {.mass = 0.1, .damping = 0.5, .force_limit = 9, .longest_tick = 2e-3}, {.force = 5});
   std::thread world([&] { environment(to_loop, from_loop); });
@@ -43,7 +45,7 @@ int main() {
     const auto before = std::exchange(now, std::chrono::steady_clock::now());
     if (const plane* newest = to_loop.take()) touch.update(*newest);
     const auto out = touch.tick(x, now - before);
-    from_loop.publish(x);
+    from_loop.publish({x, out.force});
     good = good && out.force(2) >= 0 && out.energy >= 0;
   }
   world.join();

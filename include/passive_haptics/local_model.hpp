@@ -50,11 +50,15 @@ class local_model : public passive_port<Space, local_contact<Space, Supply, Norm
   /// The environment's newest constraint, and the end of it: see local_contact.
   template <class Owner = Supply>
   requires(Owner::moves) constexpr news_taken<scalar> update(const constraint_type& next) noexcept {
+    [[maybe_unused]] const auto alone = this->one_call();
     if (!this->source().update(next)) return {};
     return {true, shown_stiffness(this->target().stiffness)};
   }
   template <class Owner = Supply>
-  requires(Owner::moves) constexpr void release() noexcept { this->source().release(); }
+  requires(Owner::moves) constexpr void release() noexcept {
+    [[maybe_unused]] const auto alone = this->one_call();
+    this->source().release();
+  }
 
   [[nodiscard]] constexpr const constraint_type& local() const noexcept {
     return this->source().local();

@@ -152,8 +152,8 @@ class sensor_watch<P, true> {
 
  private:
   static constexpr std::uint8_t suspicious = 4;
-  bool stood_still_ = false;  ///< the last sample showed no motion at all
-  std::uint8_t jumps_ = 0;    ///< from a standstill, up to suspicious
+  bool stood_still_ : 1 = false;  ///< the last sample showed no motion at all
+  std::uint8_t jumps_ : 3 = 0;    ///< from a standstill, up to suspicious
 };
 
 }  // namespace v0

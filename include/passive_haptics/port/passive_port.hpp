@@ -9,6 +9,9 @@
 // ONE PER DEVICE. Two ports on one device are two ledgers that spend the same damping: both types would
 // say `strict`, and the hand would be fed. Several contacts are one source (contact/contacts.hpp).
 //
+// ONE THREAD calls a port, or several in turns, for none of its calls may overlap: debug builds look
+// (one_at_a_time.hpp). Others hand over and read through an `exchange` (base/exchange.hpp).
+//
 // The order is the thesis's (Fig. 2.7, A27). What is rare is kept out of line, so that the compiler sees
 // the ordinary tick as one piece. In a tick: no exception, heap, lock, clock, virtual call, I/O or
 // recursion.
@@ -19,6 +22,7 @@
 #include <passive_haptics/port/guard.hpp>
 #include <passive_haptics/port/last_difference.hpp>
 #include <passive_haptics/port/loop_limits.hpp>
+#include <passive_haptics/port/one_at_a_time.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -125,6 +129,7 @@ class passive_port {
   ///     if (const auto fault = touch.set(ph::actuator_limit{.most = 6.0})) …
   template <class Parameters>
   constexpr parameter_fault set(const Parameters& p) noexcept {
+    [[maybe_unused]] const auto alone = one_call();
     constexpr int found =
         std::same_as<Parameters, Limits> + detail::takers<Parameters, Observer, P> +
         detail::takers<Parameters, Bound, P> + detail::takers<Parameters, Motion, P> +
@@ -146,6 +151,7 @@ class passive_port {
   /// Puts everything but the parameters back to the start, the loan included, for a device that has stopped.
   /// The world has said nothing then: a first target that was given to `followed` is to be told again.
   constexpr void reset() noexcept {
+    [[maybe_unused]] const auto alone = one_call();
     detail::restart(source_);
     detail::restart(observer_);
     detail::restart(bound_);
@@ -163,10 +169,12 @@ class passive_port {
     static_assert(!detail::reports_work<P>(),
                   "passive_haptics: this port reports the work of its motors: tick with a "
                   "device_sample, which says it");
+    [[maybe_unused]] const auto alone = one_call();
     return advance(position, dt.count(), guard_.commanded().back());
   }
   /// The same for a device that reports the effort it really held.
   [[nodiscard, gnu::flatten]] constexpr result_type tick(const device_sample<P>& sample) noexcept {
+    [[maybe_unused]] const auto alone = one_call();
     if constexpr (!trusting) {
       if (!sample.valid || !can_hold(sample.held)) {
         return refuse(event::rejected_sample, sample.dt);
@@ -231,6 +239,12 @@ class passive_port {
   [[nodiscard]] constexpr observer_type& observer() noexcept { return observer_; }
   [[nodiscard]] constexpr const observer_type& observer() const noexcept { return observer_; }
   [[nodiscard]] constexpr const bound_type& bound() const noexcept { return bound_; }
+
+ protected:
+  /// Held by every call that changes the port.
+  [[nodiscard]] constexpr detail::one_at_a_time one_call() noexcept {
+    return detail::one_at_a_time(busy_);
+  }
 
  private:
   using limits_type = part_at<Limits, P>;
@@ -499,6 +513,7 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
   event stopped_ = event::nominal;  ///< why there is no force until set(), or until reset()
+  std::uint8_t busy_ = 0;           ///< a call is not over yet; debug builds only
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
   std::conditional_t<reaches, last_seen, unasked> seen_;
 };

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Two threads that call one port at once: a debug build finds them, and with NDEBUG nobody looks.
+
+#include <passive_haptics/base/language.hpp>
+
+#include <cstdint>
+#ifndef NDEBUG
+#include <atomic>
+#include <cassert>
+#endif
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace detail {
+
+/// Lives as long as a call of a port: tick, set, reset, update, release. A second one meanwhile is an assertion that
+/// fails, since neither could answer with a force that the other has not spoiled.
+///
+/// `busy` is a byte of padding in any build, so that objects compiled with NDEBUG and without agree on what a port
+/// looks like. Where a core has no atomic swap of a byte nobody looks.
+struct one_at_a_time {
+#if !defined(NDEBUG) && defined(__cpp_lib_atomic_ref)
+  constexpr explicit one_at_a_time(std::uint8_t& byte) noexcept : busy(byte) {
+    [[maybe_unused]] const bool alone = swapped(1) == 0;
+    assert(alone && "passive_haptics: two threads call one port at once: see docs/guarantees.md");
+  }
+  constexpr ~one_at_a_time() {
+    swapped(0);
+  }
+  constexpr std::uint8_t swapped(std::uint8_t next) noexcept {
+    if constexpr (std::atomic_ref<std::uint8_t>::is_always_lock_free) {
+      if (!std::is_constant_evaluated()) return std::atomic_ref(busy).exchange(next);
+    }
+    return 0;
+  }
+  std::uint8_t& busy;
+#else
+  constexpr explicit one_at_a_time(std::uint8_t& /*busy*/) noexcept {}
+#endif
+};
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace passive_haptics
