@@ -19,7 +19,7 @@ namespace {
 
 /// What somebody at the device, and somebody with a scope, would see.
 struct seen {
-  std::array<int, 10> events{};  ///< ticks of each
+  std::array<int, 15> events{};  ///< ticks of each
   int limited = 0, ticks = 0;
   double deepest = 0.0;       ///< [m], truly
   double swing = 0.0;         ///< from the lowest to the highest in the last half second [m]
@@ -372,7 +372,7 @@ TEST_CASE("it is silent: no force at all, and what brings it", "[troubleshooting
     const seen empty = left_inside(0.0);
     CHECK(empty.limited == empty.ticks);
     CHECK(empty.energy == 0.0);
-    CHECK(empty.of(event::nominal) == empty.ticks);
+    CHECK(empty.of(event::nominal) == empty.ticks);  // a wall that nobody moves: explain() says it
     CHECK(empty.place == -2e-3);
     const seen lent = left_inside(1e-4);
     CHECK(lent.place > 0.0);

@@ -13,6 +13,7 @@
 
 namespace sim = ph::simulation;
 using Catch::Matchers::WithinRel;
+using ph::event;
 using ph::softened_by;
 
 namespace {
@@ -166,6 +167,62 @@ TEST_CASE("explain() says what keeps the force of this tick below that", "[port]
   CHECK_THAT(said.force, WithinRel(9.0, 1e-9));
 }
 
+TEST_CASE("a start inside has an event and an explanation of its own, until something is paid in",
+          "[port]") {
+  constexpr ph::encoder_device steps{.mass = 0.1,
+                                     .damping = 0.1,
+                                     .friction = 0.15,
+                                     .presliding = 1e-5,
+                                     .quantum = 6e-5,
+                                     .force_limit = 9.0};
+  const auto says = [](auto port, double start) {
+    for (int n = 0; n < 1500; ++n) {
+      const auto out = port.tick(start, 1ms);
+      INFO(n);
+      if (n > 5) CHECK(out.what == (start < 0.0 ? event::started_inside : event::nominal));
+      CHECK(out.force == 0.0);
+      CHECK((port.explain().now == softened_by::started_inside) == (start < 0.0));
+    }
+    if (start > 0.0) return;
+    auto out = port.tick(start, 1ms);
+    for (int n = 1; n < 5; ++n) out = port.tick(start - 1e-4 * n, 1ms);  // the hand pays
+    CHECK(out.what == event::nominal);
+    CHECK(out.force > 0.0);
+    CHECK(port.explain().now != softened_by::started_inside);
+  };
+  const auto touching = [](auto port) {
+    REQUIRE(port.update(wall(2000.0)));
+    return port;
+  };
+  ph::passive_port pair{
+      d1{},
+      ph::contacts{ph::local_contact{ph::followed{wall(2000.0)}, ph::turn_at_once{}, ph::spring{}},
+                   ph::given_force{.stale_after = 1e9}},
+      ph::reduced_energy{.damping = 0.1}, ph::strict_bound{},
+      ph::loop_limits{.longest_tick = 1e-3}};
+  (void)pair.source().update(0.0);
+  auto set = ph::make_contacts<d1>(grip, hand, ph::slots<ph::half_space<d1>, 2>{});
+  set.source().update(0, wall(2000.0));
+  for (const double start : {-2e-3, 2e-3}) {
+    says(touching(ph::make_touch<d1>(grip, hand)), start);
+    says(touching(ph::make_touch<d1>(grip, ph::any_hand)), start);
+    says(touching(ph::make_touch<d1>(steps, hand)), start);
+    says(set, start);
+  }
+  for (int n = 0; n < 9; ++n)
+}
+
+TEST_CASE(
+    "the motors are what binds where they hold what they can, and not where the ledger is empty",
+    "[port]") {
+  auto touch = ph::make_touch<d1>(grip, hand);
+  REQUIRE(touch.update(wall(2000.0)));
+  for (int n = 0; n < 1200; ++n) (void)touch.tick(-8e-3, 1ms);  // 16 N asked, nothing paid
+  CHECK(touch.explain().now == softened_by::started_inside);
+  (void)touch.tick(-8.001e-3, 1ms);
+  CHECK(touch.explain().now == softened_by::ledger);
+}
+
 TEST_CASE("explain() of a set is about the contact that presses most", "[port][contacts]") {
   ph::passive_port corner{
       d3{},
@@ -190,7 +247,7 @@ TEST_CASE("explain() of a set is about the contact that presses most", "[port][c
 }
 
 TEST_CASE("every reason has a name and a sentence", "[port]") {
-  for (int i = 0; i <= static_cast<int>(softened_by::ledger); ++i) {
+  for (int i = 0; i <= static_cast<int>(softened_by::forces_off); ++i) {
     ph::explanation e;
     e.stiffness = static_cast<softened_by>(i);
     CHECK(std::string(to_string(e.stiffness)) != "unknown reason");

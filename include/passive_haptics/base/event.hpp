@@ -9,8 +9,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What happened in a tick, in order of rising severity; a tick reports the worst. The numbers are
-/// stable from 1.0 on.
+/// What happened in a tick; a tick reports the worst, by worse(). The numbers rise with the severity, but for those that
+/// came later, and are stable from 1.0 on. What each means and what to do: docs/events.md.
 enum class event : std::uint8_t {
   nominal,            ///< all is well
   debt,               ///< the ledger is negative: the hand has been fed more than it paid
@@ -25,6 +25,8 @@ enum class event : std::uint8_t {
   outside_force,   ///< it moves as what was stated of mass and hand cannot move it: strict bound
   untold_latency,  ///< it holds a force later, or sooner, than was stated: force zero until reset()
   wrong_sign,      ///< it does the opposite of what it is told: force zero until reset()
+  started_inside,  ///< it should push, and nothing has been paid in yet: force zero
+  forces_off,      ///< enable_forces(false): force zero, and the ledger waits
 };
 
 /// The text of an event, for logs.
@@ -35,13 +37,18 @@ enum class event : std::uint8_t {
                                    "stale target",    "outside workspace",
                                    "rejected sample", "rejected parameters",
                                    "outside force",   "untold latency",
-                                   "wrong sign"};
-  static_assert(sizeof(names) / sizeof(*names) == static_cast<int>(event::wrong_sign) + 1);
-  return e <= event::wrong_sign ? names[static_cast<int>(e)] : "unknown event";
+                                   "wrong sign",      "started inside",
+                                   "forces off"};
+  static_assert(sizeof(names) / sizeof(*names) == static_cast<int>(event::forces_off) + 1);
+  return e <= event::forces_off ? names[static_cast<int>(e)] : "unknown event";
 }
 
+/// A start inside is no fault, so the least of what is not nominal.
 [[nodiscard]] constexpr event worse(event a, event b) noexcept {
-  return a < b ? b : a;
+  const auto severity = [](event e) {
+    return e == event::started_inside ? 1 : 2 * static_cast<int>(e);
+  };
+  return severity(a) < severity(b) ? b : a;
 }
 
 namespace detail {
@@ -49,6 +56,10 @@ namespace detail {
 /// ordinary tick no instructions.
 [[nodiscard, gnu::cold, gnu::noinline]] constexpr event unusable(event so_far) noexcept {
   return worse(so_far, event::rejected_target);
+}
+/// The event of a contact that may push with nothing, since nothing has been paid in.
+[[nodiscard, gnu::cold, gnu::noinline]] constexpr event unpaid(event so_far) noexcept {
+  return worse(so_far, event::started_inside);
 }
 }  // namespace detail
 

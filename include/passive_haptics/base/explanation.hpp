@@ -28,13 +28,16 @@ enum class softened_by : std::uint8_t {
   silence,  ///< the world has said nothing for too long, or released it: it fades
   motors,   ///< they hold no more
   ledger,   ///< E1 covers no more
+  started_inside,  ///< nothing has been paid in yet
+  forces_off,      ///< enable_forces(false)
 };
 
 [[nodiscard]] constexpr const char* to_string(softened_by why) noexcept {
   constexpr const char* names[] = {
-      "nothing",       "parameters", "refuted", "no surface", "mass and tick", "damping and tick",
-      "encoder steps", "coupling",   "news",    "silence",    "motors",        "ledger"};
-  return why <= softened_by::ledger ? names[static_cast<int>(why)] : "unknown reason";
+      "nothing",          "parameters",    "refuted",        "no surface", "mass and tick",
+      "damping and tick", "encoder steps", "coupling",       "news",       "silence",
+      "motors",           "ledger",        "started inside", "forces off"};
+  return why <= softened_by::forces_off ? names[static_cast<int>(why)] : "unknown reason";
 }
 
 struct explanation {
@@ -51,9 +54,9 @@ struct explanation {
     shown = most;
     stiffness = why;
   }
-  /// The motors hold no more than `most` [N].
+  /// The motors hold no more than `most` [N]; `force` is known.
   constexpr void saturate(double most) noexcept {
-    if (shown * depth > most) now = softened_by::motors;
+    if (shown * depth > most && force > 0.95 * most) now = softened_by::motors;
   }
   /// A sentence: what binds now, else what binds the stiffness, and what would raise it.
   [[nodiscard]] constexpr const char* because() const noexcept {
@@ -93,6 +96,12 @@ struct explanation {
         return "The energy that the hand has paid in covers no more; it comes back as the hand "
                "presses or moves. If this lasts, mass, damping or hand force are not what was "
                "stated, or the longest tick is too long.";
+      case softened_by::started_inside:
+        return "The device was inside when the surface came, and nothing has been paid in that "
+               "could "
+               "push it out: move it, start outside, or state a loan.";
+      case softened_by::forces_off:
+        return "The forces are off: enable_forces(true) switches them on.";
     }
     return "";
   }

@@ -65,6 +65,11 @@ class followed {
   }
   /// Says that nothing is there any more: the contact fades, as it does when data are stale, and ends.
   constexpr void release() noexcept { news_.release(); }
+  /// It has not been felt: the newest target is news again.
+  constexpr void vanish() noexcept {
+    changed_ = published();
+    last_weight_ = scalar(0);
+  }
   /// Adds dt [s] to the time since the last good target.
   constexpr void grow_older(scalar dt) noexcept { news_.grow_older(dt); }
 

@@ -128,6 +128,12 @@ class contact_engine {
     return slots_.template slot<Surface>(i);
   }
 
+  /// Nothing was felt for a while: what is there is met anew.
+  constexpr void vanish() noexcept {
+    let_go();
+    slots_.for_each([](auto& slot, std::size_t) { slot.asleep = slot.vanish(); });
+    asked_ = Port::zero();
+  }
   /// How stiff the contact that presses most is shown, or the first that is there; the device is a point at x.
   constexpr void explain(explanation& e, const vector& x, scalar /*T*/, int /*late*/) const noexcept
       requires(frame::naps) {
@@ -214,7 +220,9 @@ class contact_engine {
   /// The own surfaces follow the world's, not the force: there is nothing to put back.
   [[nodiscard]] constexpr result_type answered(const request& r,
                                                const port_result<Port>& port) const noexcept {
-    return {port.force, r.depth, port.energy, port.what, port.limited};
+    const bool nothing = port.limited && !(port.energy > scalar(0)) && port.force == Port::zero();
+    const event what = nothing ? unpaid(port.what) : port.what;
+    return {port.force, r.depth, port.energy, what, port.limited};
   }
   constexpr result_type refused(const port_result<Port>& port, scalar dt) noexcept {
     slots_.for_each([&](auto& slot, std::size_t) { slot.grow_older(dt, pace_); });

@@ -66,6 +66,11 @@ class contacts<Sources...>::on {
   constexpr void reset() noexcept {
     for_each(*this, [](auto& source) { detail::restart(source); });
   }
+  constexpr void vanish() noexcept {
+    for_each(*this, [](auto& source) {
+      if constexpr (requires { source.vanish(); }) source.vanish();
+    });
+  }
 
   template <class Parameters>
   static constexpr int takers = (detail::takers<Parameters, Sources, Space> + ... + 0);
@@ -149,6 +154,7 @@ class contacts<Sources...>::on {
       const port_result<Space> part{cut ? vector(own * left) : own, port.energy, port.what, cut};
       const auto result = source.answered(one, part);
       sum.limited = sum.limited || result.limited;
+      sum.what = worse(sum.what, result.what);
       if constexpr (detail::says_depth<decltype(result)>) {
         sum.depth = kernels::larger(sum.depth, result.depth);
       }

@@ -157,6 +157,10 @@ class local_contact {
     }
   }
 
+  /// It was not felt for a while: the newest surface is met anew.
+  constexpr void vanish() noexcept {
+    if constexpr (Supply::moves) supply_.vanish();
+  }
   /// How stiff the surface is shown to a device at x, in ticks of T [s] whose commands are held `late` ticks
   /// after they were given.
   constexpr void explain(explanation& e, const vector& x, scalar T, int late) const noexcept {
@@ -272,10 +276,13 @@ class local_contact {
     }
     const bool limited = detail::is_shaped<Law, Space> ? !(port.force == r.desired) : port.limited;
     scalar felt = r.felt;
+    event what = port.what;
     if constexpr (Supply::moves) {
       if (limited) {
         felt = law_.depth(Space::dot(port.force, r.normal), r.outward_speed);
         if (!kernels::is_finite(felt)) felt = scalar(0);  // more than K d over a K next to nothing
+        if (!(port.energy > scalar(0)) && port.force == Space::zero()) [[unlikely]]
+          what = detail::unpaid(what);
       }
       if (limited || r.following) {
         supply_.approach(r.in_local, r.here, r.normal, felt);
@@ -284,7 +291,7 @@ class local_contact {
       }
       supply_.seen(r.weight);
     }
-    return {port.force, felt, port.energy, port.what, limited};
+    return {port.force, felt, port.energy, what, limited};
   }
 
   /// A tick that nobody could believe, of length dt [s].

@@ -180,6 +180,12 @@ class pursued {
   constexpr void press(scalar lambda) noexcept { pressed_ = lambda; }
   [[nodiscard]] constexpr const sampled_spring<scalar>& spring() const noexcept { return spring_; }
 
+  /// What ends and is not pressed: gone, or met anew where it is covered again.
+  constexpr bool vanish() noexcept {
+    if (state_ == state::leaving || state_ == state::stale) state_ = state::empty;
+    if (state_ == state::there) state_ = state::expected;
+    return false;
+  }
   /// Time goes by [s]: a surface without news for too long leaves.
   constexpr void grow_older(scalar dt, const pursuit::on<Space>& pace) noexcept {
     age_ += dt;
@@ -203,7 +209,7 @@ class pursued {
       return true;  // the caller sees what has come of it
     }
     if (!(pressed_ > scalar(0))) {
-      if (ends) return leave();
+      if (ends) return vanish();
       if (state_ == state::expected) {
         meet(own, unfelt(own.push), pace);
       } else if (rests && own.depth <= scalar(0)) {
@@ -259,12 +265,6 @@ class pursued {
     } else {
       return before;
     }
-  }
-  /// What ends and is not pressed: gone, or met anew where it is covered again.
-  constexpr bool leave() noexcept {
-    if (state_ == state::leaving || state_ == state::stale) state_ = state::empty;
-    if (state_ == state::there) state_ = state::expected;
-    return false;
   }
   /// A surface that has just appeared is no deeper than it can be with λ = 0, whatever the speed (S2).
   constexpr void meet(const felt& here, scalar most, const pursuit::on<Space>& pace) noexcept {

@@ -158,7 +158,19 @@ class passive_port {
     detail::restart(motion_);
     guard_.reset();
     watch_.reset();
+    if (stopped_ != event::forces_off) stopped_ = event::nominal;
+    begin();
+  }
+
+  /// Says that the driver drops all forces, as with motors off or an emergency stop: before it does, or with samples
+  /// that report what is held. Until true is said, ticks answer event::forces_off and force zero, and the ledger waits:
+  /// the last effort is written off as in a lost sample, and no motion is paid for. reset() and set() leave the forces
+  /// off. A surface is then met anew, at the pace of news; an effort of your own is back at once.
+  constexpr void enable_forces(bool on) noexcept {
+    if (!on && stopped_ <= event::rejected_parameters) stopped_ = event::forces_off;
+    if (!on || stopped_ != event::forces_off) return;
     stopped_ = event::nominal;
+    if constexpr (requires { source_.vanish(); }) source_.vanish();
     begin();
   }
 
@@ -215,16 +227,19 @@ class passive_port {
   [[nodiscard]] constexpr explanation explain() const noexcept {
     explanation e;
     if (stopped_ != event::nominal) {
-      e.stiffness =
-          stopped_ == event::rejected_parameters ? softened_by::parameters : softened_by::refuted;
+      e.stiffness = stopped_ == event::rejected_parameters ? softened_by::parameters
+                    : stopped_ == event::forces_off        ? softened_by::forces_off
+                                                           : softened_by::refuted;
       return e;
     }
+    e.force = static_cast<double>(P::norm(guard_.commanded().front()));
     source_.explain(e, guard_.last(), limits_.longest_tick, latency);
     detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
-    e.force = static_cast<double>(P::norm(guard_.commanded().front()));
     const bool as_stiff = e.force > 0.95 * e.shown * e.depth;
     if (as_stiff) e.now = softened_by::nothing;
-    if (!as_stiff && e.now == softened_by::nothing && e.depth > 0.0) e.now = softened_by::ledger;
+    if (as_stiff || !(e.depth > 0.0)) return e;
+    if (!(e.force > 0.0) && !(energy() > scalar(0))) e.now = softened_by::started_inside;
+    if (e.now == softened_by::nothing) e.now = softened_by::ledger;
     return e;
   }
 
@@ -470,8 +485,8 @@ class passive_port {
     const bool lasted = dt > scalar(0) && kernels::is_finite(dt);
     const scalar passed = lasted ? dt : limits_.longest_tick;
     if constexpr (!trusting) {
-      if (stopped_ == event::nominal) write_off(guard_.commanded().back(), passed);
-      disturbed();
+      if (stopped_ != event::rejected_parameters) write_off(guard_.commanded().back(), passed);
+      if (stopped_ == event::nominal) disturbed();
     }
     guard_.lose_sight(passed);
     guard_.command(P::zero());
