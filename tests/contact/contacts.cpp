@@ -256,3 +256,28 @@ TEST_CASE("parameters of one contact among contacts change while it runs, checke
   CHECK(std::string(port.set(ph::damped_spring{.mass = -1.0}).parameter) == "mass");
   CHECK(port.source().contact<1>().law().parameters().mass == 0.2);  // a fault changes nothing
 }
+
+TEST_CASE("a force of one's own and a wall are two sources of one port, and a tick takes the force",
+          "[contacts]") {
+  ph::passive_port port{
+      d1{},
+      ph::contacts{ph::given_force{}, ph::local_contact{ph::fixed{ph::half_space<d1>{0, 1, 1000}},
+                                                        ph::turn_at_once{}, ph::spring{}}},
+      ph::reduced_energy{.damping = 0.3, .loan = 1.0}, ph::strict_bound{},
+      ph::loop_limits{.longest_tick = 1e-3}};
+  CHECK(port.tick(0.001, 1ms, 0.25).force == 0.25);  // in the air, the own force alone
+  CHECK_THAT(port.tick(-0.001, 1ms, 0.25).force, WithinRel(1.25, 1e-9));
+  CHECK_THAT(
+      port.tick(ph::device_sample<d1>{.position = -0.001, .held = 1.25, .dt = 1e-3, .valid = true},
+                -0.5)
+          .force,
+      WithinRel(0.5, 1e-9));
+  CHECK(port.tick(-0.001, 1ms, std::nan("")).what == ph::event::rejected_target);
+  CHECK_THAT(port.tick(-0.001, 1ms).force, WithinRel(0.5, 1e-9));  // the last good one
+  for (int n = 0; n < 300; ++n) (void)port.tick(-0.001, 1ms);
+  CHECK_THAT(port.tick(-0.001, 1ms).force, WithinRel(1.0, 1e-9));  // it has faded, the wall has not
+
+  using two = ph::passive_port<d1, ph::contacts<ph::given_force, ph::given_force>,
+                               ph::reduced_energy, ph::strict_bound>;
+  static_assert(!ph::detail::takes_efforts<two::source_type, d1>);  // which of them?
+}

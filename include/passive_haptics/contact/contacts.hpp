@@ -53,6 +53,16 @@ class contacts<Sources...>::on {
     return detail::get<I>(sources_);
   }
 
+  /// A new effort for the one of them that takes one: port.tick(sample, wanted) gives it.
+  constexpr bool update(const vector& wanted) noexcept
+      requires((int(detail::takes_efforts<part_at<Sources, Space>, Space>) + ...) == 1) {
+    bool taken = false;
+    for_each(*this, [&]<class Source>(Source& source) {
+      if constexpr (detail::takes_efforts<Source, Space>) taken = source.update(wanted);
+    });
+    return taken;
+  }
+
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     parameter_fault first;
     for_each(*this, [&first](const auto& source) {
