@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Detents and end stops of a knob or a slider, which come to rest as a settled_force does: make_detents has them.
+
+#include <passive_haptics/contact/settled_force.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// With x between the stops, u from the nearest multiple of the pitch p, and K what is shown of the stiffness,
+///     f = −K u (1 − 2|u|/p),
+/// a sine to within 6 % of its top, K p/8, without a library; past a stop a spring besides. It is the slope of a
+/// potential, so a way there and back costs nothing.
+struct detents {
+  double pitch{};      ///< p, from one to the next [m], [rad]
+  double stiffness{};  ///< at the bottom of each [N/m], [N·m/rad]; 0: there are none
+  double first = -std::numeric_limits<double>::infinity();  ///< an end stop [m]
+  double last = std::numeric_limits<double>::infinity();    ///< the other one [m]
+  double stop_stiffness{};                                  ///< of both [N/m]
+  double most =
+      std::numeric_limits<double>::infinity();  ///< no stiffness is shown above that [N/m]
+  settled_force rest{};                         ///< how they come to rest; mass is stated
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::not_negative(stiffness)) return {"stiffness", stiffness, "finite and ≥ 0 N/m"};
+    if (stiffness > 0.0 && !detail::positive(pitch)) return {"pitch", pitch, "finite and > 0 m"};
+    if (!(first < last)) return {"last", last, "> first, in m"};
+    const bool ends = kernels::is_finite(first) || kernels::is_finite(last);
+    if (!(ends ? detail::positive(stop_stiffness) : stop_stiffness == 0.0)) {
+      return {"stop_stiffness", stop_stiffness, "finite and > 0 N/m where there is a stop, else 0"};
+    }
+    return most > 0.0 ? rest.check() : parameter_fault{"most", most, "> 0 N/m"};
+  }
+  template <port P>
+  class on;
+};
+
+template <port P>
+class detents::on : private part_at<settled_force, P> {
+  using damped = part_at<settled_force, P>;
+  static_assert(P::dof == 1, "passive_haptics: detents have one degree of freedom");
+
+ public:
+  using damped::asks_for_numbers, damped::answered, damped::refused, damped::reset;
+  using typename damped::request, typename damped::result_type, typename damped::scalar;
+
+  constexpr explicit on(const detents& p) noexcept : damped(p.rest) { set(p); }
+  constexpr void set(const detents& p) noexcept {
+    damped::set(p.rest);
+    pitch_ = detail::number<scalar>(p.pitch);
+    stiffness_ = detail::number<scalar>(p.stiffness);
+    first_ = detail::number<scalar>(p.first);
+    last_ = detail::number<scalar>(p.last);
+    stop_ = detail::number<scalar>(p.stop_stiffness);
+    most_ = detail::number<scalar>(p.most);
+  }
+  [[nodiscard]] constexpr detents parameters() const noexcept {
+    return {.pitch = static_cast<double>(pitch_),
+            .stiffness = static_cast<double>(stiffness_),
+            .first = static_cast<double>(first_),
+            .last = static_cast<double>(last_),
+            .stop_stiffness = static_cast<double>(stop_),
+            .most = static_cast<double>(most_),
+            .rest = damped::parameters()};
+  }
+  constexpr void adopt(scalar T, int late) noexcept {
+    damped::adopt(T, late);
+    settles_ =
+        static_cast<scalar>(damped::parameters().most_stiffness(static_cast<double>(T), 0, late));
+  }
+  /// Of the detent, or of the stop, at x; `depth` is that of a spring of that stiffness with the same force.
+  constexpr void explain(explanation& e, scalar x, scalar /*T*/, int /*late*/) const noexcept {
+    const scalar asked = within(x) == x ? stiffness_ : stop_;
+    e.asked = e.shown = static_cast<double>(asked);
+    e.soften(static_cast<double>(most_), softened_by::encoder_steps);
+    e.soften(static_cast<double>(settles_), softened_by::mass_and_tick);
+    if (e.shown > 0.0) e.depth = static_cast<double>(kernels::magnitude(at(x))) / e.shown;
+  }
+  template <bool Shortcut>
+  [[nodiscard, gnu::always_inline]] constexpr request ask(const auto& motion, const auto& port,
+                                                          event& what) noexcept {
+    damped::update(at(motion.position));
+    return damped::template ask<Shortcut>(motion, port, what);
+  }
+
+ private:
+  [[nodiscard]] constexpr scalar within(scalar x) const noexcept {
+    return kernels::smaller(kernels::larger(x, first_), last_);
+  }
+  [[nodiscard]] constexpr scalar shown(scalar K) const noexcept {
+    return kernels::smaller(K, kernels::smaller(most_, settles_));
+  }
+  /// f at x [N].
+  [[nodiscard]] constexpr scalar at(scalar x) const noexcept {
+    const scalar inside = within(x);
+    const scalar stop = shown(stop_) * (inside - x);
+    if (!(stiffness_ > scalar(0))) return stop;
+    const scalar n = inside / pitch_;
+    if (!(kernels::magnitude(n) < scalar(4e6))) return stop;  // a float knows of no place between
+    const scalar half = n < scalar(0) ? scalar(-0.5) : scalar(0.5);
+    const scalar u = inside - pitch_ * static_cast<scalar>(static_cast<std::int32_t>(n + half));
+    return stop - shown(stiffness_) * u * (scalar(1) - scalar(2) * kernels::magnitude(u) / pitch_);
+  }
+
+  scalar pitch_{}, stiffness_{}, first_{}, last_{}, stop_{}, most_{};
+  scalar settles_ = kernels::largest<scalar>();  ///< the stiffest that comes to rest [N/m]
+};
+
+static_assert(source_for<detents, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics
