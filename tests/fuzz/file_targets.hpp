@@ -6,6 +6,7 @@
 #include <passive_haptics/environment/compliance_table.hpp>
 #include <passive_haptics/environment/msh_reader.hpp>
 #include <passive_haptics/falcon/recording_file.hpp>
+#include <passive_haptics/identification/device_file.hpp>
 #include <passive_haptics/identification/identification_file.hpp>
 
 #include <algorithm>
@@ -97,6 +98,22 @@ inline const char* identification(input bytes) {
   return ph::identification::read<1>(again, "again").fault.empty() ? nullptr : "is not read again";
 }
 
+inline const char* device(input bytes) {
+  std::istringstream in(text_of(bytes));
+  const auto loaded = ph::identification::read_device(in, "a file");
+  if (!loaded.fault.empty()) {
+    return loaded.fault.rfind("a file:", 0) == 0 ? nullptr : "refused, and not said where";
+  }
+  if (std::visit([](const auto& d) { return bool(d.check()); }, loaded.of.device)) {
+    return "read, and of no use";
+  }
+  const std::string text = ph::identification::device_text(loaded.of);
+  std::istringstream again(text);
+  const auto same = ph::identification::read_device(again, "again");
+  if (!same.fault.empty()) return "is not read again";
+  return ph::identification::device_text(same.of) == text ? nullptr : "is read as another";
+}
+
 inline const char* recording(input bytes) {
   ph::falcon::wire_row row;
   std::istringstream lines(text_of(bytes));
@@ -112,6 +129,7 @@ inline const char* files(input bytes) {
   reader in(bytes);
   const unsigned which = in.one();
   const auto rest = bytes.subspan(std::min<std::size_t>(bytes.size(), 1));
+  if (which >= 252) return device(rest);
   switch (which % 4) {
     case 0:
       return table(rest);

@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What a composition is made of, as a file: an exact_device or an encoder_device, and the hand on it, in JSON.
+//
+//     {
+//       "passive_haptics_device": 1,
+//       "name": "grip 7",
+//       "kind": "encoder",
+//       "mass": 0.045,
+//       ...
+//     }
+//
+//   save_device("grip.json", {.name = "grip 7", .device = stated, .hand_force = 5.0})
+//   const auto loaded = load_device("grip.json");          // loaded.fault is empty, or says what to mend
+//   std::visit([](const auto& device) { return ph::make_touch<scene>(device, hand); }, loaded.of.device)
+//
+// One object of numbers, texts and yes or no, by the names and in the units of described_device.hpp, in any order.
+// What is left out is as it is there by default; what is unknown, twice, of another version or out of range is
+// refused, with its line. Numbers are as short as reads back to the bit.
+
+#include <passive_haptics/base/decimal.hpp>
+#include <passive_haptics/identification/axis_found.hpp>
+#include <passive_haptics/identification/device_facts.hpp>
+
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <istream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace identification {
+
+/// A device, by what kind it is, and the hand on it.
+struct device_description {
+  std::string name;
+  std::variant<exact_device, encoder_device> device{};
+  double hand_force = 0.0;  ///< known_hand::force [N]; 0: it is not stated
+};
+
+/// `of` counts if `fault` is empty; else that is a sentence with the line, what stands there and the remedy.
+struct loaded_device {
+  std::string fault;
+  device_description of;
+};
+
+namespace detail {
+
+inline constexpr const char* device_version_key = "passive_haptics_device";
+inline constexpr double device_version = 1.0;
+
+/// Shows every number of a description, by its key, to `number`(key, value), and `flag`(key, yes).
+template <class Description, class Number, class Flag>
+void for_each_entry(Description& d, Number number, Flag flag) {
+  std::visit(
+      [&](auto& of) {
+        number("mass", of.mass);
+        number("damping", of.damping);
+        if constexpr (requires { of.quantum; }) {
+          number("friction", of.friction);
+          number("presliding", of.presliding);
+          number("quantum", of.quantum);
+        }
+        number("force_limit", of.force_limit);
+        number("longest_tick", of.longest_tick);
+        number("latency", of.latency);
+        if constexpr (requires { of.quantum; }) {
+          number("continuous_force", of.continuous_force);
+          number("winding_time", of.winding_time);
+        }
+        flag("rotary", of.rotary);
+        number("top_speed", of.top_speed);
+      },
+      d.device);
+  number("hand_force", d.hand_force);
+}
+
+[[nodiscard]] inline std::string shortest(double x) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
+}
+/// A text between quotation marks. Control characters have no place in a name.
+[[nodiscard]] inline std::string in_quotes(std::string_view text) {
+  std::string all = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') all += '\\';
+    all += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return all + '"';
+}
+
+/// One key of a file and what stands behind it.
+struct device_entry {
+  std::string key, value;
+  int line = 0;
+  bool is_text = false;
+};
+
+/// Reads the object and keeps the first fault.
+class device_reader {
+ public:
+  device_reader(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {
+    object();
+  }
+  [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
+  [[nodiscard]] bool good() const noexcept { return fault_.empty(); }
+  void refuse(int line, const std::string& why) {
+    if (good()) fault_ = name_ + ':' + std::to_string(line) + ": " + why;
+  }
+  /// Where it stands, or where it is missed.
+  [[nodiscard]] int line_of(std::string_view key) const noexcept {
+    for (const auto& e : entries_) {
+      if (e.key == key) return e.line;
+    }
+    return line_;
+  }
+  /// The value of a key, and the key is known then; null if it is not there.
+  [[nodiscard]] const device_entry* take(std::string_view key) {
+    for (auto& e : entries_) {
+      if (e.key != key) continue;
+      known_.push_back(e.key);
+      return &e;
+    }
+    return nullptr;
+  }
+  void text(std::string_view key, std::string& value) {
+    const auto* e = take(key);
+    if (e == nullptr) return;
+    if (!e->is_text) refuse(e->line, shown(*e) + ": a text in quotation marks is wanted");
+    value = e->value;
+  }
+  void number(std::string_view key, double& value) {
+    const auto* e = take(key);
+    if (e == nullptr) return;
+    const auto read = e->is_text ? std::nullopt : to_decimal(e->value);
+    if (!read || !kernels::is_finite(*read)) {
+      return refuse(e->line, shown(*e) +
+                                 ": a finite number is wanted; what is not known, or has no "
+                                 "limit, is left out");
+    }
+    value = *read;
+  }
+  void number(std::string_view key, int& value) {
+    double read = value;
+    number(key, read);
+    if (!(read >= -1e6 && read <= 1e6) || read != static_cast<int>(read)) {
+      return refuse(line_of(key), in_quotes(key) + ": a whole number is wanted");
+    }
+    value = static_cast<int>(read);
+  }
+  void flag(std::string_view key, bool& value) {
+    const auto* e = take(key);
+    if (e == nullptr) return;
+    value = e->value == "true";
+    if (e->is_text || (!value && e->value != "false")) {
+      refuse(e->line, shown(*e) + ": true or false is wanted");
+    }
+  }
+  void nothing_unknown(const std::string& kind) {
+    for (const auto& e : entries_) {
+      bool known = false;
+      for (const auto& k : known_) known = known || k == e.key;
+      if (!known) {
+        refuse(e.line, in_quotes(e.key) + ": no key of a device of kind " + in_quotes(kind) +
+                           ": correct it, or leave it out");
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] static std::string shown(const device_entry& e) {
+    return in_quotes(e.key) + ": " + (e.is_text ? in_quotes(e.value) : e.value);
+  }
+  void blanks() {
+    while (!text_.empty() && std::string_view(" \t\r\n").find(text_.front()) != text_.npos) next();
+  }
+  char next() {
+    const char c = text_.front();
+    text_.remove_prefix(1);
+    if (c == '\n') ++line_;
+    return c;
+  }
+  [[nodiscard]] bool comes(char c) {
+    blanks();
+    return !text_.empty() && text_.front() == c;
+  }
+  void expect(char c, const char* where) {
+    if (!good()) return;
+    if (comes(c)) {
+      next();
+    } else {
+      refuse(line_, std::string(text_.empty() ? "the file ends, and " : "") + '\'' + c +
+                        "' is wanted " + where);
+    }
+  }
+  [[nodiscard]] std::string string(const char* where) {
+    std::string all;
+    expect('"', where);
+    while (good()) {
+      if (text_.empty() || text_.front() == '\n') {
+        refuse(line_, "a text has no end: '\"' is wanted");
+        break;
+      }
+      char c = next();
+      if (c == '"') break;
+      if (c == '\\') {
+        c = text_.empty() ? ' ' : next();
+        if (c != '"' && c != '\\' && c != '/') {
+          refuse(line_,
+                 "of what begins with \\ only \\\", \\\\ and \\/ are read: write the "
+                 "character itself");
+        }
+      }
+      all += c;
+    }
+    return all;
+  }
+  void object() {
+    expect('{', "to begin with");
+    bool more = good() && !comes('}');
+    while (more && good()) {
+      device_entry e;
+      e.key = string("before a key");
+      e.line = line_;
+      expect(':', "after a key");
+      e.is_text = comes('"');
+      if (e.is_text) {
+        e.value = string("");
+      } else {
+        while (!text_.empty() &&
+               std::string_view(",}{[] \t\r\n\":").find(text_.front()) == text_.npos)
+          e.value += next();
+      }
+      for (const auto& other : entries_) {
+        if (other.key == e.key) refuse(e.line, in_quotes(e.key) + ": it stands there twice");
+      }
+      if (!e.is_text && e.value.empty()) {
+        refuse(e.line, in_quotes(e.key) + ": a number, a text, true or false is wanted");
+      }
+      entries_.push_back(std::move(e));
+      more = comes(',');
+      if (more) next();
+    }
+    expect('}', "after the last value, or ',' before another key");
+    const int end = line_;
+    blanks();
+    if (good() && !text_.empty()) refuse(line_, "nothing may follow the last '}'");
+    line_ = end;
+  }
+
+  std::string_view text_;
+  std::string name_, fault_;
+  int line_ = 1;
+  std::vector<device_entry> entries_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace detail
+
+/// The text of the file.
+[[nodiscard]] inline std::string device_text(const device_description& of) {
+  const bool exact = std::holds_alternative<exact_device>(of.device);
+  std::string text = std::string("{\n  \"") + detail::device_version_key + "\": 1";
+  const auto line = [&text](const char* key, const std::string& value) {
+    text += std::string(",\n  \"") + key + "\": " + value;
+  };
+  if (!of.name.empty()) line("name", detail::in_quotes(of.name));
+  line("kind", exact ? "\"exact\"" : "\"encoder\"");
+  detail::for_each_entry(
+      of,
+      [&](const std::string_view key, double x) {  // no number, or the default: left out
+        const bool zero = key == "top_speed" || key == "winding_time" || key == "hand_force";
+        if (kernels::is_finite(x) && !(zero && x == 0.0)) {
+          line(std::string(key).c_str(), detail::shortest(x));
+        }
+      },
+      [&](const char* key, bool yes) { line(key, yes ? "true" : "false"); });
+  return text + "\n}\n";
+}
+
+/// Reads such a text; messages begin with `name`.
+[[nodiscard]] inline loaded_device read_device(std::istream& in, const std::string& name) {
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  detail::device_reader file(text, name);
+  loaded_device loaded;
+  double version = 0.0;
+  file.number(detail::device_version_key, version);
+  if (version != detail::device_version) {
+    file.refuse(file.line_of(detail::device_version_key),
+                std::string("\"") + detail::device_version_key +
+                    "\": 1 is wanted: it says which keys there are");
+  }
+  std::string kind;
+  file.text("name", loaded.of.name);
+  file.text("kind", kind);
+  if (kind == "encoder") {
+    loaded.of.device = encoder_device{};
+  } else if (kind != "exact") {
+    file.refuse(file.line_of("kind"),
+                "\"kind\": \"exact\" is wanted, or \"encoder\" where steps are felt");
+  }
+  detail::for_each_entry(
+      loaded.of, [&](const char* key, auto& x) { file.number(key, x); },
+      [&](const char* key, bool& yes) { file.flag(key, yes); });
+  file.nothing_unknown(kind);
+  auto wrong = std::visit([](const auto& d) { return d.check(); }, loaded.of.device);
+  if (!wrong && !passive_haptics::detail::not_negative(loaded.of.hand_force)) {
+    wrong = {"hand_force", loaded.of.hand_force, "finite and ≥ 0 N"};
+  }
+  if (wrong) {
+    const bool there = file.take(wrong.parameter) != nullptr;
+    file.refuse(file.line_of(wrong.parameter),
+                detail::in_quotes(wrong.parameter) +
+                    (there ? " is " + detail::shortest(wrong.value) : std::string(" is missing")) +
+                    ": wanted is " + wrong.remedy + "; identify finds it");
+  }
+  loaded.fault = file.fault();
+  if (!loaded.fault.empty()) loaded.of = {};
+  return loaded;
+}
+
+/// The same from a file.
+[[nodiscard]] inline loaded_device load_device(const std::string& path) {
+  std::ifstream in(path);
+  if (!in.good()) return {path + ": cannot be read: is there such a file?", {}};
+  return read_device(in, path);
+}
+
+/// Writes the whole file, or nothing. Returns an empty text, or a sentence that says why nothing was written.
+[[nodiscard]] inline std::string save_device(const std::string& path,
+                                             const device_description& of) {
+  const auto wrong = std::visit([](const auto& d) { return d.check(); }, of.device);
+  if (wrong) {
+    return path + ": not written, because " + wrong.parameter + " is " +
+           detail::shortest(wrong.value) + ": wanted is " + wrong.remedy;
+  }
+  const std::string beside = path + ".part";
+  std::ofstream out(beside);
+  out << device_text(of);
+  out.close();
+  if (out.fail() || std::rename(beside.c_str(), path.c_str()) != 0) {
+    std::remove(beside.c_str());
+    return path + ": cannot be written: is there such a folder, and room on the disk?";
+  }
+  return {};
+}
+
+/// What the catalogue knows of a device, to be completed: what nobody publishes is left out of its text, and a reader
+/// asks for it by name. A wall is to rest on half of the mass and the friction that a data sheet has.
+[[nodiscard]] inline device_description described(const design::device_facts& facts) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const auto value = [](const design::fact& f) { return f ? f.value : unknown; };
+  encoder_device d{.mass = value(facts.mass),
+                   .damping = value(facts.damping),
+                   .friction = value(facts.friction),
+                   .presliding = value(facts.presliding),
+                   .quantum = value(facts.quantum[0]),
+                   .force_limit = value(facts.peak_force),
+                   .longest_tick = unknown,
+                   .rotary = facts.rotary};
+  for (const auto& q : facts.quantum) {
+    if (q) d.quantum = kernels::larger(d.quantum, q.value);
+  }
+  if (facts.latency) d.latency = static_cast<int>(facts.latency.value);
+  if (facts.continuous_force) d.continuous_force = facts.continuous_force.value;
+  return {facts.name, d, 0.0};
+}
+
+}  // namespace identification
+}  // namespace v0
+}  // namespace passive_haptics
