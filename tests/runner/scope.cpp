@@ -2,6 +2,7 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include "support/scratch_folder.hpp"
+#include <passive_haptics/compositions.hpp>
 #include <passive_haptics/runner/scope.hpp>
 #include <passive_haptics/six_dof.hpp>
 
@@ -128,9 +129,12 @@ TEST_CASE("a scope says what a tick knew, in columns with units", "[runner][scop
   REQUIRE(lines.size() == 5);
   CHECK(lines[0] ==
         "tick,time_s,dt_s,position_x_m,position_y_m,position_z_m,wanted_x_N,wanted_y_N,wanted_z_N,"
-        "given_x_N,given_y_N,given_z_N,depth_m,energy_J,limited,valid,event,event_text");
+        "given_x_N,given_y_N,given_z_N,depth_m,energy_J,limited,valid,event,event_text,"
+        "asked_N_per_m,shown_N_per_m,softened_by,held_back_by");
   const auto first = fields_of(lines[3]), last = fields_of(lines[4]);
-  REQUIRE(first.size() == 18);
+  REQUIRE(first.size() == 22);
+  CHECK(first[18].empty());  // nobody asked why
+  CHECK(first[21].empty());
   CHECK(first[0] == "2");
   CHECK(first[2] == "0.001");
   CHECK(first[3] == "0.1");
@@ -160,7 +164,7 @@ TEST_CASE("a scope works at every port, with what a port of any source returns",
     const auto lines = saved(seen);
     CHECK(lines[0] ==
           "tick,time_s,dt_s,position_m,wanted_N,given_N,depth_m,energy_J,limited,valid,event,"
-          "event_text");
+          "event_text,asked_N_per_m,shown_N_per_m,softened_by,held_back_by");
     const auto row = fields_of(lines[1]);
     CHECK(row[3] == "0.1");  // the shortest that brings the float back
     CHECK(std::stof(row[4]) == 1.1F);
@@ -204,6 +208,46 @@ TEST_CASE("a scope works at every port, with what a port of any source returns",
     CHECK(fields_of(lines[0]).size() == fields_of(lines[1]).size());
     CHECK(lines[0].find("given_z_N,depth_m") != std::string::npos);
   }
+}
+
+TEST_CASE("a scope keeps what a port says of itself, in the row that is recorded next",
+          "[runner][scope]") {
+  ph::scope<d1, 8> seen;
+  auto touch = ph::make_touch<d1>({.mass = 0.1, .damping = 0.1, .force_limit = 9}, {.force = 5});
+  REQUIRE(touch.update({.point = 0, .normal = 1, .stiffness = 50e3}));
+  const auto tick = [&](double x, bool asks) {
+    const auto out = touch.tick(x, 1ms);
+    if (asks) seen.explain(touch.explain());
+    seen.record(x, 1ms, out);
+  };
+  tick(-1e-3, false);
+  tick(-1e-3, true);
+  tick(-1e-3, false);
+  const auto lines = saved(seen);
+  const auto before = fields_of(lines[1]), said = fields_of(lines[2]), after = fields_of(lines[3]);
+  REQUIRE(said.size() == fields_of(lines[0]).size());
+  const std::size_t n = said.size();
+  CHECK(before[n - 4].empty());
+  CHECK(after[n - 1].empty());
+  CHECK(std::stod(said[n - 4]) == 50e3);
+  CHECK(std::stod(said[n - 3]) == touch.explain().shown);
+  CHECK(said[n - 2] == "mass and tick");
+  CHECK(said[n - 1] == "started inside");
+  CHECK(seen[1].now == ph::softened_by::started_inside);
+  seen.explain(touch.explain());
+  seen.clear();
+  tick(-1e-3, false);
+  CHECK_FALSE(seen[0].is_explained);
+}
+
+TEST_CASE("what is asked of a frozen scope changes no row", "[runner][scope]") {
+  ph::scope<d1, 2> seen{ph::event::late_tick};
+  seen.record(0.0, 1ms, result(1.0, ph::event::late_tick));
+  REQUIRE(seen.frozen());
+  seen.explain({.asked = 1.0});
+  seen.record(0.0, 1ms, result(2.0));
+  CHECK(seen.size() == 1);
+  CHECK_FALSE(seen[0].is_explained);
 }
 
 TEST_CASE("a scope writes numbers that are none, and a point whatever the language",

@@ -57,10 +57,6 @@ namespace detail {
 [[nodiscard, gnu::cold, gnu::noinline]] constexpr event unusable(event so_far) noexcept {
   return worse(so_far, event::rejected_target);
 }
-/// The event of a contact that may push with nothing, since nothing has been paid in.
-[[nodiscard, gnu::cold, gnu::noinline]] constexpr event unpaid(event so_far) noexcept {
-  return worse(so_far, event::started_inside);
-}
 }  // namespace detail
 
 /// How far a policy, or a composition, is passive at the device port.

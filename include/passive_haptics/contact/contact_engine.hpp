@@ -220,8 +220,7 @@ class contact_engine {
   /// The own surfaces follow the world's, not the force: there is nothing to put back.
   [[nodiscard]] constexpr result_type answered(const request& r,
                                                const port_result<Port>& port) const noexcept {
-    const bool nothing = port.limited && !(port.energy > scalar(0)) && port.force == Port::zero();
-    const event what = nothing ? unpaid(port.what) : port.what;
+    const event what = port.limited ? cut_short(port) : port.what;
     return {port.force, r.depth, port.energy, what, port.limited};
   }
   constexpr result_type refused(const port_result<Port>& port, scalar dt) noexcept {

@@ -281,8 +281,8 @@ class local_contact {
       if (limited) {
         felt = law_.depth(Space::dot(port.force, r.normal), r.outward_speed);
         if (!kernels::is_finite(felt)) felt = scalar(0);  // more than K d over a K next to nothing
-        if (!(port.energy > scalar(0)) && port.force == Space::zero()) [[unlikely]]
-          what = detail::unpaid(what);
+        if (!(felt > scalar(0))) [[unlikely]]
+          what = detail::cut_short(port);
       }
       if (limited || r.following) {
         supply_.approach(r.in_local, r.here, r.normal, felt);

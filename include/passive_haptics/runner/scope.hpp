@@ -4,6 +4,7 @@
 //
 //     static ph::scope<scene, 4096> seen{ph::event::late_tick};   // freezes N/2 ticks after that event
 //     …  const auto out = wall.tick(sample);  seen.record(sample, out);        // in the loop
+//     …  seen.explain(wall.explain());         // before record(), where it is to be known why a force is what it is
 //     …  if (seen.frozen()) ph::save(seen, "scope.csv");                       // elsewhere, afterwards
 //     gnuplot -e "file='scope.csv'" examples/scope.gp
 //
@@ -11,6 +12,7 @@
 // frozen() is true; the loop's own thread, or any thread after the loop, may read them at any time. A scope
 // holds N rows of some 100 bytes each, so make it static. It works at any port, with any source.
 
+#include <passive_haptics/base/explanation.hpp>
 #include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
@@ -21,6 +23,7 @@
 #include <cstdio>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -36,11 +39,15 @@ struct scope_row {
   typename Port::stored_effort given{};   ///< effort after the bound
   typename Port::scalar depth{};          ///< depth, if the result has one [m]
   typename Port::scalar energy{};         ///< E1 [J]
+  double asked{}, shown{};                ///< stiffness, if the port explained itself [N/m]
   event what = event::nominal;
+  softened_by stiffness = softened_by::nothing;  ///< why less is shown than asked
+  softened_by now = softened_by::nothing;        ///< why the effort is less than that
   bool limited = false;
   bool valid = false;  ///< the sample was valid
   bool has_wanted = false;
   bool has_depth = false;
+  bool is_explained = false;
 };
 
 /// Keeps the last N rows. With a trigger it freezes N/2 rows after the first event that is at least as
@@ -83,6 +90,12 @@ class scope {
     detail::refuse_bare_time<Number>();
   }
 
+  /// What the port says of itself, for the row that is recorded next. In the loop; explain() takes as long as some
+  /// ticks, so not in each where time is short.
+  void explain(const explanation& e) noexcept {
+    said_ = e;
+    is_said_ = true;
+  }
   /// Triggers on anything that no event tells, such as a large force: in the loop, before record().
   void trigger() noexcept {
     if (!triggered_) pull(written_);
@@ -91,7 +104,7 @@ class scope {
   void clear() noexcept {
     written_ = 0;
     time_ = 0.0;
-    triggered_ = false;
+    triggered_ = is_said_ = false;
     frozen_ = false;
   }
 
@@ -127,6 +140,11 @@ class scope {
       r.depth = out.depth;
       r.has_depth = true;
     }
+    r.is_explained = std::exchange(is_said_, false);
+    r.asked = said_.asked;
+    r.shown = said_.shown;
+    r.stiffness = said_.stiffness;
+    r.now = said_.now;
     r.energy = out.energy;
     r.what = out.what;
     r.limited = out.limited;
@@ -144,7 +162,8 @@ class scope {
   std::uint64_t written_ = 0, at_ = 0;
   double time_ = 0.0;
   event least_ = event::nominal;
-  bool armed_ = false, triggered_ = false;
+  explanation said_{};
+  bool armed_ = false, triggered_ = false, is_said_ = false;
   std::atomic<bool> frozen_{false};
 };
 
@@ -252,6 +271,11 @@ void name_columns(csv_line& line, const scope_units& units) {
   name("valid");
   name("event");
   name("event_text");
+  const std::string stiffness = std::string("_") + units.effort + "_per_" + units.position;
+  name("asked" + stiffness);
+  name("shown" + stiffness);
+  name("softened_by");
+  name("held_back_by");
 }
 
 template <class Port>
@@ -277,6 +301,10 @@ void write_row(csv_line& line, const scope_row<Port>& r) {
   line.number(r.valid ? 1 : 0);
   line.number(static_cast<int>(r.what));
   line.text(to_string(r.what));
+  r.is_explained ? line.number(r.asked) : line.text("");
+  r.is_explained ? line.number(r.shown) : line.text("");
+  line.text(r.is_explained ? to_string(r.stiffness) : "");
+  line.text(r.is_explained ? to_string(r.now) : "");
 }
 
 }  // namespace detail
