@@ -389,4 +389,30 @@ TEST_CASE("a description doubts what can be and is surely a slip", "[local_model
   CHECK(doubted(slip) == "mass");
   CHECK_FALSE(slip.check());
   CHECK(doubted(ph::exact_device{}) == "damping");
+  slip = falcon;
+  slip.latency = 1000;  // µs
+  CHECK(doubted(slip) == "latency");
+  auto coarse = grip;
+  coarse.friction = 2.0;
+  CHECK(doubted(coarse) == "friction");
+  coarse = grip;
+  coarse.quantum = 0.055;  // mm
+  CHECK(doubted(coarse) == "quantum");
+  coarse.rotary = true;
+  CHECK(doubted(coarse).empty());  // 114 counts
+  coarse = grip;
+  coarse.presliding = 15.0;  // µm
+  CHECK(doubted(coarse) == "presliding");
+}
+
+TEST_CASE("a hand is doubted that no hand is", "[local_model]") {
+  const auto doubted = [](double force) { return bool(ph::known_hand{.force = force}.doubt(9.0)); };
+  CHECK_FALSE(doubted(5.0));
+  CHECK_FALSE(doubted(250.0));
+  CHECK_FALSE(ph::known_hand{.force = 0.05}.doubt(0.2));  // N·m
+  CHECK(doubted(0.0));
+  CHECK(doubted(0.01));
+  CHECK(doubted(5000.0));  // mN
+  CHECK(doubted(std::nan("")));
+  CHECK(ph::make_touch<d1>(falcon, ph::known_hand{}).check());  // of these, 0 is refused, too
 }

@@ -48,6 +48,13 @@ inline namespace v0 {
 struct known_hand {
   double force{};              ///< [N], > 0
   design::intended_use use{};  ///< what a wall on encoders is to last for
+
+  /// What can be, and is surely a slip, on a device whose motors hold `force_limit` [N].
+  [[nodiscard]] constexpr parameter_fault doubt(double force_limit) const noexcept {
+    if (force > 300.0) return {"force", force, "what a hand pushes with: below 300 N"};
+    if (!(force > 0.02 * force_limit)) return {"force", force, "> 2 % of what the motors hold"};
+    return {};
+  }
 };
 /// The same, and nobody looks: a kilobyte and 3 % of a tick less.
 struct trusted_hand : known_hand {};

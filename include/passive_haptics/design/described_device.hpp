@@ -75,6 +75,7 @@ template <class Device>
     return {"damping", d.damping, "≤ 0.1 m/T: more stops the device within ten ticks"};
   }
   if (d.force_limit > 500.0) return {"force_limit", d.force_limit, "what a hand survives: < 500 N"};
+  if (d.latency > 100) return {"latency", static_cast<double>(d.latency), "in ticks, not in µs"};
   return {};
 }
 /// Faster is a sensor fault: what the device says, or what no hand does, and no less than 8 steps a tick.
@@ -109,7 +110,16 @@ constexpr parameter_fault encoder_device::check() const noexcept {
   return {};
 }
 constexpr parameter_fault encoder_device::doubt() const noexcept {
-  return detail::doubt_of_any(*this);
+  if (const auto fault = detail::doubt_of_any(*this)) return fault;
+  if (friction > 0.5 * force_limit) {
+    return {"friction", friction, "below half of force_limit: the motors hardly move it"};
+  }
+  const double felt = rotary ? 0.1 : 2e-3;
+  if (quantum > felt) return {"quantum", quantum, "in m: below 2 mm, 0.1 rad of what is rotary"};
+  if (friction > 0.0 && presliding > felt) {
+    return {"presliding", presliding, "in m: below 2 mm, 0.1 rad of what is rotary"};
+  }
+  return {};
 }
 
 }  // namespace v0
