@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// For firmware: the core without Eigen in one include, and a space that insists on its FPU.
+// For firmware: the core without Eigen in one include, make_touch, make_guard and make_detents (compositions.hpp)
+// among it, and a space that insists on its FPU.
 //
 //   hardware_space<float, 1>   space<float, 1>, if the FPU computes floats
 //   space<float, 1>            the same without that question: for cores that compute in software
@@ -9,36 +10,18 @@
 // how to tick from an interrupt, PlatformIO, Arduino, Zephyr and FreeRTOS: docs/firmware.md.
 
 #include <passive_haptics/base/exchange.hpp>
+#include <passive_haptics/compositions.hpp>
 #include <passive_haptics/constraint_geometry/fixed.hpp>
-#include <passive_haptics/constraint_geometry/followed.hpp>
-#include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/contact/contacts.hpp>
-#include <passive_haptics/contact/damped_spring.hpp>
-#include <passive_haptics/contact/given_force.hpp>
-#include <passive_haptics/contact/settled_force.hpp>
 #include <passive_haptics/contact/spring.hpp>
 #include <passive_haptics/contact/virtual_coupling.hpp>
-#include <passive_haptics/energy_observer/dual_ledger.hpp>
-#include <passive_haptics/energy_observer/forgiving.hpp>
 #include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
-#include <passive_haptics/energy_observer/reduced_energy.hpp>
-#include <passive_haptics/force_bound/actuator_limit.hpp>
-#include <passive_haptics/force_bound/bound_chain.hpp>
 #include <passive_haptics/force_bound/energy_bounding.hpp>
 #include <passive_haptics/force_bound/energy_tank.hpp>
 #include <passive_haptics/force_bound/passivity_controller.hpp>
-#include <passive_haptics/force_bound/reachable_bound.hpp>
 #include <passive_haptics/force_bound/sector_bound.hpp>
-#include <passive_haptics/force_bound/strict_bound.hpp>
-#include <passive_haptics/force_bound/thermal_limit.hpp>
-#include <passive_haptics/force_bound/watched.hpp>
-#include <passive_haptics/local_model.hpp>
-#include <passive_haptics/motion_estimator/edge_observer.hpp>
-#include <passive_haptics/motion_estimator/mass_observer.hpp>
 #include <passive_haptics/normal_interpolation/turn_at_once.hpp>
-#include <passive_haptics/normal_interpolation/turn_limited.hpp>
-#include <passive_haptics/port/passive_port.hpp>
 #include <passive_haptics/shaper/force_rate_limit.hpp>
 #include <passive_haptics/shaper/reference_energy.hpp>
 #include <passive_haptics/shaper/set_position_modulation.hpp>

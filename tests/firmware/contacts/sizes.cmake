@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The bytes of a tick with several contacts, and with a rough one, on a core: compiled, measured, compared with
-# the table of docs/firmware.md within 2 %. No static data, whatever the scene.
+# The bytes of a tick with several contacts, a rough one, and of what make_touch, make_guard and make_detents
+# make, on a core: compiled, measured, compared with the table of docs/firmware.md within 2 %. No static data, whatever the scene.
 #   cmake -Dcompile="g++;flags" -Dsize=PROGRAM -Dscenes=FOLDER -Ddocs=FILE -Dscratch=FILE -P sizes.cmake
 file(READ ${docs} page)
-foreach(scene IN ITEMS corner rough)
+foreach(scene IN ITEMS corner rough touch guard detents)
   execute_process(COMMAND ${compile} -c ${scenes}/${scene}.cpp -o ${scratch} RESULT_VARIABLE code)
   if(NOT code EQUAL 0)
     message(FATAL_ERROR "${scene}.cpp does not compile")
