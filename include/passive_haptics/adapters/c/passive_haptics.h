@@ -90,7 +90,9 @@ enum ph_event {
   PH_REJECTED_PARAMETERS = 9,  ///< there is no port: force zero
   PH_OUTSIDE_FORCE = 10,   ///< it moves as the mass and hand stated cannot move it: a strict bound
   PH_UNTOLD_LATENCY = 11,  ///< it holds a force later, or sooner, than was stated: force zero
-  PH_WRONG_SIGN = 12       ///< it does the opposite of what it is told: force zero for good
+  PH_WRONG_SIGN = 12,      ///< it does the opposite of what it is told: force zero for good
+  PH_STARTED_INSIDE = 13,  ///< it should push, and nothing has been paid in yet: force zero
+  PH_FORCES_OFF = 14       ///< the forces are off: force zero, and the ledger waits
 };
 
 /// How far a composition is passive, as in the library.
