@@ -2,6 +2,7 @@
 #include "program.hpp"
 
 #include <passive_haptics/base/decimal.hpp>
+#include <passive_haptics/identification/device_file.hpp>
 #include <passive_haptics/simulation/presets.hpp>
 
 namespace identify {
@@ -26,20 +27,27 @@ const sim::device_preset* preset_of(const std::string& name) {
   return nullptr;
 }
 
-int show(const identification::device_found<1>& found) {
+int show(const identification::device_found<1>& found, const std::string& name,
+         const std::string& json) {
   std::cout << identification::table_of(found.axes[0]) << '\n'
             << identification::composition_of(found);
-  return found.problem() == nullptr ? 0 : 1;
+  if (found.problem() != nullptr) return 1;
+  if (json.empty()) return 0;
+  const double hand = ph::design::intended_use{}.hand_force;  // as in the composition shown
+  const auto fault =
+      identification::save_device(json, identification::described(found, name, hand));
+  if (!fault.empty()) throw std::runtime_error(fault);
+  return 0;
 }
 
-int show_file(const std::string& file) {
+int show_file(const std::string& file, const std::string& json) {
   const auto loaded = identification::load<1>(file);
   if (!loaded.fault.empty()) {
     std::cerr << "identify: " << loaded.fault << '\n';
     return 1;
   }
   std::cout << loaded.device << '\n';
-  return show(loaded.found);
+  return show(loaded.found, loaded.device, json);
 }
 
 int identify_simulated(const settings& chosen, const std::atomic<bool>& stop) {
@@ -50,7 +58,7 @@ int identify_simulated(const settings& chosen, const std::atomic<bool>& stop) {
     const auto found =
         identification::identify<line>(device, chosen.how, [&] { return stop.load(); });
     if (stop) throw ex::interrupted("stopped: the force is zero, nothing was written");
-    const int code = show(found);
+    const int code = show(found, preset.name, chosen.json);
     if (code == 0 && !chosen.file.empty()) {
       const auto fault = identification::save(chosen.file, found, preset.name);
       if (!fault.empty()) throw std::runtime_error(fault);
@@ -85,6 +93,7 @@ settings parse(const std::vector<std::string>& arguments) {
        a_quantity("--workspace", "MM", "beyond this the force is zero (default: 40)", 1e-3,
                   chosen.how.workspace),
        ex::a_text("--write FILE", "keep what was found", chosen.file),
+       ex::a_text("--json FILE", "write the description that a composition takes", chosen.json),
        ex::a_text("--read FILE", "show what was kept, and measure nothing", chosen.read),
        ex::a_number("--study", "devices drawn at random: how often do the bounds hold?",
                     chosen.study),
@@ -104,7 +113,7 @@ int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop
   return ex::guarded("identify", [&] {
     const settings chosen = parse(arguments);
     if (chosen.study > 0) return run_study(chosen, stop);
-    if (!chosen.read.empty()) return show_file(chosen.read);
+    if (!chosen.read.empty()) return show_file(chosen.read, chosen.json);
     return identify_simulated(chosen, stop);
   });
 }

@@ -13,6 +13,7 @@ struct settings {
   std::string device = "Touch";  ///< simulated: a name of sim::all_presets
   double presliding = 15e-6;     ///< of its friction [m]
   std::string file;              ///< to write what was found; empty: none
+  std::string json;              ///< to write the description; empty: none
   std::string read;              ///< a file to read instead
   std::string out = "identify";  ///< folder of the study
   int study = 0;                 ///< devices; 0: no study

@@ -21,6 +21,7 @@ GUIDE = [
     ("docs/guarantees.md", "guarantees"),
     ("docs/errors.md", "errors"),
     ("docs/troubleshooting.md", "troubleshooting"),
+    ("docs/events.md", "events"),
 ]
 TITLES = {"README.md": "passive_haptics"}
 LANGUAGES = {".cpp": "cpp", ".hpp": "cpp", ".h": "c", ".c": "c", ".py": "py", ".cs": "cs"}

@@ -6,10 +6,12 @@
 //   axis_identification.hpp    tick(position, dt) → force, then result(): one axis, in yours
 //   axis_found.hpp             the bounds, and stated(), what a promise may rest on
 //   describe.hpp               a table, the composition to paste, its stiffness budget
-//   identification_file.hpp    save(), load()
+//   identification_file.hpp    save(), load(): what was found
+//   device_file.hpp            save_device(), load_device(): what a composition is told, in JSON
 //
 // The method, what it has been tried on and what it cannot find: docs/design/identification.md.
 
 #include <passive_haptics/identification/describe.hpp>
+#include <passive_haptics/identification/device_file.hpp>
 #include <passive_haptics/identification/identification_file.hpp>
 #include <passive_haptics/identification/identify.hpp>

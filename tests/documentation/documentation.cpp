@@ -4,6 +4,7 @@
 // The quick start is tried by quick_start.cmake.
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
+#include <passive_haptics/base/event.hpp>
 #include <passive_haptics/version.hpp>
 
 #include <algorithm>
@@ -98,6 +99,33 @@ TEST_CASE("the code of every page stands in the file that it names", "[documenta
     compared += code.size();
   }
   CHECK(compared > 12);
+}
+
+TEST_CASE("the page of events has a row for each, with its number", "[documentation]") {
+  const auto rows = [](const std::string& page) {
+    std::istringstream lines(page.substr(page.find("<!-- events -->")));
+    std::vector<std::string> all;
+    const std::regex row(R"(\| `([a-z_]+)` \| ([0-9]+) \| [^|]+ \| [^|]+ \| .*\|)");
+    std::smatch cells;
+    for (std::string line; std::getline(lines, line) && (line.empty() || line[0] != '#');) {
+      if (std::regex_match(line, cells, row)) all.push_back(cells[2].str() + " " + cells[1].str());
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  std::vector<std::string> known;
+  for (int i = 0;; ++i) {
+    std::string text = to_string(static_cast<passive_haptics::event>(i));
+    if (text == "unknown event") break;
+    std::replace(text.begin(), text.end(), ' ', '_');
+    known.push_back(std::to_string(i) + " " + text);
+  }
+  std::sort(known.begin(), known.end());
+  CHECK(known.size() == 15);
+  std::string page = text_of(root / "docs" / "events.md");
+  CHECK(rows(page) == known);
+  page.erase(page.find("| `debt`"), 3);
+  CHECK(rows(page) != known);  // the control
 }
 
 TEST_CASE("the tutorial's figures are what its programs print", "[documentation]") {

@@ -249,3 +249,19 @@ TEST_CASE("what the catalogue knows is written, and what it does not is asked fo
   CHECK(loaded.fault.empty());
   CHECK(same(loaded.of, touch));
 }
+
+TEST_CASE("what was identified is described by what was seen", "[device_file]") {
+  device_found<1> found{.force_limit = 3.0};
+  found.axes[0] = {.mass = 0.1, .damping = 0.05, .latency = 1, .longest_tick = 1e-3};
+  const auto smooth = described(found, "grip", 5.0);
+  CHECK(std::get<ph::exact_device>(smooth.device).latency == 1);
+  CHECK(read_text(device_text(smooth)).fault.empty());
+  found.axes[0].quantum = 3e-5;
+  found.axes[0].friction = 0.1;
+  found.axes[0].presliding = 1e-5;
+  const auto stepped = described(found, "grip", 5.0);
+  CHECK(std::get<ph::encoder_device>(stepped.device).presliding == 1e-5);
+  const auto loaded = read_text(device_text(stepped));
+  CHECK(loaded.fault.empty());
+  CHECK(same(loaded.of, stepped));
+}

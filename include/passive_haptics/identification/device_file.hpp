@@ -352,6 +352,20 @@ class device_reader {
   return {};
 }
 
+/// What was found of a device: with encoders, if their steps were seen. One that turns is to be told so.
+template <int Dof>
+[[nodiscard]] device_description described(const device_found<Dof>& found, const std::string& name,
+                                           double hand_force = 0.0) {
+  const encoder_device d = found.stated();
+  if (d.quantum > 0.0) return {name, d, hand_force};
+  return {name,
+          exact_device{.mass = d.mass,
+                       .damping = d.damping,
+                       .force_limit = d.force_limit,
+                       .longest_tick = d.longest_tick,
+                       .latency = d.latency},
+          hand_force};
+}
 /// What the catalogue knows of a device, to be completed: what nobody publishes is left out of its text, and a reader
 /// asks for it by name. A wall is to rest on half of the mass and the friction that a data sheet has.
 [[nodiscard]] inline device_description described(const design::device_facts& facts) {
