@@ -165,10 +165,10 @@ template <class Limits>
 }
 }  // namespace detail
 
-/// One surface: touch.update(plane), touch.tick(sample). Its normal turns by at most `turn_rate` [rad/s]. On
-/// encoders it is no stiffer than what dry friction pays for, so that it lasts; without dry friction nothing does,
-/// and check() refuses `most`. E ≥ 0 as long as the device and the hand are as they were stated and there is no
-/// fault, on encoders E ≥ −½ c p.
+/// One surface: touch.update(plane), touch.tick(sample). Its normal turns as news go on turning it, and makes up for
+/// the rest by at most `turn_rate` [rad/s]. On encoders it is no stiffer than what dry friction pays for, so that it
+/// lasts; without dry friction nothing does, and check() refuses `most`. E ≥ 0 as long as the device and the hand are
+/// as they were stated and there is no fault, on encoders E ≥ −½ c p.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
           detail::described Device = exact_device, detail::stated_hand Hand = known_hand>
 [[nodiscard]] constexpr auto make_touch(const Device& device, const Hand& hand,

@@ -218,6 +218,53 @@ TEST_CASE("a sphere that beats under a device that slides does not step either",
   CHECK(largest_step(damper) > 0.2);  // the control
 }
 
+TEST_CASE("a normal that news go on turning is felt as it is by now, not as it was told",
+          "[contact]") {
+  // A sphere that breathes, told as its tangent planes, under a device that slides to and fro
+  const auto stroked = [](const auto& law, const auto& normals, double hertz, int each) {
+    ph::local_model model{d3{},
+                          ph::followed<ph::half_space<d3>>{},
+                          normals,
+                          law,
+                          thesis_ledger(),
+                          ph::no_bound{},
+                          thesis_loop};
+    felt result;
+    d3::vector last = d3::zero();
+    const int ticks = 4000;
+    for (int n = 0; n < ticks; ++n) {
+      const double t = 1e-3 * n, angle = 0.35 * std::sin(6.283 * hertz * t);
+      const double radius = 0.04 + 1e-3 * std::sin(4.4 * t);
+      const d3::vector out(std::sin(angle), 0.0, std::cos(angle));
+      const d3::vector on = radius * out, x = 0.037 * out;
+      if (n % each == 0) REQUIRE(model.update({on, out, 1000.0}));
+      const d3::vector force = model.tick(x, 1ms).force;
+      const d3::vector truth = 1000.0 * (radius - 0.037) * out;
+      if (n >= 1000) {
+        result.rms += (force - truth).squaredNorm() / (ticks - 1000);
+        result.largest_step = std::max(result.largest_step, (force - last).norm());
+      }
+      last = force;
+    }
+    result.rms = std::sqrt(result.rms);
+    return result;
+  };
+  const ph::turn_limited turning{.rate = 2.0};
+  for (const double hertz : {0.4, 0.8}) {
+    for (const int each : {10, 33}) {
+      CAPTURE(hertz, each);
+      const felt smooth = stroked(ph::eased{ph::spring{}}, turning, hertz, each);
+      const felt bare = stroked(ph::spring{}, ph::turn_at_once{}, hertz, each);
+      CHECK(smooth.rms < 0.25 * bare.rms);
+      CHECK(smooth.largest_step < 0.02);
+      CHECK(bare.largest_step > 0.03);
+      // The control: news that are not taken on are late by the time between them, turned or not.
+      const ph::eased late{ph::spring{}, ph::news_pace{.ahead = 0.0}};
+      CHECK(stroked(late, turning, hertz, each).rms > 0.5 * bare.rms);
+    }
+  }
+}
+
 TEST_CASE("eased forgets at a reset, and changes live", "[contact]") {
   auto model = touching(ph::eased{damper});
   REQUIRE(model.update({0.0, 1.0, 1000.0}));

@@ -9,11 +9,12 @@
 //                0.8 s, so that ρ and u together are no faster than max(R_usual/K, 4/3 |u|)
 //                p grows by u dt for the time P, but not longer than `ahead`; where no news have come for twice
 //                as long, the surface may have stopped, and p is made up for as ℓ is
+//                the own normal turns by ω dt as long as p grows, and towards the newest one, so turned, at its rate
 //
-// ℓ₀ is the lag [m] at the last news, P the time [s] that news usually take and u [m/s] how fast they move the
-// surface where the device is: as fast as the last ones, but not more than twice as fast as those before, and
-// not at all if those went the other way. So a surface that jumps once is not thrown further, and one that
-// goes on is not late. Source: docs/design/contacts.md § 6.
+// ℓ₀ is the lag [m] at the last news, P the time [s] that news usually take, u [m/s] and ω [1/s] how fast they move
+// and turn the surface where the device is: as fast as the last ones, but not more than twice as fast as those before,
+// and not at all if those went the other way. So a surface that jumps once is not thrown further, and one that goes on
+// is not late. Source: docs/design/contacts.md § 6.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -93,6 +94,16 @@ class lag {
   /// Nothing is left to make up for, and nothing moves.
   [[nodiscard]] constexpr bool settled() const noexcept { return settled_; }
 
+  /// For how long the last news have been taken on with [s], and whether they still are; 0 where it may have stopped.
+  [[nodiscard]] constexpr Scalar taken_on() const noexcept {
+    return silent() ? Scalar(0) : kernels::smaller(since_, ahead_);
+  }
+  [[nodiscard]] constexpr bool taking_on() const noexcept { return since_ < ahead_; }
+  /// No news when there should have been some.
+  [[nodiscard]] constexpr bool silent() const noexcept { return since_ > Scalar(2) * ahead_; }
+  /// Since the last news [s].
+  [[nodiscard]] constexpr Scalar since() const noexcept { return since_; }
+
   /// Time goes by [s].
   constexpr void grow_older(Scalar dt) noexcept { since_ += dt; }
   /// And what is not settled follows.
@@ -105,8 +116,8 @@ class lag {
     }
     if (since_ <= ahead_) {
       lead_ += goes_on_ * dt;
-    } else if (since_ > Scalar(2) * ahead_) {
-      behind_ -= lead_;  // no news when there should have been some: it may have stopped
+    } else if (silent()) {
+      behind_ -= lead_;
       lead_ = goes_on_ = Scalar(0);
     }
     settled_ = behind_ == Scalar(0) && goes_on_ == Scalar(0);
@@ -152,6 +163,52 @@ class lag {
   Scalar usual_{}, ahead_{};         ///< P, and for how long p grows [s]
   Scalar since_{};                   ///< since the last news [s]
   bool settled_ = true;
+};
+
+/// ω, the turn of a normal that two news in a row have shown: the newer, but not more than twice the older, and none
+/// where they turn opposite ways. In one dimension nothing turns.
+template <class Space, bool = (Space::dof > 1)>
+class turning {
+ public:
+  using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
+
+  [[nodiscard]] constexpr bool still() const noexcept {
+    return vector(believed_) == vector(Space::zero());
+  }
+  /// A unit normal, turned for a time [s].
+  [[nodiscard]] constexpr vector turned(const vector& normal, scalar time) const noexcept {
+    if (still()) return normal;
+    const vector further = normal + vector(believed_) * time;
+    const scalar length = Space::norm(further);
+    return length > scalar(0) ? vector(further / length) : normal;
+  }
+  /// News have turned the normal by `swung`, a difference of unit vectors, within `took` [s].
+  constexpr void hear(const vector& swung, scalar took) noexcept {
+    const vector newer = swung / took, older = last_;
+    const scalar square = Space::dot(newer, newer), most = scalar(4) * Space::dot(older, older);
+    last_ = newer;
+    believed_ = Space::zero();
+    if (!(Space::dot(newer, older) > scalar(0)) || !kernels::is_finite(square)) return;
+    believed_ =
+        square <= most ? newer : vector(newer * kernels::square_root(scalar(most / square)));
+  }
+  constexpr void stop() noexcept { believed_ = Space::zero(); }
+
+ private:
+  typename Space::coordinates believed_ = Space::zero(), last_ = Space::zero();  ///< [1/s]
+};
+template <class Space>
+class turning<Space, false> {
+  using scalar = typename Space::scalar;
+
+ public:
+  [[nodiscard]] static constexpr bool still() noexcept { return true; }
+  [[nodiscard]] static constexpr scalar turned(scalar normal, scalar /*time*/) noexcept {
+    return normal;
+  }
+  static constexpr void hear(scalar /*swung*/, scalar /*took*/) noexcept {}
+  static constexpr void stop() noexcept {}
 };
 
 }  // namespace v0

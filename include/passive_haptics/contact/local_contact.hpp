@@ -147,6 +147,7 @@ class local_contact {
     detail::restart(law_);
     beside_ = {};
     lag_ = {};
+    turn_ = {};
   }
 
   /// T [s] or a parameter is another: the same surface is as stiff as they let it be, where a command is held
@@ -364,7 +365,7 @@ class local_contact {
       scalar now, [[maybe_unused]] const vector& x, [[maybe_unused]] const auto& port) noexcept {
     if constexpr (eases) {
       lag_.grow_older(port.dt);
-      if (fresh() || !lag_.settled()) [[unlikely]] {
+      if (fresh() || lags()) [[unlikely]] {
         return depth_behind(now, x, port);
       }
     }
@@ -373,9 +374,11 @@ class local_contact {
   [[nodiscard, gnu::noinline]] constexpr scalar depth_behind(scalar now, const vector& x,
                                                              const auto& port) noexcept {
     if (!lag_.settled()) lag_.follow(port.dt);
+    if (lag_.silent()) turn_.stop();
     if (fresh()) hear(now, x, port);
     const scalar own = now - lag_.offset();
     if (own > scalar(0) || now > scalar(0)) return own;
+    turn_.stop();
     lag_.let_go();  // neither is touched, so no force can step
     return now;
   }
@@ -392,6 +395,8 @@ class local_contact {
     if (own > scalar(0) && !(as_stiff && counted == scalar(1))) {
       own = law_.depth(counted * before.force(own, scalar(0)), scalar(0));
     }
+    turn_.hear(known ? vector(supply_.target().at(x).outward() - was.outward()) : Space::zero(),
+               lag_.since());
     lag_.hear(own, now, known ? now - was.depth : scalar(0), compliance, law_.pace());
   }
   /// What vanishes takes its force along at a limited rate, too.
@@ -406,7 +411,7 @@ class local_contact {
     return weight;
   }
   [[nodiscard]] constexpr bool lags() const noexcept {
-    if constexpr (eases) return !lag_.settled();
+    if constexpr (eases) return !lag_.settled() || !turn_.still();
     return false;
   }
   /// Remembers whether x is now behind the surface but outside its edges, and returns whether it was so in
@@ -444,7 +449,12 @@ class local_contact {
                                                             scalar dt) const noexcept {
     if constexpr (Supply::moves) {
       if (touched && !supply_.together()) {
-        return normals_.step(supply_.local().at(x).outward(), goal, dt);
+        vector own = supply_.local().at(x).outward(), towards = goal;
+        if constexpr (eases) {
+          towards = turn_.turned(goal, lag_.taken_on());
+          if (lag_.taking_on()) own = turn_.turned(own, dt);
+        }
+        return normals_.step(own, towards, dt);
       }
     }
     return goal;
@@ -467,6 +477,7 @@ class local_contact {
   struct no_lag {};
   struct no_surface {};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, lag<scalar>, no_lag> lag_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, turning<Space>, no_lag> turn_{};
   /// The target of the last tick, for what is new.
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, constraint_type, no_surface> shown_{};
 };

@@ -119,7 +119,7 @@ typedef struct ph_parameters {
   double quantum;     ///< step of the positions, noise included [m]
   double continuous_force;  ///< what the motors hold for ever [N]; 0: force_limit
   double winding_time;      ///< time constant with which they warm, if that is less [s]
-  double turn_rate;         ///< how fast the contact normal turns at most [rad/s]; 0: 2
+  double turn_rate;         ///< how fast the normal makes up for news at most [rad/s]; 0: 2
   double stale_after;  ///< age up to which news counts in full [s]; 0: planes for ever, forces 0.1
   double top_speed;    ///< faster than this is a sensor fault [m/s]; 0: 5
   double workspace;    ///< farther from the origin is no position of the device [m]; 0: 2
