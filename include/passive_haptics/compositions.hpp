@@ -5,8 +5,8 @@
 //   make_touch<Space>(device, hand)               a surface that the environment publishes
 //   make_contacts<Space>(device, hand, slots…)    several: a corner, a groove, surfaces that come and go
 //   make_guard<Space>(device, hand)               your own force, or a renderer's: it settles, and stays stiff
-//   make_detents<Space>(device, hand, {…})        a knob or a slider: detents and end stops
 //   make_tool(device, hand, slots…)               six degrees of freedom: six_dof.hpp
+//   make_detents<Space>(device, hand, {…})        detents and end stops: knob.hpp, a companion
 //
 // `device` is an exact_device, whose positions are taken for exact, or an encoder_device, whose steps are felt
 // and whose dry friction pays for them (design/described_device.hpp). `hand` is a known_hand, for conditional
@@ -22,7 +22,6 @@
 #include <passive_haptics/contact/capped.hpp>
 #include <passive_haptics/contact/contact_set.hpp>
 #include <passive_haptics/contact/damped_spring.hpp>
-#include <passive_haptics/contact/detents.hpp>
 #include <passive_haptics/contact/eased.hpp>
 #include <passive_haptics/contact/settled_force.hpp>
 #include <passive_haptics/design/stiffness_budget.hpp>
@@ -221,24 +220,6 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
                       detail::eyes_of(device)};
 }
 
-/// Detents and end stops: port.tick(sample). As stiff as dry friction pays for, and as comes to rest.
-///     auto knob = ph::make_detents<ph::space<float, 1>>(device, hand, {.pitch = 0.26, .stiffness = 0.1});
-template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
-          detail::stated_hand Hand = known_hand>
-[[nodiscard]] constexpr auto make_detents(const Device& device, const Hand& hand,
-                                          detents shape) noexcept {
-  shape.rest.mass = device.mass;
-  shape.rest.force_limit = device.force_limit;
-  shape.rest.softens = false;  // what is shown is known
-  shape.most = kernels::smaller(shape.most, detail::budget_of(device, hand, Limits::latency));
-  return passive_port{Space{},
-                      shape,
-                      detail::sums_of(device, hand),
-                      detail::bounds_of(device, hand),
-                      detail::limits_of<Limits>(device),
-                      detail::eyes_of(device)};
-}
-
 // What they return, for members of a class.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
           class Device = exact_device, class Hand = known_hand>
@@ -249,9 +230,6 @@ using encoder_touch = touch<Space, Constraint, Limits, encoder_device, Hand>;
 template <class Space, class Limits = loop_limits, class Device = exact_device,
           class Hand = known_hand>
 using force_guard = decltype(make_guard<Space, Limits>(Device{}, Hand{}));
-template <class Space, class Limits = loop_limits, class Device = exact_device,
-          class Hand = known_hand>
-using knob = decltype(make_detents<Space, Limits>(Device{}, Hand{}, detents{}));
 
 /// The one for a port of any kind, joints among them, of which only the damping and the motors are known
 /// (actuator_limit, motor_limits): strict, so it is soft while the ledger is empty, 2b/T pressed slowly.

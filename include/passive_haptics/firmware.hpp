@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// For firmware: the core without Eigen in one include, make_touch, make_guard and make_detents (compositions.hpp)
-// among it, and a space that insists on its FPU.
+// For firmware: the core without Eigen in one include, make_touch and make_guard among it, and a space that
+// insists on its FPU. Detents: knob.hpp beside it.
 //
 //   hardware_space<float, 1>   space<float, 1>, if the FPU computes floats
 //   space<float, 1>            the same without that question: for cores that compute in software

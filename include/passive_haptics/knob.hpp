@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A knob or a slider, from the facts of its device: detents and end stops, which come to rest. No Eigen, and as fit
+// for firmware as firmware.hpp is.
+//
+//     constexpr ph::exact_device motor{.mass = 5e-5, .damping = 1e-3, .force_limit = 0.2,   // kg·m², N·m·s/rad, N·m
+//                                      .longest_tick = 1e-3, .rotary = true};
+//     auto knob = ph::make_detents<ph::space<float, 1>>(motor, {.force = 0.15}, {.pitch = 0.26, .stiffness = 0.1});
+
+#include <passive_haptics/compositions.hpp>
+#include <passive_haptics/knob/detents.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// port.tick(sample). A stiffness is shown as far as it comes to rest and, on encoders, as dry friction pays for:
+/// port.explain() says how far. E ≥ 0 as of make_guard.
+template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
+          detail::stated_hand Hand = known_hand>
+[[nodiscard]] constexpr auto make_detents(const Device& device, const Hand& hand,
+                                          detents shape) noexcept {
+  shape.rest.mass = device.mass;
+  shape.rest.force_limit = device.force_limit;
+  shape.rest.softens = false;  // what is shown is known
+  shape.most = kernels::smaller(shape.most, detail::budget_of(device, hand, Limits::latency));
+  return passive_port{Space{},
+                      shape,
+                      detail::sums_of(device, hand),
+                      detail::bounds_of(device, hand),
+                      detail::limits_of<Limits>(device),
+                      detail::eyes_of(device)};
+}
+
+/// What it returns, for members of a class.
+template <class Space, class Limits = loop_limits, class Device = exact_device,
+          class Hand = known_hand>
+using knob = decltype(make_detents<Space, Limits>(Device{}, Hand{}, detents{}));
+
+}  // namespace v0
+}  // namespace passive_haptics
