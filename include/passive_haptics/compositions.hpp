@@ -50,9 +50,8 @@ struct known_hand {
 
   /// What can be, and is surely a slip, on a device whose motors hold `force_limit` [N].
   [[nodiscard]] constexpr parameter_fault doubt(double force_limit) const noexcept {
-    if (force > 300.0) return {"force", force, "what a hand pushes with: below 300 N"};
-    if (!(force > 0.02 * force_limit)) return {"force", force, "> 2 % of what the motors hold"};
-    return {};
+    if (force > 0.02 * force_limit && force < 300.0) return {};
+    return {"force", force, "above 2 % of what the motors hold, and below 300 N"};
   }
 };
 /// The same, and nobody looks: a kilobyte and 3 % of a tick less.

@@ -97,9 +97,8 @@ struct explanation {
                "presses or moves. If this lasts, mass, damping or hand force are not what was "
                "stated, or the longest tick is too long.";
       case softened_by::started_inside:
-        return "The device was inside when the surface came, and nothing has been paid in that "
-               "could "
-               "push it out: move it, start outside, or state a loan.";
+        return "It was inside when the surface came, and nothing has been paid in to push it out: "
+               "move it, start outside, or state a loan.";
       case softened_by::forces_off:
         return "The forces are off: enable_forces(true) switches them on.";
     }

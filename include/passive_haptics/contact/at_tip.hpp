@@ -61,9 +61,6 @@ class at_tip<Source>::on {
     detail::tell(source_, longest_tick, late);
   }
   constexpr void reset() noexcept { detail::restart(source_); }
-  constexpr void vanish() noexcept {
-    if constexpr (requires { source_.vanish(); }) source_.vanish();
-  }
   template <class Parameters>
   static constexpr int takers = detail::takers<Parameters, Source, space>;
   template <class Parameters>

@@ -128,12 +128,6 @@ class contact_engine {
     return slots_.template slot<Surface>(i);
   }
 
-  /// Nothing was felt for a while: what is there is met anew.
-  constexpr void vanish() noexcept {
-    let_go();
-    slots_.for_each([](auto& slot, std::size_t) { slot.asleep = slot.vanish(); });
-    asked_ = Port::zero();
-  }
   /// How stiff the contact that presses most is shown, or the first that is there; the device is a point at x.
   constexpr void explain(explanation& e, const vector& x, scalar /*T*/, int /*late*/) const noexcept
       requires(frame::naps) {
@@ -225,6 +219,11 @@ class contact_engine {
   }
   constexpr result_type refused(const port_result<Port>& port, scalar dt) noexcept {
     slots_.for_each([&](auto& slot, std::size_t) { slot.grow_older(dt, pace_); });
+    if (port.what == event::forces_off) {
+      let_go();
+      slots_.for_each([](auto& slot, std::size_t) { slot.asleep = slot.vanish(); });
+      asked_ = Port::zero();
+    }
     return {port.force, scalar(0), port.energy, port.what, false};
   }
 

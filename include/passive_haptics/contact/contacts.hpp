@@ -56,11 +56,10 @@ class contacts<Sources...>::on {
   /// A new effort for the one of them that takes one: port.tick(sample, wanted) gives it.
   constexpr bool update(const vector& wanted) noexcept
       requires((int(detail::takes_efforts<part_at<Sources, Space>, Space>) + ...) == 1) {
-    bool taken = false;
-    for_each(*this, [&]<class Source>(Source& source) {
-      if constexpr (detail::takes_efforts<Source, Space>) taken = source.update(wanted);
+    for_each(*this, [&](auto& source) {
+      if constexpr (requires { source.update(wanted); }) source.update(wanted);
     });
-    return taken;
+    return Space::is_finite(wanted);
   }
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -75,11 +74,6 @@ class contacts<Sources...>::on {
   }
   constexpr void reset() noexcept {
     for_each(*this, [](auto& source) { detail::restart(source); });
-  }
-  constexpr void vanish() noexcept {
-    for_each(*this, [](auto& source) {
-      if constexpr (requires { source.vanish(); }) source.vanish();
-    });
   }
 
   template <class Parameters>

@@ -158,10 +158,6 @@ class local_contact {
     }
   }
 
-  /// It was not felt for a while: the newest surface is met anew.
-  constexpr void vanish() noexcept {
-    if constexpr (Supply::moves) supply_.vanish();
-  }
   /// How stiff the surface is shown to a device at x, in ticks of T [s] whose commands are held `late` ticks
   /// after they were given.
   constexpr void explain(explanation& e, const vector& x, scalar T, int late) const noexcept {
@@ -297,7 +293,10 @@ class local_contact {
 
   /// A tick that nobody could believe, of length dt [s].
   constexpr result_type refused(const port_result<Space>& port, scalar dt) noexcept {
-    if constexpr (Supply::moves) supply_.grow_older(dt);
+    if constexpr (Supply::moves) {
+      supply_.grow_older(dt);
+      if (port.what == event::forces_off) supply_.vanish();
+    }
     if constexpr (eases) lag_.grow_older(dt);
     return {port.force, scalar(0), port.energy, port.what, false};
   }

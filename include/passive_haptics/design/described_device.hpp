@@ -111,14 +111,10 @@ constexpr parameter_fault encoder_device::check() const noexcept {
 }
 constexpr parameter_fault encoder_device::doubt() const noexcept {
   if (const auto fault = detail::doubt_of_any(*this)) return fault;
-  if (friction > 0.5 * force_limit) {
-    return {"friction", friction, "below half of force_limit: the motors hardly move it"};
-  }
   const double felt = rotary ? 0.1 : 2e-3;
-  if (quantum > felt) return {"quantum", quantum, "in m: below 2 mm, 0.1 rad of what is rotary"};
-  if (friction > 0.0 && presliding > felt) {
-    return {"presliding", presliding, "in m: below 2 mm, 0.1 rad of what is rotary"};
-  }
+  if (quantum > felt) return {"quantum", quantum, "≤ 2 mm, or 0.1 rad"};
+  if (friction > 0.0 && presliding > felt) return {"presliding", presliding, "≤ 2 mm, or 0.1 rad"};
+  if (friction > 0.5 * force_limit) return {"friction", friction, "≤ half of force_limit"};
   return {};
 }
 

@@ -314,9 +314,8 @@ namespace detail {
 /// What is to be said of a contact that was cut short: a start inside, if nothing was paid in, and nothing is left.
 template <class P>
 [[nodiscard]] constexpr event cut_short(const port_result<P>& port) noexcept {
-  if (port.energy > typename P::scalar(0)) [[likely]]
-    return port.what;
-  return port.force == P::zero() ? worse(port.what, event::started_inside) : port.what;
+  const bool nothing = !(port.energy > typename P::scalar(0)) && port.force == P::zero();
+  return nothing ? worse(port.what, event::started_inside) : port.what;
 }
 /// Does the result of a source say how deep the contact is?
 template <class R>

@@ -162,15 +162,14 @@ class passive_port {
     begin();
   }
 
-  /// Says that the driver drops all forces, as with motors off or an emergency stop: before it does, or with samples
-  /// that report what is held. Until true is said, ticks answer event::forces_off and force zero, and the ledger waits:
-  /// the last effort is written off as in a lost sample, and no motion is paid for. reset() and set() leave the forces
-  /// off. A surface is then met anew, at the pace of news; an effort of your own is back at once.
+  /// Says that the driver drops all forces, as with motors off. Until it is said that they are on, ticks answer
+  /// event::forces_off and force zero, and the ledger waits: the last effort is written off as in a lost sample, and no
+  /// motion is paid for. Then surfaces are met anew, an effort of your own is back at once (docs/events.md).
   constexpr void enable_forces(bool on) noexcept {
     if (!on && stopped_ <= event::rejected_parameters) stopped_ = event::forces_off;
     if (!on || stopped_ != event::forces_off) return;
     stopped_ = event::nominal;
-    if constexpr (requires { source_.vanish(); }) source_.vanish();
+    static_cast<void>(source_.refused({P::zero(), energy(), event::forces_off, false}, scalar(0)));
     begin();
   }
 
