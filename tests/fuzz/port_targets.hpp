@@ -123,14 +123,18 @@ template <class P, class Port>
 const char* run(Port& port, numbers& in, limits_of<P>& most, double force, auto&& tell) noexcept {
   using S = typename P::scalar;
   sampler<P> device;
+  bool off = false;
   for (int n = 0; n < 300 && !in.empty(); ++n) {
     const unsigned op = in.one();
     if (op >= 224) {
       tell(op);
     } else if (op == 223) {
       port.reset();
+    } else if (op == 221 || op == 222) {
+      off = op == 221;
+      port.enable_forces(!off);
     }
-    const bool sound = !port.check();
+    const bool sound = !port.check() && !off;
     const auto sample = device.next(in, op, op % 3 == 0 ? 1e-2 : 2e-4, force);
     typename P::effort got = P::zero();
     if constexpr (requires(typename P::effort w) { port.tick(sample, w); }) {
@@ -141,7 +145,8 @@ const char* run(Port& port, numbers& in, limits_of<P>& most, double force, auto&
       got = port.tick(sample).force;
     }
     if (const char* broken = most.broken_by(got)) return broken;
-    if (!sound && !(got == P::zero())) return "a force of a port that check() refuses";
+    if (!sound && !(got == P::zero()))
+      return "a force of a port that check() refuses, or that is off";
   }
   return nullptr;
 }

@@ -6,6 +6,8 @@
 #include <passive_haptics/simulation/device.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 
 namespace sim = ph::simulation;
 using Catch::Matchers::WithinRel;
@@ -160,4 +162,45 @@ TEST_CASE("to switch forces off and on mends nothing else", "[port]") {
   touch.enable_forces(false);
   touch.enable_forces(true);
   CHECK(touch.tick(0.0, 1ms).what == event::wrong_sign);
+}
+
+namespace {
+
+/// The least energy at the port of a finger that presses and rocks on a wall which heaves, while the motors go off and
+/// on at random, each time by themselves, in the midst of a session. Nobody `tells`, or the port is told a tick later.
+template <class Port>
+double least_energy(Port port, bool tells, unsigned seed) {
+  std::minstd_rand random(seed);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  sim::device<d1, sim::impedance_hand<d1>> axis({.mass = 0.1, .damping = 0.1, .start = 0.01},
+                                                {.stiffness = 600, .damping = 0.5, .limit = 5.0});
+  auto sample = axis.exchange(0.0);
+  bool on = true;
+  for (int n = 0; n < 20000; ++n) {
+    if (n % 33 == 0) (void)port.update({6e-3 * std::sin(3e-3 * n), 1.0, 3000.0});
+    axis.hand().target = 8e-3 * std::sin(0.02 * n) - 2e-3;
+    const bool was_on = on;
+    if (share(random) < 0.02) on = !on;
+    if (tells && (n > 0) && was_on != on && on) port.enable_forces(true);
+    const double force = port.tick(sample.position, 1ms).force;
+    if (!on && was_on) {  // it drops this force at once, and the port hears of it after the tick
+      if (tells) port.enable_forces(false);
+    }
+    sample = axis.exchange(on ? force : 0.0);
+  }
+  return axis.meter().minimum();
+}
+
+}  // namespace
+
+TEST_CASE("motors that go off by themselves create nothing, if they are told of within a tick",
+          "[port]") {
+  constexpr ph::exact_device light{.mass = 0.1, .damping = 0.1, .force_limit = 9.0};
+  double untold = 0.0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    CHECK(least_energy(ph::make_touch<d1>(light, ph::any_hand), true, seed) > -1e-12);
+    CHECK(least_energy(ph::make_touch<d1>(light, hand), true, seed) > -1e-12);
+    untold = std::min(untold, least_energy(ph::make_touch<d1>(light, ph::any_hand), false, seed));
+  }
+  CHECK(untold < -1e-3);  // the control
 }
