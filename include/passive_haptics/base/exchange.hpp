@@ -25,11 +25,9 @@ namespace detail {
 /// Who may touch which of four slots, two pairs of two: H. R. Simpson, Four-slot fully asynchronous
 /// communication mechanism, IEE Proceedings E 137 (1990) 17-30. `Word` is an atomic word.
 ///
-/// The writer fills the pair that the reader has not announced, and of that pair the slot that is not
-/// its newest. A writer that missed the announcement is in the reader's pair, but the reader goes to
-/// that pair's newest slot, so they still differ; every later writer sees it and goes to the other pair.
-/// That the announcement is stored before the newest slot is looked up is what this rests on: all words
-/// are sequentially consistent, so every run is an interleaving, and tests/base/exchange.cpp tries them all.
+/// The writer fills the pair that the reader has not announced, and of that pair the slot that is not its newest. It
+/// rests on the announcement being stored before the newest slot is looked up: all words are sequentially
+/// consistent, so every run is an interleaving, and tests/base/exchange.cpp tries them all.
 template <class Word>
 class four_slots {
  public:

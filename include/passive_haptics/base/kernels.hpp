@@ -133,9 +133,7 @@ template <real S>
 
 /// The part of a credit E1 [J] that may be spent although every step rounds, whichever way:
 ///     E1 (1 − 64ε) − min/ε,   ε and min the machine epsilon and the smallest normal number
-/// A force found from it has f²/(4B) ≤ E1 in exact arithmetic, in any direction, and after the worst motion
-/// against it, booked with sure_gain's margin, the ledger is not in debt. The proof counts roundings and
-/// holds for b ≥ 1e-13 N·s/m (docs/design/stability.md).
+/// The proof counts roundings and holds for b ≥ 1e-13 N·s/m (docs/design/stability.md).
 template <real S>
 [[nodiscard]] constexpr S spendable(S E1) noexcept {
   using limits = std::numeric_limits<S>;
@@ -172,9 +170,8 @@ template <real S>
   return dissipated - work - rounding<S>() * (dissipated + passed);
 }
 
-/// E + gain [J], rounded down, so that a ledger never grows by rounding: a float of 1 J would not notice
-/// 1e-8 J going out, tick after tick. The sum is exact to an ulp, or to an ulp of the gain where that is
-/// larger than E.
+/// E + gain [J], rounded down by an ulp at most, so that a ledger never grows by rounding: a float of 1 J would not
+/// notice 1e-8 J going out, tick after tick.
 template <real S>
 [[nodiscard]] constexpr S sum_rounded_down(S E, S gain) noexcept {
   const S sum = E + gain;
@@ -203,8 +200,7 @@ template <real S>
 
 /// The largest force F [N] with F s − B s² ≤ E1 for every 0 ≤ s ≤ δ:
 ///     δ ≤ 0: any force      δ < √(E1/B): E1/δ + B δ      else: √(4 B E1)
-/// rounded towards zero. The two branches meet where s = δ is itself the worst case (AM-GM), so it
-/// is continuous. (§ 2(a′))
+/// rounded towards zero. (§ 2(a′))
 template <real S>
 [[nodiscard]] constexpr S reachable_force_bound(S E1, S B, S reach) noexcept {
   if (!(reach > S(0))) return largest<S>();
@@ -215,8 +211,7 @@ template <real S>
   return strict_force_bound(E1, B);
 }
 
-/// max of f s − B s² over 0 ≤ s ≤ δ [J]: the most energy that force f [N] can hand to the user over
-/// an outward travel of at most δ [m]; f²/(4B) from δ = f/(2B) on. (L3 with a reach)
+/// max of f s − B s² over 0 ≤ s ≤ δ [J]: the most that f [N] can hand to the user over δ [m]. (L3 with a reach)
 template <real S>
 [[nodiscard]] constexpr S reachable_outflow(S f, S B, S reach) noexcept {
   if (!(reach > S(0)) || !(f > S(0))) return S(0);
@@ -224,8 +219,7 @@ template <real S>
   return f * reach - B * reach * reach;
 }
 
-/// max of η' − η'²/(4W) over 0 ≤ η' ≤ η [J]: the most that an effort of worst outflow W [J] can hand
-/// out when η [J] is the most work it can do; W itself from η = 2W on. (reachable_outflow in joules)
+/// max of η' − η'²/(4W) over 0 ≤ η' ≤ η [J], of an effort of worst outflow W [J]. (reachable_outflow in joules)
 template <real S>
 [[nodiscard]] constexpr S reachable_work(S W, S reach) noexcept {
   if (!(reach > S(0)) || !(W > S(0))) return S(0);
@@ -287,9 +281,8 @@ template <real S>
 [[nodiscard]] constexpr S unseen_arc(S L) noexcept {
   return L <= S(3.125) ? L * L * (S(0.25) + L / S(29)) : L + S(3.1875);
 }
-/// By how much the work that an effort of this norm can do grows from one tick to the next [J]: `before` and
-/// `last` are the norms of what is held in the two, each of length T, and `pushed` is that of all else that
-/// pushes. (η(j + 1) − η(j) of § 2(a′))
+/// η(j + 1) − η(j) of § 2(a′) [J]: `before` and `last` are the norms of what is held in the two ticks, `pushed` that of
+/// all else that pushes.
 template <real S>
 [[nodiscard]] constexpr S later_reach(S norm, S before, S last, S pushed, S T) noexcept {
   return norm * (before + last + S(2) * pushed) * T * T / S(2) * (S(1) + rounding<S>());
@@ -313,7 +306,7 @@ template <real S>
   return worst_outflow(F, damping_per_tick(b, T));
 }
 
-/// cos and sin of a turn, and the chord it spans on the unit circle.
+/// Of a turn, and of the chord that it spans on the unit circle.
 template <real S>
 struct turn {
   S cosine, sine, chord_squared;

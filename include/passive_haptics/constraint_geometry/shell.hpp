@@ -11,9 +11,8 @@
 // conservative, edges and corners included; a bare box turns it by 90° in one step. At depth d the slope of
 // the force is K along the normal and at most K d/(r − d) across it. With
 //     r ≥ 2 F_max/K        F_max the force of the motors: 1.8 mm for 9 N on 10 kN/m
-// the motors reach F_max at d ≤ r/2, and up to there the slope across is at most K, too. A hand that is
-// stronger than the motors goes deeper. In the core the nearest face pushes, so that there still is a depth
-// and a unit normal; that normal jumps where another face becomes the nearest.
+// the motors reach F_max at d ≤ r/2, and up to there the slope across is at most K, too. In the core the nearest
+// face pushes, so the normal jumps where another becomes the nearest.
 
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>

@@ -95,15 +95,13 @@ class contact_engine {
     if constexpr (std::same_as<Parameters, pursuit>) pace_ = decltype(pace_)(p);
     if constexpr (std::same_as<Parameters, Friction>) friction_ = decltype(friction_)(p);
   }
-  /// T [s] or a parameter is another: the same surfaces are as stiff as they let them be, where a command is
-  /// held `late` ticks after it was given.
+  /// T [s], the latency or a parameter is another: the same surfaces are as stiff as they let them be.
   constexpr void adopt(scalar T, int late) noexcept {
     news();
     spring_.adopt(T, late);
     slots_.for_each([&](auto& slot, std::size_t) { slot.adopt(spring_); });
   }
-  /// Does a surface of K [N/m] come to rest? Of planes at rest, one stiffness, a bound that does not cut: Theorem 3
-  /// of docs/design/mathematics.md § 9. The stiffness that is shown is what the sampling leaves of K.
+  /// Does a surface of K [N/m] come to rest, as stiff as it is shown? (settles() in sampled_spring.hpp)
   [[nodiscard]] constexpr bool settles(scalar K) const noexcept { return spring_.settles(K); }
   constexpr void reset() noexcept {
     slots_.for_each([](auto& slot, std::size_t) { slot.reset(); });
@@ -320,9 +318,8 @@ class contact_engine {
       press(slot.spring());
     });
   }
-  /// All slots are looked at once more: how long those that sleep have done so [s], > 0; else 0. What was
-  /// 2D deep outside has not come nearer than the others may press it while the device is within D, less what
-  /// they press: the proxy is no farther from the device than Σ λ_i c_i.
+  /// All slots are looked at once more: how long those that sleep have done so [s], > 0; else 0. What was 2D outside
+  /// cannot press while the device is within D, less Σ λ_i c_i, by which the proxy is off it.
   constexpr scalar time_to_look(const auto& now, scalar dt) noexcept {
     if constexpr (naps) {
       nap_.lasted += dt;
@@ -355,8 +352,7 @@ class contact_engine {
       if (slot.pressed() > scalar(0) && spring.stiffness > steepest_.stiffness) steepest_ = spring;
     });
   }
-  /// While there are news to make up for, what is asked changes by R dt and by what the motion may explain,
-  /// and no more; what it owes then falls by R dt in each tick, because no set is steeper than its coupling.
+  /// While there are news to make up for, what is asked changes by R dt and by what the motion may explain, no more.
   [[gnu::noinline]] constexpr row eased(const row& wanted, const row& way, bool chases,
                                         scalar dt) noexcept {
     news();

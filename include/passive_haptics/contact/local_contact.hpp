@@ -150,16 +150,14 @@ class local_contact {
     turn_ = {};
   }
 
-  /// T [s] or a parameter is another: the same surface is as stiff as they let it be, where a command is held
-  /// `late` ticks after it was given.
+  /// T [s], the latency or a parameter is another: the same surface is as stiff as they let it be.
   constexpr void adopt(scalar longest_tick, int late) noexcept {
     if (supply_.target().stiffness > scalar(0)) {
       detail::tell(law_, supply_.target().stiffness, longest_tick, late);
     }
   }
 
-  /// How stiff the surface is shown to a device at x, in ticks of T [s] whose commands are held `late` ticks
-  /// after they were given.
+  /// How stiff the surface is shown to a device at x, in ticks of T [s] and commands held `late` ticks later.
   constexpr void explain(explanation& e, const vector& x, scalar T, int late) const noexcept {
     if constexpr (Supply::moves) {
       if (!(supply_.weight() > scalar(0))) {
@@ -179,8 +177,7 @@ class local_contact {
     return scalar(1) / law_for(K, T, late).depth(scalar(1), scalar(0));
   }
 
-  /// Hands over the environment's newest constraint, from the haptic thread. False: it is unusable
-  /// and the last good one stays; the next tick says so too.
+  /// The environment's newest constraint. False: it is unusable, and the last good one stays.
   template <class Owner = Supply>
   requires(Owner::moves) constexpr bool update(const constraint_type& next) noexcept {
     if constexpr (eases) {
@@ -335,8 +332,7 @@ class local_contact {
     return true;
   }
 
-  /// How far the contact counts, in [0, 1]: 1 while the environment's news are fresh, less while a silent
-  /// environment fades, 0 before its first target.
+  /// How far the contact counts, in [0, 1]: less while a silent environment fades, 0 before its first target.
   [[nodiscard]] constexpr scalar presence([[maybe_unused]] scalar depth, scalar dt,
                                           event& what) noexcept {
     if constexpr (Supply::moves) {
@@ -413,8 +409,7 @@ class local_contact {
     if constexpr (eases) return !lag_.settled() || !turn_.still();
     return false;
   }
-  /// Remembers whether x is now behind the surface but outside its edges, and returns whether it was so in
-  /// the last tick: such a device has come from the side.
+  /// Was x behind the surface but outside its edges in the last tick? Such a device has come from the side.
   [[nodiscard]] constexpr bool pass_beside([[maybe_unused]] bool now) noexcept {
     if constexpr (Supply::moves) return std::exchange(beside_, now);
     return false;

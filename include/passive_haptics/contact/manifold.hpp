@@ -92,8 +92,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return rule_.check(); }
 
   /// All surfaces that there are now, in any order, for a contact_set whose device is at x [m]; ids as many as
-  /// surfaces, or none. A surface that is unusable is left out, but if its id is known, its slot keeps the last
-  /// good one; where x is no number, every surface is refused and the slots keep what they have.
+  /// surfaces, or none. One that is unusable is refused, and if its id is known, its slot keeps the last good one.
   template <class Source>
   constexpr manifold_news show(Source& source, std::span<const Surface> surfaces, const vector& x,
                                std::span<const id_type> ids = {}) noexcept {
@@ -243,8 +242,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
         choose<Where::apart>(now, next, surfaces.size() > cells, id_of(k), news);
       } else {
         ++news.refused;
-        for (std::size_t i = 0; i < cells;
-             ++i) {  // the slot of that id keeps its last good surface
+        for (std::size_t i = 0; i < cells; ++i) {
           now.kept[i] = now.kept[i] || (ids_[i] != no_id && ids_[i] == id_of(k));
         }
         where.refuse(source);

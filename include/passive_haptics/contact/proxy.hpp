@@ -75,8 +75,7 @@ class proxy_spring::at {
     const Scalar damping = rule_.critical(secant * rule_.mass());
     return sampled_spring<Scalar>::of(secant, kernels::smaller(s.settling * s.stiffness, damping));
   }
-  /// Does a surface of K [N/m] come to rest under this spring, in the ticks and with the latency that were adopted?
-  /// (settles() in sampled_spring.hpp)
+  /// Does a surface of K [N/m] come to rest under this spring? (settles() in sampled_spring.hpp)
   [[nodiscard]] constexpr bool settles(Scalar K) const noexcept {
     return detail::comes_to_rest(sampled(K), rule_.mass(), sampled_every_, late_);
   }

@@ -87,8 +87,7 @@ class pursuit::on {
   [[nodiscard]] constexpr scalar news(scalar dt) const noexcept { return force_rate_ * dt; }
   /// D: a surface is left alone until the device may come nearer to it than that [m].
   [[nodiscard]] constexpr scalar out_of_reach() const noexcept { return scalar(0.2) * speed_; }
-  /// ≥ 1: how many times faster than the turn rate a normal must turn, so that what the last news have turned it
-  /// by is made up for within t_c.
+  /// ≥ 1: how many times faster than the turn rate a normal must turn to make up for the last news within t_c.
   [[nodiscard]] constexpr scalar hurry_for(const vector& own, const vector& goal) const noexcept {
     const scalar angle = Space::norm(vector(goal - own));
     return kernels::larger(angle / catch_up_ * per_rate_, scalar(1));
@@ -249,8 +248,8 @@ class pursued {
       return scalar(0);
     }
   }
-  /// The own normal, carried along with the target's from where the device was to where it is; over an edge by
-  /// `most` [rad], of which what is not needed remains for what is left of the edge.
+  /// The own normal, carried along with the target's; over an edge by `most` [rad], of which what is not needed
+  /// remains for what is left of the edge.
   [[nodiscard]] constexpr vector along_the_target(
       const vector& before, [[maybe_unused]] const vector& goal, [[maybe_unused]] scalar& most,
       [[maybe_unused]] const pursuit::on<Space>& pace) noexcept {

@@ -75,8 +75,7 @@ class tool_spring::at {
   [[nodiscard]] constexpr Scalar yield(Scalar compliance) const noexcept {
     return kernels::larger(compliance * per_lever_, least_yield_);
   }
-  /// Does a surface of K [N/m] come to rest under this spring, in the ticks and with the latency that were adopted?
-  /// (settles() in sampled_spring.hpp)
+  /// Does a surface of K [N/m] come to rest under this spring? (settles() in sampled_spring.hpp)
   [[nodiscard]] constexpr bool settles(Scalar K) const noexcept {
     return detail::comes_to_rest(sampled(K), rule_.mass(), sampled_every_, late_);
   }

@@ -179,8 +179,7 @@ class settled_force::on : private part_at<given_force, P> {
     if (-rise * speed > steepest_ * dt * speed * speed) [[unlikely]]
       watched_ = long_enough;
   }
-  /// One tick was too steep, or one of the last 30 of motion: how steep is the renderer? What moves slower than
-  /// 1 mm/s says nothing of it.
+  /// How steep is the renderer? What moves slower than 1 mm/s says nothing of it.
   [[gnu::cold, gnu::noinline]] constexpr void look(const typename P::stored_effort& travel,
                                                    scalar dt) noexcept {
     const effort w = given::newest(), way = travel, change = P::difference(w, given_);

@@ -15,11 +15,9 @@
 // Pressing in gives Δx·n < 0, so −f·Δx > 0: the ledger grows. Leaving, it falls. (The thesis mixes
 // two conventions; docs/design/audit.md, A1-A3.)
 //
-// A space is also the port of a device that moves such a point (`translation`): its pose, its motion
-// and its effort are vectors of the space. A device that is told by its joints is a joint_space.
-//
-// One degree of freedom needs no vectors: space<Scalar, 1> computes with plain numbers, in constant
-// expressions too, and includes no Eigen. Two and three are in eigen_space.hpp.
+// A space is also the port of a device that moves such a point (`translation`). A device that is told by its joints
+// is a joint_space. space<Scalar, 1> computes with plain numbers, in constant expressions too, and includes no
+// Eigen; two and three dimensions are in eigen_space.hpp.
 
 #include <passive_haptics/base/kernels.hpp>
 

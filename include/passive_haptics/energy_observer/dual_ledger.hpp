@@ -31,9 +31,8 @@ inline namespace v0 {
 /// kept at once (friction_certificates.hpp). Without friction u = 0, and this is summation by parts.
 /// Theorem and proof: docs/design/mathematics.md § 6.
 ///
-/// The damper is credited besides, window by window, with the larger of two bounds: the sum of Δᵀ(b/dt)Δ over
-/// the ticks, with Δ the motion shown less qᵢ on each axis, and the same of the motion and the time of the
-/// whole window (lemma L1), which alone counts slow motions.
+/// The damper is credited besides, window by window: Δᵀ(b/dt)Δ, with Δ the motion shown less qᵢ on each axis, of its
+/// ticks or of the whole window (lemma L1), whichever is more. The latter alone counts slow motions.
 ///
 /// Where friction is elastic the ledger begins 5/2 c p below its loan and books that back as the device
 /// slips. Then E ≥ −½ c p − loan for ever; ½ c p is what the springs of the friction may hold at the start.
@@ -138,9 +137,9 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     return true;
   }
 
-  /// A tick passed and nobody saw the motion: the worst that `held` can have done is written off, and so is
-  /// what the friction counted on may hold back elastically. What is left is no less than a ledger without
-  /// a loan starts with, unless it was less before. forfeit(0, T) writes off the friction only.
+  /// A tick passed and nobody saw the motion: the worst that `held` can have done is written off, and what the
+  /// friction counted on may hold back, down to what a ledger without a loan starts with. forfeit(0, T) writes off the
+  /// friction only.
   /// One that can have done no more than `most` [J] costs no more than that.
   constexpr void forfeit(const effort& held, scalar T,
                          scalar most = std::numeric_limits<scalar>::infinity()) noexcept {

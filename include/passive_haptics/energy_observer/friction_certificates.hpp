@@ -58,9 +58,8 @@ class friction_certificates {
     }
   }
 
-  /// The held force changed by `change`, and the ledger has charged `doubt` [J] for it to all alike. The
-  /// certificate that follows changes its u along with the force and owes less, so it gets the difference
-  /// back.
+  /// The held force changed by `change`, and the ledger has charged `doubt` [J] for it to all alike. The certificate
+  /// that follows owes less and gets the difference back.
   constexpr void follow(const effort& change, scalar doubt, const auto& damping,
                         const auto& steps) noexcept {
     if (!(doubt > scalar(0))) return;
@@ -129,9 +128,8 @@ class friction_certificates {
     return kernels::larger(own, kernels::larger(worth(following_, held, steps), slipped));
   }
 
-  /// What the best certificate loses by friction [J] over a tick whose motion nobody sees, in which `next` is
-  /// held after `held`: its u goes to where friction would be under `next`, then to zero, and the energy
-  /// that its springs store is counted again.
+  /// What the best certificate loses by friction [J] over a tick that nobody sees, in which `next` is held after
+  /// `held`: its u goes to where friction would be under `next`, then to zero.
   [[nodiscard]] constexpr scalar given_up(const effort& next, const effort& held,
                                           const auto& damping, const auto& steps) const noexcept {
     const certificate own{P::zero(), scalar(0), scalar(0)};

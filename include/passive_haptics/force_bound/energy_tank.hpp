@@ -24,13 +24,11 @@ enum class tank_outflow : std::uint8_t {
   predicted,   ///< T max(0, f·v), if the motion goes on as it did
 };
 
-/// The force is scaled down until its outflow is at most E1 − ε. The tank is the observer's ledger;
-/// the observer's `cap` is the tank's size, and T is the longest tick. Source: the tank of Ferraguti
-/// et al. 2015 in the discrete form of docs/design/mathematics.md § 2(h).
+/// The force is scaled down until its outflow is at most E1 − ε. The tank is the observer's ledger, the observer's
+/// `cap` its size. Source: Ferraguti et al. 2015, in the discrete form of docs/design/mathematics.md § 2(h).
 ///
-/// Worst case: this is strict_bound on a ledger smaller by ε, so E1 ≥ 0 for every motion under the
-/// assumptions of strict_bound, and there is no force while E1 < ε. Predicted: the tank lets all of f*
-/// pass until it has seen the device turn round, so it is NOT passive.
+/// Worst case: this is strict_bound on a ledger smaller by ε. Predicted: the tank lets all of f* pass until it has
+/// seen the device turn round, so it is NOT passive.
 template <tank_outflow Outflow = tank_outflow::worst_case>
 struct basic_energy_tank {
   static constexpr guarantee passivity =

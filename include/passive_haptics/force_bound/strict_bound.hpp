@@ -100,10 +100,8 @@ struct memoryless_bound {
 
 /// |fᵢ| ≤ √(4 Bᵢ Eᵢ) for each axis i of the frame that the damping is given in, each with a ledger
 /// of its own:  Eᵢ += (bᵢ/dt) Δxᵢ² − hᵢ Δxᵢ.  This is strict_bound on every axis (§ 2, per_axis_bound; form
-/// and proof are ours), so every Eᵢ ≥ 0, and so is their sum, the energy at the port.
-///
-/// The direction of the force is not kept. So in a chain it voids the promises of the bounds in front of it,
-/// and keeps its own wherever it stands, if what follows only reduces.
+/// and proof are ours). The direction of the force is not kept, so in a chain it voids the promises of the bounds
+/// in front of it.
 ///
 /// It assumes what memoryless_bound does and no latency, and that no component of the force really held is
 /// larger than commanded; one that is puts its axis into a debt, which is kept and repaid. Dry friction is

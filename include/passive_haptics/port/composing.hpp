@@ -35,8 +35,7 @@ template <class Part>
   return false;
 }
 
-/// T [s] or a parameter is another: what a source has made of them and of the ticks that a command is `late`,
-/// it makes anew.
+/// T [s] or a parameter is another: what a source has made of them and of the latency, it makes anew.
 template <class Source, class Scalar>
 constexpr void tell(Source& source, Scalar longest_tick, int late) noexcept {
   if constexpr (requires { source.adopt(longest_tick, late); }) {
@@ -46,8 +45,7 @@ constexpr void tell(Source& source, Scalar longest_tick, int late) noexcept {
   }
 }
 
-/// A contact law is for a stiffness K [N/m], ticks of T [s] and commands that are held `late` ticks after they
-/// were given.
+/// A contact law is for a stiffness K [N/m], ticks of T [s] and commands that are held `late` ticks later.
 template <class Law, class Scalar>
 constexpr void tell(Law& law, Scalar K, Scalar T, int late) noexcept {
   if constexpr (requires { law.adopt(K, T, late); }) return law.adopt(K, T, late);

@@ -90,8 +90,7 @@ inline namespace v0 {
 //   prepare()               field                distance_field        there is nothing to prepare
 //   set(freshness)          supply               the port's set()      it does not age
 
-/// A value: trivially copyable where the scalar is, so that it can be logged, sent and snapshotted;
-/// otherwise (a multiprecision scalar) one that copies without throwing.
+/// A value that can be logged, sent and snapshotted: trivially copyable where the scalar is.
 template <class V, class Port>
 concept plain_value = std::is_trivially_copyable_v<V> ||
     (!std::is_trivially_copyable_v<typename Port::scalar> &&
@@ -118,8 +117,7 @@ concept port = requires(typename P::pose x, typename P::motion m, typename P::ef
 };
 
 namespace detail {
-/// Is the path of a tick unknown, so that a held torque may have done other work than τ·θ? So it is where the
-/// port turns and nobody reports the work.
+/// May a held torque have done other work than τ·θ? So it is where a port turns and nobody reports the work.
 template <class P>
 [[nodiscard]] constexpr bool turns() noexcept {
   if constexpr (requires { P::turns; }) return P::turns;
@@ -246,7 +244,7 @@ concept knows_reach = requires(const Part p, const seen_tick<P> seen, const some
 };
 }  // namespace detail
 
-/// What its promise rests on. One that promises nothing rests on nothing.
+/// One that promises nothing rests on nothing.
 template <class Bound>
 [[nodiscard]] constexpr bound_traits assumptions_of() noexcept {
   bound_traits all = Bound::traits;
@@ -278,8 +276,7 @@ requires promises<Bound, P>
   }
 }
 
-/// limit() takes the desired effort and a port_state. A bound that only reduces answers with the share
-/// that is left; one that adds or turns with an effort.
+/// limit() takes the desired effort and a port_state, and answers with the share that is left, or with an effort.
 template <class B, class P, class State = port_state<P, detail::some_damping<P>>>
 concept force_bound_for = plain_value<part_at<B, P>, P> &&
     requires(part_at<B, P> b, const typename P::effort f, const State s) {
@@ -301,7 +298,7 @@ concept motion_estimator_for = plain_value<part_at<M, P>, P> &&
   requires noexcept(m.estimate(x, dx, f, s, true));
 };
 
-/// What a port has come to, before its source makes the result of the tick of it.
+/// What a tick has come to, before its source makes its own result of it.
 template <class P>
 struct port_result {
   typename P::effort force;     ///< on the device [N]; joints: [N·m]

@@ -28,10 +28,9 @@ struct loop_traits {
 /// cost is known, since its force was held to its end: the ledger books it, and shows a debt at worst.
 /// It is known no longer where a driver drops a force by itself: state the `watchdog` then.
 ///
-/// `Latency` counts whole ticks from a command to the first instant it is held, no more and no fewer:
-/// the ledger pairs each motion with the force that was there (§ 3). A sample that is one tick old when
-/// it arrives counts as a tick of latency, too. Told wrong, either way, it pairs wrongly, and a bound
-/// that is not what it says draws joules: measure_latency.hpp finds the number.
+/// `Latency` counts whole ticks from a command to the first instant it is held, no more and no fewer, because the
+/// ledger pairs each motion with the force that was there (§ 3). A sample that is one tick old when it arrives counts
+/// as one, too. Told wrong, either way, joules are drawn: measure_latency.hpp finds the number.
 template <int Latency, loop_traits Traits = loop_traits{}>
 struct late_loop_limits {
   static_assert(Latency >= 0,

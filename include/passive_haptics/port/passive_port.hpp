@@ -124,8 +124,7 @@ class passive_port {
     return detail::fault_in(source_);
   }
 
-  /// New parameters for the part whose they are, checked as at the start; the ledger and all else is
-  /// kept. A fault changes nothing:
+  /// New parameters for the part whose they are; the ledger and all else is kept. A fault changes nothing:
   ///     if (const auto fault = touch.set(ph::actuator_limit{.most = 6.0})) …
   template <class Parameters>
   constexpr parameter_fault set(const Parameters& p) noexcept {
@@ -452,9 +451,9 @@ class passive_port {
     if constexpr (reaches) return ledger.forfeit(held, t, unseen(held, blind).done);
     ledger.forfeit(held, t);
   }
-  /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of
-  /// the two, and what only one of them covers, a ledger that is more than a number forgets. Vectors by
-  /// value and at rest, so that the ordinary tick keeps its own in registers.
+  /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of the two, and
+  /// what only one of them covers, a ledger that is more than a number forgets (§ 3). Vectors by value and at rest, so
+  /// that the ordinary tick keeps its own in registers.
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_cut_short(
       typename P::stored_effort travel, held_type held, scalar dt) noexcept {
     observer_type dropped = observer_;
