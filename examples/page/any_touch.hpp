@@ -121,6 +121,27 @@ class any_touch {
   alignas(std::max_align_t) std::byte bytes_[3072];
 };
 
+/// A bare spring of your own, behind a guard: make_guard has no surface.
+template <class Guard, class Plane>
+class guarded {
+ public:
+  static constexpr ph::guarantee passivity = Guard::passivity;
+
+  constexpr explicit guarded(const Guard& guard) noexcept : guard_(guard) {}
+  void update(const Plane& wall) noexcept { wall_ = wall; }
+  [[nodiscard]] const Plane& local() const noexcept { return wall_; }
+  [[nodiscard]] ph::parameter_fault check() const noexcept { return guard_.check(); }
+  [[nodiscard]] auto tick(const auto& now) noexcept {
+    const auto here = wall_.at(now.position);
+    const double pressed = here.depth > 0 ? wall_.stiffness * here.depth : 0.0;
+    return guard_.tick(now, wall_.normal * pressed);
+  }
+
+ private:
+  Guard guard_;
+  Plane wall_{};
+};
+
 /// A line of a menu.
 template <class Touch>
 struct controller {
@@ -159,7 +180,25 @@ template <class Touch, class Make>
     return __VA_ARGS__;                                                                           \
   })
 
+// A force of your own, given to a guard: the text is the guard's alone.
+#define PAGE_GUARD(touch, name, says, ...) PAGE_GUARD_AS_IS(touch, name, says, __VA_ARGS__)
+#define PAGE_GUARD_AS_IS(touch, name, says, ...)                                                  \
+  page::line<touch>(name, says, #__VA_ARGS__, [](const page::premises& told) {                    \
+    [[maybe_unused]] const auto [mass, damping, friction, quantum, motors, hand_force, roughness, \
+                                 tick] = told;                                                    \
+    const auto guard = __VA_ARGS__;                                                               \
+    return page::guarded<std::remove_const_t<decltype(guard)>, touch::plane>(guard);              \
+  })
+
 // Abbreviations of what a reader sees in full, for PAGE_CONTROLLER.
+#define DEVICE                                                                    \
+  ph::exact_device {                                                              \
+    .mass = mass, .damping = damping, .force_limit = motors, .longest_tick = tick \
+  }
+#define HAND                       \
+  ph::known_hand {                 \
+    .force = hand_force + friction \
+  }
 #define LEDGER         \
   ph::reduced_energy { \
     .damping = damping \

@@ -38,9 +38,15 @@ using body_touch = page::any_touch<scene, 1>;
 constexpr std::array bodies_menu{
     BODY("none", "A bare spring to the newest plane: each piece of news is a jump.",
          ph::turn_at_once{}, ph::spring{}, ph::no_observer{}, ph::no_bound{}),
-    BODY("recommended", "Damped, bounded by what can be given back, the normal turned at 2 rad/s.",
+    PAGE_CONTROLLER(
+        body_touch, "make_touch",
+        "What the library recommends: news moves the force smoothly, the normal turns at "
+        "2 rad/s.",
+        ph::make_touch<scene>(DEVICE, HAND)),
+    BODY("damped spring + reachable",
+         "Damped, bounded by what can be given back, the normal turned at 2 rad/s.",
          ph::turn_limited{.rate = 2.0}, ph::damped_spring{.mass = mass}, LEDGER, HELD(REACHABLE)),
-    BODY("recommended, force rate",
+    BODY("damped spring + reachable, force rate",
          "The same, and no news moves the force by more than 50 N/s: smooth, and behind.",
          ph::turn_limited{.rate = 2.0},
          (ph::shaped{ph::damped_spring{.mass = mass}, ph::force_rate_limit{.rate = 50}}), LEDGER,

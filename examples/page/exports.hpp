@@ -71,8 +71,10 @@ PAGE_EXPORT(ph_get) double ph_get(int s, int i) {
 }
 /// Not a number and infinity are left alone: whoever asks is told by what ph_get says.
 PAGE_EXPORT(ph_set) void ph_set(int s, int i, double value) {
-  if (value - value == 0)
+  if (value - value == 0) {
     page::on(s).set.*page::parameters[static_cast<std::size_t>(i)].value = value;
+    page::on(s).still = 0;
+  }
 }
 
 PAGE_EXPORT(ph_home) const double* ph_home(int s) {
@@ -110,7 +112,8 @@ PAGE_EXPORT(ph_count) double ph_count(int s, int side) {
   return static_cast<double>(page::on(s).seen[side].count());
 }
 PAGE_EXPORT(ph_verdict) const double* ph_verdict(int s, int side) {
-  const page::verdict v = page::on(s).seen[side].judge(page::on(s).least_energy(side));
+  page::verdict v = page::on(s).seen[side].judge(page::on(s).least_energy(side));
+  page::on(s).judge(side, v);
   std::memcpy(page::numbers, &v, sizeof v);
   return page::numbers;
 }

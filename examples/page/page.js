@@ -575,10 +575,8 @@
   }
   let nextWords = 0;
   const verdicts = [null, null];
-  const verdictNames = ['made', 'buzz', 'swing', 'behind', 'settled', 'touching', 'force', 'event', 'worst'];
   function judge(w) {
-    const at = numbers(e, e.ph_verdict(s, w), verdictNames.length);
-    const v = Object.fromEntries(verdictNames.map((name, i) => [name, at[i]])),
+    const v = verdictOf(numbers(e, e.ph_verdict(s, w), verdictNames.length)),
       count = e.ph_count(s, w);
     if (state.scene === 'rub' && count) {
       v.rubs = Math.abs(
@@ -824,7 +822,7 @@
   }
   function showCode() {
     all('#codes pre').forEach((pre, w) => {
-      pre.textContent = composition(state.scene, state.menu[state.chosen[w]].code, state.set);
+      pre.textContent = program(state.scene, state.menu[state.chosen[w]].code, state.set);
     });
   }
   /** Every scene of every module that is here, each controller from the start, against the native run. */

@@ -10,11 +10,13 @@
 #include "any_touch.hpp"
 #include <passive_haptics/simulation/channel.hpp>
 #include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/quiet.hpp>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <tuple>
 
 namespace page {
 
@@ -42,6 +44,14 @@ struct verdict {
   double force = 0;     ///< now [N]
   double event = 0;     ///< the worst of the window
   double worst = 0;     ///< the largest step of the force since the start [N]
+
+  // What the library's judge of quiet says of the last 100 ms (simulation/quiet.hpp).
+  double still = 0;  ///< time since the last news: hand, surface or a slider moved [s]
+  double quiet = 0;  ///< 1: within the bars
+  double since = 0;  ///< from the news until it was quiet [s]; NaN: it is not
+  double rms = 0, speed = 0, step = 0;              ///< [N] above 10 Hz, [m/s], [N] a tick
+  double rms_bar = 0, speed_bar = 0, step_bar = 0;  ///< the bars, those of encoder steps too
+  double asked = 0, shown = 0;  ///< stiffness where it is touched [N/m]; 0: it is not
 };
 
 /// A plane in the picture: a point and a unit normal.
@@ -142,6 +152,9 @@ class guided_hand {
   }
   [[nodiscard]] place at() const noexcept { return at_; }
   [[nodiscard]] place velocity() const noexcept { return velocity_; }
+  [[nodiscard]] bool moves() const noexcept {
+    return velocity_.x * velocity_.x + velocity_.y * velocity_.y > 1e-12;
+  }
 
  private:
   place at_, goal_, velocity_;
@@ -164,6 +177,8 @@ class stage {
   virtual void restart() noexcept = 0;
   virtual void tick() noexcept = 0;
   [[nodiscard]] virtual double least_energy(int side) const noexcept = 0;
+  /// What the judge of quiet says of a side.
+  virtual void judge(int side, verdict& said) const noexcept = 0;
   virtual int draw(int side, bool local, std::span<drawn_plane> planes) const noexcept = 0;
   /// Triangles of a body as they are seen, if there is one: three corners for each; how many corners.
   virtual int outline(int /*side*/, std::span<place> /*corners*/) const noexcept { return 0; }
@@ -180,11 +195,13 @@ class stage {
     for (int i = 0; i < ticks; ++i) {
       if (by_itself) hand.send(on_round());
       hand.step();
+      still = hand.moves() || set.heave != 0 || set.tilt != 0 ? 0 : still + 1;
       tick();
       time += tick_length;
     }
   }
   double time = 0;
+  int still = 0;  ///< ticks since the last news
 
  private:
   [[nodiscard]] place on_round() const noexcept {
@@ -220,6 +237,7 @@ class stage_of final : public stage {
 
   void restart() noexcept override {
     time = 0;
+    still = 0;
     hand.begin(Scene::home);
     for (int i = 0; i < 2; ++i) {
       one& s = sides_[i];
@@ -242,6 +260,8 @@ class stage_of final : public stage {
       s.network = channel({.delay = set.latency, .loss = set.loss}, 7);
       s.next_news = 0;
       s.least = 0;
+      s.judge = sim::quiet_judge<Space>();
+      s.asked = s.shown = s.next_press = 0;
       s.now = s.body.exchange(Space::zero());
       seen[i].clear();
     }
@@ -252,6 +272,18 @@ class stage_of final : public stage {
   }
 
   double least_energy(int side) const noexcept override { return sides_[side].least; }
+  void judge(int side, verdict& v) const noexcept override {
+    const one& s = sides_[side];
+    const sim::quiet_figures last = s.judge.figures();
+    const sim::quiet_bars bars = s.judge.bars();
+    v.still = still * tick_length;
+    v.quiet = s.judge.quiet() ? 1 : 0;
+    v.since = s.judge.settling();
+    v.rms = last.force, v.speed = last.speed, v.step = last.step;
+    v.rms_bar = bars.force, v.speed_bar = bars.speed, v.step_bar = bars.step;
+    v.asked = v.touching > 0 ? s.asked : 0;
+    v.shown = v.touching > 0 ? s.shown : 0;
+  }
 
   int draw(int side, bool local, std::span<drawn_plane> planes) const noexcept override {
     const one& s = sides_[side];
@@ -285,6 +317,9 @@ class stage_of final : public stage {
     channel network{};
     double next_news = 0;
     double least = 0;  ///< of what the hand has paid, its friction counted [J]
+    sim::quiet_judge<Space> judge{};
+    double asked = 0, shown = 0;  ///< stiffness at the last press [N/m]
+    double next_press = 0;        ///< [s]
     ph::device_sample<Space> now{};
   };
 
@@ -315,9 +350,11 @@ class stage_of final : public stage {
     s.now = s.body.exchange(out.force);
     const vector position = s.body.position();
     const place at = out_of(position), force = out_of(s.now.held);
-    const double behind = behind_of(s, position);
+    const news walls = s.world.surfaces(time, set);
+    const double behind = behind_of(s, walls, position);
     const double energy = s.body.meter().with_friction();
     if (energy < s.least) s.least = energy;
+    listen(s, walls, position, out.force);
     record.add({s.body.time(), at.x, at.y, hand.at().x, hand.at().y, force.x, force.y, energy,
                 out.ledger, behind, static_cast<double>(out.what),
                 Space::norm(s.now.held) > 0.02 ? 1.0 : 0.0});
@@ -325,15 +362,53 @@ class stage_of final : public stage {
 
   /// How deep the device is in the true surface, less what a spring of its stiffness gives way for the
   /// force that is there; the most of all surfaces.
-  [[nodiscard]] double behind_of(const one& s, const vector& x) const noexcept {
+  [[nodiscard]] static double behind_of(const one& s, const news& walls, const vector& x) noexcept {
     double most = 0;
-    for (const auto& plane : s.world.surfaces(time, set)) {
+    for (const auto& plane : walls) {
       const vector normal = plane.normal;
-      const double depth = Space::dot(vector(vector(plane.point) - x), normal);
       const double pressed = Space::dot(normal, s.now.held) / plane.stiffness;
-      most = ph::kernels::larger(most, depth - (pressed > 0 ? pressed : 0.0));
+      most = ph::kernels::larger(most, depth_of(plane, x) - (pressed > 0 ? pressed : 0.0));
     }
     return most;
+  }
+  [[nodiscard]] static double depth_of(const auto& plane, const vector& x) noexcept {
+    return Space::dot(vector(vector(plane.point) - x), vector(plane.normal));
+  }
+
+  /// What the judge of quiet hears in a tick; and ten times a second how stiff the surface is shown.
+  void listen(one& s, const news& walls, const vector& x, const vector& command) noexcept {
+    std::array<vector, std::tuple_size_v<news>> pressing{};
+    std::size_t n = 0;
+    double deepest = 0, asked = 0;
+    for (const auto& plane : walls) {
+      const double depth = depth_of(plane, x);
+      if (depth > 0) pressing[n++] = plane.normal;
+      if (depth > deepest) deepest = depth, asked = plane.stiffness;
+    }
+    if (still == 1) s.judge.news();
+    s.judge.add(command, vector(s.body.velocity()), tick_length, std::span(pressing).first(n));
+    if (s.now.valid && deepest > 0 && s.judge.time() >= s.next_press) press(s, command, asked);
+  }
+  /// Presses a copy of the controller deeper along its force by 1 µm, or a step of the encoders. Those steps are a
+  /// floor of quiet, and without friction in the device four of them are (docs/design/settling.md).
+  void press(one& s, const vector& command, double asked) noexcept {
+    const double size = Space::norm(command);
+    if (!(size > 0.02)) return;
+    s.next_press = s.judge.time() + 0.1;
+    touch copy = s.controller;
+    const double by = set.quantum > 0 ? set.quantum : 1e-6;
+    const vector push = command * (1 / size);
+    const auto at = [&](const vector& x) {
+      ph::device_sample<Space> still_there = s.now;
+      still_there.position = x;
+      for (int i = 0; i < 9; ++i) still_there.held = copy.tick(still_there).force;
+      return vector(still_there.held);
+    };
+    const vector here(s.now.position), before = at(here), after = at(vector(here - push * by));
+    s.asked = asked;
+    s.shown = ph::kernels::larger(0.0, Space::dot(vector(after - before), push) / by);
+    s.judge.judge_by(
+        sim::quiet_bars{}.on_encoders(set.quantum * (set.friction > 0 ? 1 : 4), s.shown, set.mass));
   }
 
   one sides_[2];

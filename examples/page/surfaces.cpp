@@ -33,10 +33,16 @@ struct heaving {
   static constexpr std::array menu{
       HEAVING("none", "A bare spring to the newest plane: each piece of news is a jump.",
               ph::turn_at_once{}, ph::spring{}, ph::no_observer{}, ph::no_bound{}),
-      HEAVING(
-          "recommended", "Damped, bounded by what can be given back, the normal turned at 2 rad/s.",
-          ph::turn_limited{.rate = 2.0}, ph::damped_spring{.mass = mass}, LEDGER, HELD(REACHABLE)),
-      HEAVING("recommended, force rate",
+      PAGE_CONTROLLER(
+          touch_one, "make_touch",
+          "What the library recommends: news moves the force smoothly, the normal turns "
+          "at 2 rad/s.",
+          ph::make_touch<scene>(DEVICE, HAND)),
+      HEAVING("damped spring + reachable",
+              "Damped, bounded by what can be given back, the normal turned at 2 rad/s.",
+              ph::turn_limited{.rate = 2.0}, ph::damped_spring{.mass = mass}, LEDGER,
+              HELD(REACHABLE)),
+      HEAVING("damped spring + reachable, force rate",
               "The same, and no news moves the force by more than 100 N/s: smooth, and behind.",
               ph::turn_limited{.rate = 2.0},
               (ph::shaped{ph::damped_spring{.mass = mass}, ph::force_rate_limit{.rate = 100}}),
@@ -99,6 +105,10 @@ struct corner {
       CORNER("none", "Two bare springs, added.",
              (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), ph::no_observer{},
              ph::no_bound{}),
+      PAGE_CONTROLLER(
+          touch_two, "make_contacts",
+          "What the library recommends: one spring, however many walls; settles.",
+          ph::make_contacts<scene>(DEVICE, HAND, ph::slots<ph::half_space<scene>, 2>{})),
       CORNER("contact set, reachable", "One spring, however many walls; settles.", SET_OF_TWO,
              LEDGER, REACHABLE),
       PAGE_CONTROLLER(touch_two, "a port each (wrong)",
@@ -150,6 +160,12 @@ struct rubbing {
 
   static constexpr page::settings begins_with() { return {.stiffness = 2000, .damping = 0.2}; }
   static constexpr std::array menu{
+      PAGE_CONTROLLER(
+          touch_one, "make_contacts", "Nothing rubs: the device slides under the hand.",
+          ph::make_contacts<scene>(DEVICE, HAND, ph::slots<ph::half_space<scene>, 1>{})),
+      PAGE_CONTROLLER(
+          touch_one, "make_contacts, rough", "A bristle bends while the surface holds, and slips.",
+          ph::make_contacts<scene>(DEVICE, HAND, ROUGH, ph::slots<ph::half_space<scene>, 1>{})),
       RUBBING("smooth, reachable", "Nothing rubs: the device slides under the hand.",
               ph::frictionless{}, LEDGER, REACHABLE),
       RUBBING("rough, reachable", "A bristle bends while the surface holds, and slips.", ROUGH,

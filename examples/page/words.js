@@ -24,7 +24,7 @@ const knobs = {
   hand_force: ['Strength of the hand', 'N', 1, 1, 12],
 };
 
-// view: the middle of the picture and its height [m]
+// view: the middle of the picture and its height [m]; start, press, walls: of the program to paste, as C++
 const loop = ['damping', 'mass', 'friction', 'quantum', 'motors', 'late'],
   net = ['rate', 'latency', 'loss'],
   person = ['hand_stiffness', 'hand_force'];
@@ -35,6 +35,9 @@ const scenes = {
     stage: 0,
     dof: 1,
     view: [0, -0.004, 0.046],
+    start: '0.012',
+    press: '-0.016',
+    walls: ['{.point = UP, .normal = 1, .stiffness = stiffness}'],
     says: 'A device on a rail, and a wall that stands still.',
     knobs: ['stiffness', ...loop, 'heave', ...net, ...person],
   },
@@ -44,6 +47,10 @@ const scenes = {
     stage: 0,
     dof: 2,
     view: [0, -0.001, 0.046],
+    start: '{0, 0.014}',
+    press: '{0, -0.014}',
+    before: 'const double slope = SLOPE, length = std::sqrt(1 + slope * slope);',
+    walls: ['{.point = {0, UP}, .normal = {slope / length, 1 / length}, .stiffness = stiffness}'],
     says: 'A surface that heaves and tilts, and tells of it a few times a second.',
     knobs: ['stiffness', 'heave', 'tilt', ...net, ...loop, ...person],
   },
@@ -53,6 +60,8 @@ const scenes = {
     stage: 0,
     dof: 3,
     view: [0, 0.03, 0.095],
+    start: '{0.004, 0, 0.064}',
+    press: '{0.004, 0, 0.030}',
     says: 'The ball of the thesis: 16 tetrahedra, solved in the page, felt through the plane under the device.',
     knobs: ['young', ...net, ...loop, ...person],
   },
@@ -62,6 +71,12 @@ const scenes = {
     stage: 1,
     dof: 2,
     view: [0.002, 0.002, 0.046],
+    start: '{0.014, 0.014}',
+    press: '{-0.012, -0.012}',
+    walls: [
+      '{.point = {0, UP}, .normal = {0, 1}, .stiffness = stiffness}',
+      '{.point = {0, 0}, .normal = {1, 0}, .stiffness = stiffness}',
+    ],
     says: 'Two walls that meet. However many walls: one device is one port.',
     knobs: ['stiffness', 'heave', ...net, ...loop, ...person],
   },
@@ -71,6 +86,9 @@ const scenes = {
     stage: 2,
     dof: 2,
     view: [0, -0.002, 0.046],
+    start: '{-0.02, 0.010}',
+    press: '{0.02, -0.014}',
+    walls: ['{.point = {0, UP}, .normal = {0, 1}, .stiffness = stiffness}'],
     says: 'A rough surface: press, and pull along. It sticks, and slips.',
     knobs: ['stiffness', 'roughness', 'heave', ...net, ...loop, ...person],
   },
@@ -80,6 +98,8 @@ const scenes = {
     stage: 1,
     dof: 3,
     view: [0, 0.009, 0.052],
+    start: '{0.004, 0, 0.064}',
+    press: '{0.004, 0, 0.030}',
     says: 'A slice of 504 tetrahedra that is pushed, gives way, and answers late.',
     knobs: ['young', ...net, ...loop, ...person],
   },
@@ -89,70 +109,70 @@ const problems = {
   'Wall buzzes': {
     scene: 'wall',
     left: 'none',
-    right: 'damped spring + reachable',
+    right: 'make_touch',
     set: {},
     says: 'A stiff wall, felt a thousand times a second: on the left a bare spring, on the right the same wall, counted.',
   },
   'Organ jumps': {
     scene: 'organ',
     left: 'none',
-    right: 'recommended',
+    right: 'make_touch',
     set: {},
     says: 'Tissue that answers fifteen times a second, 30 ms late. Each answer moves the plane under the device.',
   },
   'First touch is lost': {
     scene: 'wall',
     left: 'strict FBA',
-    right: 'damped spring + reachable',
+    right: 'make_touch',
     set: {stiffness: 2000, damping: 0.1},
     says: 'Strict means: no force before the hand has paid. The first touch sinks in. Who states mass and hand need not wait.',
   },
   'Network drops packets': {
     scene: 'heave',
     left: 'none',
-    right: 'recommended',
+    right: 'make_touch',
     set: {rate: 60, latency: 0.06, loss: 0.4},
     says: 'The surface heaves, its news is 60 ms old, and four packets of ten never come.',
   },
   'Surface heaves': {
     scene: 'heave',
-    left: 'recommended',
-    right: 'recommended, force rate',
+    left: 'damped spring + reachable',
+    right: 'make_touch',
     set: {},
     says: 'Passive is not smooth: on the left each piece of news is felt, on the right it is spread, and the device lags.',
   },
   'Corner buzzes': {
     scene: 'corner',
     left: 'none',
-    right: 'contact set, reachable',
+    right: 'make_contacts',
     set: {},
     says: 'Two bare springs in a corner fight each other and the hand; one port with one account is calm.',
   },
   'Finger sticks and slips': {
     scene: 'rub',
-    left: 'smooth, reachable',
-    right: 'rough, reachable',
+    left: 'make_contacts',
+    right: 'make_contacts, rough',
     set: {},
     says: 'The same pressure; on the right the surface holds the device until the hand pulls harder than µ times it.',
   },
   'Encoder steps are felt': {
     scene: 'wall',
     left: 'damped spring + reachable',
-    right: 'strict FBA + friction',
+    right: 'make_touch, encoders',
     set: {quantum: 55e-6, friction: 0.13, stiffness: 2000},
     says: 'Positions come in steps of 55 µm. Dry friction can pay for them, if it is known.',
   },
   'Motors are too weak': {
     scene: 'wall',
     left: 'none',
-    right: 'damped spring + reachable',
+    right: 'make_touch',
     set: {motors: 2, hand_force: 6},
     says: 'The hand is stronger than the motors: no controller can hold it. The page says how far it sinks.',
   },
   'Loop is late': {
     scene: 'wall',
     left: 'strict FBA',
-    right: 'strict FBA, 2 ticks late',
+    right: 'make_touch, 2 ticks late',
     set: {late: 2, stiffness: 300, damping: 0.5},
     says: 'A force that is held two ticks late makes a liar of a ledger that was not told.',
   },
@@ -182,10 +202,36 @@ function joules(x) {
   return `${figures(x * 1e6)} µJ`;
 }
 
+/** What ph_verdict hands out, in its order. */
+const verdictNames = (
+  'made buzz swing behind settled touching force event worst ' +
+  'still quiet since rms speed step rms_bar speed_bar step_bar asked shown'
+).split(' ');
+const verdictOf = at => Object.fromEntries(verdictNames.map((name, i) => [name, at[i]]));
+
+/** The judge's verdict on the last 100 ms, and the bars where encoder steps have raised them. */
+function quietness(v) {
+  const of = (x, bar, usual, unit) =>
+    `${figures(x, 2)}${bar > 1.001 * usual ? ` of ${figures(bar, 2)}` : ''} ${unit}`;
+  const felt =
+    `${of(v.rms, v.rms_bar, 0.02, 'N rms above 10 Hz')}, ` +
+    `${of(v.speed * 1e3, v.speed_bar * 1e3, 1, 'mm/s')}, ${of(v.step, v.step_bar, 0.02, 'N a tick')}`;
+  const floor = v.step_bar > 0.0201 ? ' (encoder steps are the floor)' : '';
+  if (v.still < 0.1) return [`moves: ${felt}`, ''];
+  if (v.quiet) return [`quiet after ${figures(v.since, 2)} s: ${felt}${floor}`, 'good'];
+  return [`not quiet for ${figures(v.still, 2)} s: ${felt}${floor}`, v.still < 1 ? 'price' : 'bad'];
+}
+
 /** What the page says of a side: [text, 'bad' | 'price' | 'good' | ''] for each remark. */
 function remarks(v) {
   const said = [];
   said.push(v.made > 1e-9 ? [`made ${joules(v.made)} out of nothing`, 'bad'] : ['made no energy', 'good']);
+  said.push(quietness(v));
+  if (v.shown > 0)
+    said.push([
+      `shows ${figures(v.shown)} of ${figures(v.asked)} N/m`,
+      v.shown < 0.9 * v.asked || v.shown > 1.1 * v.asked ? 'price' : 'good',
+    ]);
   if (v.buzz >= 25) said.push([`buzzes at ${figures(v.buzz)} Hz by ${figures(v.swing, 2)} N`, 'bad']);
   else if (v.buzz > 0)
     said.push([`jumps ${figures(v.buzz, 2)} times a second by ${figures(v.swing, 2)} N`, 'price']);
@@ -273,11 +319,19 @@ function layOut(text) {
   return out;
 }
 
-/** The C++ of a side, to be pasted. */
-function composition(scene, text, set) {
-  const n = x => Number(x.toPrecision(9));
-  const body = layOut(text);
-  const uses = name => new RegExp(`\\b${name}\\b(?! =)`).test(text.replaceAll(`.${name}`, ''));
+/** The C++ of a side, to be pasted: a whole program that runs. */
+function program(scene, text, set) {
+  const n = x => String(Number(x.toPrecision(9)));
+  const about = scenes[scene],
+    dof = about.dof;
+  const byHand = !text.startsWith('ph::make_');
+  const [device] = text.match(/ph::(exact|encoder)_device ?\{[^}]*\}/) ?? [''],
+    [hand] = text.match(/ph::known_hand ?\{[^}]*\}/) ?? [''];
+  const declared = (name, part) => (part ? `constexpr ${part.replace(/ ?\{ ?/, ` ${name}{`).replace(' }', '}')};\n` : '');
+  const made = byHand ? text : text.replace(device, 'device').replace(hand, 'hand').replace('( ', '(');
+  const pair = text.startsWith('std::pair'),
+    guard = text.startsWith('ph::make_guard'),
+    body = !about.walls;
   const constants = [
     ['mass', set.mass, 'of the device, the smallest there is [kg]'],
     ['damping', set.damping, 'of the device, a lower bound [N·s/m]'],
@@ -287,22 +341,114 @@ function composition(scene, text, set) {
     ['hand_force', set.hand_force, 'the most the hand pushes with [N]'],
     ['roughness', set.roughness, 'static coefficient of the surface'],
     ['tick', 1e-3, 'the longest of your loop [s]'],
+    body ? ['young', set.young, 'of the tissue [Pa]'] : ['stiffness', set.stiffness, 'of the surface [N/m]'],
   ]
-    .filter(([name]) => uses(name))
+    .filter(([name]) => name !== 'roughness' || /\broughness\b/.test(text))
     .map(([name, value, what]) => `constexpr double ${name} = ${n(value)};  // ${what}`);
-  const stored = body.startsWith('ph::passive_port')
-    ? body.replace('ph::passive_port{', 'ph::passive_port touch{')
-    : body.startsWith('ph::local_model')
-      ? body.replace('ph::local_model{', 'ph::local_model touch{')
-      : `// Wrong: each port spends the damping of the device, which is there once.\nauto touch = ${body}`;
-  return `#include <passive_haptics/passive_haptics.hpp>
+
+  const moves = !body && (set.heave > 0 || (set.tilt > 0 && about.knobs.includes('tilt')));
+  const up = moves ? `${n(set.heave)} * std::sin(6.9 * t)` : '0';
+  const slope = moves && about.knobs.includes('tilt') ? `${n(set.tilt)} * std::sin(5.0 * t)` : '0';
+  const world = body
+    ? `// The tissue: a ball of 16 tetrahedra; environment/msh_input.hpp reads a mesh of yours.
+static env::deformable_body tissue(env::ball(0.05), {.young = young, .poisson = 0.3},
+                                   env::ball_fixed_nodes(), env::body_options{});
+`
+    : `// What the world says of its surfaces ${moves ? 'at t [s]' : 'at any time'}; yours goes here.
+static std::array<plane, ${about.walls.length}> world(double${moves ? ' t' : ''}) {
+${about.before ? `  ${about.before.replace('SLOPE', slope)}\n` : ''}  return {{${about.walls.map(w => w.replace('UP', up)).join(',\n           ')}}};
+}
+`;
+  const tells = body
+    ? `      tissue.update(handle.position(), handle_force);
+      if (const auto& c = tissue.contact(); c.triangle >= 0)
+        ${/contact_set/.test(text) ? 'touch.source().update(0, plane' : 'touch.update('}{.point = c.point, .normal = c.normal, .stiffness = c.stiffness});`
+    : `      const auto walls = world(${moves ? 'n * tick' : '0'});
+${
+  guard
+    ? '      wall = walls[0];'
+    : about.walls
+        .map((_, i) =>
+          pair
+            ? `      touch.${i ? 'second' : 'first'}.update(walls[${i}]);`
+            : /ph::contacts\{/.test(text)
+              ? `      touch.source().template contact<${i}>().update(walls[${i}]);`
+              : /contact_set|make_contacts/.test(text)
+                ? `      touch.source().update(${i}, walls[${i}]);`
+                : `      touch.update(walls[${i}]);`
+        )
+        .join('\n')
+}`;
+  const asks = pair
+    ? 'touch.first.tick(sample).force + touch.second.tick(sample).force'
+    : guard
+      ? 'touch.tick(sample, depth > 0 ? wall.stiffness * depth : 0.0).force'
+      : 'touch.tick(sample).force';
+  const stored = `auto touch = ${layOut(made).replaceAll('\n', '\n  ')};`;
+  const checked = pair ? 'touch.first.check()' : 'touch.check()';
+  const why = pair
+    ? '  // By hand, and wrong: each port spends the damping of the device, which is there once.\n'
+    : byHand
+      ? '  // By hand, to be compared with what make_touch() and make_contacts() give.\n'
+      : '';
+  return `// ${about.title}, pasted from the page of passive_haptics:
+//     g++ -std=c++20 -O2 -I include -isystem /usr/include/eigen3 this.cpp && ./a.out
+#include <passive_haptics/passive_haptics.hpp>
+${
+  body
+    ? '#include <passive_haptics/environment/ball.hpp>\n#include <passive_haptics/environment/deformable_body.hpp>\n'
+    : ''
+}#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/quiet.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <span>
+#include <utility>
 
 namespace ph = passive_haptics;
-using scene = ph::space<double, ${scenes[scene].dof}>;
+namespace sim = ph::simulation;
+${body ? 'namespace env = ph::environment;\n' : ''}using scene = ph::space<double, ${dof}>;
+using plane = ph::half_space<scene>;
 
 ${constants.join('\n')}
 
-${stored};
+${byHand ? '' : '// Your device and your hand, as you may state them: docs/design/identification.md.\n'}${declared('device', device)}${declared('hand', hand)}
+${world}
+int main() {
+${why}  ${stored}
+  if (const auto fault = ${checked}) {
+    std::printf("%s = %g: %s is asked for\\n", fault.parameter, fault.value, fault.remedy);
+    return 1;
+  }
+  // A simulated device, and a hand that presses; your driver takes their place.
+  sim::device<scene, sim::impedance_hand<scene>> handle(
+      {.mass = mass, .damping = damping, .friction = friction, .force_limit = motors,
+       .quantum = quantum, .start = ${about.start}, .latency = ${n(set.late)}},
+      {.stiffness = ${n(set.hand_stiffness)}, .limit = hand_force, .target = ${about.press}});
+  auto sample = handle.exchange(scene::zero());
+  sim::quiet_judge<scene> judge${set.quantum > 0 && !body ? `(sim::quiet_bars{}.on_encoders(${set.friction > 0 ? '' : '4 * '}quantum, stiffness, mass))` : ''};
+${body ? '  scene::vector handle_force = scene::zero();\n' : ''}${guard ? '  plane wall{};\n' : ''}  double least = 0, pressed = 0;
+  for (int n = 0; n < 4000; ++n) {
+    if (n % ${Math.max(1, Math.round(1000 / set.rate))} == 0) {  // ${n(set.rate)} times a second there are news
+${tells}
+    }
+${guard ? '    const double depth = wall.point - sample.position;  // your renderer: here a bare spring\n' : ''}    const scene::vector force = ${asks};
+    sample = handle.exchange(force);
+${body ? '    handle_force = sample.held;\n' : ''}
+    pressed = scene::norm(force);
+    const scene::vector along = force * (pressed > 0 ? 1 / pressed : 0.0);
+    judge.add(force, handle.velocity(), tick, std::span(&along, pressed > 0 ? 1 : 0));
+    least = std::min(least, handle.meter().with_friction());
+  }
+  const auto& last = judge.figures();
+  std::printf("presses with %.2f N, made %.3g mJ, %s: %.2g N rms above 10 Hz, %.2g mm/s, %.2g N a tick\\n",
+              pressed, -1e3 * least + 0.0, judge.quiet() ? "quiet" : "not quiet", last.force,
+              1e3 * last.speed, last.step);
+  return 0;
+}
 `;
 }
 
@@ -314,9 +460,11 @@ if (typeof module !== 'undefined') {
     figures,
     joules,
     remarks,
+    verdictNames,
+    verdictOf,
     readNumber,
     readLink,
     writeLink,
-    composition,
+    program,
   };
 }

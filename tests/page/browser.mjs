@@ -74,13 +74,25 @@ const notice = page => page.locator('#notice').textContent();
   const words = await page.locator('.remarks').allTextContents();
   expect(/made .* out of nothing/.test(words[0]) && /buzzes at/.test(words[0]), `left: ${words[0]}`);
   expect(/made no energy/.test(words[1]), `right: ${words[1]}`);
+  // The judge of quiet, in figures and in words: the left buzzes, the right rests, shown as stiff as it can be.
+  expect(
+    left.quiet === 0 && left.step > 0.2 && /not quiet for .* N rms above 10 Hz, .* mm\/s, .* N a tick/.test(words[0]),
+    `the left is not quiet: ${left.step} N a tick, ${words[0]}`
+  );
+  expect(
+    right.quiet === 1 && right.since < 1 && right.step <= 0.02 && /quiet after .* N a tick/.test(words[1]),
+    `the right is quiet: ${right.step} N a tick, ${words[1]}`
+  );
+  expect(!/not quiet/.test(words[1]) && /shows \d+ of 10000 N\/m/.test(words[1]), `and shows: ${words[1]}`);
   console.log(
     `left: ${words[0]} | right: ${words[1]} | ${(await page.evaluate(() => window.page.cost())).toFixed(1)} ms a frame`
   );
 
   await page.locator('#code').click();
   expect(
-    (await page.locator('#codes pre').nth(1).textContent()).includes('ph::reachable_bound'),
+    /int main[^]*ph::make_touch<scene>\(device,\s+hand\)/.test(
+      await page.locator('#codes pre').nth(1).textContent()
+    ),
     'the C++ is shown'
   );
   const [download] = await Promise.all([page.waitForEvent('download'), page.locator('#csv').click()]);

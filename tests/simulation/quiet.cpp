@@ -173,6 +173,17 @@ TEST_CASE("on encoders the bars rise to what a step of them does to a stiffness"
   CHECK_THAT(bars.on_encoders(60e-6, 1000.0, 0.1).speed, WithinRel(3e-3, 1e-9));
 }
 
+TEST_CASE("other bars hold from the window that is open on", "[simulation][quiet]") {
+  auto judge = judged(hold, [](double /*t*/) { return 2e-3; });
+  CHECK_FALSE(judge.quiet());
+  CHECK(judge.bars().speed == 1e-3);
+  judge.judge_by(sim::quiet_bars{}.on_encoders(60e-6, 1000.0, 0.1));
+  CHECK(judge.bars().speed == 3e-3);
+  CHECK_FALSE(judge.quiet());  // what is over is not judged again
+  for (int n = 0; n < 100; ++n) judge.add(3.0, 2e-3, 1e-3, presses);
+  CHECK(judge.quiet());
+}
+
 TEST_CASE("of a tool the torque counts by its lever, and what presses are rows",
           "[simulation][quiet]") {
   using body = ph::rigid_body<double>;

@@ -107,6 +107,8 @@ requires(passive_haptics::detail::has_geometry<Port> ||
     placed_ = true;
     add(force, motion(travel * (scalar(1) / scalar(dt))), dt, pressing);
   }
+  /// From the window that is open on the bars are these: K q follows the stiffness that is shown.
+  void judge_by(const quiet_bars& bars) noexcept { bars_ = bars; }
   /// Starts the judgement anew, because the hand or the world has changed.
   void news() noexcept {
     news_ = since_ = time_;
@@ -123,7 +125,8 @@ requires(passive_haptics::detail::has_geometry<Port> ||
   /// The time from the last news() until it was quiet [s]; NaN if it is not quiet.
   [[nodiscard]] double settling() const noexcept { return since() - news_; }
   [[nodiscard]] double time() const noexcept { return time_; }  ///< sum of all ticks [s]
-  /// The figures of the last window.
+  /// The bars [N], [m/s], [N], and the figures of the last window.
+  [[nodiscard]] const quiet_bars& bars() const noexcept { return bars_; }
   [[nodiscard]] const quiet_figures& figures() const noexcept { return last_; }
   /// The bar that the last window which was not quiet has missed; none if every window was quiet.
   [[nodiscard]] quiet_bar missed() const noexcept { return missed_; }
