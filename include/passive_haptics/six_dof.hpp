@@ -54,11 +54,13 @@ struct rigid_hand {
 template <class Body = rigid_body<double>, class Limits = loop_limits, class... Room>
 [[nodiscard]] constexpr auto make_tool(const rigid_device& d, const rigid_hand& hand,
                                        const Room&... room) noexcept {
+  const double left = d.inertia.at_handle();
   return passive_port{
       Body{},
-      rigid_tool{
-          tool_spring{.mass = d.inertia.mass, .least_inertia = d.inertia.least, .lever = d.lever},
-          pursuit{}, room...},
+      rigid_tool{tool_spring{.mass = left * d.inertia.mass,
+                             .least_inertia = left * d.inertia.least,
+                             .lever = d.lever},
+                 pursuit{}, room...},
       forgiving{basic_reduced_energy<rigid_damping>{.damping = d.damping},
                 amends_for(d.force_limit)},
       bound_chain{rigid_reachable_bound{.inertia = d.inertia,

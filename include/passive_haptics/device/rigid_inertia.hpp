@@ -31,6 +31,12 @@ struct rigid_inertia {
     if (!detail::not_negative(offset)) return {"offset", offset, "finite and ≥ 0 m"};
     return {};
   }
+  /// The share of m and of I that the handle has of both at once, if the centre of mass is off it: its inertia
+  /// matrix is at least that of so much mass and so much moment, each by itself.
+  [[nodiscard]] constexpr double at_handle() const noexcept {
+    const double q = mass * offset * offset / least;
+    return 1.0 / (1.0 + q / 2.0 + kernels::square_root(q + q * q / 4.0));
+  }
   template <class Port>
   class on;
 };
