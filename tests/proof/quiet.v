@@ -76,3 +76,30 @@ Proof.
                         p * (4 / k - 2 * ((2 * a - b) * (2 * a - b)))); [lra |].
   replace (2 * (a * a) - 2) with (2 * (b * b)) by lra. field. lra.
 Qed.
+
+(** Of two contacts of the same compliance, a the cosine that they share, a cap may leave one damper the share t of
+    the other and they take energy all the same, whichever way they are moved. *)
+Theorem capped_pair (a t x y : R) :
+  a * a * ((1 + t) * (1 + t)) <= 4 * t -> 0 <= x * x + t * (y * y) + a * (1 + t) * (x * y).
+Proof.
+  intros H.
+  pose proof (Rle_0_sqr (x + a * (1 + t) / 2 * y)) as Q; unfold Rsqr in Q.
+  pose proof (Rle_0_sqr y) as Y; unfold Rsqr in Y.
+  assert (0 <= (4 * t - a * a * ((1 + t) * (1 + t))) * (y * y)) by (apply Rmult_le_pos; lra).
+  replace (_ + _) with ((x + a * (1 + t) / 2 * y) * (x + a * (1 + t) / 2 * y) +
+                        (4 * t - a * a * ((1 + t) * (1 + t))) * (y * y) / 4) by field. lra.
+Qed.
+
+(** Theorem 4's inertia: of a mass m and a moment J about its centre, which is c off the handle, the handle has at least
+    the share r of both at once; v is its speed, w its rate. *)
+Theorem off_the_centre (m J c r v w : R) :
+  0 < m -> 0 < r < 1 -> r * (m * (c * c)) = (1 - r) * (1 - r) * J ->
+  r * (m * (v * v) + J * (w * w)) <= m * ((v - c * w) * (v - c * w)) + J * (w * w).
+Proof.
+  intros Hm [H0 H1] Hr.
+  apply Rmult_le_reg_l with (1 - r); [lra |].
+  pose proof (Rle_0_sqr ((1 - r) * v - c * w)) as Q; unfold Rsqr in Q.
+  assert (0 <= m * (((1 - r) * v - c * w) * ((1 - r) * v - c * w))) by (apply Rmult_le_pos; lra).
+  assert (E : (1 - r) * (1 - r) * J * (w * w) = r * (m * (c * c)) * (w * w)) by (rewrite Hr; ring).
+  nra.
+Qed.

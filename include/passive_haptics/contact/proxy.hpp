@@ -77,7 +77,8 @@ class proxy_spring::at {
   }
   /// Does a surface of K [N/m] come to rest under this spring? (settles() in sampled_spring.hpp)
   [[nodiscard]] constexpr bool settles(Scalar K) const noexcept {
-    return detail::comes_to_rest(sampled(K), rule_.mass(), sampled_every_, late_);
+    const Scalar least = rule_.mass() * (Scalar(1) - softness_);  // many are as steep as K/(1 − ε)
+    return detail::comes_to_rest(sampled(K), least, sampled_every_, late_);
   }
   [[nodiscard]] constexpr Scalar softness() const noexcept { return softness_; }  ///< ε
 

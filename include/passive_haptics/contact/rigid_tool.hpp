@@ -22,7 +22,8 @@ inline namespace v0 {
 
 /// How a tool presses: the coupling between the handle and its proxy,
 ///     C⁻¹ = diag(k_v I, k_ω I),   k_v = min(K, κ m/T²),   k_ω = min(K ℓ², κ I_least/T²)
-/// which settles however many contacts there are. A point r off the handle is felt with
+/// which settles however many contacts there are: m and I_least are of the handle point, both at once
+/// (rigid_inertia::at_handle), and many contacts together have κ/(1 − ε) of them. A point r off the handle is felt with
 /// 1/(nᵀC n), n its row (n, r × n): softer than K, because the handle gives way to a turn.
 struct tool_spring {
   double mass{};           ///< m, apparent mass of the handle [kg], a lower bound
@@ -33,6 +34,9 @@ struct tool_spring {
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = detail::sampled_fault(*this)) return fault;
+    if (!v0::settles(stiffness_fraction / (1.0 - softness), detail::ticks_to_settle(*this))) {
+      return {"softness", softness, "smaller: many contacts are as stiff as κ/(1 − ε), and ring"};
+    }
     if (!detail::positive(least_inertia)) {
       return {"least_inertia", least_inertia, "finite and > 0 kg·m²"};
     }
@@ -77,7 +81,10 @@ class tool_spring::at {
   }
   /// Does a surface of K [N/m] come to rest under this spring? (settles() in sampled_spring.hpp)
   [[nodiscard]] constexpr bool settles(Scalar K) const noexcept {
-    return detail::comes_to_rest(sampled(K), rule_.mass(), sampled_every_, late_);
+    const auto s = sampled(K);
+    const Scalar turns = s.stiffness * yield(s.compliance) * inertia_;
+    const Scalar least = kernels::smaller(rule_.mass(), turns) * (Scalar(1) - softness_);
+    return detail::comes_to_rest(s, least, sampled_every_, late_);
   }
   [[nodiscard]] constexpr Scalar softness() const noexcept { return softness_; }  ///< ε
   [[nodiscard]] constexpr Scalar lever() const noexcept { return lever_; }        ///< ℓ [m]
