@@ -131,7 +131,7 @@ cost of_touch(int rounds, Touch touch, const char* composition, double friction)
 
 cost of_guard(int rounds) {
   auto guard = ph::make_guard<scene>(device, hand);
-  ph_port* const port = open("force_guard", 0.0);
+  ph_port* const port = open("guard", 0.0);
   const auto wanted = [](const place& x) { return x[2] < 0.0 ? -800.0 * x[2] : 0.0; };
   const cost found = compare(
       rounds,
@@ -168,7 +168,7 @@ int run(const std::vector<std::string>& arguments) {
   row("touch", of_touch(rounds, ph::make_touch<scene>(device, hand), "touch", 0.0));
   row("encoder_touch",
       of_touch(rounds, ph::make_touch<scene>(stated, hand), "encoder_touch", stated.friction));
-  row("force_guard", of_guard(rounds));
+  row("guard", of_guard(rounds));
   table.print(std::cout);
   return experiments::ended("c_interface_cost", found);
 }

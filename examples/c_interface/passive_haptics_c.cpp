@@ -1,338 +1,202 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The library behind the C interface: compositions with a name, each a port with an inbox. What is
-// promised is said in the header; here is how a name becomes a type.
-//
-//   name ─▶ device as stated, checked ─▶ a composition for each latency ─▶ its own check() ─▶ ph_port
+// The functions of the C interface: what is promised is said in its header, what a name is composed of in
+// ports.hpp and the families beside it.
+#include "ports.hpp"
 
-#include <passive_haptics/adapters/c/passive_haptics.h>
-#include <passive_haptics/passive_haptics.hpp>
-
-#include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstring>
-#include <memory>
-#include <new>
-#include <optional>
 #include <string_view>
-#include <utility>
 
-namespace ph = passive_haptics;
-
+namespace c_interface {
 namespace {
-
-using scene = ph::space<double, 3>;
-using vector = scene::vector;
-using plane = ph::half_space<scene>;
-
-/// What crosses from the thread that publishes.
-struct news {
-  plane surface{};
-  bool here = false;
-};
-
-}  // namespace
-
-/// What a caller holds. The tick is the only virtual call in a loop.
-struct ph_port {
-  virtual ~ph_port() = default;
-  [[nodiscard]] virtual ph::parameter_fault check() const noexcept = 0;
-  [[nodiscard]] virtual ph::guarantee promise() const noexcept = 0;
-  /// Does a plane, or else a force, tell it what to do?
-  [[nodiscard]] virtual bool takes_planes() const noexcept = 0;
-  [[nodiscard]] virtual std::optional<ph::explanation> explain() const noexcept = 0;
-  /// Null is a position that could not be read, and a force that is not wanted anew. Fills all of `out`
-  /// but its size, in place: copies of a struct just written are dear.
-  virtual void tick(const double* position, double dt, const double* wanted,
-                    ph_result& out) noexcept = 0;
-
-  ph::exchange<news> inbox;
-  std::optional<scene::stored_effort> held;  ///< as the device says, for the coming tick only
-};
-
-namespace {
-
-[[nodiscard]] vector read(const double* numbers) noexcept {
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
-void answer(ph_result& out, const vector& force, double energy, ph::event what, bool limited,
-            double depth = 0.0, bool capped = false) noexcept {
-  out.event = static_cast<std::int32_t>(what);
-  for (int i = 0; i < 3; ++i) out.force[i] = force(i);
-  out.depth = depth;
-  out.energy = energy;
-  out.limited = limited;
-  out.capped = capped;
-}
-
-/// Any composition of the library behind the one face.
-template <class Port>
-class composed final : public ph_port {
-  static constexpr bool follows = requires(Port p) { p.release(); };
-
- public:
-  explicit composed(const Port& port) noexcept : port_(port) {}
-
-  [[nodiscard]] ph::parameter_fault check() const noexcept override { return port_.check(); }
-  [[nodiscard]] ph::guarantee promise() const noexcept override { return Port::passivity; }
-  [[nodiscard]] bool takes_planes() const noexcept override { return follows; }
-  [[nodiscard]] std::optional<ph::explanation> explain() const noexcept override {
-    if constexpr (requires { port_.explain(); }) return port_.explain();
-    return std::nullopt;
-  }
-  void tick(const double* position, double dt, const double* wanted,
-            ph_result& result) noexcept override {
-    if constexpr (follows) {
-      if (const news* newest = inbox.take()) {
-        if (newest->here) {
-          port_.update(newest->surface);
-        } else {
-          port_.release();
-        }
-      }
-    } else if (wanted != nullptr) {
-      port_.source().update(read(wanted));
-    }
-    const bool was_read = position != nullptr;
-    const auto at = [&](int i) { return was_read ? position[i] : 0.0; };
-    const ph::device_sample<scene> sample{.position = {at(0), at(1), at(2)},
-                                          .held = held ? *held : commanded_.back(),
-                                          .dt = dt,
-                                          .valid = was_read};
-    if (held) [[unlikely]] {
-      held.reset();
-    }
-    const auto out = port_.tick(sample);
-    std::copy_backward(commanded_.begin(), commanded_.end() - 1, commanded_.end());
-    commanded_.front() = out.force;
-    if constexpr (follows) {
-      bool capped = false;
-      if constexpr (requires { port_.law().is_capped(); }) capped = port_.law().is_capped();
-      answer(result, out.force, out.energy, out.what, out.limited, out.depth, capped);
-    } else {
-      answer(result, out.force, out.energy, out.what, out.limited);
-    }
-  }
-
- private:
-  Port port_;
-  /// Newest first. The last is what a device that does as it is told has held: one way into the port
-  /// is half the code of two.
-  std::array<scene::stored_effort, std::size_t{Port::latency} + 1> commanded_{};
-};
 
 // ------------------------------------------------------------------------------- named compositions
 
-[[nodiscard]] double stated(double x, double or_else) noexcept {
-  return x == 0.0 ? or_else : x;
-}
-constexpr double never = ph::loop_limits::never;
-
-[[nodiscard]] ph::encoder_device device_of(const ph_parameters& p) noexcept {
-  ph::encoder_device d{.mass = p.mass,
-                       .damping = p.damping,
-                       .friction = p.friction,
-                       .quantum = p.quantum,
-                       .force_limit = p.force_limit,
-                       .longest_tick = p.longest_tick,
-                       .latency = static_cast<int>(p.latency),
-                       .continuous_force = stated(p.continuous_force, never),
-                       .winding_time = p.winding_time};
-  if (p.presliding != 0.0) d.presliding = p.presliding;
-  return d;
-}
-
-[[nodiscard]] ph::exact_device exact_device_of(const ph_parameters& p) noexcept {
-  return {.mass = p.mass,
-          .damping = p.damping,
-          .force_limit = p.force_limit,
-          .longest_tick = p.longest_tick,
-          .latency = static_cast<int>(p.latency)};
-}
-[[nodiscard]] ph::known_hand hand_of(const ph_parameters& p) noexcept {
-  return {.force = p.hand_force};
-}
-
-template <int Latency>
-[[nodiscard]] ph::late_loop_limits<Latency> limits(const ph_parameters& p) noexcept {
-  const ph::late_loop_limits<Latency> defaults{.longest_tick = p.longest_tick};
-  return {.longest_tick = p.longest_tick,
-          .top_speed = stated(p.top_speed, defaults.top_speed),
-          .workspace = stated(p.workspace, defaults.workspace),
-          .watchdog = stated(p.watchdog, defaults.watchdog)};
-}
-[[nodiscard]] ph::followed<plane> surface(const ph_parameters& p) noexcept {
-  const ph::freshness defaults;
-  return ph::followed<plane>{{.stale_after = stated(p.stale_after, defaults.stale_after)}};
-}
-[[nodiscard]] ph::turn_limited turning(const ph_parameters& p) noexcept {
-  return {.rate = stated(p.turn_rate, 2.0)};
-}
-[[nodiscard]] ph::given_force given(const ph_parameters& p) noexcept {
-  const ph::given_force defaults;
-  return {.stale_after = stated(p.stale_after, defaults.stale_after)};
-}
-[[nodiscard]] ph::settled_force settled(const ph_parameters& p) noexcept {
-  return {.mass = p.mass, .force_limit = p.force_limit, .stale_after = given(p).stale_after};
-}
-[[nodiscard]] ph::eased<ph::damped_spring> settling(const ph_parameters& p) noexcept {
-  return ph::eased{ph::damped_spring{.mass = p.mass, .force_limit = p.force_limit}};
-}
-[[nodiscard]] ph::reachable_bound reachable(const ph_parameters& p) noexcept {
-  return {.mass = p.mass, .hand_force = p.hand_force};
-}
-[[nodiscard]] ph::actuator_limit motors(const ph_parameters& p) noexcept {
-  return {.most = p.force_limit};
-}
-template <class Ledger>
-[[nodiscard]] ph::forgiving<Ledger> forgiven(const ph_parameters& p,
-                                             const Ledger& ledger) noexcept {
-  return {ledger, ph::amends_for(p.force_limit)};
-}
-[[nodiscard]] ph::dual_ledger frictional(const ph_parameters& p) noexcept {
-  return {.damping = {.coefficient = p.damping, .coulomb = p.friction, .presliding = p.presliding},
-          .quantum = p.quantum};
-}
-
-/// What a composition from the facts of a device leaves to be said: the loop's limits and how data age.
-template <class Port>
-Port with_limits(Port port, const ph_parameters& p) noexcept {
-  // A part that is refused stays as it is, and ph_create has asked these before.
-  (void)port.set(limits<Port::latency>(p));
-  return port;
-}
-struct touch {
-  template <int Latency>
-  static auto make(const ph_parameters& p) noexcept {
-    using loop = ph::late_loop_limits<Latency>;
-    auto port = ph::make_touch<scene, plane, loop>(exact_device_of(p), hand_of(p),
-                                                   stated(p.turn_rate, 2.0));
-    (void)port.set(ph::freshness{.stale_after = stated(p.stale_after, never)});
-    return with_limits(port, p);
-  }
-};
-struct quantised_touch {
-  template <int Latency>
-  static auto make(const ph_parameters& p) noexcept {
-    // By hand: positions in steps, and no friction to pay for them.
-    return ph::local_model{
-        scene{},
-        surface(p),
-        turning(p),
-        settling(p),
-        forgiven(p, ph::quantised_energy{.damping = {p.damping}, .quantum = p.quantum}),
-        ph::bound_chain{reachable(p), motors(p)},
-        limits<Latency>(p),
-        ph::mass_observer{.mass = p.mass, .quantum = p.quantum}};
-  }
-};
-struct encoder_touch {
-  template <int Latency>
-  static auto make(const ph_parameters& p) noexcept {
-    using loop = ph::late_loop_limits<Latency>;
-    auto port =
-        ph::make_touch<scene, plane, loop>(device_of(p), hand_of(p), stated(p.turn_rate, 2.0));
-    (void)port.set(ph::freshness{.stale_after = stated(p.stale_after, never)});
-    return with_limits(port, p);
-  }
-};
-struct strict_touch {
-  template <int Latency>
-  static auto make(const ph_parameters& p) noexcept {
-    return ph::local_model{scene{},
-                           surface(p),
-                           turning(p),
-                           ph::spring{},
-                           ph::reduced_energy{.damping = p.damping},
-                           ph::bound_chain{ph::strict_bound{}, motors(p)},
-                           limits<Latency>(p)};
-  }
-};
-struct force_guard {
-  template <int Latency>
-  static auto make(const ph_parameters& p) noexcept {
-    auto port =
-        ph::make_guard<scene, ph::late_loop_limits<Latency>>(exact_device_of(p), hand_of(p));
-    (void)port.set(settled(p));
-    return with_limits(port, p);
-  }
-};
-struct strict_guard {
-  template <int Latency>
-  static auto make(const ph_parameters& p) noexcept {
-    return ph::passive_port{scene{}, given(p), ph::reduced_energy{.damping = p.damping},
-                            ph::bound_chain{ph::strict_bound{}, motors(p)}, limits<Latency>(p)};
-  }
-};
-struct encoder_guard {
-  template <int Latency>
-  static auto make(const ph_parameters& p) noexcept {
-    return ph::passive_port{scene{}, given(p), frictional(p),
-                            ph::bound_chain{ph::strict_bound{}, motors(p)}, limits<Latency>(p)};
-  }
-};
-
-using made = std::unique_ptr<ph_port>;
-
-template <class Composition, int Latency>
-[[nodiscard]] made make_late(const ph_parameters& p) noexcept {
-  using port = decltype(Composition::template make<Latency>(p));
-  return made(new (std::nothrow) composed<port>(Composition::template make<Latency>(p)));
-}
-template <class Composition, int Latency = 0>
-[[nodiscard]] made make(const ph_parameters& p) noexcept {
-  if constexpr (Latency < PH_MOST_LATENCY) {
-    if (p.latency != Latency) return make<Composition, Latency + 1>(p);
-  }
-  return make_late<Composition, Latency>(p);
-}
-
 struct named_composition {
   std::string_view name;
-  made (*make)(const ph_parameters&) noexcept;
-  bool knows_hand;   ///< takes mass and hand_force
-  bool knows_steps;  ///< takes quantum, and what pays for it
+  made (*make)(const ph_parameters&, facts) noexcept;
+  facts of{};
+  int latest = PH_MOST_LATENCY;
+  bool knows_hand = true;
+  [[nodiscard]] constexpr bool is(std::string_view other) const noexcept { return name == other; }
 };
+constexpr int strict_latest = PH_MOST_STRICT_LATENCY;
+constexpr facts on_encoders{.encoder = true};
+constexpr facts anybody{.any_hand = true};
+constexpr facts anybody_on_encoders{.encoder = true, .any_hand = true};
 constexpr std::array compositions{
-    named_composition{"touch", make<touch>, true, false},
-    named_composition{"quantised_touch", make<quantised_touch>, true, true},
-    named_composition{"encoder_touch", make<encoder_touch>, true, true},
-    named_composition{"strict_touch", make<strict_touch>, false, false},
-    named_composition{"force_guard", make<force_guard>, true, false},
-    named_composition{"strict_guard", make<strict_guard>, false, false},
-    named_composition{"encoder_guard", make<encoder_guard>, false, true},
+    named_composition{"touch", make_touch},
+    named_composition{"encoder_touch", make_touch, on_encoders},
+    named_composition{"strict_touch", make_touch, anybody, strict_latest, false},
+    named_composition{"strict_encoder_touch", make_touch, anybody_on_encoders, strict_latest,
+                      false},
+    named_composition{"contacts", make_contacts},
+    named_composition{"encoder_contacts", make_contacts, on_encoders},
+    named_composition{"strict_contacts", make_contacts, anybody, strict_latest, false},
+    named_composition{"strict_encoder_contacts", make_contacts, anybody_on_encoders, strict_latest,
+                      false},
+    named_composition{"guard", make_guard},
+    named_composition{"encoder_guard", make_guard, on_encoders},
+    named_composition{"strict_guard", make_guard, anybody, strict_latest, false},
+    named_composition{"strict_encoder_guard", make_guard, anybody_on_encoders, strict_latest,
+                      false},
+    named_composition{"stylus", make_stylus},
+    named_composition{"tool", make_tool, {}, PH_MOST_TOOL_LATENCY},
+    named_composition{"quantised_touch", make_quantised_touch, on_encoders, strict_latest},
 };
+
+/// What is to be finite and above zero, or not below it, by its name in ph_parameters.
+struct ranged {
+  const char* name;
+  double ph_parameters::*value;
+  bool may_be_zero;
+  const char* remedy;
+};
+constexpr ranged of_surfaces[]{
+    {"turn_rate", &ph_parameters::turn_rate, true, "finite and ≥ 0 rad/s, 0 for the default"},
+    {"static_friction", &ph_parameters::static_friction, true, "finite and ≥ 0"},
+    {"kinetic_friction", &ph_parameters::kinetic_friction, true, "finite and ≥ 0"}};
+constexpr ranged of_a_tool[]{
+    {"damping", &ph_parameters::damping, false, "finite and > 0 N·s/m"},
+    {"least_inertia", &ph_parameters::least_inertia, false, "finite and > 0 kg·m²"},
+    {"inertia_spread", &ph_parameters::inertia_spread, true, "finite and ≥ 0 kg·m²"},
+    {"inertia_offset", &ph_parameters::inertia_offset, true, "finite and ≥ 0 m"},
+    {"angular_damping", &ph_parameters::angular_damping, false, "finite and > 0 N·m·s/rad"},
+    {"damping_most", &ph_parameters::damping_most, false, "finite and > 0 N·s/m: an upper bound"},
+    {"angular_damping_most", &ph_parameters::angular_damping_most, false,
+     "finite and > 0 N·m·s/rad: an upper bound"},
+    {"hand_torque", &ph_parameters::hand_torque, true, "finite and ≥ 0 N·m"},
+    {"torque_limit", &ph_parameters::torque_limit, false, "finite and > 0 N·m"},
+    {"lever", &ph_parameters::lever, true, "finite and > 0 m, 0 for 0.03"}};
+
+[[nodiscard]] ph::parameter_fault fault_in(const ph_parameters& p, const auto& ranges) noexcept {
+  for (const ranged& r : ranges) {
+    const double x = p.*r.value;
+    if (!(r.may_be_zero ? ph::detail::not_negative(x) : ph::detail::positive(x))) {
+      return {r.name, x, r.remedy};
+    }
+  }
+  return {};
+}
 
 /// The first parameter that is out of range by the names of ph_parameters. What this passes the
 /// composition asks once more, by its own.
 [[nodiscard]] ph::parameter_fault fault_in(const ph_parameters& p,
                                            const named_composition& chosen) noexcept {
-  if (p.latency > PH_MOST_LATENCY) {
-    return {"latency", static_cast<double>(p.latency), "0, 1 or 2 ticks"};
+  if (p.latency > static_cast<unsigned>(chosen.latest)) {
+    return {"latency", static_cast<double>(p.latency),
+            chosen.latest == PH_MOST_LATENCY ? "0 to 8 ticks"
+            : chosen.latest == PH_MOST_TOOL_LATENCY
+                ? "0 or 1 tick: a tool's bound is not proved later"
+                : "0 to 2 ticks of what is strict or quantised"};
   }
-  ph::encoder_device device = device_of(p);
-  if (!chosen.knows_hand) device.mass = 1.0;
-  if (!chosen.knows_steps) {
-    if (p.quantum != 0.0) {
-      return {"quantum", p.quantum,
-              "0 here, where positions are taken as exact: quantised_touch, encoder_touch and "
-              "encoder_guard know steps"};
-    }
+  if (!chosen.of.encoder && p.quantum != 0.0) {
+    return {"quantum", p.quantum,
+            "0 here, where positions are taken as exact: what knows steps has encoder_ in its "
+            "name, or is quantised_touch"};
+  }
+  ph::encoder_device device = encoder_device_of(p);
+  if (chosen.is("quantised_touch")) {
     device.friction = 0.0;
+    device.continuous_force = ph::loop_limits::never;
   }
-  if (chosen.name != "encoder_touch") device.continuous_force = never;
-  if (const auto fault = device.check()) return fault;
+  const auto fault = chosen.of.encoder ? device.check() : exact_device_of(p).check();
+  if (fault) return fault;
   if (chosen.knows_hand && !ph::detail::positive(p.hand_force)) {
     return {"hand_force", p.hand_force, "finite and > 0 N: hand, load and dry friction together"};
   }
   if (!(p.stale_after >= 0.0)) return {"stale_after", p.stale_after, "≥ 0 s, 0 for the default"};
-  if (chosen.name == "encoder_touch") {
+  if (const auto wrong = fault_in(p, of_surfaces)) return wrong;
+  if (p.kinetic_friction > p.static_friction) {
+    return {"kinetic_friction", p.kinetic_friction, "no more than static_friction"};
+  }
+  if (chosen.is("tool")) {
+    if (const auto wrong = fault_in(p, of_a_tool)) return wrong;
+  }
+  if (chosen.is("encoder_touch") || chosen.is("encoder_contacts") ||
+      chosen.is("strict_encoder_touch") || chosen.is("strict_encoder_contacts")) {
     const auto budget = ph::design::stiffness_budget(device);
     if (!(budget.stiffness > 0.0)) return {"friction", p.friction, budget.because()};
   }
-  if (!(p.turn_rate >= 0.0)) return {"turn_rate", p.turn_rate, "≥ 0 rad/s, 0 for the default"};
   return ph::detail::fault_in(limits<0>(p));
+}
+
+/// What a port has been told for good, and is told otherwise.
+[[nodiscard]] ph::parameter_fault change_in(const ph_parameters& was,
+                                            const ph_parameters& is) noexcept {
+  constexpr const char* fixed = "what ph_create was told: create another port";
+  if (is.latency != was.latency) return {"latency", static_cast<double>(is.latency), fixed};
+  constexpr struct {
+    const char* name;
+    double ph_parameters::*value;
+  } all[]{{"mass", &ph_parameters::mass},         {"damping", &ph_parameters::damping},
+          {"friction", &ph_parameters::friction}, {"presliding", &ph_parameters::presliding},
+          {"quantum", &ph_parameters::quantum},   {"longest_tick", &ph_parameters::longest_tick}};
+  for (const auto& one : all) {
+    if (!(is.*one.value == was.*one.value)) return {one.name, is.*one.value, fixed};
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (!(is.tip[i] == was.tip[i])) return {"tip", is.tip[i], fixed};
+  }
+  return {};
+}
+
+// ------------------------------------------------------------------------------------------ surfaces
+
+[[nodiscard]] plane plane_of(const ph_surface& s) noexcept {
+  return {read(s.a), read(s.b), s.stiffness};
+}
+/// What is not a kind has no stiffness, and is refused.
+[[nodiscard]] curved curved_of(const ph_surface& s) noexcept {
+  const double K = s.stiffness;
+  const vector a = read(s.a), b = read(s.b), c = read(s.c);
+  curved made{.stiffness = K};
+  switch (s.kind) {
+    case PH_SPHERE:
+      made.shape = ph::sphere<scene>{a, s.radius, K};
+      break;
+    case PH_CAVITY:
+      made.shape = ph::sphere<scene>{a, s.radius, K, ph::felt_from::inside};
+      break;
+    case PH_QUADRIC:
+      made.shape = ph::quadric<scene>{a,
+                                      b,
+                                      c,
+                                      s.curvature[0],
+                                      s.curvature[1],
+                                      K,
+                                      s.thickness,
+                                      stated(s.reach, ph::quadric<scene>{}.reach)};
+      break;
+    case PH_CAPSULE:
+      made.shape = ph::shell<ph::segment_core<scene>>{{a, b}, s.radius, K};
+      break;
+    case PH_BOX:
+      made.shape = ph::shell<ph::box_core<scene>>{{a, read(s.half), b, c}, s.radius, K};
+      break;
+    case PH_PLATE:
+      made.shape = ph::shell<ph::triangle_core<scene>>{{a, b, c}, s.radius, K};
+      break;
+    default:
+      break;
+  }
+  return made;
+}
+
+/// Into a slot, and off.
+template <class Surface>
+std::int32_t tell(ph_port& port, told<Surface>* slot, const Surface& surface,
+                  const double* at) noexcept {
+  if (slot == nullptr) return PH_NO_SUCH_SLOT;
+  const bool is_point = scene::is_finite(read(at));
+  if (Surface tried = surface; !tried.prepare() || !is_point) return PH_REFUSED_SURFACE;
+  *slot = {surface, read(at), slot->news + 1, true};
+  port.send();
+  return PH_OK;
+}
+void leave(auto* slot) noexcept {
+  ++slot->news;
+  slot->here = false;
 }
 
 // ------------------------------------------------------------------------------------ structs by size
@@ -343,14 +207,16 @@ template <class Struct>
 [[nodiscard]] constexpr bool known_size(std::uint32_t size, std::size_t shortest) noexcept {
   return size >= shortest && size <= sizeof(Struct) && size % 8 == 0;
 }
+constexpr std::size_t shortest_surface = sizeof(ph_surface);
 constexpr std::size_t shortest_parameters = offsetof(ph_parameters, friction);
 constexpr std::size_t shortest_result = offsetof(ph_result, limited);
-static_assert(sizeof(ph_parameters) == 128 && shortest_parameters == 48);
+static_assert(sizeof(ph_parameters) == 240 && shortest_parameters == 48);
+static_assert(sizeof(ph_surface) == 176);
 static_assert(sizeof(ph_explanation) == 48 || sizeof(void*) != 8);
-static_assert(sizeof(ph_result) == 56 && shortest_result == 48);
+static_assert(sizeof(ph_result) == 80 && shortest_result == 48);
 
 /// What the caller's struct says; zero, "not stated", where it ends.
-[[nodiscard]] ph_parameters read(const ph_parameters& given) noexcept {
+[[nodiscard]] ph_parameters whole(const ph_parameters& given) noexcept {
   ph_parameters own{};
   std::memcpy(&own, &given, given.size);
   return own;
@@ -392,26 +258,41 @@ class text {
   std::size_t size_;
 };
 
-std::int32_t tick(ph_port* port, const double* position, double dt, bool with_force,
-                  const double* wanted, ph_result* result) noexcept {
+/// What ph_create and ph_set say of a fault.
+std::int32_t refuse(const text& reason, const ph::parameter_fault& fault) noexcept {
+  reason.say("%s = %g is refused: %s", fault.parameter, fault.value, fault.remedy);
+  return PH_REFUSED_PARAMETER;
+}
+std::int32_t refuse_size(const text& reason, std::uint32_t size) noexcept {
+  reason.say("size = %u is refused: sizeof(ph_parameters), which is %u bytes in this library",
+             unsigned{size}, unsigned{sizeof(ph_parameters)});
+  return PH_WRONG_SIZE;
+}
+
+/// One tick of a composition that takes what `by` says; of any other it is a sample that was lost. A copy of `now`
+/// would read in one piece what was just written in parts, which is dear.
+std::int32_t tick(ph_port* port, const moment& now, takes by, ph_result* result) noexcept {
   if (result == nullptr) return PH_NULL_ARGUMENT;
   if (!writable(result)) return PH_WRONG_SIZE;
   if (port == nullptr) {
     write(*result, [](ph_result& out) {
-      answer(out, scene::zero(), 0.0, ph::event::rejected_parameters, false);
+      const std::uint32_t size = out.size;
+      out = {};
+      out.size = size;
+      out.event = PH_REJECTED_PARAMETERS;
     });
     return PH_NULL_ARGUMENT;
   }
   std::int32_t status = PH_OK;
-  if (position == nullptr || (with_force && wanted == nullptr)) {
+  if (now.position == nullptr || (by == takes::forces && now.wanted == nullptr) ||
+      (by == takes::poses && now.orientation == nullptr)) {
     status = PH_NULL_ARGUMENT;
-  } else if (with_force && port->takes_planes()) {
+  } else if (by != port->takes && !(by == takes::planes && port->takes == takes::forces)) {
     status = PH_NOT_OF_THIS_COMPOSITION;
   }
-  const bool good = status == PH_OK;
-  write(*result, [&](ph_result& out) {
-    port->tick(good ? position : nullptr, dt, good ? wanted : nullptr, out);
-  });
+  const moment lost{.dt = now.dt};
+  const moment& taken = status == PH_OK ? now : lost;
+  write(*result, [&](ph_result& out) { port->tick(taken, out); });
   return status;
 }
 
@@ -438,6 +319,9 @@ static_assert(PH_NONE == static_cast<int>(ph::guarantee::none) &&
               PH_STRICT == static_cast<int>(ph::guarantee::strict));
 
 }  // namespace
+}  // namespace c_interface
+
+using namespace c_interface;  // NOLINT(google-build-using-namespace): the functions of the header
 
 extern "C" {
 
@@ -456,33 +340,31 @@ std::int32_t ph_create(const char* composition, const ph_parameters* parameters,
     return PH_NULL_ARGUMENT;
   }
   if (!known_size<ph_parameters>(parameters->size, shortest_parameters)) {
-    reason.say("size = %u is refused: sizeof(ph_parameters), which is %u bytes in this library",
-               unsigned{parameters->size}, unsigned{sizeof(ph_parameters)});
-    return PH_WRONG_SIZE;
+    return refuse_size(reason, parameters->size);
   }
   const auto* const chosen =
       std::find_if(compositions.begin(), compositions.end(),
-                   [composition](const auto& c) { return c.name == composition; });
+                   [composition](const auto& c) { return c.is(composition); });
   if (chosen == compositions.end()) {
-    reason.say(
-        "composition = \"%.60s\" is refused: one of touch, quantised_touch, encoder_touch, "
-        "strict_touch, force_guard, strict_guard, encoder_guard",
-        composition);
+    std::array<char, 400> names{};
+    std::size_t end = 0;
+    for (const auto& known : compositions) {
+      end += static_cast<std::size_t>(std::snprintf(names.data() + end, names.size() - end, "%s%s",
+                                                    end > 0 ? ", " : "", known.name.data()));
+    }
+    reason.say("composition = \"%.60s\" is refused: one of %s", composition, names.data());
     return PH_UNKNOWN_COMPOSITION;
   }
-  const ph_parameters own = read(*parameters);
-  const auto refuse = [&reason](const ph::parameter_fault& fault) {
-    reason.say("%s = %g is refused: %s", fault.parameter, fault.value, fault.remedy);
-    return PH_REFUSED_PARAMETER;
-  };
-  if (const auto fault = fault_in(own, *chosen)) return refuse(fault);
-  made whole = chosen->make(own);
-  if (!whole) {
+  const ph_parameters own = whole(*parameters);
+  if (const auto fault = fault_in(own, *chosen)) return refuse(reason, fault);
+  made one = chosen->make(own, chosen->of);
+  if (!one) {
     reason.say("%s", "ph_create: no memory for a port");
     return PH_OUT_OF_MEMORY;
   }
-  if (const auto fault = whole->check()) return refuse(fault);
-  *port = whole.release();
+  if (const auto fault = one->check()) return refuse(reason, fault);
+  one->composition = chosen;
+  *port = one.release();
   return PH_OK;
 }
 
@@ -494,36 +376,98 @@ std::int32_t ph_guarantee_of(const ph_port* port) noexcept {
   return port != nullptr ? static_cast<std::int32_t>(port->promise()) : std::int32_t{PH_NONE};
 }
 
+std::int32_t ph_publish(ph_port* port, std::uint32_t slot, const ph_surface* surface) noexcept {
+  if (port == nullptr || surface == nullptr) return PH_NULL_ARGUMENT;
+  if (!known_size<ph_surface>(surface->size, shortest_surface)) return PH_WRONG_SIZE;
+  if (port->takes == takes::forces) return PH_NOT_OF_THIS_COMPOSITION;
+  if (surface->kind == PH_PLANE) {
+    return tell(*port, port->plane_slot(slot), plane_of(*surface), surface->at);
+  }
+  if (surface->kind > PH_PLATE) return PH_REFUSED_SURFACE;
+  return tell(*port, port->curved_slot(slot), curved_of(*surface), surface->at);
+}
+
 std::int32_t ph_publish_plane(ph_port* port, const double point[3], const double normal[3],
                               double stiffness) noexcept {
   if (port == nullptr || point == nullptr || normal == nullptr) return PH_NULL_ARGUMENT;
-  if (!port->takes_planes()) return PH_NOT_OF_THIS_COMPOSITION;
-  const plane surface{read(point), read(normal), stiffness};
-  if (plane tried = surface; !tried.prepare()) return PH_REFUSED_PLANE;
-  port->inbox.publish({surface, true});
-  return PH_OK;
+  if (port->takes == takes::forces) return PH_NOT_OF_THIS_COMPOSITION;
+  constexpr double here[3]{};
+  return tell(*port, port->plane_slot(0), plane{read(point), read(normal), stiffness}, here);
+}
+
+std::int32_t ph_release(ph_port* port, std::uint32_t slot, std::uint32_t kind) noexcept {
+  if (port == nullptr) return PH_NULL_ARGUMENT;
+  if (port->takes == takes::forces) return PH_NOT_OF_THIS_COMPOSITION;
+  if (kind > PH_PLATE) return PH_REFUSED_SURFACE;
+  const auto release = [port](auto* one) {
+    if (one == nullptr) return std::int32_t{PH_NO_SUCH_SLOT};
+    leave(one);
+    port->send();
+    return std::int32_t{PH_OK};
+  };
+  return kind == PH_PLANE ? release(port->plane_slot(slot)) : release(port->curved_slot(slot));
 }
 
 std::int32_t ph_publish_nothing(ph_port* port) noexcept {
   if (port == nullptr) return PH_NULL_ARGUMENT;
-  if (!port->takes_planes()) return PH_NOT_OF_THIS_COMPOSITION;
-  port->inbox.publish({});
+  if (port->takes == takes::forces) return PH_NOT_OF_THIS_COMPOSITION;
+  for (std::uint32_t i = 0; auto* one = port->plane_slot(i); ++i) leave(one);
+  for (std::uint32_t i = 0; auto* one = port->curved_slot(i); ++i) leave(one);
+  port->send();
   return PH_OK;
 }
 
 std::int32_t ph_tick(ph_port* port, const double position[3], double dt,
                      ph_result* result) noexcept {
-  return tick(port, position, dt, false, nullptr, result);
+  return tick(port, {.position = position, .dt = dt}, takes::planes, result);
 }
 
 std::int32_t ph_tick_wanted(ph_port* port, const double position[3], double dt,
                             const double wanted[3], ph_result* result) noexcept {
-  return tick(port, position, dt, true, wanted, result);
+  return tick(port, {.position = position, .dt = dt, .wanted = wanted}, takes::forces, result);
+}
+
+std::int32_t ph_tick_pose(ph_port* port, const double position[3], const double orientation[4],
+                          double dt, ph_result* result) noexcept {
+  return tick(port, {.position = position, .orientation = orientation, .dt = dt}, takes::poses,
+              result);
 }
 
 std::int32_t ph_held(ph_port* port, const double force[3]) noexcept {
   if (port == nullptr || force == nullptr) return PH_NULL_ARGUMENT;
-  port->held = read(force);
+  if (port->has_torque) return PH_NOT_OF_THIS_COMPOSITION;
+  port->held = {force[0], force[1], force[2]};
+  return PH_OK;
+}
+
+std::int32_t ph_held_wrench(ph_port* port, const double force[3], const double torque[3]) noexcept {
+  if (port == nullptr || force == nullptr || torque == nullptr) return PH_NULL_ARGUMENT;
+  if (!port->has_torque) return PH_NOT_OF_THIS_COMPOSITION;
+  port->held = {force[0], force[1], force[2], torque[0], torque[1], torque[2]};
+  return PH_OK;
+}
+
+std::int32_t ph_set(ph_port* port, const ph_parameters* parameters, char* why,
+                    std::size_t room) noexcept {
+  const text reason(why, room);
+  if (port == nullptr || parameters == nullptr) {
+    reason.say("ph_set: %s is NULL", port == nullptr ? "port" : "parameters");
+    return PH_NULL_ARGUMENT;
+  }
+  if (!known_size<ph_parameters>(parameters->size, shortest_parameters)) {
+    return refuse_size(reason, parameters->size);
+  }
+  const ph_parameters own = whole(*parameters);
+  const auto& chosen = *static_cast<const named_composition*>(port->composition);
+  if (const auto fault = fault_in(own, chosen)) return refuse(reason, fault);
+  if (const auto fault = change_in(port->stated, own)) return refuse(reason, fault);
+  if (const auto fault = port->set(own)) return refuse(reason, fault);
+  return PH_OK;
+}
+
+std::int32_t ph_reset(ph_port* port) noexcept {
+  if (port == nullptr) return PH_NULL_ARGUMENT;
+  port->reset();
   return PH_OK;
 }
 
@@ -548,7 +492,7 @@ std::int32_t ph_stiffness_budget(const ph_parameters* parameters, double* stiffn
   *stiffness = 0.0;
   if (because != nullptr) *because = "";
   if (!known_size<ph_parameters>(parameters->size, shortest_parameters)) return PH_WRONG_SIZE;
-  const auto device = device_of(read(*parameters));
+  const auto device = encoder_device_of(whole(*parameters));
   const auto budget = ph::design::stiffness_budget(device);
   *stiffness = budget.stiffness;
   if (because != nullptr) *because = budget.because();
@@ -575,9 +519,13 @@ const char* ph_status_text(std::int32_t status) noexcept {
     case PH_OUT_OF_MEMORY:
       return "out of memory";
     case PH_NOT_OF_THIS_COMPOSITION:
-      return "a touch takes planes, a guard takes forces";
-    case PH_REFUSED_PLANE:
-      return "the plane has a number that is none, no normal, or no stiffness > 0";
+      return "surfaces are for touch, contacts, stylus and tool, wanted forces for a guard, poses "
+             "for "
+             "stylus and tool";
+    case PH_REFUSED_SURFACE:
+      return "the surface has a number that is none, no normal, no stiffness > 0, or no such kind";
+    case PH_NO_SUCH_SLOT:
+      return "there is no slot of this number for this kind";
     default:
       return "unknown status";
   }

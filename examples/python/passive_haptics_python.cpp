@@ -75,6 +75,11 @@ class wall {
         bare_(composition == "none"),
         guards_(composition.find("guard") != std::string::npos) {
     if (bare_) return;
+    if (composition == "stylus" || composition == "tool") {
+      throw py::value_error("composition = \"" + composition +
+                            "\" is refused: it turns, and the "
+                            "simulated hand moves on a line");
+    }
     std::array<char, PH_TEXT_ROOM> why{};
     ph_port* port = nullptr;
     if (ph_create(composition.c_str(), &parameters, &port, why.data(), why.size()) != PH_OK) {
@@ -249,6 +254,7 @@ PYBIND11_MODULE(passive_haptics, module) {
   module.def(
       "event_text", [](int event) { return ph_event_text(event); }, py::arg("event"));
   module.attr("compositions") =
-      py::make_tuple("touch", "quantised_touch", "encoder_touch", "strict_touch", "force_guard",
-                     "strict_guard", "encoder_guard");
+      py::make_tuple("touch", "encoder_touch", "strict_touch", "strict_encoder_touch", "contacts",
+                     "encoder_contacts", "strict_contacts", "strict_encoder_contacts", "guard",
+                     "encoder_guard", "strict_guard", "strict_encoder_guard", "quantised_touch");
 }

@@ -29,7 +29,7 @@ def main(arguments):
     hand = ph.Hand(lets_go=1.0, load=-0.3)
     stiffest, because = ph.stiffness_budget(device)
     print(f"The ledger of a device with steps of 20 um sustains {stiffest:.0f} N/m. {because}\n")
-    print("composition       device  N/m    least port energy  held with  at the end")
+    print("composition             device  N/m    least port energy  held with  at the end")
     traces = {}
     for stiffness in [float(a) for a in arguments] or [500.0, 2000.0, 8000.0]:
         for name in ("none",) + ph.compositions:
@@ -37,7 +37,7 @@ def main(arguments):
             now = ph.simulate(name, stiffness, device if steps else exact, hand)
             traces[name, stiffness] = now
             pressed = now["force"][(now["t"] > 0.8) & (now["t"] < 1.0)].mean()
-            print(f"{name:17} {'steps' if steps else 'exact':7} {stiffness:<6.0f} "
+            print(f"{name:23} {'steps' if steps else 'exact':7} {stiffness:<6.0f} "
                   f"{1e3 * now['port_energy'].min():10.3f} mJ   {pressed:8.2f} N {1e3 * now['x'][-1]:9.2f} mm")
     if picture:
         draw(traces, picture)

@@ -22,6 +22,10 @@ namespace PassiveHaptics
         public double Mass, Damping, HandForce, ForceLimit, LongestTick;
         public double Friction, Presliding, Quantum, ContinuousForce, WindingTime;
         public double TurnRate, StaleAfter, TopSpeed, Workspace, Watchdog;
+        public double StaticFriction, KineticFriction; // of contacts, stylus and tool
+        public Vector Tip;                             // of a stylus
+        public double LeastInertia, InertiaSpread, InertiaOffset, AngularDamping; // of a tool
+        public double DampingMost, AngularDampingMost, HandTorque, TorqueLimit, Lever;
 
         internal Parameters WithSize()
         {
@@ -37,6 +41,41 @@ namespace PassiveHaptics
         public Vector(double x, double y, double z) { X = x; Y = y; Z = z; }
     }
 
+    /// The unit quaternion that turns the frame of a stylus or a tool into the world's. Unity's has its w last.
+    public struct Rotation
+    {
+        public double W, X, Y, Z;
+        public Rotation(double w, double x, double y, double z) { W = w; X = x; Y = y; Z = z; }
+    }
+
+    /// As ph_surface_kind, which says what of a surface each of them takes.
+    public enum Kind : uint { Plane, Sphere, Cavity, Quadric, Capsule, Box, Plate }
+
+    /// A piece of the world for a slot, as ph_surface.
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Surface
+    {
+        internal uint size;
+        public Kind Kind;
+        public double Stiffness;
+        public Vector A, B, C;
+        public double Radius;
+        public Vector Half;
+        public double Curvature, CrossCurvature, Thickness, Reach;
+        public Vector At; // the point of a tool
+    }
+
+    /// How stiff a surface is shown, and why no stiffer, as ph_explanation.
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Explanation
+    {
+        internal uint size;
+        public int Now;
+        public double Asked, Shown, Depth, Force;
+        private IntPtr because;
+        public string Because { get { return Marshal.PtrToStringAnsi(because); } }
+    }
+
     /// What a tick answers: newtons, metres, joules, a ph_event.
     [StructLayout(LayoutKind.Sequential)]
     public struct Result
@@ -46,6 +85,7 @@ namespace PassiveHaptics
         public Vector Force;
         public double Depth, Energy;
         public int Limited, Capped;
+        public Vector Torque; // of a tool
     }
 
     /// One device. ONE PORT PER DEVICE: two would spend the same damping twice.
@@ -59,10 +99,7 @@ namespace PassiveHaptics
         {
             Parameters stated = device.WithSize();
             byte[] why = new byte[512];
-            int status = ph_create(composition, ref stated, out port, why, (UIntPtr)why.Length);
-            if (status == 0) return;
-            int end = Array.IndexOf(why, (byte)0);
-            throw new ArgumentException(Encoding.UTF8.GetString(why, 0, end));
+            if (ph_create(composition, ref stated, out port, why, (UIntPtr)why.Length) != 0) Refuse(why);
         }
         ~Port() { Close(); }
         /// No thread may still tick or publish.
@@ -76,6 +113,21 @@ namespace PassiveHaptics
         public bool Publish(Vector point, Vector normal, double stiffness)
         {
             int status = ph_publish_plane(port, ref point, ref normal, stiffness);
+            GC.KeepAlive(this);
+            return status == 0;
+        }
+        /// The newest surface in a slot of contacts, stylus or tool: planes, and what is curved, each from 0.
+        public bool Publish(int slot, Surface surface)
+        {
+            surface.size = surfaceSize;
+            int status = ph_publish(port, (uint)slot, ref surface);
+            GC.KeepAlive(this);
+            return status == 0;
+        }
+        /// Nothing is in it any more.
+        public bool Release(int slot, Kind kind)
+        {
+            int status = ph_release(port, (uint)slot, kind);
             GC.KeepAlive(this);
             return status == 0;
         }
@@ -105,12 +157,52 @@ namespace PassiveHaptics
             return result;
         }
 
+        /// The same for a stylus and a tool.
+        public Result Tick(Vector position, Rotation orientation, double dt)
+        {
+            Result result = new Result { size = resultSize };
+            ph_tick_pose(port, ref position, ref orientation, dt, ref result);
+            GC.KeepAlive(this);
+            return result;
+        }
+
+        /// Other parameters, the ledger kept, from the thread that ticks. Throws as the constructor does.
+        public void Set(Parameters device)
+        {
+            Parameters stated = device.WithSize();
+            byte[] why = new byte[512];
+            int status = ph_set(port, ref stated, why, (UIntPtr)why.Length);
+            GC.KeepAlive(this);
+            if (status != 0) Refuse(why);
+        }
+        /// All but the parameters back to the start, from the thread that ticks.
+        public void Reset()
+        {
+            ph_reset(port);
+            GC.KeepAlive(this);
+        }
+        /// From the thread that ticks, not in every tick. False: this composition does not explain itself.
+        public bool Explain(out Explanation explanation)
+        {
+            explanation = new Explanation { size = explanationSize };
+            int status = ph_explain(port, ref explanation);
+            GC.KeepAlive(this);
+            return status == 0;
+        }
+
         public static string TextOf(int happened)
         {
             return Marshal.PtrToStringAnsi(ph_event_text(happened));
         }
 
         private static readonly uint resultSize = (uint)Marshal.SizeOf(typeof(Result));
+        private static readonly uint surfaceSize = (uint)Marshal.SizeOf(typeof(Surface));
+        private static readonly uint explanationSize = (uint)Marshal.SizeOf(typeof(Explanation));
+
+        private static void Refuse(byte[] why)
+        {
+            throw new ArgumentException(Encoding.UTF8.GetString(why, 0, Array.IndexOf(why, (byte)0)));
+        }
 
         private void Close()
         {
@@ -128,6 +220,19 @@ namespace PassiveHaptics
                                                    double stiffness);
         [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
         private static extern int ph_publish_nothing(IntPtr port);
+        [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_publish(IntPtr port, uint slot, ref Surface surface);
+        [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_release(IntPtr port, uint slot, Kind kind);
+        [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_tick_pose(IntPtr port, ref Vector position, ref Rotation orientation,
+                                               double dt, ref Result result);
+        [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_set(IntPtr port, ref Parameters parameters, byte[] why, UIntPtr room);
+        [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_reset(IntPtr port);
+        [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_explain(IntPtr port, ref Explanation explanation);
         [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
         private static extern int ph_tick(IntPtr port, ref Vector position, double dt, ref Result result);
         [DllImport(library, CallingConvention = CallingConvention.Cdecl)]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// examples/c_interface/wall.c in C#, without Unity: the same device, the same wall, the same figures; and
-// a guard for a force that you have already.
+// examples/c_interface/wall.c in C#, without Unity: the same device, the same wall, the same figures; a guard
+// for a force that you have already, a ball in a corner, and a peg that turns.
 //
 //     mcs -out:wall.exe PassiveHaptics.cs Program.cs
 //     LD_LIBRARY_PATH=<where libpassive_haptics_c.so is> mono wall.exe
@@ -74,7 +74,65 @@ internal static class Program
             Result lost = port.Tick(new Vector(0, 0, double.NaN), 1e-3);
             Console.WriteLine("NaN:     " + Port.TextOf(lost.Event) + ", " + lost.Force.Z + " N");
         }
-        using (Port guard = new Port("force_guard", device))
+        device.StaticFriction = 0.4;
+        using (Port corner = new Port("contacts", device))
+        {
+            corner.Publish(0, new Surface { Kind = Kind.Plane, B = new Vector(0, 0, 1), Stiffness = 800 });
+            corner.Publish(0, new Surface
+            {
+                Kind = Kind.Sphere, A = new Vector(-0.05, 0, 0), Radius = 0.05, Stiffness = 800
+            });
+            Explanation why;
+            Result now = new Result();
+            for (int n = 0; n < 400; ++n)
+            {
+                now = corner.Tick(new Vector(Math.Max(-1e-5 * n, -1e-3), 0, Math.Max(1e-3 - 1e-5 * n, -1e-3)), 1e-3);
+            }
+            corner.Explain(out why);
+            Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
+                "corner:  {0:0.00} N up, {1:0.00} N off the ball, shows {2:0} of {3:0} N/m",
+                now.Force.Z, now.Force.X, why.Shown, why.Asked));
+            device.ForceLimit = 0.5;
+            corner.Set(device);
+            now = corner.Tick(new Vector(-1e-3, 0, -1e-3), 1e-3);
+            Console.WriteLine("         " + Newtons(now) + " up from weaker motors");
+            corner.Release(0, Kind.Plane);
+            corner.Reset();
+            now = corner.Tick(new Vector(-1e-3, 0, -1e-3), 1e-3);
+            Console.WriteLine("         " + Port.TextOf(now.Event) + " after a new start");
+            device.ForceLimit = 9;
+            try
+            {
+                device.Mass = 0.2;
+                corner.Set(device);
+            }
+            catch (ArgumentException refused)
+            {
+                Console.WriteLine("         " + refused.Message);
+                device.Mass = mass;
+            }
+        }
+        Parameters handle = device;
+        handle.LeastInertia = 1e-4;
+        handle.AngularDamping = 1e-4;
+        handle.DampingMost = 0.06;
+        handle.AngularDampingMost = 2e-4;
+        handle.TorqueLimit = 0.5;
+        using (Port peg = new Port("tool", handle))
+        {
+            peg.Publish(0, new Surface
+            {
+                Kind = Kind.Plane, B = new Vector(0, 0, 1), Stiffness = 800, At = new Vector(0.02, 0, 0)
+            });
+            Result now = new Result();
+            for (int n = 0; n < 300; ++n)
+            {
+                now = peg.Tick(new Vector(0, 0, Math.Max(1e-3 - 1e-5 * n, -1e-3)), new Rotation(1, 0, 0, 0), 1e-3);
+            }
+            Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
+                "peg:     {0:0.00} N and {1:0.0000} N m, by a point 20 mm off", now.Force.Z, now.Torque.Y));
+        }
+        using (Port guard = new Port("guard", device))
         {
             Result first = guard.Tick(new Vector(0, 0, 0.01), 1e-3, new Vector(0, 0, 5));
             for (int n = 1; n < 10; ++n)

@@ -16,11 +16,17 @@ struct c_interface {
   int32_t (*create)(const char*, const ph_parameters*, ph_port**, char*, size_t);
   void (*destroy)(ph_port*);
   int32_t (*guarantee_of)(const ph_port*);
+  int32_t (*publish)(ph_port*, uint32_t, const ph_surface*);
+  int32_t (*release)(ph_port*, uint32_t, uint32_t);
   int32_t (*publish_plane)(ph_port*, const double*, const double*, double);
   int32_t (*publish_nothing)(ph_port*);
   int32_t (*tick)(ph_port*, const double*, double, ph_result*);
   int32_t (*tick_wanted)(ph_port*, const double*, double, const double*, ph_result*);
+  int32_t (*tick_pose)(ph_port*, const double*, const double*, double, ph_result*);
   int32_t (*held)(ph_port*, const double*);
+  int32_t (*held_wrench)(ph_port*, const double*, const double*);
+  int32_t (*set)(ph_port*, const ph_parameters*, char*, size_t);
+  int32_t (*reset)(ph_port*);
   int32_t (*explain)(const ph_port*, ph_explanation*);
   int32_t (*stiffness_budget)(const ph_parameters*, double*, const char**);
   const char* (*event_text)(int32_t);
@@ -35,7 +41,7 @@ enum news { no_news, a_plane, nothing_here };
 /// One tick of the motion: presses into a surface that heaves, tilts and goes, on steps of 20 µm, in ticks
 /// of 0.9 to 1.1 ms; loses a sample now and then. In whole numbers, so that everybody computes the same.
 struct moment {
-  double position[3], dt;
+  double position[3], orientation[4], dt;
   double wanted[3];
   double held[3];
   int reports_held;  // now and then the device says what it held
@@ -44,9 +50,26 @@ struct moment {
 };
 struct moment moment_at(int n);
 
-/// Runs `ticks` of the motion and keeps every result: PH_OK, or what ph_create answered.
+/// What is told of a curved surface in slot 1, now and then, and where it is in tick n.
+enum news curved_news(int n);
+ph_surface curved_at(int n, uint32_t kind);
+/// The plane of that tick, at a point of a tool.
+ph_surface plane_at(const struct moment* now, double x_on_tool);
+
+/// How a composition is told the world: by planes, by forces, by slots, and by slots at a pose.
+enum way { by_planes, by_forces, by_slots, as_stylus, as_tool };
+/// When its parameters become others, and when all starts anew.
+enum { change_tick = 2405, reset_tick = 4100 };
+struct script {
+  enum way way;
+  uint32_t kind;               // of what is in slot 1
+  const ph_parameters* later;  // from change_tick on; NULL: no others, and no new start
+};
+
+/// Runs `ticks` of the motion and keeps every result: PH_OK, or what ph_create or ph_set answered.
 int32_t run_by_c(const struct c_interface* with, const char* composition,
-                 const ph_parameters* parameters, int guard, int ticks, ph_result* results);
+                 const ph_parameters* parameters, struct script script, int ticks,
+                 ph_result* results);
 
 #ifdef __cplusplus
 }

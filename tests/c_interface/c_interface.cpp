@@ -5,6 +5,7 @@
 #include "support/allocations.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include <passive_haptics/six_dof.hpp>
 
 #include <atomic>
 #include <cstring>
@@ -95,51 +96,158 @@ constexpr ph::exact_device exact{
 constexpr ph::known_hand hand{.force = 5.0};
 constexpr ph::actuator_limit motors{.most = stated.force_limit};
 
+/// A handle that turns, and the same for C.
+constexpr ph::rigid_device handle{
+    .inertia = {.mass = 0.15, .least = 1e-4, .spread = 2e-4, .offset = 5e-3},
+    .damping = {.linear = 0.03, .angular = 1e-4},
+    .damping_most = {.linear = 0.06, .angular = 2e-4},
+    .force_limit = 1.0,
+    .torque_limit = 0.006,
+    .lever = 0.02,
+    .longest_tick = T};
+ph_parameters peg() {
+  ph_parameters p{};
+  p.size = sizeof p;
+  p.mass = handle.inertia.mass;
+  p.damping = handle.damping.linear;
+  p.hand_force = 5.0;
+  p.force_limit = handle.force_limit;
+  p.longest_tick = T;
+  p.least_inertia = handle.inertia.least;
+  p.inertia_spread = handle.inertia.spread;
+  p.inertia_offset = handle.inertia.offset;
+  p.angular_damping = handle.damping.angular;
+  p.damping_most = handle.damping_most.linear;
+  p.angular_damping_most = handle.damping_most.angular;
+  p.hand_torque = 0.1;
+  p.torque_limit = handle.torque_limit;
+  p.lever = handle.lever;
+  return p;
+}
+
 d3::vector in(const double* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// The motion of the C client, run by a port of the library itself.
+constexpr ph::stick_slip rough{.static_coefficient = 0.5, .kinetic_coefficient = 0.3};
+
+/// One tick of the C client's motion, by a port of the library itself.
 template <class Port>
-std::vector<ph_result> run_direct(Port port) {
-  constexpr bool follows = requires {
-    port.release();
+ph_result tick(Port& port, const moment& now) {
+  using space = typename Port::port_type;
+  constexpr bool turns = requires(typename space::stored_pose x) {
+    x.orientation;
   };
-  constexpr auto late = std::size_t{Port::latency};
-  std::vector<d3::stored_effort> commanded(late + 1);  // oldest first
+  typename space::stored_pose x;
+  typename space::stored_effort held;
+  const auto p = in(now.position);
+  if constexpr (turns) {
+    const double* q = now.orientation;
+    x = {p, {q[0], q[1], q[2], q[3]}};
+  } else {
+    x = p;
+  }
+  if constexpr (requires { space::join(p, p); }) {
+    held = space::join(in(now.held), d3::vector(0.0, 1e-3, 0.0));
+  } else {
+    held = in(now.held);
+  }
+  // The device that says nothing is the one that does as it is told.
+  const auto out = now.reports_held ? port.tick(ph::device_sample<space>{x, held, now.dt, true})
+                                    : port.tick(x, ph::seconds{now.dt});
+  ph_result r{};
+  r.size = sizeof r;
+  r.event = static_cast<int>(out.what);
+  for (int i = 0; i < 3; ++i) r.force[i] = out.force(i);
+  if constexpr (space::dof == 6) {
+    for (int i = 0; i < 3; ++i) r.torque[i] = out.force(i + 3);
+  }
+  r.energy = out.energy;
+  r.limited = out.limited;
+  if constexpr (requires { out.depth; }) r.depth = out.depth;
+  if constexpr (requires { port.law().is_capped(); }) r.capped = port.law().is_capped();
+  return r;
+}
+
+/// What no script changes.
+constexpr auto nothing_else = [](auto& /*port*/) {};
+
+/// The motion of the C client, run by a port of the library itself.
+template <class Port, class Change = decltype(nothing_else)>
+std::vector<ph_result> run_direct(Port port, Change change = nothing_else) {
   std::vector<ph_result> results;
   for (int n = 0; n < ticks; ++n) {
+    if constexpr (!std::same_as<Change, decltype(nothing_else)>) {
+      if (n == change_tick) change(port);
+      if (n == reset_tick) port.reset();
+    }
     const moment now = moment_at(n);
-    if constexpr (follows) {
+    if constexpr (requires { port.release(); }) {
       if (now.news == a_plane) port.update(plane{in(now.point), in(now.normal), now.stiffness});
       if (now.news == nothing_here) port.release();
     } else {
       if (n % 5 != 4) port.source().update(in(now.wanted));
     }
-    // The device that says nothing is the one that does as it is told.
-    const auto out =
-        now.reports_held
-            ? port.tick(ph::device_sample<d3>{in(now.position), in(now.held), now.dt, true})
-            : port.tick(in(now.position), ph::seconds{now.dt});
-    ph_result r{};
-    r.size = sizeof r;
-    r.event = static_cast<int>(out.what);
-    for (int i = 0; i < 3; ++i) r.force[i] = out.force(i);
-    r.energy = out.energy;
-    r.limited = out.limited;
-    if constexpr (follows) r.depth = out.depth;
-    if constexpr (requires { port.law().is_capped(); }) r.capped = port.law().is_capped();
-    results.push_back(r);
+    results.push_back(tick(port, now));
+  }
+  return results;
+}
+plane plane_of(const ph_surface& s) {
+  return {in(s.a), in(s.b), s.stiffness};
+}
+/// The same for what has slots, with surfaces of their own types in them.
+template <class Port, class CurvedAt, class Change = decltype(nothing_else)>
+std::vector<ph_result> run_slots(Port port, CurvedAt curved_of, Change change = nothing_else) {
+  using curved = decltype(curved_of(0));
+  auto& contact = [&port]() -> auto& {
+    if constexpr (requires { port.source().contact(); }) {
+      return port.source().contact();
+    } else {
+      return port.source();
+    }
+  }
+  ();
+  std::vector<ph_result> results;
+  for (int n = 0; n < ticks; ++n) {
+    if constexpr (!std::same_as<Change, decltype(nothing_else)>) {
+      if (n == change_tick) change(port);
+      if (n == reset_tick) port.reset();
+    }
+    const moment now = moment_at(n);
+    constexpr bool is_tool = Port::port_type::dof == 6;
+    for (int i = 0; i < (is_tool ? 2 : 1); ++i) {
+      const ph_surface told = plane_at(&now, is_tool ? 0.02 * i - 0.01 : 0.0);
+      if (now.news == nothing_here) contact.template release<plane>(i);
+      if (now.news != a_plane) continue;
+      if constexpr (is_tool) {
+        contact.update(i, in(told.at), plane_of(told));
+      } else {
+        contact.update(i, plane_of(told));
+      }
+    }
+    if (curved_news(n) == a_plane) {
+      if constexpr (is_tool) {
+        contact.update(1, d3::zero(), curved_of(n));
+      } else {
+        contact.update(1, curved_of(n));
+      }
+    }
+    if (curved_news(n) == nothing_here) contact.template release<curved>(1);
+    results.push_back(tick(port, now));
   }
   return results;
 }
 
-std::vector<ph_result> run_in_c(const char* composition, const ph_parameters& parameters) {
+std::vector<ph_result> run_in_c(const char* composition, const ph_parameters& parameters,
+                                script how) {
   const loaded c;
   std::vector<ph_result> results(ticks);
-  const bool guard = std::string(composition).find("guard") != std::string::npos;
-  REQUIRE(run_by_c(&c, composition, &parameters, guard, ticks, results.data()) == PH_OK);
+  REQUIRE(run_by_c(&c, composition, &parameters, how, ticks, results.data()) == PH_OK);
   return results;
+}
+std::vector<ph_result> run_in_c(const char* composition, const ph_parameters& parameters) {
+  const bool guard = std::string(composition).find("guard") != std::string::npos;
+  return run_in_c(composition, parameters, {guard ? by_forces : by_planes, 0, nullptr});
 }
 
 bool same_bits(const std::vector<ph_result>& a, const std::vector<ph_result>& b) {
@@ -160,17 +268,82 @@ bool tries_enough(const std::vector<ph_result>& all) {
 }
 
 /// The same from C and from C++; and not with a device that is 1 % off.
-template <class Port>
-void agree(const char* composition, const Port& port, ph_parameters parameters,
-           double ph_parameters::*other) {
-  INFO(composition << " " << parameters.latency << " ticks late");
-  REQUIRE_FALSE(port.check());
-  const auto direct = run_direct(port);
-  const auto in_c = run_in_c(composition, parameters);
+void agree(const char* composition, const std::vector<ph_result>& direct, ph_parameters parameters,
+           script how, double ph_parameters::*other) {
+  INFO(composition << " " << parameters.latency << " ticks late, kind " << how.kind);
   CHECK(tries_enough(direct));
-  CHECK(same_bits(direct, in_c));
+  CHECK(same_bits(direct, run_in_c(composition, parameters, how)));
+  ph_parameters later = how.later != nullptr ? *how.later : parameters;
+  if (how.later != nullptr) {
+    const script as_it_was{how.way, how.kind, &parameters};  // the control: nothing changes
+    CHECK_FALSE(same_bits(direct, run_in_c(composition, parameters, as_it_was)));
+    how.later = &later;
+  }
   parameters.*other *= 1.01;
-  CHECK_FALSE(same_bits(direct, run_in_c(composition, parameters)));
+  later.*other *= 1.01;
+  CHECK_FALSE(same_bits(direct, run_in_c(composition, parameters, how)));
+}
+template <class Port>
+void agree(const char* composition, const Port& port, const ph_parameters& parameters,
+           double ph_parameters::*other) {
+  REQUIRE_FALSE(port.check());
+  const bool guard = std::string(composition).find("guard") != std::string::npos;
+  agree(composition, run_direct(port), parameters, {guard ? by_forces : by_planes, 0, nullptr},
+        other);
+}
+
+using loop = ph::loop_limits;
+template <int Latency>
+using late = ph::late_loop_limits<Latency>;
+template <class Device>
+Device after(int latency, Device device) {
+  device.latency = latency;
+  return device;
+}
+
+// Every kind of curved surface as it is without C.
+ph::sphere<d3> sphere_at(int n) {
+  const auto s = curved_at(n, PH_SPHERE);
+  return {in(s.a), s.radius, s.stiffness};
+}
+ph::sphere<d3> cavity_at(int n) {
+  const auto s = curved_at(n, PH_CAVITY);
+  return {in(s.a), s.radius, s.stiffness, ph::felt_from::inside};
+}
+ph::quadric<d3> quadric_at(int n) {
+  const auto s = curved_at(n, PH_QUADRIC);
+  ph::quadric<d3> q{in(s.a),        in(s.b),     in(s.c),    s.curvature[0],
+                    s.curvature[1], s.stiffness, s.thickness};
+  if (s.reach != 0.0) q.reach = s.reach;
+  return q;
+}
+ph::shell<ph::segment_core<d3>> capsule_at(int n) {
+  const auto s = curved_at(n, PH_CAPSULE);
+  return {{in(s.a), in(s.b)}, s.radius, s.stiffness};
+}
+ph::shell<ph::box_core<d3>> box_at(int n) {
+  const auto s = curved_at(n, PH_BOX);
+  return {{in(s.a), in(s.half), in(s.b), in(s.c)}, s.radius, s.stiffness};
+}
+ph::shell<ph::triangle_core<d3>> plate_at(int n) {
+  const auto s = curved_at(n, PH_PLATE);
+  return {{in(s.a), in(s.b), in(s.c)}, s.radius, s.stiffness};
+}
+
+ph_parameters roughly(ph_parameters p) {
+  p.static_friction = rough.static_coefficient;
+  p.kinetic_friction = rough.kinetic_coefficient;
+  return p;
+}
+template <class Limits = loop, class Device, class Hand, class CurvedAt>
+void agree_in_slots(const char* composition, const Device& device, const Hand& of,
+                    CurvedAt curved_of, std::uint32_t kind, const ph_parameters& parameters,
+                    double ph_parameters::*other) {
+  const auto port = ph::make_contacts<d3, Limits>(device, of, rough, ph::slots<plane, PH_PLANES>{},
+                                                  ph::slots<decltype(curved_of(0)), PH_CURVED>{});
+  REQUIRE_FALSE(port.check());
+  agree(composition, run_slots(port, curved_of), roughly(parameters), {by_slots, kind, nullptr},
+        other);
 }
 
 }  // namespace
@@ -178,43 +351,303 @@ void agree(const char* composition, const Port& port, ph_parameters parameters,
 TEST_CASE("a touch by name is make_touch, bit for bit, from a client in C", "[c_interface]") {
   agree("touch", ph::make_touch<d3>(exact, hand), grip(), &ph_parameters::damping);
   agree("encoder_touch", ph::make_touch<d3>(stated, hand), on_encoders(), &ph_parameters::friction);
+  agree("strict_touch", ph::make_touch<d3>(exact, ph::any_hand), grip(), &ph_parameters::damping);
+  agree("strict_encoder_touch", ph::make_touch<d3>(stated, ph::any_hand), on_encoders(),
+        &ph_parameters::quantum);
 }
 
-TEST_CASE("in a loop that is late a touch by name is the late one", "[c_interface]") {
-  auto late = stated;
-  late.latency = 1;
+TEST_CASE("in a loop that is late a composition by name is the late one", "[c_interface]") {
+  auto device = after(1, stated);
   auto parameters = on_encoders(1);
-  parameters.force_limit = late.force_limit = 0.5;  // a bound that has something to do
-  parameters.continuous_force = late.continuous_force = 0.3;
-  agree("encoder_touch", ph::make_touch<d3, plane, ph::late_loop_limits<1>>(late, hand), parameters,
+  parameters.force_limit = device.force_limit = 0.5;  // a bound that has something to do
+  parameters.continuous_force = device.continuous_force = 0.3;
+  agree("encoder_touch", ph::make_touch<d3, plane, late<1>>(device, hand), parameters,
         &ph_parameters::presliding);
-  agree("strict_touch",
-        ph::local_model{d3{}, ph::followed<plane>{}, ph::turn_limited{.rate = 2.0}, ph::spring{},
-                        ph::reduced_energy{.damping = 0.05},
-                        ph::bound_chain{ph::strict_bound{}, motors},
-                        ph::late_loop_limits<2>{.longest_tick = T}},
-        grip(2), &ph_parameters::damping);
+  agree("strict_touch", ph::make_touch<d3, plane, late<2>>(after(2, exact), ph::any_hand), grip(2),
+        &ph_parameters::damping);
+  agree("touch", ph::make_touch<d3, plane, late<8>>(after(8, exact), hand), grip(8),
+        &ph_parameters::damping);
+  agree("guard", ph::make_guard<d3, late<2>>(after(2, exact), hand), grip(2),
+        &ph_parameters::hand_force);
+  agree("encoder_guard", ph::make_guard<d3, late<5>>(after(5, stated), hand), on_encoders(5),
+        &ph_parameters::quantum);
 }
 
-TEST_CASE("a guard by name is the library's, bit for bit", "[c_interface]") {
-  agree("force_guard", ph::make_guard<d3>(exact, hand), grip(), &ph_parameters::mass);
-  auto late = exact;
-  late.latency = 2;
-  agree("force_guard", ph::make_guard<d3, ph::late_loop_limits<2>>(late, hand), grip(2),
-        &ph_parameters::hand_force);
-  agree("strict_guard",
-        ph::passive_port{d3{}, ph::given_force{}, ph::reduced_energy{.damping = 0.05},
-                         ph::bound_chain{ph::strict_bound{}, motors},
-                         ph::loop_limits{.longest_tick = T}},
-        grip(), &ph_parameters::longest_tick);
+TEST_CASE("a guard by name is make_guard, bit for bit", "[c_interface]") {
+  agree("guard", ph::make_guard<d3>(exact, hand), grip(), &ph_parameters::mass);
+  agree("encoder_guard", ph::make_guard<d3>(stated, hand), on_encoders(), &ph_parameters::quantum);
+  agree("strict_guard", ph::make_guard<d3>(exact, ph::any_hand), grip(),
+        &ph_parameters::longest_tick);
+  agree("strict_encoder_guard", ph::make_guard<d3>(stated, ph::any_hand), on_encoders(),
+        &ph_parameters::friction);
+}
+
+TEST_CASE("contacts by name are make_contacts with each kind of surface, bit for bit",
+          "[c_interface]") {
+  agree_in_slots("contacts", exact, hand, sphere_at, PH_SPHERE, grip(), &ph_parameters::mass);
+  agree_in_slots("contacts", exact, hand, cavity_at, PH_CAVITY, grip(), &ph_parameters::damping);
+  agree_in_slots("contacts", exact, hand, quadric_at, PH_QUADRIC, grip(),
+                 &ph_parameters::static_friction);
+  agree_in_slots("contacts", exact, hand, capsule_at, PH_CAPSULE, grip(),
+                 &ph_parameters::kinetic_friction);
+  agree_in_slots("contacts", exact, hand, box_at, PH_BOX, grip(), &ph_parameters::longest_tick);
+  agree_in_slots("contacts", exact, hand, plate_at, PH_PLATE, grip(), &ph_parameters::mass);
+  agree_in_slots("encoder_contacts", stated, hand, sphere_at, PH_SPHERE, on_encoders(),
+                 &ph_parameters::friction);
+  agree_in_slots("strict_contacts", exact, ph::any_hand, box_at, PH_BOX, grip(),
+                 &ph_parameters::damping);
+  agree_in_slots("strict_encoder_contacts", stated, ph::any_hand, quadric_at, PH_QUADRIC,
+                 on_encoders(), &ph_parameters::quantum);
+  agree_in_slots<late<4>>("contacts", after(4, exact), hand, sphere_at, PH_SPHERE, grip(4),
+                          &ph_parameters::damping);
+}
+
+TEST_CASE("a stylus and a tool by name are the library's, bit for bit", "[c_interface]") {
+  auto p = roughly(grip());
+  p.tip[0] = 2e-3;
+  p.tip[2] = -1e-3;
+  const ph::passive_port stylus{
+      ph::stylus<double>{},
+      ph::at_tip{
+          ph::contact_set{ph::proxy_spring{.mass = exact.mass, .force_limit = exact.force_limit},
+                          ph::pursuit{}, rough, ph::slots<plane, PH_PLANES>{},
+                          ph::slots<ph::sphere<d3>, PH_CURVED>{}},
+          {p.tip[0], p.tip[1], p.tip[2]}},
+      ph::forgiving{ph::reduced_energy{.damping = exact.damping}, ph::amends_for(3.3)},
+      ph::bound_chain{ph::reachable_bound{.mass = exact.mass, .hand_force = hand.force}, motors},
+      loop{.longest_tick = T}};
+  REQUIRE_FALSE(stylus.check());
+  agree("stylus", run_slots(stylus, sphere_at), p, {as_stylus, PH_SPHERE, nullptr},
+        &ph_parameters::mass);
+
+  auto t = roughly(peg());
+  const auto tool = [](auto limits) {
+    return ph::make_tool<ph::rigid_body<double>, decltype(limits)>(
+        handle, {.force = 5.0, .torque = 0.1}, rough, ph::slots<plane, PH_TOOL_PLANES>{},
+        ph::slots<ph::shell<ph::box_core<d3>>, PH_TOOL_CURVED>{});
+  };
+  REQUIRE_FALSE(tool(loop{}).check());
+  const script as_it_is{as_tool, PH_BOX, nullptr};
+  const auto direct = run_slots(tool(loop{}), box_at);
+  CHECK(std::any_of(direct.begin(), direct.end(), [](auto& r) { return r.torque[1] != 0.0; }));
+  for (double ph_parameters::*one :
+       {&ph_parameters::least_inertia, &ph_parameters::inertia_spread,
+        &ph_parameters::inertia_offset, &ph_parameters::angular_damping,
+        &ph_parameters::damping_most, &ph_parameters::angular_damping_most,
+        &ph_parameters::hand_torque, &ph_parameters::torque_limit, &ph_parameters::lever}) {
+    INFO("the control: another one");
+    agree("tool", direct, t, as_it_is, one);
+  }
+  t.latency = 1;
+  agree("tool", run_slots(tool(late<1>{}), box_at), t, as_it_is, &ph_parameters::mass);
+}
+
+TEST_CASE("parameters that change in C change as set() does, and a reset is a reset",
+          "[c_interface]") {
+  const ph::actuator_limit weaker{.most = 1.5};
+  const ph::reachable_bound reach{.mass = exact.mass, .hand_force = 4.0};
+  auto later = grip();
+  later.force_limit = weaker.most;
+  later.hand_force = reach.hand_force;
+  const auto change = [&](auto& port) {
+    CHECK_FALSE(port.set(weaker));
+    CHECK_FALSE(port.set(reach));
+  };
+  auto slower = later;
+  slower.top_speed = 0.01;
+  auto turned = later;
+  turned.turn_rate = 3.0;
+  turned.stale_after = 0.05;
   agree(
-      "encoder_guard",
-      ph::passive_port{
-          d3{}, ph::given_force{},
-          ph::dual_ledger{.damping = {.coefficient = 0.05, .coulomb = 0.13, .presliding = 15e-6},
-                          .quantum = 20e-6},
-          ph::bound_chain{ph::strict_bound{}, motors}, ph::late_loop_limits<1>{.longest_tick = T}},
-      on_encoders(1), &ph_parameters::quantum);
+      "touch",
+      run_direct(ph::make_touch<d3>(exact, hand),
+                 [&](auto& port) {
+                   change(port);
+                   CHECK_FALSE(port.set(ph::damped_spring{.mass = exact.mass, .force_limit = 1.5}));
+                   CHECK_FALSE(port.set(ph::turn_limited{.rate = 3.0}));
+                   CHECK_FALSE(port.set(ph::freshness{.stale_after = 0.05}));
+                 }),
+      grip(), {by_planes, 0, &turned}, &ph_parameters::damping);
+  agree(
+      "guard",
+      run_direct(ph::make_guard<d3>(exact, hand),
+                 [&](auto& port) {
+                   change(port);
+                   CHECK_FALSE(port.set(ph::settled_force{.mass = exact.mass, .force_limit = 1.5}));
+                   auto shorter = loop{.longest_tick = T};
+                   shorter.top_speed = 0.01;
+                   CHECK_FALSE(port.set(shorter));
+                 }),
+      grip(), {by_forces, 0, &slower}, &ph_parameters::mass);
+  later = roughly(later);
+  later.kinetic_friction = 0.1;
+  const auto corner = ph::make_contacts<d3>(exact, hand, rough, ph::slots<plane, PH_PLANES>{},
+                                            ph::slots<ph::sphere<d3>, PH_CURVED>{});
+  agree("contacts",
+        run_slots(corner, sphere_at,
+                  [&](auto& port) {
+                    change(port);
+                    CHECK_FALSE(port.set(ph::proxy_spring{.mass = exact.mass, .force_limit = 1.5}));
+                    CHECK_FALSE(port.set(
+                        ph::stick_slip{.static_coefficient = 0.5, .kinetic_coefficient = 0.1}));
+                  }),
+        roughly(grip()), {by_slots, PH_SPHERE, &later}, &ph_parameters::mass);
+  // On encoders a limit of the motors changes at once, too.
+  auto warm = on_encoders();
+  warm.force_limit = 0.6;
+  warm.continuous_force = 0.4;
+  agree("encoder_touch",
+        run_direct(ph::make_touch<d3>(stated, hand),
+                   [&](auto& port) {
+                     CHECK_FALSE(port.set(
+                         ph::thermal_limit{.peak = 0.6, .continuous = 0.4, .time_constant = 0.5}));
+                     CHECK_FALSE(
+                         port.set(ph::damped_spring{.mass = stated.mass, .force_limit = 0.6}));
+                   }),
+        on_encoders(), {by_planes, 0, &warm}, &ph_parameters::friction);
+}
+
+TEST_CASE("what ph_create was told of the device ph_set refuses, by its name", "[c_interface]") {
+  const loaded c;
+  const opened touch(c, "touch", grip());
+  const auto says = [&](const ph_parameters& p, int expected = PH_REFUSED_PARAMETER) {
+    std::string text(PH_TEXT_ROOM, 'x');
+    CHECK(c.set(touch.port, &p, text.data(), text.size()) == expected);
+    return std::string(text.c_str());
+  };
+  using Catch::Matchers::StartsWith;
+  CHECK(says(grip(), PH_OK).empty());  // the control
+  auto p = grip();
+  p.mass = 0.05;
+  CHECK(says(p) == "mass = 0.05 is refused: what ph_create was told: create another port");
+  CHECK_THAT(says(grip(1)), StartsWith("latency = 1 is refused: what ph_create"));
+  for (double ph_parameters::*one : {&ph_parameters::damping, &ph_parameters::longest_tick}) {
+    p = grip();
+    p.*one *= 2.0;
+    CHECK_FALSE(says(p).empty());
+  }
+  p = grip();
+  p.hand_force = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THAT(says(p), StartsWith("hand_force = nan is refused"));
+  p = grip();
+  p.static_friction = 0.2;
+  p.kinetic_friction = 0.3;
+  CHECK_THAT(says(p), StartsWith("kinetic_friction = 0.3 is refused: no more than"));
+  p = grip();
+  p.size = 100;
+  CHECK_THAT(says(p, PH_WRONG_SIZE), StartsWith("size = 100 is refused"));
+  std::string why(PH_TEXT_ROOM, 'x');
+  CHECK(c.set(nullptr, &p, why.data(), why.size()) == PH_NULL_ARGUMENT);
+  CHECK(std::string(why.c_str()) == "ph_set: port is NULL");
+  CHECK(c.set(touch.port, nullptr, nullptr, 0) == PH_NULL_ARGUMENT);
+  CHECK(c.reset(nullptr) == PH_NULL_ARGUMENT);
+
+  // What was published before a new start is forgotten with it, taken or not.
+  const double zero[3] = {0, 0, 0}, up[3] = {0, 0, 1}, inside[3] = {0, 0, -1e-3};
+  ph_result r{};
+  r.size = sizeof r;
+  REQUIRE(c.publish_plane(touch.port, zero, up, 1000.0) == PH_OK);
+  REQUIRE(c.reset(touch.port) == PH_OK);
+  CHECK(c.tick(touch.port, inside, 1e-3, &r) == PH_OK);
+  CHECK(r.event == PH_NO_TARGET);
+  REQUIRE(c.publish_plane(touch.port, zero, up, 1000.0) == PH_OK);
+  CHECK(c.tick(touch.port, inside, 1e-3, &r) == PH_OK);
+  CHECK(r.event == PH_NOMINAL);
+}
+
+TEST_CASE("a surface that is none, or is for another slot or composition, is refused",
+          "[c_interface]") {
+  const loaded c;
+  const opened touch(c, "touch", grip()), guard(c, "guard", grip());
+  const opened contacts(c, "contacts", grip()), tool(c, "tool", peg());
+  const moment now = moment_at(5);
+  auto s = plane_at(&now, 0.0);
+  CHECK(c.publish(contacts.port, 0, &s) == PH_OK);  // the controls
+  CHECK(c.publish(contacts.port, PH_PLANES - 1, &s) == PH_OK);
+  CHECK(c.publish(tool.port, PH_TOOL_PLANES - 1, &s) == PH_OK);
+  CHECK(c.publish(touch.port, 0, &s) == PH_OK);
+  CHECK(c.release(contacts.port, 3, PH_PLATE) == PH_OK);
+  for (std::uint32_t kind = PH_SPHERE; kind <= PH_PLATE; ++kind) {
+    const auto one = curved_at(0, kind);
+    CHECK(c.publish(contacts.port, PH_CURVED - 1, &one) == PH_OK);
+    CHECK(c.publish(contacts.port, PH_CURVED, &one) == PH_NO_SUCH_SLOT);
+    CHECK(c.publish(tool.port, PH_TOOL_CURVED, &one) == PH_NO_SUCH_SLOT);
+    CHECK(c.publish(touch.port, 0, &one) == PH_NO_SUCH_SLOT);
+    CHECK(c.publish(guard.port, 0, &one) == PH_NOT_OF_THIS_COMPOSITION);
+    for (double ph_surface::*number : {&ph_surface::stiffness, &ph_surface::radius}) {
+      if (kind == PH_QUADRIC && number == &ph_surface::radius) continue;
+      for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                                 std::numeric_limits<double>::infinity()}) {
+        auto bad = one;
+        bad.*number = wrong;
+        CHECK(c.publish(contacts.port, 0, &bad) == PH_REFUSED_SURFACE);
+      }
+    }
+    auto bad = one;
+    bad.a[1] = std::numeric_limits<double>::quiet_NaN();
+    CHECK(c.publish(contacts.port, 0, &bad) == PH_REFUSED_SURFACE);
+  }
+  CHECK(c.publish(contacts.port, PH_PLANES, &s) == PH_NO_SUCH_SLOT);
+  CHECK(c.publish(contacts.port, 0xffffffffU, &s) == PH_NO_SUCH_SLOT);
+  CHECK(c.publish(touch.port, 1, &s) == PH_NO_SUCH_SLOT);
+  CHECK(c.publish(guard.port, 0, &s) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.release(contacts.port, PH_PLANES, PH_PLANE) == PH_NO_SUCH_SLOT);
+  CHECK(c.release(contacts.port, 0, PH_PLATE + 1) == PH_REFUSED_SURFACE);
+  CHECK(c.release(guard.port, 0, PH_PLANE) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.release(nullptr, 0, PH_PLANE) == PH_NULL_ARGUMENT);
+  CHECK(c.publish(nullptr, 0, &s) == PH_NULL_ARGUMENT);
+  CHECK(c.publish(contacts.port, 0, nullptr) == PH_NULL_ARGUMENT);
+  s.kind = PH_PLATE + 1;
+  CHECK(c.publish(contacts.port, 0, &s) == PH_REFUSED_SURFACE);
+  s.kind = PH_PLANE;
+  s.at[2] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(c.publish(tool.port, 0, &s) == PH_REFUSED_SURFACE);
+  for (const std::uint32_t size : {0U, 168U, 184U, 4096U}) {
+    s.size = size;
+    CHECK(c.publish(contacts.port, 0, &s) == PH_WRONG_SIZE);
+  }
+}
+
+TEST_CASE("what turns is ticked with a pose, and nothing else is", "[c_interface]") {
+  const loaded c;
+  const opened touch(c, "touch", grip()), stylus(c, "stylus", grip()), tool(c, "tool", peg());
+  const double x[3] = {0, 0, 0}, q[4] = {1, 0, 0, 0}, none[4] = {0, 0, 0, 0};
+  ph_result r{};
+  r.size = sizeof r;
+  for (ph_port* one : {stylus.port, tool.port}) {
+    CHECK(c.tick_pose(one, x, q, 1e-3, &r) == PH_OK);
+    CHECK(r.event == PH_NO_TARGET);
+    CHECK(c.tick_pose(one, x, none, 1e-3, &r) == PH_OK);
+    CHECK(r.event == PH_REJECTED_SAMPLE);
+    CHECK(c.tick_pose(one, x, nullptr, 1e-3, &r) == PH_NULL_ARGUMENT);
+    CHECK(r.event == PH_REJECTED_SAMPLE);
+    CHECK(c.tick_pose(one, nullptr, q, 1e-3, &r) == PH_NULL_ARGUMENT);
+    CHECK(c.tick(one, x, 1e-3, &r) == PH_NOT_OF_THIS_COMPOSITION);
+    CHECK(r.event == PH_REJECTED_SAMPLE);
+    CHECK(c.tick_wanted(one, x, 1e-3, x, &r) == PH_NOT_OF_THIS_COMPOSITION);
+    ph_explanation e{};
+    e.size = sizeof e;
+    CHECK(c.explain(one, &e) == PH_NOT_OF_THIS_COMPOSITION);
+  }
+  CHECK(c.tick_pose(touch.port, x, q, 1e-3, &r) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(r.event == PH_REJECTED_SAMPLE);
+  CHECK(c.tick_pose(nullptr, x, q, 1e-3, &r) == PH_NULL_ARGUMENT);
+  CHECK(c.tick_pose(tool.port, x, q, 1e-3, nullptr) == PH_NULL_ARGUMENT);
+  CHECK(c.held(tool.port, x) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.held_wrench(touch.port, x, x) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.held_wrench(tool.port, x, nullptr) == PH_NULL_ARGUMENT);
+  CHECK(c.held_wrench(tool.port, x, x) == PH_OK);
+  CHECK(c.held(stylus.port, x) == PH_OK);
+  using Catch::Matchers::StartsWith;
+  auto p = peg();
+  p.torque_limit = 0.0;
+  CHECK_THAT(c.refusal("tool", p), StartsWith("torque_limit = 0 is refused"));
+  p = peg();
+  p.latency = 2;
+  CHECK_THAT(c.refusal("tool", p), StartsWith("latency = 2 is refused: 0 or 1 tick"));
+  p = grip();
+  p.tip[1] = std::numeric_limits<double>::infinity();
+  CHECK_THAT(c.refusal("stylus", p), StartsWith("tip = inf is refused"));
 }
 
 TEST_CASE("every composition has its promise, and presses", "[c_interface]") {
@@ -226,11 +659,17 @@ TEST_CASE("every composition has its promise, and presses", "[c_interface]") {
   CHECK(promise("quantised_touch", on_encoders()) == PH_CONDITIONAL);
   CHECK(promise("encoder_touch", on_encoders()) == PH_CONDITIONAL);
   CHECK(promise("strict_touch", grip()) == PH_STRICT);
-  CHECK(promise("force_guard", grip()) == PH_CONDITIONAL);
+  CHECK(promise("guard", grip()) == PH_CONDITIONAL);
+  CHECK(promise("encoder_guard", on_encoders()) == PH_CONDITIONAL);
   CHECK(promise("strict_guard", grip()) == PH_STRICT);
-  CHECK(promise("encoder_guard", on_encoders()) == PH_STRICT);
+  CHECK(promise("strict_encoder_guard", on_encoders()) == PH_STRICT);
+  CHECK(promise("strict_encoder_touch", on_encoders()) == PH_STRICT);
+  CHECK(promise("strict_contacts", grip()) == PH_STRICT);
+  CHECK(promise("contacts", grip()) == PH_CONDITIONAL);
+  CHECK(promise("stylus", grip()) == PH_CONDITIONAL);
+  CHECK(promise("tool", peg()) == PH_CONDITIONAL);
   CHECK(c.guarantee_of(nullptr) == PH_NONE);
-  for (std::uint32_t latency = 0; latency <= PH_MOST_LATENCY; ++latency) {
+  for (std::uint32_t latency = 0; latency <= PH_MOST_STRICT_LATENCY; ++latency) {
     CHECK(tries_enough(run_in_c("quantised_touch", on_encoders(latency))));
   }
 }
@@ -270,7 +709,8 @@ TEST_CASE("the C interface names a parameter that is out of its range, its value
              StartsWith("presliding = nan"));
   CHECK_THAT(says("encoder_touch", on_encoders(), &ph_parameters::winding_time, 0.0),
              StartsWith("winding_time = 0"));
-  CHECK_THAT(c.refusal("touch", grip(3)), StartsWith("latency = 3 is refused: 0, 1 or 2 ticks"));
+  CHECK_THAT(c.refusal("touch", grip(9)), StartsWith("latency = 9 is refused: 0 to 8 ticks"));
+  CHECK_THAT(c.refusal("strict_touch", grip(3)), StartsWith("latency = 3 is refused: 0 to 2"));
   CHECK_THAT(c.refusal("tuch", grip(), PH_UNKNOWN_COMPOSITION),
              StartsWith("composition = \"tuch\" is refused: one of touch, "));
   CHECK_THAT(c.refusal(std::string(1000, 'a').c_str(), grip(), PH_UNKNOWN_COMPOSITION),
@@ -278,7 +718,7 @@ TEST_CASE("the C interface names a parameter that is out of its range, its value
 
   // What a composition does not take it does not look at.
   auto p = grip();
-  p.mass = p.hand_force = nan;
+  p.hand_force = p.torque_limit = nan;
   CHECK(c.refusal("strict_touch", p, PH_OK).empty());
 }
 
@@ -304,12 +744,12 @@ TEST_CASE("a text is cut to the room there is for it, between characters", "[c_i
 
 TEST_CASE("a struct of another size is refused, one of an older header serves", "[c_interface]") {
   const loaded c;
-  for (const std::uint32_t size : {0u, 40u, 50u, 127u, 136u, 4096u}) {
+  for (const std::uint32_t size : {0u, 40u, 50u, 239u, 248u, 4096u}) {
     auto p = grip();
     p.size = size;
     CHECK(c.refusal("touch", p, PH_WRONG_SIZE) ==
           "size = " + std::to_string(size) +
-              " is refused: sizeof(ph_parameters), which is 128 bytes in this library");
+              " is refused: sizeof(ph_parameters), which is 240 bytes in this library");
     double K = 1.0;
     CHECK(c.stiffness_budget(&p, &K, nullptr) == PH_WRONG_SIZE);
     CHECK(K == 0.0);
@@ -322,7 +762,7 @@ TEST_CASE("a struct of another size is refused, one of an older header serves", 
   const opened touch(c, "touch", grip());
   const double here[3] = {0, 0, 0};
   ph_result r{};
-  for (const std::uint32_t size : {0u, 40u, 52u, 64u}) {
+  for (const std::uint32_t size : {0u, 40u, 52u, 88u}) {
     r = {};
     r.size = size;
     CHECK(c.tick(touch.port, here, 1e-3, &r) == PH_WRONG_SIZE);
@@ -335,6 +775,10 @@ TEST_CASE("a struct of another size is refused, one of an older header serves", 
   CHECK(r.event == PH_NO_TARGET);
   CHECK(r.size == offsetof(ph_result, limited));
   CHECK((r.limited == -7 && r.capped == -7));
+  r.size = offsetof(ph_result, torque);
+  r.torque[0] = -7.0;
+  CHECK(c.tick(touch.port, here, 1e-3, &r) == PH_OK);
+  CHECK((r.limited == 0 && r.capped == 0 && r.torque[0] == -7.0));
 }
 
 TEST_CASE("NULL is answered, and costs no more than a lost sample", "[c_interface]") {
@@ -364,7 +808,7 @@ TEST_CASE("NULL is answered, and costs no more than a lost sample", "[c_interfac
   CHECK(c.stiffness_budget(&p, nullptr, nullptr) == PH_NULL_ARGUMENT);
 
   const opened touch(c, "touch", p);
-  const opened guard(c, "force_guard", p);
+  const opened guard(c, "guard", p);
   CHECK(c.publish_plane(touch.port, nullptr, v, 1.0) == PH_NULL_ARGUMENT);
   CHECK(c.publish_plane(touch.port, v, nullptr, 1.0) == PH_NULL_ARGUMENT);
   CHECK(c.held(touch.port, nullptr) == PH_NULL_ARGUMENT);
@@ -401,11 +845,11 @@ TEST_CASE("a number that is none gives force zero, an event and no credit, from 
     CHECK(r.event == PH_NOMINAL);
     CHECK(r.force[2] > 0.5);
   };
-  CHECK(c.publish_plane(touch.port, none, up, 1000.0) == PH_REFUSED_PLANE);
-  CHECK(c.publish_plane(touch.port, zero, none, 1000.0) == PH_REFUSED_PLANE);
-  CHECK(c.publish_plane(touch.port, zero, zero, 1000.0) == PH_REFUSED_PLANE);
-  CHECK(c.publish_plane(touch.port, zero, up, nan) == PH_REFUSED_PLANE);
-  CHECK(c.publish_plane(touch.port, zero, up, 0.0) == PH_REFUSED_PLANE);
+  CHECK(c.publish_plane(touch.port, none, up, 1000.0) == PH_REFUSED_SURFACE);
+  CHECK(c.publish_plane(touch.port, zero, none, 1000.0) == PH_REFUSED_SURFACE);
+  CHECK(c.publish_plane(touch.port, zero, zero, 1000.0) == PH_REFUSED_SURFACE);
+  CHECK(c.publish_plane(touch.port, zero, up, nan) == PH_REFUSED_SURFACE);
+  CHECK(c.publish_plane(touch.port, zero, up, 0.0) == PH_REFUSED_SURFACE);
   CHECK(c.publish_plane(touch.port, zero, up, 1000.0) == PH_OK);
   struct bad {
     const double* position;
@@ -489,7 +933,7 @@ TEST_CASE("none but ph_create and ph_destroy allocates", "[c_interface]") {
   const loaded c;
   const auto in_create = allocations();
   const opened touch(c, "encoder_touch", on_encoders());
-  const opened guard(c, "force_guard", grip());
+  const opened guard(c, "guard", grip());
   CHECK(allocations() == in_create + 2);  // the control: what the library asks for is counted
   ph_result r{};
   r.size = sizeof r;
@@ -516,7 +960,7 @@ TEST_CASE("version, texts and budget are the library's", "[c_interface]") {
     CHECK(std::string(c.event_text(none)) == "unknown event");
     CHECK(std::string(c.status_text(none)) == "unknown status");
   }
-  for (int s = PH_OK; s <= PH_REFUSED_PLANE; ++s) {
+  for (int s = PH_OK; s <= PH_NO_SUCH_SLOT; ++s) {
     CHECK(std::string(c.status_text(s)) != "unknown status");
   }
   double K = 0.0;
@@ -536,8 +980,8 @@ TEST_CASE("a port explains itself in C as it does in C++", "[c_interface]") {
   const loaded c;
   ph_parameters slow = grip();
   slow.longest_tick = 2e-2;
-  const opened touch(c, "touch", slow), guard(c, "force_guard", grip());
-  const opened strict(c, "strict_guard", grip());
+  const opened touch(c, "touch", slow), guard(c, "guard", grip());
+  const opened stylus(c, "stylus", grip());
   const double point[3] = {0, 0, 0}, up[3] = {0, 0, 1}, inside[3] = {0, 0, -1e-3};
   ph_explanation e{};
   CHECK(c.explain(touch.port, &e) == PH_WRONG_SIZE);
@@ -565,5 +1009,5 @@ TEST_CASE("a port explains itself in C as it does in C++", "[c_interface]") {
   CHECK(std::string(e.because) == said.because());
   CHECK(c.explain(guard.port, &e) == PH_OK);
   CHECK(e.shown > 1000.0);
-  CHECK(c.explain(strict.port, &e) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.explain(stylus.port, &e) == PH_NOT_OF_THIS_COMPOSITION);
 }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// libFuzzer's door to the C interface, whose source is compiled in: any name, any parameters of any size, any calls
+// libFuzzer's door to the C interface, whose sources are compiled in: any name, any parameters of any size, any calls
 // on a port that is alive. Every force is a number and within what the motors hold.
+#include "examples/c_interface/contacts.cpp"
+#include "examples/c_interface/guard.cpp"
 #include "examples/c_interface/passive_haptics_c.cpp"
+#include "examples/c_interface/tool.cpp"
+#include "examples/c_interface/touch.cpp"
 #include "fuzz/numbers.hpp"
 
 #include <cmath>
@@ -9,14 +13,14 @@
 
 namespace {
 
-const char* one_port(fuzz::numbers& in) {
-  constexpr const char* names[]{"touch",       "quantised_touch", "encoder_touch", "strict_touch",
-                                "force_guard", "strict_guard",    "encoder_guard", "none",
-                                nullptr};
-  const char* name = names[in.one() % std::size(names)];
+void put(fuzz::numbers& in, double* to, int count, double size) {
+  for (int i = 0; i < count; ++i) to[i] = in.around<double>(size);
+}
+
+ph_parameters any_parameters(fuzz::numbers& in) {
   ph_parameters p{};
   p.size = in.one() < 240 ? sizeof p : in.any<std::uint32_t>();
-  p.latency = in.one() < 240 ? in.one() % 3 : in.any<std::uint32_t>();
+  p.latency = in.one() < 128 ? 0 : in.one() < 240 ? in.one() % 9 : in.any<std::uint32_t>();
   p.mass = in.about(0.1);
   p.damping = in.about(0.05);
   p.hand_force = in.about(5.0);
@@ -25,10 +29,101 @@ const char* one_port(fuzz::numbers& in) {
   p.friction = in.about(0.13);
   p.presliding = in.about(15e-6);
   p.quantum = in.one() < 128 ? 0.0 : in.about(20e-6);
-  for (double* more : {&p.continuous_force, &p.winding_time, &p.turn_rate, &p.stale_after,
-                       &p.top_speed, &p.workspace, &p.watchdog}) {
+  for (double* more :
+       {&p.continuous_force, &p.winding_time, &p.turn_rate, &p.stale_after, &p.top_speed,
+        &p.workspace, &p.watchdog, &p.static_friction, &p.kinetic_friction}) {
     *more = in.one() < 160 ? 0.0 : in.about(1.0);
   }
+  if (in.one() < 128) return p;
+  put(in, p.tip, 3, 0.01);
+  p.least_inertia = in.about(1e-4);
+  p.inertia_spread = in.about(2e-4);
+  p.inertia_offset = in.one() < 128 ? 0.0 : in.about(0.005);
+  p.angular_damping = in.about(1e-4);
+  p.damping_most = in.about(0.1);
+  p.angular_damping_most = in.about(2e-4);
+  p.hand_torque = in.about(0.1);
+  p.torque_limit = in.about(0.5);
+  p.lever = in.one() < 128 ? 0.0 : in.about(0.03);
+  return p;
+}
+
+ph_surface any_surface(fuzz::numbers& in) {
+  ph_surface s{};
+  s.size = in.one() < 250 ? sizeof s : in.any<std::uint32_t>();
+  s.kind = in.one() < 250 ? in.one() % 8 : in.any<std::uint32_t>();
+  s.stiffness = in.about(1000.0);
+  put(in, s.a, 3, 5e-3);
+  put(in, s.b, 3, 1.0);
+  put(in, s.c, 3, 1.0);
+  s.radius = in.about(5e-3);
+  put(in, s.half, 3, 5e-3);
+  put(in, s.curvature, 2, 50.0);
+  s.thickness = in.about(5e-3);
+  s.reach = in.one() < 128 ? 0.0 : in.about(5e-3);
+  put(in, s.at, 3, 0.02);
+  return s;
+}
+
+/// What is told between two ticks.
+void tell(fuzz::numbers& in, ph_port* port, unsigned op) {
+  double point[3]{}, other[3]{};
+  switch (op % 16) {
+    case 0:
+      put(in, point, 3, 2e-3);
+      put(in, other, 3, 1.0);
+      (void)ph_publish_plane(port, point, op == 16 ? nullptr : other, in.about(1000.0));
+      break;
+    case 1:
+      if (op == 1) (void)ph_publish_nothing(port);
+      if (op == 17) (void)ph_reset(port);
+      if (op == 33) (void)ph_release(port, in.one() % 5, in.one() % 8);
+      break;
+    case 2:
+      put(in, point, 3, 9.0);
+      put(in, other, 3, 0.5);
+      (void)ph_held(port, point);
+      (void)ph_held_wrench(port, point, other);
+      break;
+    case 6: {
+      const ph_surface s = any_surface(in);
+      (void)ph_publish(port, in.one() < 240 ? in.one() % 5 : in.any<std::uint32_t>(), &s);
+      break;
+    }
+    case 10: {
+      ph_explanation e{};
+      e.size = sizeof e;
+      (void)ph_explain(port, &e);
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+const char* one_port(fuzz::numbers& in) {
+  // What turns comes first.
+  constexpr const char* names[]{"stylus",
+                                "tool",
+                                "touch",
+                                "encoder_touch",
+                                "strict_touch",
+                                "contacts",
+                                "guard",
+                                "encoder_guard",
+                                "strict_guard",
+                                "strict_encoder_touch",
+                                "encoder_contacts",
+                                "strict_contacts",
+                                "strict_encoder_contacts",
+                                "strict_encoder_guard",
+                                "quantised_touch",
+                                "none",
+                                nullptr};
+  const std::size_t which = in.one() % std::size(names);
+  const char* name = names[which];
+  const bool poses = which < 2;
+  ph_parameters p = any_parameters(in);
   std::array<char, PH_TEXT_ROOM> why{};
   const std::size_t room = in.one() % 2 == 0 ? why.size() : in.one() % why.size();
   ph_port* port = nullptr;
@@ -39,31 +134,34 @@ const char* one_port(fuzz::numbers& in) {
   double stiffness = 0.0;
   (void)ph_stiffness_budget(&p, &stiffness, nullptr);
   (void)ph_guarantee_of(port);
-  double x[3]{}, wanted[3]{}, other[3]{};
-  const auto put = [&in](double* to, double size) {
-    for (int i = 0; i < 3; ++i) to[i] = in.around<double>(size);
-  };
+  double x[3]{}, q[4]{}, wanted[3]{};
   for (int n = 0; n < 300 && !in.empty(); ++n) {
     const unsigned op = in.one();
-    if (op % 16 == 0) {
-      put(wanted, 2e-3);
-      put(other, 1.0);
-      (void)ph_publish_plane(port, wanted, op == 16 ? nullptr : other, in.about(1000.0));
+    tell(in, port, op);
+    if (op == 12) {  // other parameters, and now and then those that stay
+      ph_parameters later = in.one() < 64 ? any_parameters(in) : p;
+      later.force_limit = in.about(9.0);
+      later.hand_force = in.about(5.0);
+      if (ph_set(port, &later, why.data(), why.size()) == PH_OK) {
+        p = later;
+      } else if (why[0] == 0) {
+        return "refused without a word";
+      }
     }
-    if (op == 1) (void)ph_publish_nothing(port);
-    if (op % 16 == 2) {
-      put(other, 9.0);
-      (void)ph_held(port, other);
-    }
-    put(x, 5e-3);
+    put(in, x, 3, 5e-3);
     const double dt = op < 200 ? 1e-3 : in.around<double>(2e-3);
     ph_result out{};
     out.size = op == 3 ? in.any<std::uint32_t>() : sizeof out;
     int said = 0;
-    if (op % 2 == 0) {
+    if (poses ? op % 16 != 7 : op % 16 == 7) {
+      put(in, q, 4, 1.0);
+      const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+      if (op < 240) std::for_each(q, q + 4, [length](double& one) { one /= length; });
+      said = ph_tick_pose(port, op == 4 ? nullptr : x, op == 5 ? nullptr : q, dt, &out);
+    } else if (op % 2 == 0) {
       said = ph_tick(port, op == 4 ? nullptr : x, dt, &out);
     } else {
-      put(wanted, 20.0);
+      put(in, wanted, 3, 20.0);
       said = ph_tick_wanted(port, x, dt, op == 5 ? nullptr : wanted, &out);
     }
     if (said == PH_NULL_ARGUMENT && port != nullptr && op != 4 && op != 5)
@@ -73,6 +171,9 @@ const char* one_port(fuzz::numbers& in) {
     if (size > 0.0 && port == nullptr) return "a force of no port";
     if (port != nullptr && size > p.force_limit * (1.0 + 1e-12) + 1e-150)
       return "a force above the motors' limit";
+    const double turns = std::hypot(out.torque[0], out.torque[1], out.torque[2]);
+    if (!(turns <= p.torque_limit * (1.0 + 1e-12) + 1e-150) && turns != 0.0)
+      return "a torque above the motors' limit";
     if (ph_event_text(out.event) == nullptr) return "an event without a text";
   }
   ph_destroy(port);

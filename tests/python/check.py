@@ -49,6 +49,7 @@ assert 1000 < stiffness < 10000 and "raise" in because
 refused(lambda: ph.simulate("touch", 3000, ph.Device(mass=0)), "mass = 0 is refused")
 refused(lambda: ph.simulate("touch", -1, exact), "stiffness")
 refused(lambda: ph.simulate("tuch", 3000, exact), "tuch", "one of touch")
+refused(lambda: ph.simulate("tool", 3000, exact), "tool", "turns")
 refused(lambda: ph.simulate("none", 3000, exact, seconds=-1), "seconds")
 refused(lambda: ph.Device(weight=1), "weight")
 print("the module and the library agree")

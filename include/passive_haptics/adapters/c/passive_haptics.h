@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #ifndef PASSIVE_HAPTICS_ADAPTERS_C_PASSIVE_HAPTICS_H
 #define PASSIVE_HAPTICS_ADAPTERS_C_PASSIVE_HAPTICS_H
-// The C interface: for C99, C#, Unity, Unreal and whatever else calls a shared library. A port with three
-// degrees of freedom, in double, composed by name. Link passive_haptics_c, or load it.
+// The C interface: for C99, C#, Unity, Unreal and whatever else calls a shared library. A port with three or
+// six degrees of freedom, in double, composed by name. Link passive_haptics_c, or load it.
 //
 //     ph_parameters device = {.size = sizeof device, .mass = 0.1, .damping = 0.03, .hand_force = 5,
 //                             .force_limit = 9, .longest_tick = 1e-3};
@@ -29,9 +29,10 @@
 // it after that, a second ph_destroy included, is undefined behaviour and not noticed: set your pointer to NULL
 // there, because every function answers that.
 //
-// Threads: of one port, ph_publish_* belong to one thread and ph_tick, ph_tick_wanted and ph_held to one, the
-// same or another. Two threads in functions of one of these groups at once, or ph_destroy while one is in any,
-// are a data race, undefined as well. ph_guarantee_of is for any thread, and different ports share nothing.
+// Threads: of one port, ph_publish* and ph_release belong to one thread; ph_tick*, ph_held*, ph_set, ph_reset and
+// ph_explain to one, the same or another. Two threads in functions of one of these groups at once, or ph_destroy
+// while one is in any, are a data race, undefined as well. ph_guarantee_of is for any thread, and different ports
+// share nothing.
 //
 // Before 1.0 a minor version may change this interface, as it may the library's.
 
@@ -58,8 +59,16 @@ extern "C" {
 
 /// Room for every text that ph_create writes [bytes].
 #define PH_TEXT_ROOM 512
-/// The most ticks that ph_parameters::latency may say.
-#define PH_MOST_LATENCY 2
+/// The most ticks that ph_parameters::latency may say; of what is strict, and of quantised_touch; of a tool.
+#define PH_MOST_LATENCY 8
+#define PH_MOST_STRICT_LATENCY 2
+#define PH_MOST_TOOL_LATENCY 1
+/// The slots of contacts and of a stylus: so many for planes, and so many for what is curved.
+#define PH_PLANES 4
+#define PH_CURVED 4
+/// Those of a tool.
+#define PH_TOOL_PLANES 16
+#define PH_TOOL_CURVED 4
 
 /// One passive port with its ledger, and an inbox for what is published.
 typedef struct ph_port ph_port;
@@ -72,8 +81,20 @@ enum ph_status {
   PH_UNKNOWN_COMPOSITION = 3,      ///< the name is none of those of ph_create
   PH_REFUSED_PARAMETER = 4,        ///< the text names it, its value and the remedy
   PH_OUT_OF_MEMORY = 5,            ///< for the port
-  PH_NOT_OF_THIS_COMPOSITION = 6,  ///< a plane for a guard, a wanted force for a touch
-  PH_REFUSED_PLANE = 7  ///< a number that is none, a normal of length 0, a stiffness ≤ 0
+  PH_NOT_OF_THIS_COMPOSITION = 6,  ///< a surface for a guard, a wanted force for a touch
+  PH_REFUSED_SURFACE = 7,  ///< a number that is none, a normal of length 0, a stiffness ≤ 0
+  PH_NO_SUCH_SLOT = 8      ///< the composition has no slot of this number for this kind
+};
+
+/// What a surface is, and which of its numbers say so.
+enum ph_surface_kind {
+  PH_PLANE = 0,    ///< a: a point, b: the outward normal
+  PH_SPHERE = 1,   ///< a: the centre, radius
+  PH_CAVITY = 2,   ///< the same, felt from inside
+  PH_QUADRIC = 3,  ///< a: a point, b: the normal there, c: a tangent, curvature, thickness, reach
+  PH_CAPSULE = 4,  ///< a and b: the ends of its axis, radius
+  PH_BOX = 5,      ///< a: the centre, b and c: its first and second axis, half, radius
+  PH_PLATE = 6     ///< a, b and c: the corners of a triangle, radius
 };
 
 /// What happened in a tick, in order of rising severity; a tick reports the worst.
@@ -107,7 +128,7 @@ enum ph_guarantee {
 /// the composition cannot do without.
 typedef struct ph_parameters {
   uint32_t size;        ///< sizeof(ph_parameters); a struct that ends behind longest_tick will do
-  uint32_t latency;     ///< whole ticks from a command to the first instant it is held, 0 to 2
+  uint32_t latency;     ///< whole ticks from a command to the first instant it is held: PH_MOST_…
   double mass;          ///< smallest apparent mass, over all directions and poses [kg]
   double damping;       ///< b: half of what you identified [N·s/m]
   double hand_force;    ///< the most that hand, load and dry friction push with [N]
@@ -124,7 +145,36 @@ typedef struct ph_parameters {
   double top_speed;    ///< faster than this is a sensor fault [m/s]; 0: 5
   double workspace;    ///< farther from the origin is no position of the device [m]; 0: 2
   double watchdog;     ///< the driver drops a force so long after its command [s]; 0: never
+
+  double static_friction;   ///< of the surfaces of contacts, stylus and tool; 0: none
+  double kinetic_friction;  ///< no more than that; 0: the same
+  double tip[3];            ///< of a stylus: from the gimbal to its tip, in its frame [m]
+
+  // Of a tool, which turns.
+  double least_inertia;    ///< smallest moment about the centre of mass, from below [kg·m²]
+  double inertia_spread;   ///< between the largest moment and the smallest, from above [kg·m²]
+  double inertia_offset;   ///< from the handle to the centre of mass, from above [m]
+  double angular_damping;  ///< from below [N·m·s/rad]
+  double damping_most;     ///< from above [N·s/m]
+  double angular_damping_most;  ///< from above [N·m·s/rad]
+  double hand_torque;           ///< the most that the hand turns with [N·m]
+  double torque_limit;          ///< what the motors hold [N·m]
+  double lever;                 ///< a length of the tool [m]; 0: 0.03
 } ph_parameters;
+
+/// A piece of the world, as the environment has it now. What its kind does not take is not looked at.
+typedef struct ph_surface {
+  uint32_t size;            ///< sizeof(ph_surface)
+  uint32_t kind;            ///< a ph_surface_kind
+  double stiffness;         ///< > 0 [N/m]
+  double a[3], b[3], c[3];  ///< points [m] or directions of any length: see ph_surface_kind
+  double radius;            ///< > 0 [m]: of capsule, box and plate, that of their rounding
+  double half[3];           ///< half the edges of the box that is rounded, along its axes [m]
+  double curvature[2];      ///< of a quadric along c and across it, > 0 where it bulges [1/m]
+  double thickness;         ///< deepest contact of a quadric, times either curvature < 1 [m]
+  double reach;             ///< how far from a the quadric goes [m]; 0: without end
+  double at[3];  ///< the point of a tool that may touch it, in the frame of the handle [m]
+} ph_surface;
 
 /// What a tick answers.
 typedef struct ph_result {
@@ -135,6 +185,7 @@ typedef struct ph_result {
   double energy;    ///< E1, the ledger [J]
   int32_t limited;  ///< not 0: the bound has changed the force that contact, or caller, asked for
   int32_t capped;   ///< not 0: the plane is stiffer than the device can pay for, and is felt softer
+  double torque[3];  ///< for a tool, about its handle [N·m]; else 0
 } ph_result;
 
 /// How stiff a surface is shown, and why no stiffer.
@@ -155,21 +206,21 @@ PH_API uint32_t ph_version(void) PH_NOTHROW;
 /// its value and the remedy, goes to `why` as UTF-8 text of at most `room` bytes, its zero included; it is
 /// empty if all is well, and NULL asks for none.
 ///
-///   name             takes, beside damping, force_limit, longest_tick   guarantee
-///   "touch"            mass, hand_force                                 conditional
-///   "quantised_touch"  mass, hand_force, quantum                        conditional
-///   "encoder_touch"    mass, hand_force, quantum, friction, presliding  conditional
-///   "strict_touch"                                                      strict
-///   "force_guard"      mass, hand_force                                 conditional
-///   "strict_guard"                                                      strict
-///   "encoder_guard"    quantum, friction, presliding                    strict
+///   name                                  the library's                            takes, of the device
+///   "touch", "contacts", "guard"            make_touch, make_contacts, make_guard    exact_device
+///   "encoder_touch", "encoder_contacts", "encoder_guard"                             encoder_device
+///   "strict_touch", "strict_contacts", "strict_guard", "strict_encoder_touch", "strict_encoder_contacts",
+///   "strict_encoder_guard"                  those after any_hand                     as above
+///   "stylus"                                make_contacts, at the tip of a stylus    exact_device, tip
+///   "tool"                                  make_tool                                rigid_device
+///   "quantised_touch"                       a touch on steps, friction not known     exact_device, quantum
 ///
-/// A touch presses back from the plane that is published. A guard bounds a force that the caller has.
-/// "touch" is the library's make_touch of an exact_device, "encoder_touch" of an encoder_device, which alone takes
-/// continuous_force and winding_time; "force_guard" is make_guard, and lets what a renderer leaves ringing settle;
-/// "strict_guard" is make_strict_guard, and is soft. Those that do not take `quantum` take positions as exact, and
-/// refuse one that is stated.
-/// What a composition does not take it does not look at.
+/// exact_device is mass, damping, force_limit, longest_tick; encoder_device that, and friction, presliding, quantum,
+/// continuous_force, winding_time; rigid_device mass, damping, force_limit, longest_tick, and what is said of a tool.
+/// All but the strict ones take hand_force, and promise PH_CONDITIONAL; those promise PH_STRICT, and are soft while
+/// the ledger is empty. A touch presses back from one plane, contacts, stylus and tool from what is in their slots. A
+/// guard bounds a force that the caller has, and lets what a renderer leaves ringing settle. What takes positions as
+/// exact refuses a `quantum`. What a composition does not take it does not look at.
 PH_API int32_t ph_create(const char* composition, const ph_parameters* parameters, ph_port** port,
                          char* why, size_t room) PH_NOTHROW;
 /// Ends a port, once; nobody may be in another function with it, then or later. NULL is no port, and nothing
@@ -178,12 +229,17 @@ PH_API void ph_destroy(ph_port* port) PH_NOTHROW;
 /// A ph_guarantee; PH_NONE for NULL.
 PH_API int32_t ph_guarantee_of(const ph_port* port) PH_NOTHROW;
 
-/// The newest surface, for a touch: all x with (point − x)·normal ≥ 0 are inside. `normal` has any length
-/// but zero; `stiffness` in N/m. Wait-free, from ONE thread that may be another than that of the ticks. A
-/// plane that is refused is not sent, and the last good one stays.
+/// The newest surface in a slot: of planes and of what is curved, each counted from 0; a touch has one, for a plane.
+/// Wait-free, from ONE thread that may be another than that of the ticks. One that is refused is not sent, and the
+/// last good one stays; for a guard it is PH_NOT_OF_THIS_COMPOSITION.
+PH_API int32_t ph_publish(ph_port* port, uint32_t slot, const ph_surface* surface) PH_NOTHROW;
+/// The plane of slot 0: all x with (point − x)·normal ≥ 0 are inside. `normal` has any length but zero; `stiffness` in
+/// N/m.
 PH_API int32_t ph_publish_plane(ph_port* port, const double point[3], const double normal[3],
                                 double stiffness) PH_NOTHROW;
-/// Nothing is there any more: the contact fades within 50 ms. From the thread of ph_publish_plane.
+/// Nothing is in that slot for this kind any more: the contact recedes. From the thread of ph_publish.
+PH_API int32_t ph_release(ph_port* port, uint32_t slot, uint32_t kind) PH_NOTHROW;
+/// Nothing is anywhere any more; that of a touch fades within 50 ms. From the same thread.
 PH_API int32_t ph_publish_nothing(ph_port* port) PH_NOTHROW;
 
 /// One tick: the device is at `position` [m], `dt` [s] after the last tick, measured. From ONE thread. A
@@ -194,13 +250,32 @@ PH_API int32_t ph_tick(ph_port* port, const double position[3], double dt,
 /// and the last good one stays; for a touch, or NULL, the sample is lost.
 PH_API int32_t ph_tick_wanted(ph_port* port, const double position[3], double dt,
                               const double wanted[3], ph_result* result) PH_NOTHROW;
+/// The same for a stylus and a tool, which turn: the pose of the gimbal, or of the handle, with `orientation` the unit
+/// quaternion w, x, y, z that turns its frame into the world's. The other two of these functions are a sample that was
+/// lost to them, as this one is to all others.
+PH_API int32_t ph_tick_pose(ph_port* port, const double position[3], const double orientation[4],
+                            double dt, ph_result* result) PH_NOTHROW;
 /// Says before a tick what the device really held over the time that the tick ends [N], where that is not
 /// the force commanded `latency` ticks ago: motors that saturate, gravity compensation. For that tick only,
 /// from its thread. A force that is no number loses the sample.
 PH_API int32_t ph_held(ph_port* port, const double force[3]) PH_NOTHROW;
+/// The same for a tool, which takes only this one: force [N] and torque [N·m] about its handle.
+PH_API int32_t ph_held_wrench(ph_port* port, const double force[3],
+                              const double torque[3]) PH_NOTHROW;
 
-/// How stiff the plane is shown, or how stiff a renderer may be that the guard settles, and why no stiffer. Not in
-/// every tick, from their thread. A strict guard has nothing to explain: PH_NOT_OF_THIS_COMPOSITION.
+/// Other parameters for a port that lives; its ledger and all else stay. Those that say what the device is must be
+/// what ph_create was told: latency, mass, damping, friction, presliding, quantum, longest_tick, tip. A refusal names
+/// the first that is not, or is out of its range, as that of ph_create does, and changes nothing. In the thread of the
+/// ticks; not in every tick.
+PH_API int32_t ph_set(ph_port* port, const ph_parameters* parameters, char* why,
+                      size_t room) PH_NOTHROW;
+/// Puts all but the parameters back to the start, for a device that has stopped: also what has ended the force for
+/// good. What had been published is forgotten, until it is published again. In the thread of the ticks.
+PH_API int32_t ph_reset(ph_port* port) PH_NOTHROW;
+
+/// How stiff the plane, or the contact that presses most, is shown, or how stiff a renderer may be that the guard
+/// settles, and why no stiffer. Not in every tick, from their thread. Stylus and tool do not explain themselves:
+/// PH_NOT_OF_THIS_COMPOSITION.
 PH_API int32_t ph_explain(const ph_port* port, ph_explanation* explanation) PH_NOTHROW;
 
 /// How stiff a plane may be on this device before its ledger runs dry in ordinary use [N/m], what binds it,
