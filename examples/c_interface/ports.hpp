@@ -126,7 +126,7 @@ class composed final : public ph_port {
   static constexpr bool twists = requires(typename space::effort f) { space::angular(f); };
 
  public:
-  // What no tick calls is cold, or it would take twice as long to compile.
+  // What no tick calls is compiled for size.
   [[gnu::cold]] explicit composed(const ph_parameters& p) noexcept
       : ph_port(p,
                 turns     ? c_interface::takes::poses

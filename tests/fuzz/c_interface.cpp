@@ -17,7 +17,33 @@ void put(fuzz::numbers& in, double* to, int count, double size) {
   for (int i = 0; i < count; ++i) to[i] = in.around<double>(size);
 }
 
+/// Parameters that every composition takes, for those that do not know steps without them.
+ph_parameters good_parameters(fuzz::numbers& in) {
+  const auto near = [&in](double usual) { return usual * (0.5 + in.one() / 256.0); };
+  ph_parameters p{};
+  p.size = sizeof p;
+  p.latency = in.one() < 128 ? 0 : in.one() % 10;
+  p.mass = near(0.1);
+  p.damping = near(0.05);
+  p.hand_force = near(5.0);
+  p.force_limit = near(9.0);
+  p.longest_tick = near(1.5e-3);
+  p.friction = near(0.13);
+  p.presliding = near(15e-6);
+  p.quantum = in.one() < 128 ? 0.0 : near(20e-6);
+  p.static_friction = near(0.4);
+  p.tip[2] = near(0.01);
+  p.least_inertia = near(1e-4);
+  p.inertia_spread = near(2e-4);
+  p.angular_damping = near(1e-4);
+  p.damping_most = near(0.2);
+  p.angular_damping_most = near(4e-4);
+  p.hand_torque = near(0.1);
+  p.torque_limit = near(0.5);
+  return p;
+}
 ph_parameters any_parameters(fuzz::numbers& in) {
+  if (in.one() < 160) return good_parameters(in);
   ph_parameters p{};
   p.size = in.one() < 240 ? sizeof p : in.any<std::uint32_t>();
   p.latency = in.one() < 128 ? 0 : in.one() < 240 ? in.one() % 9 : in.any<std::uint32_t>();
@@ -52,6 +78,19 @@ ph_surface any_surface(fuzz::numbers& in) {
   ph_surface s{};
   s.size = in.one() < 250 ? sizeof s : in.any<std::uint32_t>();
   s.kind = in.one() < 250 ? in.one() % 8 : in.any<std::uint32_t>();
+  if (in.one() < 160) {  // one of its kind, near by
+    s.stiffness = 8.0 * (1 + in.one());
+    s.radius = 1e-3 * (1 + in.one() % 16);
+    s.a[2] = -s.radius;
+    s.b[0] = 1e-3 * in.one();
+    s.b[2] = 1.0;
+    s.c[1] = 0.1;
+    s.half[0] = s.half[1] = s.half[2] = 2e-3;
+    s.curvature[0] = 100.0 - in.one();
+    s.thickness = 5e-3;
+    s.at[0] = 1e-4 * in.one();
+    return s;
+  }
   s.stiffness = in.about(1000.0);
   put(in, s.a, 3, 5e-3);
   put(in, s.b, 3, 1.0);
@@ -77,7 +116,7 @@ void tell(fuzz::numbers& in, ph_port* port, unsigned op) {
     case 1:
       if (op == 1) (void)ph_publish_nothing(port);
       if (op == 17) (void)ph_reset(port);
-      if (op == 33) (void)ph_release(port, in.one() % 5, in.one() % 8);
+      if (op % 64 == 33) (void)ph_release(port, in.one() % 5, in.one() % 8);
       break;
     case 2:
       put(in, point, 3, 9.0);
@@ -138,7 +177,7 @@ const char* one_port(fuzz::numbers& in) {
   for (int n = 0; n < 300 && !in.empty(); ++n) {
     const unsigned op = in.one();
     tell(in, port, op);
-    if (op == 12) {  // other parameters, and now and then those that stay
+    if (op % 32 == 12) {  // other parameters, and now and then those that stay
       ph_parameters later = in.one() < 64 ? any_parameters(in) : p;
       later.force_limit = in.about(9.0);
       later.hand_force = in.about(5.0);
@@ -148,7 +187,11 @@ const char* one_port(fuzz::numbers& in) {
         return "refused without a word";
       }
     }
-    put(in, x, 3, 5e-3);
+    if (op >= 224 || !std::isfinite(x[0] + x[1] + x[2])) {
+      put(in, x, 3, 5e-3);
+    } else {
+      std::for_each(x, x + 3, [&in](double& one) { one += in.around<double>(3e-4); });
+    }
     const double dt = op < 200 ? 1e-3 : in.around<double>(2e-3);
     ph_result out{};
     out.size = op == 3 ? in.any<std::uint32_t>() : sizeof out;

@@ -31,8 +31,8 @@
 //
 // Threads: of one port, ph_publish* and ph_release belong to one thread; ph_tick*, ph_held*, ph_set, ph_reset and
 // ph_explain to one, the same or another. Two threads in functions of one of these groups at once, or ph_destroy
-// while one is in any, are a data race, undefined as well. ph_guarantee_of is for any thread, and different ports
-// share nothing.
+// while one is in any, are a data race, undefined as well; a debug build of the library stops at two that tick.
+// ph_guarantee_of is for any thread, and different ports share nothing.
 //
 // Before 1.0 a minor version may change this interface, as it may the library's.
 
