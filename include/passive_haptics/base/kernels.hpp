@@ -108,6 +108,16 @@ template <real S>
     }
     return root;
   }
+#if defined(__SSE2__) && defined(__GNUC__) && !defined(__clang__)
+  // g++ would call sqrt() for errno where x < 0, and keep every number of the tick in memory for that.
+  if constexpr (std::same_as<S, double>) {
+    using two [[gnu::vector_size(16)]] = S;
+    return __builtin_ia32_sqrtsd(two{x})[0];
+  } else if constexpr (std::same_as<S, float>) {
+    using four [[gnu::vector_size(16)]] = S;
+    return __builtin_ia32_sqrtss(four{x})[0];
+  }
+#endif
   using std::sqrt;
   return sqrt(x);
 }

@@ -61,7 +61,8 @@ struct damping_and_friction {
     constexpr explicit on(const damping_and_friction& p) noexcept
         : damper(p.coefficient),
           c_(detail::number<scalar>(p.coulomb)),
-          p_(detail::number<scalar>(p.presliding)) {}
+          p_(detail::number<scalar>(p.presliding)),
+          compliance_(c_ > scalar(0) ? scalar(p_ / (scalar(2) * c_)) : scalar(0)) {}
     [[nodiscard]] constexpr damping_and_friction parameters() const noexcept {
       return {.coefficient = damper::parameters().coefficient,
               .coulomb = static_cast<double>(c_),
@@ -114,8 +115,7 @@ struct damping_and_friction {
     }
     /// |u|² p/(2c) [J], rounded up: the energy stored in the springs of the friction that push with u.
     [[nodiscard]] constexpr scalar stored(const effort& u) const noexcept {
-      if (!(c_ > scalar(0))) return scalar(0);
-      return Space::dot(u, u) * (p_ / (scalar(2) * c_)) * (scalar(1) + kernels::rounding<scalar>());
+      return Space::dot(u, u) * compliance_ * (scalar(1) + kernels::rounding<scalar>());
     }
     /// ½ c p [J]: the most that these springs can store.
     [[nodiscard]] constexpr scalar most_stored() const noexcept { return c_ * p_ / scalar(2); }
@@ -125,6 +125,7 @@ struct damping_and_friction {
       return c_ * (scalar(1) - kernels::rounding<scalar>());
     }
     scalar c_, p_;
+    scalar compliance_;  ///< p/(2c) [m/N], 0 without friction
   };
 };
 
