@@ -50,16 +50,13 @@ struct intended_use {
   double stiffness_fraction = 0.1;  ///< κ, as in damped_spring
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
-    const auto positive = [](double x) { return passive_haptics::detail::positive(x); };
+    using passive_haptics::detail::not_negative, passive_haptics::detail::positive;
     if (!positive(slowest)) return {"slowest", slowest, "finite and > 0 m/s"};
-    if (!(fastest >= slowest) || !positive(fastest)) {
-      return {"fastest", fastest, "finite and ≥ slowest"};
-    }
+    const bool in_order = fastest >= slowest && positive(fastest);
+    if (!in_order) return {"fastest", fastest, "finite and ≥ slowest"};
     if (!positive(frequency)) return {"frequency", frequency, "finite and > 0 Hz"};
     if (!positive(swing)) return {"swing", swing, "finite and > 0 N"};
-    if (!passive_haptics::detail::not_negative(hand_swing)) {
-      return {"hand_swing", hand_swing, "finite and ≥ 0 N"};
-    }
+    if (!not_negative(hand_swing)) return {"hand_swing", hand_swing, "finite and ≥ 0 N"};
     if (!(force >= 0.0)) return {"force", force, "≥ 0 N"};
     if (!(hand_force >= 0.0)) return {"hand_force", hand_force, "≥ 0 N"};
     if (!(stiffness_fraction > 0.0 && stiffness_fraction <= 1.0)) {

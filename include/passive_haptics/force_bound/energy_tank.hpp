@@ -101,14 +101,13 @@ struct two_layer_tank {
   double loan{};                                                     ///< H at the start [J]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
-    if (!detail::not_negative(wanted)) return {"wanted", wanted, "finite and ≥ 0 J"};
-    if (!detail::not_negative(refill)) return {"refill", refill, "finite and ≥ 0 N·s/(m J)"};
-    if (!detail::not_negative(max_damping)) {
-      return {"max_damping", max_damping, "finite and ≥ 0 N·s/m"};
-    }
+    using detail::not_negative;
+    if (!not_negative(wanted)) return {"wanted", wanted, "finite and ≥ 0 J"};
+    if (!not_negative(refill)) return {"refill", refill, "finite and ≥ 0 N·s/(m J)"};
+    if (!not_negative(max_damping)) return {"max_damping", max_damping, "finite and ≥ 0 N·s/m"};
     if (!(force_per_joule > 0.0)) return {"force_per_joule", force_per_joule, "> 0 N/J"};
     if (!(cap >= wanted)) return {"cap", cap, "≥ wanted"};
-    if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
+    if (!not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
     return {};
   }
   template <port Space>

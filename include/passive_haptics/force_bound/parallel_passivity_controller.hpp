@@ -16,14 +16,11 @@ struct parallel_controller_parameters {
   double loan{};          ///< E at the start [J]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
-    if (!detail::positive(max_mobility)) {
-      return {"max_mobility", max_mobility, "finite and > 0 m/(N·s)"};
-    }
+    using detail::not_negative, detail::positive;
+    if (!positive(max_mobility)) return {"max_mobility", max_mobility, "finite and > 0 m/(N·s)"};
     if (!kernels::is_finite(threshold)) return {"threshold", threshold, "finite, in J"};
-    if (!detail::not_negative(least_force)) {
-      return {"least_force", least_force, "finite and ≥ 0 N"};
-    }
-    if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
+    if (!not_negative(least_force)) return {"least_force", least_force, "finite and ≥ 0 N"};
+    if (!not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
     return {};
   }
 };

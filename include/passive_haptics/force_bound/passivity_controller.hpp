@@ -49,18 +49,13 @@ struct basic_series_controller {
   double loan{};                          ///< E at the start [J]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
-    if (!detail::positive(max_damping)) {
-      return {"max_damping", max_damping, "finite and > 0 N·s/m"};
-    }
+    using detail::not_negative, detail::positive;
+    if (!positive(max_damping)) return {"max_damping", max_damping, "finite and > 0 N·s/m"};
     if (!kernels::is_finite(threshold)) return {"threshold", threshold, "finite, in J"};
-    if (!detail::not_negative(least_speed)) {
-      return {"least_speed", least_speed, "finite and ≥ 0 m/s"};
-    }
-    if (!detail::not_negative(least_travel)) {
-      return {"least_travel", least_travel, "finite and ≥ 0 m"};
-    }
+    if (!not_negative(least_speed)) return {"least_speed", least_speed, "finite and ≥ 0 m/s"};
+    if (!not_negative(least_travel)) return {"least_travel", least_travel, "finite and ≥ 0 m"};
     if (!(reset_after >= 0.0)) return {"reset_after", reset_after, "≥ 0 s"};
-    if (!detail::not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
+    if (!not_negative(loan)) return {"loan", loan, "finite and ≥ 0 J"};
     return {};
   }
   template <port Space>

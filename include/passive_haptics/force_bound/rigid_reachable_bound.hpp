@@ -45,15 +45,14 @@ struct rigid_reachable_bound {
   double angular_damping_most{};  ///< b_ω,max, an upper bound about any axis [N·m·s/rad]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    using detail::not_negative, detail::positive;
     if (const auto fault = inertia.check()) return fault;
-    if (!detail::not_negative(hand_force)) return {"hand_force", hand_force, "finite and ≥ 0 N"};
-    if (!detail::not_negative(hand_torque)) {
-      return {"hand_torque", hand_torque, "finite and ≥ 0 N·m"};
-    }
-    if (!detail::positive(linear_damping_most)) {
+    if (!not_negative(hand_force)) return {"hand_force", hand_force, "finite and ≥ 0 N"};
+    if (!not_negative(hand_torque)) return {"hand_torque", hand_torque, "finite and ≥ 0 N·m"};
+    if (!positive(linear_damping_most)) {
       return {"linear_damping_most", linear_damping_most, "finite and > 0 N·s/m: an upper bound"};
     }
-    if (!detail::positive(angular_damping_most)) {
+    if (!positive(angular_damping_most)) {
       return {"angular_damping_most", angular_damping_most,
               "finite and > 0 N·m·s/rad: an upper bound"};
     }
