@@ -224,7 +224,8 @@ class local_contact {
     const bool from_the_side = pass_beside(behind && !in_target);
     [[maybe_unused]] const law_type before = law_;  // with the stiffness up to now
     if constexpr (!eases) {
-      if (fresh()) adopt(port.longest_tick, state::latency);
+      if (fresh())
+        detail::tell(law_, supply_.target().stiffness, port.longest_tick, state::latency);
     }
     if constexpr (Shortcut && shapers_keep_zero<state>()) {
       if (!in_target) return nothing_asked(weight);

@@ -141,17 +141,11 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   /// friction counted on may hold back, down to what a ledger without a loan starts with. forfeit(0, T) writes off the
   /// friction only.
   /// One that can have done no more than `most` [J] costs no more than that.
-  constexpr void forfeit(const effort& held, scalar T,
-                         scalar most = std::numeric_limits<scalar>::infinity()) noexcept {
-    scalar lost = kernels::smaller(damping_.worst_outflow(held, T), most);
-    if constexpr (rubs) {
-      lost += certificates_.given_up(held, effort(last_held_), damping_, steps_);
-      certificates_.reset();
-    }
-    energy_ = detail::written_off(value_, lost, -reserve());
-    last_held_ = P::zero();
-    begin_window();
-    take_stock();
+  constexpr void forfeit(const effort& held, scalar T) noexcept {
+    lose(held, damping_.worst_outflow(held, T));
+  }
+  constexpr void forfeit(const effort& held, scalar T, scalar most) noexcept {
+    lose(held, kernels::smaller(damping_.worst_outflow(held, T), most));
   }
   /// `joules` ≥ 0 that nobody has paid in.
   constexpr void lend(scalar joules) noexcept {
@@ -179,6 +173,16 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
  private:
   using steps_type = part_at<Steps, P>;
   static constexpr bool rubs = damping_type::rubs;
+  constexpr void lose(const effort& held, scalar lost) noexcept {
+    if constexpr (rubs) {
+      lost += certificates_.given_up(held, effort(last_held_), damping_, steps_);
+      certificates_.reset();
+    }
+    energy_ = detail::written_off(value_, lost, -reserve());
+    last_held_ = P::zero();
+    begin_window();
+    take_stock();
+  }
   /// The most that the ledger keeps [J], so that sums of it stay finite.
   [[nodiscard]] static constexpr scalar most_kept() noexcept {
     return kernels::largest<scalar>() / scalar(8);

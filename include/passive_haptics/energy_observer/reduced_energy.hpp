@@ -61,8 +61,6 @@ class basic_reduced_energy<Damping, Sum>::on {
       "passive_haptics: this port turns, and a turn may do other work than its ends show: "
       "reduced_energy needs rigid_damping there, which knows by how much");
 
-  static constexpr scalar any = std::numeric_limits<scalar>::infinity();  ///< [J]
-
   constexpr explicit on(const basic_reduced_energy& p) noexcept
       : damping_(p.damping), loan_(detail::number<scalar>(p.loan)), energy_(loan_) {}
   constexpr void set(const basic_reduced_energy& p) noexcept {
@@ -73,18 +71,17 @@ class basic_reduced_energy<Damping, Sum>::on {
     return {.damping = damping_.parameters(), .loan = static_cast<double>(loan_)};
   }
 
-  /// A turn may hide no more than `hidden` [J].
-  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held, scalar dt,
-                                               [[maybe_unused]] scalar hidden = any) noexcept {
+  [[gnu::always_inline]] constexpr bool update(const motion& dx, const effort& held,
+                                               scalar dt) noexcept {
     scalar gain = detail::sure_gain<P>(damping_.dissipated(dx, dt), held, dx);
-    if constexpr (detail::turns<P>()) {
-      gain -= kernels::smaller(damping_.unsure(dx, held, dt), hidden);
-    }
-    if (!kernels::is_finite(value() + gain)) [[unlikely]] {
-      return false;
-    }
-    detail::book(energy_, gain);
-    return true;
+    if constexpr (detail::turns<P>()) gain -= damping_.unsure(dx, held, dt);
+    return add(gain);
+  }
+  /// The same of a turn that hides no more than `hidden` [J].
+  constexpr bool update(const motion& dx, const effort& held, scalar dt, scalar hidden) noexcept
+      requires(detail::turns<P>()) {
+    return add(detail::sure_gain<P>(damping_.dissipated(dx, dt), held, dx) -
+               kernels::smaller(damping_.unsure(dx, held, dt), hidden));
   }
   /// The same where the device reports what its motors did: E1 += Δxᵀ(b/dt)Δx − work (lemma J).
   [[gnu::always_inline]] constexpr bool update(const motion& dx,
@@ -99,7 +96,10 @@ class basic_reduced_energy<Damping, Sum>::on {
 
   /// A tick passed and nobody saw the motion: the worst that `held` can have done, or `most` [J] if that is less, is
   /// written off, down to an empty ledger. A bound that kept its promise has covered exactly that.
-  constexpr void forfeit(const effort& held, scalar T, scalar most = any) noexcept {
+  constexpr void forfeit(const effort& held, scalar T) noexcept {
+    energy_ = detail::written_off(value(), damping_.worst_outflow(held, T));
+  }
+  constexpr void forfeit(const effort& held, scalar T, scalar most) noexcept {
     energy_ = detail::written_off(value(), kernels::smaller(damping_.worst_outflow(held, T), most));
   }
 
@@ -117,6 +117,15 @@ class basic_reduced_energy<Damping, Sum>::on {
   }
 
  private:
+  /// False if E1 would be no finite number; then nothing is booked.
+  [[gnu::always_inline]] constexpr bool add(scalar gain) noexcept {
+    if (!kernels::is_finite(value() + gain)) [[unlikely]] {
+      return false;
+    }
+    detail::book(energy_, gain);
+    return true;
+  }
+
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS damping_type damping_;
   scalar loan_;
   detail::ledger_number<scalar, Sum> energy_;  ///< E1 [J]

@@ -4,8 +4,6 @@
 
 #include <passive_haptics/port/concepts.hpp>
 
-#include <array>
-
 namespace passive_haptics {
 inline namespace v0 {
 
@@ -72,55 +70,58 @@ class edge_observer::on {
     return {.quantum = static_cast<double>(quantum_),
             .presliding = static_cast<double>(presliding_)};
   }
-  constexpr void reset() noexcept { axes_ = {}; }
+  constexpr void reset() noexcept {
+    for (auto* zero : {&position_, &velocity_, &at_edge_, &travel_, &since_, &direction_, &low_,
+                       &high_, &turns_}) {
+      *zero = P::zero();
+    }
+  }
 
   [[nodiscard]] constexpr seen estimate(const vector& shown, const vector& travel,
                                         const vector& /*held*/, scalar dt, bool known) noexcept {
-    seen now{P::zero(), P::zero(), quantum_ / (scalar(8) * dt)};
     for (int i = 0; i < P::dof; ++i) {
-      axis& of = axes_[static_cast<std::size_t>(i)];
       const scalar step = P::component(shown, i);
       if (known) {
-        follow(of, step, P::component(travel, i), dt);
+        follow(i, step, P::component(travel, i), dt);
       } else {
-        start(of, step);
+        start(i, step);
       }
-      P::component(now.position, i) = of.x;
-      P::component(now.velocity, i) = of.v;
     }
-    return now;
+    return {position_, velocity_, quantum_ / (scalar(8) * dt)};
   }
 
  private:
-  struct axis {
-    scalar x{}, v{};                  ///< [m], [m/s]
-    scalar at_edge{}, travel{}, t{};  ///< v at the last edge, Δx̂ [m] and time [s] since
-    scalar d{};                       ///< ±1, which way it went; 0 before the first edge
-    scalar low{}, high{};             ///< steps at which it turned last [m]
-    int turns = 0;                    ///< how often it turned within q + 2p, up to 2
-  };
+  using coordinates = typename P::coordinates;
   /// A device that crosses no edge for so long is at rest [s].
   static constexpr scalar still = scalar(0.1);
 
   /// Starts anew: at rest in the middle of the step.
-  constexpr void start(axis& of, scalar step) const noexcept {
-    of = {.x = step + quantum_ / scalar(2), .low = step, .high = step};
+  constexpr void start(int i, scalar step) noexcept {
+    for (coordinates* zero : {&velocity_, &at_edge_, &travel_, &since_, &direction_, &turns_}) {
+      P::component(*zero, i) = scalar(0);
+    }
+    P::component(low_, i) = P::component(high_, i) = step;
+    P::component(position_, i) = step + quantum_ / scalar(2);
   }
 
-  constexpr void follow(axis& of, scalar step, scalar shown, scalar dt) const noexcept {
-    auto& [x, v, at_edge, travel, t, d, low, high, turns] = of;
+  constexpr void follow(int i, scalar step, scalar shown, scalar dt) noexcept {
+    scalar& x = P::component(position_, i);
+    scalar& v = P::component(velocity_, i);
+    scalar& travel = P::component(travel_, i);
+    scalar& t = P::component(since_, i);
+    scalar& d = P::component(direction_, i);
     travel += shown;
     t += dt;
     const bool crossed = !(kernels::magnitude(travel) < quantum_ / scalar(2));
-    if (is_held_by_friction(of, step, crossed)) {
-      const scalar middle = (low + high + quantum_) / scalar(2);
+    if (is_held_by_friction(i, step, crossed)) {
+      const scalar middle = (P::component(low_, i) + P::component(high_, i) + quantum_) / scalar(2);
       if (crossed) {
-        cross(of, dt);
+        cross(i, dt);
       } else {
         x += (middle - x) * kernels::smaller(dt / scalar(0.05), scalar(1));
       }
     } else if (crossed) {
-      cross(of, dt);
+      cross(i, dt);
       x = edge(step, d) + d * kernels::smaller(d * v * dt, quantum_) / scalar(2);
       x = within(x, step);
     } else if (t > still) {
@@ -132,52 +133,60 @@ class edge_observer::on {
       x += d * kernels::larger(kernels::smaller(d * v * dt, ahead), scalar(0));
       x = within(x, step);
     }
-    if (!kernels::is_finite(x + v)) start(of, step);
+    if (!kernels::is_finite(x + v)) start(i, step);
   }
 
   [[nodiscard]] constexpr scalar within(scalar x, scalar step) const noexcept {
     return kernels::clamped(x, step, step + quantum_);
   }
 
-  /// True while the device swings within q + 2p.
-  [[nodiscard]] constexpr bool is_held_by_friction(axis& of, scalar step,
-                                                   bool crossed) const noexcept {
+  /// True while the device swings within q + 2p. low_ and high_ are the steps at which it turned last.
+  [[nodiscard]] constexpr bool is_held_by_friction(int i, scalar step, bool crossed) noexcept {
     if (!(scalar(2) * presliding_ > quantum_)) return false;
+    scalar& low = P::component(low_, i);
+    scalar& high = P::component(high_, i);
+    scalar& turns = P::component(turns_, i);
+    const scalar enough = scalar(2);
     const scalar a_little_more =
         scalar(1.01);  // than a step, for what rounding does to sums of steps
     const scalar most = scalar(2) * presliding_ + quantum_ * a_little_more;
     if (!crossed) {
-      if (of.turns < 2) return false;
-      if (!(of.t > still)) return true;
-      of.turns = 0;
-      of.x = step + quantum_ / scalar(2);
+      if (turns < enough) return false;
+      if (!(P::component(since_, i) > still)) return true;
+      turns = scalar(0);
+      P::component(position_, i) = step + quantum_ / scalar(2);
       return false;
     }
-    if (of.travel * of.d < scalar(0)) {
-      (of.d < scalar(0) ? of.low : of.high) = step - of.travel;
-      of.turns = !(of.high - of.low <= most) ? 0 : of.turns < 2 ? of.turns + 1 : 2;
+    const scalar travel = P::component(travel_, i);
+    const scalar d = P::component(direction_, i);
+    if (travel * d < scalar(0)) {
+      (d < scalar(0) ? low : high) = step - travel;
+      turns = high - low <= most ? kernels::smaller(turns + scalar(1), enough) : scalar(0);
     }
-    const scalar beyond =
-        kernels::larger(kernels::larger(of.low - step, step - of.high), scalar(0));
-    if (of.high - of.low + beyond > most || beyond > quantum_ * a_little_more) of.turns = 0;
-    return of.turns >= 2;
+    const scalar beyond = kernels::larger(kernels::larger(low - step, step - high), scalar(0));
+    if (high - low + beyond > most || beyond > quantum_ * a_little_more) turns = scalar(0);
+    return turns >= enough;
   }
 
   /// The speed that follows from crossing an edge.
-  constexpr void cross(axis& of, scalar dt) const noexcept {
-    auto& [x, v, at_edge, travel, t, d, low, high, turns] = of;
+  constexpr void cross(int i, scalar dt) noexcept {
+    scalar& v = P::component(velocity_, i);
+    scalar& before = P::component(at_edge_, i);
+    scalar& travel = P::component(travel_, i);
+    scalar& t = P::component(since_, i);
+    scalar& d = P::component(direction_, i);
     const scalar way = kernels::magnitude(travel);
     const scalar now = travel < scalar(0) ? scalar(-1) : scalar(1);
     const scalar many = scalar(4);  // steps, or ticks, of which an error of one is small
     if (d != now && way <= quantum_ * scalar(1.5)) {
-      v = now * scalar(0.8) * kernels::smaller(kernels::magnitude(at_edge), many * quantum_ / t);
+      v = now * scalar(0.8) * kernels::smaller(kernels::magnitude(before), many * quantum_ / t);
     } else if (d != now || v == scalar(0) || way >= many * quantum_ || t >= many * dt ||
                kernels::magnitude(v) * t >= many * quantum_) {
       v = travel / t;
     } else {
       v += kernels::larger(t / dt, kernels::magnitude(v) * t / quantum_) / many * (travel / t - v);
     }
-    at_edge = v;
+    before = v;
     travel = t = scalar(0);
     d = now;
   }
@@ -187,7 +196,11 @@ class edge_observer::on {
   }
 
   scalar quantum_{}, presliding_{};
-  std::array<axis, static_cast<std::size_t>(P::dof)> axes_{};
+  coordinates position_{}, velocity_{};         ///< x [m], v [m/s]
+  coordinates at_edge_{}, travel_{}, since_{};  ///< v at the last edge, Δx̂ [m] and t [s] since
+  coordinates direction_{};                     ///< d, ±1; 0 before the first edge
+  coordinates low_{}, high_{};                  ///< steps at which it turned last [m]
+  coordinates turns_{};                         ///< how often it turned within q + 2p, up to 2
 };
 
 static_assert(motion_estimator_for<edge_observer, space<float, 1>>);

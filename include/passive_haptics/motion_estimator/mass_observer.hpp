@@ -4,8 +4,6 @@
 
 #include <passive_haptics/port/concepts.hpp>
 
-#include <array>
-
 namespace passive_haptics {
 inline namespace v0 {
 
@@ -60,33 +58,39 @@ class mass_observer::on {
   [[nodiscard]] constexpr mass_observer parameters() const noexcept {
     return {.mass = static_cast<double>(mass_), .quantum = static_cast<double>(quantum_)};
   }
-  constexpr void reset() noexcept { axes_ = {}; }
+  constexpr void reset() noexcept {
+    for (auto* zero : {&position_, &velocity_, &push_, &corrected_, &since_}) *zero = P::zero();
+  }
 
   [[nodiscard]] constexpr seen estimate(const vector& shown, const vector& /*travel*/,
                                         const vector& held, scalar dt, bool known) noexcept {
-    seen now{P::zero(), P::zero()};
     for (int i = 0; i < P::dof; ++i) {
-      axis& of = axes_[static_cast<std::size_t>(i)];
       const scalar step = P::component(shown, i);
       if (known) {
-        follow(of, step, P::component(held, i) / mass_, dt);
+        follow(i, step, P::component(held, i) / mass_, dt);
       } else {
-        of = {.x = step + quantum_ / scalar(2)};
+        start(i, step + quantum_ / scalar(2));
       }
-      P::component(now.position, i) = of.x;
-      P::component(now.velocity, i) = of.v;
     }
-    return now;
+    return {position_, velocity_};
   }
 
  private:
-  struct axis {
-    scalar x{}, v{}, w{};  ///< [m], [m/s], [m/s²]
-    scalar S{}, t{};       ///< [m], [s]
-  };
+  using coordinates = typename P::coordinates;
 
-  constexpr void follow(axis& of, scalar step, scalar driven, scalar dt) const noexcept {
-    auto& [x, v, w, S, t] = of;
+  constexpr void start(int i, scalar x) noexcept {
+    P::component(position_, i) = x;
+    for (coordinates* zero : {&velocity_, &push_, &corrected_, &since_}) {
+      P::component(*zero, i) = scalar(0);
+    }
+  }
+
+  constexpr void follow(int i, scalar step, scalar driven, scalar dt) noexcept {
+    scalar& x = P::component(position_, i);
+    scalar& v = P::component(velocity_, i);
+    scalar& w = P::component(push_, i);
+    scalar& S = P::component(corrected_, i);
+    scalar& t = P::component(since_, i);
     const scalar gain = scalar(1) / scalar(64);
 
     const scalar a = driven + w;
@@ -104,11 +108,13 @@ class mass_observer::on {
       w += S / (scalar(2) * t * t);
       S = t = scalar(0);
     }
-    if (!kernels::is_finite(x + v + w)) of = {.x = step + quantum_ / scalar(2)};  // an absurd force
+    if (!kernels::is_finite(x + v + w))
+      start(i, step + quantum_ / scalar(2));  // after an absurd force
   }
 
   scalar mass_{}, quantum_{};
-  std::array<axis, static_cast<std::size_t>(P::dof)> axes_{};
+  coordinates position_{}, velocity_{}, push_{};  ///< x [m], v [m/s], w [m/s²]
+  coordinates corrected_{}, since_{};             ///< S [m] and t [s] of each axis
 };
 
 static_assert(motion_estimator_for<mass_observer, space<float, 1>>);

@@ -301,7 +301,7 @@ class passive_port {
         look(position, dt, force);
     }
     if (stopped_ != event::nominal) [[unlikely]]
-      return refuse(stopped_, dt);
+      return refuse_all(dt);
     motion travel = P::between(guard_.last(), position);
     [[maybe_unused]] scalar square{};
     if constexpr (reaches) square = P::squared(travel);
@@ -374,7 +374,7 @@ class passive_port {
   /// Nobody knows what moved since the last good sample, so it counts as the worst; returns no motion.
   [[nodiscard, gnu::always_inline]] constexpr motion resume(const typename P::stored_effort& held,
                                                             scalar dt) noexcept {
-    if constexpr (!trusting) write_off(held, dt);
+    write_off(held, dt);
     guard_.see_again();
     return P::zero();
   }
@@ -438,18 +438,18 @@ class passive_port {
       return {kernels::largest<scalar>(), kernels::largest<scalar>()};
     }
   }
-  [[gnu::cold, gnu::noinline]] constexpr void write_off(typename P::stored_effort held,
-                                                        scalar dt) noexcept {
-    if constexpr (!trusting) {
-      const scalar blind = guard_.blind() + kernels::larger(dt, limits_.longest_tick);
-      forfeit(observer_, held, limits_.held_for(dt), blind);
-    }
+  /// A tick that nobody saw costs what `held` can have done in it; where a bound reaches, that is found out of line.
+  [[gnu::always_inline]] constexpr void write_off(const typename P::stored_effort& held,
+                                                  scalar dt) noexcept {
+    if constexpr (reaches) return write_off_reach(held, dt);
+    if constexpr (!trusting) observer_.forfeit(held, limits_.held_for(dt));
   }
-  /// `t` [s] under an effort of which nobody saw anything for `blind` [s].
-  constexpr void forfeit(observer_type& ledger, const effort& held, scalar t,
-                         [[maybe_unused]] scalar blind) const noexcept {
-    if constexpr (reaches) return ledger.forfeit(held, t, unseen(held, blind).done);
-    ledger.forfeit(held, t);
+  [[gnu::cold, gnu::noinline]] constexpr void write_off_reach(typename P::stored_effort held,
+                                                              scalar dt) noexcept {
+    if constexpr (reaches) {
+      const scalar blind = guard_.blind() + kernels::larger(dt, limits_.longest_tick);
+      observer_.forfeit(held, limits_.held_for(dt), unseen(held, blind).done);
+    }
   }
   /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of the two, and
   /// what only one of them covers, a ledger that is more than a number forgets (§ 3). Vectors by value and at rest, so
@@ -457,7 +457,12 @@ class passive_port {
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_cut_short(
       typename P::stored_effort travel, held_type held, scalar dt) noexcept {
     observer_type dropped = observer_;
-    forfeit(dropped, detail::force_of<P>(held), limits_.watchdog, limits_.watchdog);
+    if constexpr (reaches) {
+      dropped.forfeit(detail::force_of<P>(held), limits_.watchdog,
+                      unseen(detail::force_of<P>(held), limits_.watchdog).done);
+    } else {
+      dropped.forfeit(detail::force_of<P>(held), limits_.watchdog);
+    }
     if (!observer_.update(travel, held, dt)) return false;
     if constexpr (!Observer::exact) observer_.forfeit(P::zero(), limits_.watchdog);
     if (dropped.value() < observer_.value()) observer_ = dropped;
@@ -472,6 +477,9 @@ class passive_port {
     }
   }
 
+  [[gnu::cold, gnu::noinline]] constexpr result_type refuse_all(scalar dt) noexcept {
+    return refuse(stopped_, dt);
+  }
   [[gnu::cold, gnu::noinline]] constexpr result_type refuse_sample(typename P::stored_pose position,
                                                                    scalar dt) noexcept {
     const motion travel = P::between(guard_.last(), position);
