@@ -341,7 +341,7 @@ template <class P>
     const auto& motion) noexcept {
   using scalar = typename P::scalar;
   if constexpr (requires { motion.travel / motion.dt; }) {
-    return P::scaled(motion.travel, scalar(1) / motion.dt);
+    return motion.travel * (scalar(1) / motion.dt);
   } else {
     typename P::vector v = P::zero();
     for (int i = 0; i < P::dof; ++i) {
