@@ -96,6 +96,7 @@ struct untruth {
 
 struct result {
   long ticks = 0, refuted = 0;  ///< ticks, and those of them with outside_force
+  long refused = 0;             ///< ticks whose sample was not believed
   double found = -1.0;          ///< first event after the first contact [s]
   double lost = 0.0;            ///< [J]
   double after = 0.0;           ///< of them after it was latched [J]
@@ -127,6 +128,7 @@ template <class Port, class Device>
     const double before = least(device);
     const auto out = how.reported ? port.tick(s) : port.tick(s.position, ph::seconds{s.dt});
     force = out.force;
+    r.refused += out.what == ph::event::rejected_sample;
     if (contact < 0.0 && s.position < 0.0) contact = t;
     if (out.what >= ph::event::outside_force) {
       ++r.refuted;

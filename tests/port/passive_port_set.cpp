@@ -115,6 +115,7 @@ TEST_CASE("loop limits change with the ledger kept, and the law with them", "[po
   CHECK_THAT(touch.law().stiffness(), WithinRel(2500.0, 1e-12));
   CHECK(touch.tick(here, 1500us).what == ph::event::nominal);
 
+  REQUIRE_FALSE(touch.set(ph::loop_limits{.longest_tick = 2e-3}));  // no motion is known now
   control = touch;
   const d3::vector farther(0.006, 0, -0.002);
   CHECK(control.tick(farther, 1500us).what == ph::event::nominal);

@@ -94,6 +94,18 @@ class watched<Bound>::on : public part_at<Bound, P> {
     }
     watch(known, {travel, told, held, dt}, error, detail::most_damping<P>(ledger.damping()));
   }
+  /// How far from x + V t a device may be that went with V for T₀, t later [m]; v is the sum of the speeds of both, and
+  /// `most` is what its motors hold [N] (§ 13). No less than 0.12 mm: what that does is nothing.
+  template <bool Exact>
+  [[nodiscard]] constexpr scalar far(scalar T0, scalar t, scalar v, scalar most,
+                                     const auto& ledger) const noexcept {
+    scalar error = scalar(2) * step_;
+    if constexpr (!Exact) error = ledger.travel_error();
+    const scalar pushed =
+        most + force() * scalar(1.125) + scalar(2) * detail::most_damping<P>(ledger.damping()) * v;
+    const scalar reach = t * (T0 + t) / scalar(2) * pushed / mass();
+    return kernels::larger(reach + error * (scalar(1) + t / T0), scalar(2) * unsaid);
+  }
   /// Is something asked in this tick? Where nothing is, the next contact is looked at from its beginning.
   constexpr void look_on(bool asked) noexcept {
     if (!asked) at_ = rest_ = pause_ = 0;

@@ -119,6 +119,72 @@ class trusting_guard : public last_tick<P, Latency> {
   bool seen_ = false;
 };
 
+/// Holds a sample against the motion before it, where a bound knows what can change that: far(T₀, t, v) [m] is how far
+/// from going on a device may be t after a motion of T₀, of both of which v is the sum of the mean speeds [m/s]. A
+/// sample that is not believed doubles what is, unless it turns out to have been an outlier; that is forgotten slowly.
+/// (§ 13)
+template <port P>
+class motion_check {
+ public:
+  using scalar = typename P::scalar;
+  using motion = typename P::motion;
+
+  /// So little motion, in so much time, that no sample is far off.
+  [[nodiscard]] constexpr bool is_calm(scalar square, scalar dt) const noexcept {
+    return square <= easy_ && dt >= least_;
+  }
+  /// So little change of it.
+  [[nodiscard]] constexpr bool is_easy(const motion& travel) const noexcept {
+    return P::squared(P::difference(travel, motion(travel_))) <= easy_;
+  }
+  /// `t` after the last good sample.
+  [[nodiscard]] constexpr bool is_possible(const motion& travel, scalar t,
+                                           const auto& far) const noexcept {
+    return !(off(travel, t, far) > width_);
+  }
+  [[nodiscard]] constexpr bool judge(const motion& travel, scalar t, const auto& far) noexcept {
+    const scalar beside = off(travel, t, far);
+    const bool believed = !(beside > width_);
+    if (!believed) width_ = kernels::smaller(width_ * scalar(2), scalar(1024));
+    if (believed && beside * scalar(4) > kept_) kept_ = width_;
+    if (believed) width_ = kept_;
+    return believed;
+  }
+  constexpr void see(const motion& travel, scalar dt) noexcept {
+    travel_ = travel;
+    dt_ = dt;
+  }
+  constexpr void ease(const auto& far, scalar T, scalar top_speed) noexcept {
+    width_ = kept_ = kernels::larger(scalar(1), kept_ * scalar(0.998));
+    const scalar change = far(T, T, scalar(0)) * width_;
+    easy_ = change * change;
+    least_ = change / top_speed;
+  }
+  /// The next sample is neither calm nor easy.
+  constexpr void think() noexcept { easy_ = scalar(-1); }
+  /// |Δx|² [m²] and the time [s] of the last motion.
+  [[nodiscard]] constexpr std::array<scalar, 2> last() const noexcept {
+    if (!(dt_ > scalar(0))) return {kernels::largest<scalar>(), scalar(1)};
+    return {P::squared(motion(travel_)), dt_};
+  }
+
+ private:
+  /// In parts of what is possible; time stamps may be off by a quarter.
+  [[nodiscard]] constexpr scalar off(const motion& travel, scalar t,
+                                     const auto& far) const noexcept {
+    if (!(dt_ > scalar(0))) return scalar(0);
+    const motion on = P::scaled(motion(travel_), t / dt_);
+    const scalar step = P::norm(on);
+    return P::norm(P::difference(travel, on)) /
+           (far(dt_, t, (step + P::norm(travel)) / t) + step / scalar(4));
+  }
+
+  typename P::stored_effort travel_ = P::zero();  ///< of the last motion that was believed
+  scalar dt_{};                                   ///< and its time [s]; 0: there was none
+  scalar easy_ = scalar(-1), least_{};            ///< [m²], [s]
+  scalar width_{1}, kept_{1};  ///< of what is possible; the same before samples not believed
+};
+
 /// Looks for a sensor that is slower than the loop. It shows the same place again and then jumps on,
 /// time after time, and a mass does not start that fast: over a 25th of top_speed within a tick.
 /// Nothing is counted where a loop is not `watched`.

@@ -281,15 +281,19 @@ class passive_port {
     o.update(m, f, s, s);
   };
   struct unasked {};
-  /// Of the last tick that was seen; of any square before there was one.
-  struct last_seen {
-    scalar square = kernels::largest<scalar>();  ///< |Δx|²
-    scalar dt{1};                                ///< [s]
-  };
   /// What is asked for is finite, and the bound makes it no larger: nobody has to look again.
   static constexpr bool always_numbers =
       source_type::asks_for_numbers && detail::reduces<Bound, P, state_type>();
   static constexpr bool looks = detail::looks_at_motion<bound_type>;
+  /// It also knows how far a sample may be from the last motion.
+  static constexpr bool doubts = looks && reaches && detail::has_geometry<P>;
+  struct last_seen {
+    scalar square = kernels::largest<scalar>(), dt{1};
+    [[nodiscard]] constexpr last_seen last() const noexcept { return *this; }
+  };
+  /// Of the last tick that was seen; of any square before there was one.
+  using what_was_seen =
+      std::conditional_t<doubts, motion_check<P>, std::conditional_t<reaches, last_seen, unasked>>;
   /// Does the source say by itself that nothing is asked?
   static constexpr bool says_nothing = zero_stays_zero && !detail::takes_efforts<source_type, P>;
 
@@ -305,20 +309,36 @@ class passive_port {
     motion travel = P::between(guard_.last(), position);
     [[maybe_unused]] scalar square{};
     if constexpr (reaches) square = P::squared(travel);
-    if constexpr (!trusting) {
-      if (!guard_.believes(position, travel, dt, limits_)) [[unlikely]] {
-        return refuse_sample(position, dt);
+    bool known = true;
+    if constexpr (doubts) {
+      if (!(seen_.is_calm(square, dt) && !is_late(dt, limits_.longest_tick) &&
+            guard_.within(position, limits_.workspace))) [[unlikely]] {
+        if (!guard_.believes(position, travel, dt, limits_)) return refuse_sample(position, dt);
+        if (!seen_.is_easy(travel) && !thought_about(travel, dt)) {
+          return refuse(event::rejected_sample, dt);
+        }
+        known = guard_.knows_motion();
       }
+    } else {
+      if constexpr (!trusting) {
+        if (!guard_.believes(position, travel, dt, limits_)) [[unlikely]] {
+          return refuse_sample(position, dt);
+        }
+      }
+      known = guard_.knows_motion();
     }
-    const bool known = guard_.knows_motion();
     if (!known) [[unlikely]] {
-      travel = resume(force, dt);
+      travel = resume(travel, force, dt);
       square = kernels::largest<scalar>();
     } else if (!book(travel, held, dt)) [[unlikely]] {
       return refuse(event::rejected_sample, dt);
     }
     guard_.move_to(position);
-    if constexpr (reaches) seen_ = {square, dt};
+    if constexpr (doubts) {
+      if (known) seen_.see(travel, dt);
+    } else if constexpr (reaches) {
+      seen_ = {square, dt};
+    }
     const bool late = is_late(dt, limits_.longest_tick);
     event what = booked_as(travel, dt, late);
     if constexpr (Limits::traits.learns) {
@@ -363,6 +383,10 @@ class passive_port {
       const motion travel = P::between(guard_.last(), position);
       bool known = guard_.knows_motion() && !is_late(dt, limits_.longest_tick);
       if constexpr (!trusting) known = known && guard_.believes(position, travel, dt, limits_);
+      if constexpr (doubts) {
+        known = known && seen_.is_possible(travel, dt, far());
+        if (known) seen_.ease(far(), limits_.longest_tick, limits_.top_speed);
+      }
       const bool doubted = bound_.watching().seen() != event::nominal;
       bound_.watching().template look<Observer::exact>(known, travel, guard_.commanded().back(),
                                                        held, dt, observer_);
@@ -371,10 +395,33 @@ class passive_port {
         disturbed();  // a hand has sunk in, which nobody paid
     }
   }
+  /// Is this sample possible after those before it?
+  [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool thought_about(
+      typename P::stored_effort travel, scalar dt) noexcept {
+    if constexpr (doubts) {
+      if (!seen_.judge(travel, guard_.blind() + dt, far())) return false;
+      seen_.ease(far(), limits_.longest_tick, limits_.top_speed);
+    }
+    return true;
+  }
+  [[nodiscard]] constexpr auto far() noexcept {
+    return [this](scalar T0, scalar t, scalar speeds) {
+      if constexpr (doubts) {
+        const scalar most = P::norm(bound_.most_held()) / scalar(2);
+        return bound_.watching().template far<Observer::exact>(T0, t, speeds, most, observer_);
+      } else {
+        return scalar(0);
+      }
+    };
+  }
   /// Nobody knows what moved since the last good sample, so it counts as the worst; returns no motion.
-  [[nodiscard, gnu::always_inline]] constexpr motion resume(const typename P::stored_effort& held,
+  [[nodiscard, gnu::always_inline]] constexpr motion resume([[maybe_unused]] const motion& travel,
+                                                            const typename P::stored_effort& held,
                                                             scalar dt) noexcept {
     write_off(held, dt);
+    if constexpr (doubts) {
+      if (guard_.has_seen()) seen_.see(travel, guard_.blind() + dt);
+    }
     guard_.see_again();
     return P::zero();
   }
@@ -431,9 +478,9 @@ class passive_port {
   [[nodiscard]] constexpr detail::unseen_work<scalar> unseen(const effort& held,
                                                              scalar dt) const noexcept {
     if constexpr (reaches) {
-      return bound_.unseen(
-          detail::seen_tick<P>{seen_.square, seen_.dt, travel_error(), bound_.most_held()},
-          observer_.damping(), held, dt);
+      const auto [square, T0] = seen_.last();
+      return bound_.unseen(detail::seen_tick<P>{square, T0, travel_error(), bound_.most_held()},
+                           observer_.damping(), held, dt);
     } else {
       return {kernels::largest<scalar>(), kernels::largest<scalar>()};
     }
@@ -494,6 +541,7 @@ class passive_port {
       if (stopped_ != event::rejected_parameters) write_off(guard_.commanded().back(), passed);
       if (stopped_ == event::nominal) disturbed();
     }
+    if constexpr (doubts) seen_.think();
     guard_.lose_sight(passed);
     guard_.command(P::zero());
     return source_.refused({P::zero(), observer_.value(), why, false}, passed);
@@ -536,7 +584,7 @@ class passive_port {
   event stopped_ = event::nominal;  ///< why there is no force until set(), or until reset()
   std::uint8_t busy_ = 0;           ///< a call is not over yet; debug builds only
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
-  std::conditional_t<reaches, last_seen, unasked> seen_;
+  what_was_seen seen_;
 };
 
 /// One that lacks its limits, so that the compiler says so.
