@@ -471,6 +471,12 @@ std::int32_t ph_reset(ph_port* port) noexcept {
   return PH_OK;
 }
 
+std::int32_t ph_enable_forces(ph_port* port, std::int32_t on) noexcept {
+  if (port == nullptr) return PH_NULL_ARGUMENT;
+  port->enable_forces(on != 0);
+  return PH_OK;
+}
+
 std::int32_t ph_explain(const ph_port* port, ph_explanation* explanation) noexcept {
   if (port == nullptr || explanation == nullptr) return PH_NULL_ARGUMENT;
   if (explanation->size != sizeof(ph_explanation)) return PH_WRONG_SIZE;

@@ -98,6 +98,7 @@ struct ph_port {
   /// Of its parameters those that may change; a fault changes nothing.
   virtual passive_haptics::parameter_fault set(const ph_parameters& p) noexcept = 0;
   virtual void reset() noexcept = 0;
+  virtual void enable_forces(bool on) noexcept = 0;
 
   /// For the thread that publishes: its own copy of a slot, null if there is none; and off with all of them.
   virtual c_interface::told<c_interface::plane>* plane_slot(std::uint32_t i) noexcept = 0;
@@ -174,6 +175,7 @@ class composed final : public ph_port {
       skip(newest->bent, heard_bent_);
     }
   }
+  [[gnu::cold]] void enable_forces(bool on) noexcept override { port_.enable_forces(on); }
   told<plane>* plane_slot(std::uint32_t i) noexcept override { return slot(told_.flat, i); }
   told<curved>* curved_slot(std::uint32_t i) noexcept override { return slot(told_.bent, i); }
   void send() noexcept override { inbox_.publish(told_); }

@@ -181,6 +181,12 @@ namespace PassiveHaptics
             ph_reset(port);
             GC.KeepAlive(this);
         }
+        /// The driver has taken the forces away, or given them back: from the thread that ticks.
+        public void EnableForces(bool on)
+        {
+            ph_enable_forces(port, on ? 1 : 0);
+            GC.KeepAlive(this);
+        }
         /// From the thread that ticks, not in every tick. False: this composition does not explain itself.
         public bool Explain(out Explanation explanation)
         {
@@ -231,6 +237,8 @@ namespace PassiveHaptics
         private static extern int ph_set(IntPtr port, ref Parameters parameters, byte[] why, UIntPtr room);
         [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
         private static extern int ph_reset(IntPtr port);
+        [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_enable_forces(IntPtr port, int on);
         [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
         private static extern int ph_explain(IntPtr port, ref Explanation explanation);
         [DllImport(library, CallingConvention = CallingConvention.Cdecl)]

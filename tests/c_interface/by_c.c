@@ -33,6 +33,7 @@ const char* load(struct c_interface* found, const char* file) {
                    {"ph_held_wrench", &found->held_wrench},
                    {"ph_set", &found->set},
                    {"ph_reset", &found->reset},
+                   {"ph_enable_forces", &found->enable_forces},
                    {"ph_explain", &found->explain},
                    {"ph_stiffness_budget", &found->stiffness_budget},
                    {"ph_event_text", &found->event_text},
@@ -169,6 +170,8 @@ int32_t run_by_c(const struct c_interface* with, const char* composition,
   for (int n = 0; n < ticks && status == PH_OK; ++n) {
     const struct moment now = moment_at(n);
     if (script.later != NULL && n == change_tick) status = with->set(port, script.later, NULL, 0);
+    if (script.later != NULL && n == off_tick) status = with->enable_forces(port, 0);
+    if (script.later != NULL && n == on_tick) status = with->enable_forces(port, 1);
     if (script.later != NULL && n == reset_tick) status = with->reset(port);
     tell(with, port, script, n, &now);
     if (now.reports_held && script.way == as_tool) with->held_wrench(port, now.held, torque);

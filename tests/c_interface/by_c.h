@@ -27,6 +27,7 @@ struct c_interface {
   int32_t (*held_wrench)(ph_port*, const double*, const double*);
   int32_t (*set)(ph_port*, const ph_parameters*, char*, size_t);
   int32_t (*reset)(ph_port*);
+  int32_t (*enable_forces)(ph_port*, int32_t);
   int32_t (*explain)(const ph_port*, ph_explanation*);
   int32_t (*stiffness_budget)(const ph_parameters*, double*, const char**);
   const char* (*event_text)(int32_t);
@@ -58,8 +59,8 @@ ph_surface plane_at(const struct moment* now, double x_on_tool);
 
 /// How a composition is told the world: by planes, by forces, by slots, and by slots at a pose.
 enum way { by_planes, by_forces, by_slots, as_stylus, as_tool };
-/// When its parameters become others, and when all starts anew.
-enum { change_tick = 2405, reset_tick = 4100 };
+/// When its parameters become others, its forces are off and on again, and when all starts anew.
+enum { change_tick = 2405, off_tick = 3170, on_tick = 3215, reset_tick = 4100 };
 struct script {
   enum way way;
   uint32_t kind;               // of what is in slot 1

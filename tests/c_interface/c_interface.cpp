@@ -179,6 +179,7 @@ std::vector<ph_result> run_direct(Port port, Change change = nothing_else) {
   for (int n = 0; n < ticks; ++n) {
     if constexpr (!std::same_as<Change, decltype(nothing_else)>) {
       if (n == change_tick) change(port);
+      if (n == off_tick || n == on_tick) port.enable_forces(n == on_tick);
       if (n == reset_tick) port.reset();
     }
     const moment now = moment_at(n);
@@ -211,6 +212,7 @@ std::vector<ph_result> run_slots(Port port, CurvedAt curved_of, Change change = 
   for (int n = 0; n < ticks; ++n) {
     if constexpr (!std::same_as<Change, decltype(nothing_else)>) {
       if (n == change_tick) change(port);
+      if (n == off_tick || n == on_tick) port.enable_forces(n == on_tick);
       if (n == reset_tick) port.reset();
     }
     const moment now = moment_at(n);
@@ -541,6 +543,15 @@ TEST_CASE("what ph_create was told of the device ph_set refuses, by its name", "
   CHECK(std::string(why.c_str()) == "ph_set: port is NULL");
   CHECK(c.set(touch.port, nullptr, nullptr, 0) == PH_NULL_ARGUMENT);
   CHECK(c.reset(nullptr) == PH_NULL_ARGUMENT);
+  CHECK(c.enable_forces(nullptr, 1) == PH_NULL_ARGUMENT);
+
+  const double there[3] = {0, 0, 0};
+  ph_result off{};
+  off.size = sizeof off;
+  CHECK(c.enable_forces(touch.port, 0) == PH_OK);
+  CHECK(c.tick(touch.port, there, 1e-3, &off) == PH_OK);
+  CHECK(off.event == PH_FORCES_OFF);
+  CHECK(c.enable_forces(touch.port, 1) == PH_OK);
 
   // What was published before a new start is forgotten with it, taken or not.
   const double zero[3] = {0, 0, 0}, up[3] = {0, 0, 1}, inside[3] = {0, 0, -1e-3};

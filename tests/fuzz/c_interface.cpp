@@ -116,6 +116,7 @@ void tell(fuzz::numbers& in, ph_port* port, unsigned op) {
     case 1:
       if (op == 1) (void)ph_publish_nothing(port);
       if (op == 17) (void)ph_reset(port);
+      if (op % 64 == 49) (void)ph_enable_forces(port, static_cast<std::int32_t>(in.one() % 4));
       if (op % 64 == 33) (void)ph_release(port, in.one() % 5, in.one() % 8);
       break;
     case 2:

@@ -29,8 +29,8 @@
 // it after that, a second ph_destroy included, is undefined behaviour and not noticed: set your pointer to NULL
 // there, because every function answers that.
 //
-// Threads: of one port, ph_publish* and ph_release belong to one thread; ph_tick*, ph_held*, ph_set, ph_reset and
-// ph_explain to one, the same or another. Two threads in functions of one of these groups at once, or ph_destroy
+// Threads: of one port, ph_publish* and ph_release belong to one thread; ph_tick*, ph_held*, ph_set, ph_reset,
+// ph_enable_forces and ph_explain to one, the same or another. Two threads in functions of one of these groups at once, or ph_destroy
 // while one is in any, are a data race, undefined as well; a debug build of the library stops at two that tick.
 // ph_guarantee_of is for any thread, and different ports share nothing.
 //
@@ -272,6 +272,9 @@ PH_API int32_t ph_set(ph_port* port, const ph_parameters* parameters, char* why,
 /// Puts all but the parameters back to the start, for a device that has stopped: also what has ended the force for
 /// good. What had been published is forgotten, until it is published again. In the thread of the ticks.
 PH_API int32_t ph_reset(ph_port* port) PH_NOTHROW;
+/// The driver has taken the forces away, or given them back (not 0): in between ticks answer PH_FORCES_OFF and force
+/// zero, and the ledger waits. In the thread of the ticks.
+PH_API int32_t ph_enable_forces(ph_port* port, int32_t on) PH_NOTHROW;
 
 /// How stiff the plane, or the contact that presses most, is shown, or how stiff a renderer may be that the guard
 /// settles, and why no stiffer. Not in every tick, from their thread. Stylus and tool do not explain themselves:
