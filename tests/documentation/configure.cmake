@@ -49,6 +49,18 @@ endfunction()
 configure(everything "")  # the control
 has(yes core_tests example_01_virtual_wall example_08_no_eigen controllers)
 
+# Without Ninja: the generator that CMake takes by itself builds and installs, too.
+find_program(make NAMES make gmake)
+if(make)
+  run(without_ninja ${CMAKE_COMMAND} -S ${root} -B ${scratch}/without_ninja -G "Unix Makefiles" ${options}
+    -DPASSIVE_HAPTICS_BUILD_TESTS=OFF -DPASSIVE_HAPTICS_BUILD_BENCH=OFF)
+  run(without_ninja ${CMAKE_COMMAND} --build ${scratch}/without_ninja --target example_08_no_eigen)
+  run(without_ninja ${CMAKE_COMMAND} --build ${scratch}/without_ninja --target help)
+  if(NOT said MATCHES "example_01_virtual_wall")
+    message(FATAL_ERROR "without Ninja there is no example:\n${said}")
+  endif()
+endif()
+
 configure(no_catch2 "passive_haptics: Catch2 was not found (Debian: catch2), so the tests are off" Catch2)
 has(yes example_01_virtual_wall example_08_no_eigen controllers)
 has(no core_tests)
