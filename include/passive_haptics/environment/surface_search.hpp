@@ -8,18 +8,15 @@
 //     closest_near         a search from one triangle over its neighbours, to follow a contact
 //     refit                fits the boxes to nodes that have moved; the tree stays the same
 //
-// The tree is a median split of the triangles' centres at rest. Its answers stay right however the body deforms,
-// and it stays fast as long as neighbours stay neighbours. Queries do not allocate.
+// The tree (mesh/box_tree.hpp) is a median split of the triangles' centres at rest. Its answers stay right however
+// the body deforms, and it stays fast as long as neighbours stay neighbours. Queries do not allocate.
 
 #include <passive_haptics/environment/node_graph.hpp>
 #include <passive_haptics/environment/surface.hpp>
+#include <passive_haptics/mesh/box_tree.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -67,38 +64,17 @@ class surface_search : public surface_graph {
  public:
   /// Builds the tree for these positions [m], one for each node.
   surface_search(std::vector<surface_triangle> surface, nodes_view nodes)
-      : surface_graph(std::move(surface), nodes.size()), order_(size()), leaf_of_(size()) {
-    std::iota(order_.begin(), order_.end(), 0);
-    std::vector<Eigen::Vector3d> centres(size());
-    for (std::size_t i = 0; i < size(); ++i) {
-      const triangle shape = corners((*this)[i], nodes);
-      centres[i] = (shape[0] + shape[1] + shape[2]) / 3.0;
-      if (!centres[i].allFinite()) centres[i].setZero();  // degenerate: any place will do
-    }
-    if (size() > 0) split(centres, 0, static_cast<int>(size()), -1);
-    dirty_.assign(boxes_.size(), false);
-    dirty_list_.reserve(boxes_.size());
+      : surface_graph(std::move(surface), nodes.size()),
+        tree_(centres(triangles(), nodes)),
+        boxes_(tree_.branches().size()) {
     refit(nodes);
   }
 
   /// Fits all boxes to the positions [m] of the nodes.
-  void refit(nodes_view nodes) {
-    for (std::size_t b = boxes_.size(); b-- > 0;) fit(b, nodes);
-  }
+  void refit(nodes_view nodes) { tree_.fit(boxes_, around{*this, nodes}); }
   /// Fits the boxes of the triangles `moved`; all others must be where they were.
   void refit(nodes_view nodes, std::span<const int> moved) {
-    dirty_list_.clear();
-    for (const int i : moved) {
-      for (int b = leaf_of_[slot(i)]; b >= 0 && !dirty_[slot(b)]; b = boxes_[slot(b)].parent) {
-        dirty_[slot(b)] = true;
-        dirty_list_.push_back(b);
-      }
-    }
-    std::sort(dirty_list_.begin(), dirty_list_.end());
-    for (std::size_t k = dirty_list_.size(); k-- > 0;) {
-      fit(slot(dirty_list_[k]), nodes);
-      dirty_[slot(dirty_list_[k])] = false;
-    }
+    tree_.fit(boxes_, moved, around{*this, nodes});
   }
 
   /// The result of closest_point(triangles(), nodes, x), for nodes that the tree has been refitted to. A triangle
@@ -109,33 +85,16 @@ class surface_search : public surface_graph {
     if (boxes_.empty() || !x.allFinite()) return std::nullopt;
     std::optional<surface_point> best;
     if (likely >= 0 && likely < static_cast<int>(size())) offer(best, nodes, x, likely);
+    const mesh::triple at = triple_of(x);
     // By rounding errors of the positions a box may seem farther than its triangles.
-    const double slack = 1e-14 * (boxes_[0].low.norm() + boxes_[0].high.norm() + x.norm());
-    const auto too_far = [&](double distance2) {
-      const double reach = best ? best->distance + slack : infinity;
-      return distance2 > reach * reach;
-    };
-    struct waiting {
-      int box;
-      double distance2;
-    };
-    std::array<waiting, 64> stack{};  // the tree is balanced: as deep as log₂ of an int at most
-    std::size_t height = 0;
-    stack[height++] = {0, distance2_to(0, x)};
-    while (height > 0) {
-      const waiting top = stack[--height];
-      if (too_far(top.distance2)) continue;
-      const box& b = boxes_[slot(top.box)];
-      if (b.right < 0) {
-        for (int k = b.begin; k < b.end; ++k) offer(best, nodes, x, order_[slot(k)]);
-        continue;
-      }
-      waiting left{top.box + 1, distance2_to(top.box + 1, x)};
-      waiting right{b.right, distance2_to(b.right, x)};
-      if (left.distance2 > right.distance2) std::swap(left, right);
-      if (!too_far(right.distance2)) stack[height++] = right;
-      if (!too_far(left.distance2)) stack[height++] = left;  // the closer one first
-    }
+    const double slack =
+        1e-14 * (mesh::length(boxes_[0].low) + mesh::length(boxes_[0].high) + x.norm());
+    tree_.walk([&](int b) { return boxes_[slot(b)].squared_distance(at); },
+               [&](double distance2) {
+                 const double reach = best ? best->distance + slack : mesh::box::infinity;
+                 return !(distance2 > reach * reach);
+               },
+               [&](int t) { offer(best, nodes, x, t); });
     return faced(best, nodes, x);
   }
 
@@ -163,61 +122,29 @@ class surface_search : public surface_graph {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-  static constexpr int leaf_size = 4;
-
-  /// The left child of a box comes right after it.
-  struct box {
-    Eigen::Vector3d low{0.0, 0.0, 0.0}, high{0.0, 0.0, 0.0};  ///< corners [m]
-    int right = -1;                                           ///< −1: a leaf
-    int begin, end;                                           ///< its triangles in order_
-    int parent;
-  };
-
-  int split(const std::vector<Eigen::Vector3d>& centres, int begin, int end, int parent) {
-    const int me = static_cast<int>(boxes_.size());
-    boxes_.push_back({.begin = begin, .end = end, .parent = parent});
-    if (end - begin <= leaf_size) {
-      for (int k = begin; k < end; ++k) leaf_of_[slot(order_[slot(k)])] = me;
-      return me;
-    }
-    Eigen::AlignedBox3d extent;
-    for (int k = begin; k < end; ++k) extent.extend(centres[slot(order_[slot(k)])]);
-    Eigen::Index axis = 0;
-    extent.sizes().maxCoeff(&axis);
-    const int middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](int a, int b) { return centres[slot(a)][axis] < centres[slot(b)][axis]; });
-    split(centres, begin, middle, me);
-    boxes_[slot(me)].right = split(centres, middle, end, me);
-    return me;
+  [[nodiscard]] static mesh::triple triple_of(const Eigen::Vector3d& v) {
+    return {v[0], v[1], v[2]};
   }
-
-  void fit(std::size_t number, nodes_view nodes) {
-    box& b = boxes_[number];
-    if (b.right >= 0) {
-      const box &left = boxes_[number + 1], &right = boxes_[slot(b.right)];
-      b.low = left.low.cwiseMin(right.low);
-      b.high = left.high.cwiseMax(right.high);
-      return;
+  [[nodiscard]] static std::vector<mesh::triple> centres(surface_view surface, nodes_view nodes) {
+    std::vector<mesh::triple> all;
+    all.reserve(surface.size());
+    for (const surface_triangle& t : surface) {
+      const triangle shape = corners(t, nodes);
+      all.push_back(triple_of((shape[0] + shape[1] + shape[2]) / 3.0));
     }
-    b.low.setConstant(infinity);
-    b.high.setConstant(-infinity);
-    for (int k = b.begin; k < b.end; ++k) {
-      for (const int node : (*this)[slot(order_[slot(k)])].nodes) {
+    return all;
+  }
+  /// Makes a box large enough for a triangle; one with a node that is not finite is degenerate.
+  struct around {
+    const surface_graph& of;
+    nodes_view nodes;
+    void operator()(int t, mesh::box& b) const {
+      for (const int node : of[slot(t)].nodes) {
         const Eigen::Vector3d& at = nodes[slot(node)];
-        if (!at.allFinite()) continue;  // its triangles are degenerate
-        b.low = b.low.cwiseMin(at);
-        b.high = b.high.cwiseMax(at);
+        if (at.allFinite()) b.grow(triple_of(at));
       }
     }
-  }
-
-  /// The squared distance [m²] from x to a box; infinite for an empty box.
-  [[nodiscard]] double distance2_to(int number, const Eigen::Vector3d& x) const {
-    const box& b = boxes_[slot(number)];
-    return (b.low - x).cwiseMax(x - b.high).cwiseMax(0.0).squaredNorm();
-  }
+  };
 
   /// best ← triangle `number` if closer, or as close and of a lower number: the search order has no effect.
   void offer(std::optional<surface_point>& best, nodes_view nodes, const Eigen::Vector3d& x,
@@ -242,11 +169,8 @@ class surface_search : public surface_graph {
     });
   }
 
-  std::vector<int> order_;    ///< triangles, those of a box side by side
-  std::vector<int> leaf_of_;  ///< the leaf of each triangle
-  std::vector<box> boxes_;    ///< parents before children
-  std::vector<bool> dirty_;
-  std::vector<int> dirty_list_;
+  mesh::box_tree tree_;
+  std::vector<mesh::box> boxes_;
 };
 
 }  // namespace environment
