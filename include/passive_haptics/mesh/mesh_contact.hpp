@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A mesh under the finger, as a source: what stands in a port where a local model would.
+//
+//     using scene = ph::space<double, 3>;
+//     ph::mesh::surface organ(triangles, nodes);
+//     ph::passive_port touch{scene{}, ph::mesh_contact{.spring = {.mass = 0.1}, .stiffness = 1500},
+//                            ph::reduced_energy{.damping = 0.1},
+//                            ph::reachable_bound{.mass = 0.1, .hand_force = 10},
+//                            ph::loop_limits{.longest_tick = 0.0011}};
+//     touch.source().touch(organ);
+//     organ.update(nodes);                                   // from another thread, whenever they have moved
+//     motors.command(touch.tick(x, ph::seconds{dt}).force);  // 1 kHz
+//
+// The force is K (p − x), p the place of the ball (mesh/proxy.hpp) and x the device, with the damper of
+// proxy_spring along whatever presses:
+//     y ≥ 0 shortest with n_i·y ≥ d_i + min(−τ n_i·v, max(2 d_i, ⅔ λ_i, 0)),   f* = K y
+// n_i and d_i are the half-spaces that hold the ball off x and how far, λ_i what the shortest y without the
+// damper has of each; all of them that are near count. Of a mesh at rest −K (p − x) is the gradient of ½K|p − x|²,
+// no steeper than K, and the ball only ever makes that less. Nothing is promised of energy; the bound behind
+// it does. A mesh of which no news come stays as it is.
+
+#include <passive_haptics/contact/local_contact.hpp>
+#include <passive_haptics/contact/proxy.hpp>
+#include <passive_haptics/mesh/proxy.hpp>
+
+#include <type_traits>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+struct mesh_contact {
+  proxy_spring spring{};      ///< mass, and what a sampled mass can take; its softness is not used
+  double stiffness = 1000.0;  ///< K of the mesh [N/m], before what the sampling leaves of it
+  mesh::proxy_parameters proxy{};  ///< the radius of the finger, how news are followed
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (const auto fault = spring.check()) return fault;
+    if (!detail::positive(stiffness)) return {"stiffness", stiffness, "finite and > 0 N/m"};
+    return proxy.check();
+  }
+  template <port P>
+  class on;
+};
+
+template <port P>
+class mesh_contact::on {
+ public:
+  using scalar = typename P::scalar;
+  using vector = typename P::effort;
+  using result_type = tick_result<P>;
+  static constexpr bool asks_for_numbers = true;
+  static_assert(detail::has_geometry<P> && P::dof == 3,
+                "passive_haptics: a mesh is touched in a space of three dimensions");
+
+  constexpr explicit on(const mesh_contact& p) noexcept
+      : spring_(p.spring), stiffness_(p.stiffness), ball_(p.proxy) {}
+  [[nodiscard]] constexpr mesh_contact parameters() const noexcept {
+    return {.spring = spring_.parameters(), .stiffness = stiffness_, .proxy = ball_.parameters()};
+  }
+  constexpr void set(const mesh_contact& p) noexcept {
+    spring_ = proxy_spring::at<double>(p.spring);
+    stiffness_ = p.stiffness;
+    ball_.set(p.proxy);
+  }
+  constexpr void adopt(scalar T, int late) noexcept {
+    spring_.adopt(static_cast<double>(T), late);
+    sampled_ = spring_.sampled(stiffness_);
+  }
+  [[nodiscard]] constexpr bool settles() const noexcept { return spring_.settles(stiffness_); }
+  /// The side that was touched is forgotten, the mesh is not.
+  constexpr void reset() noexcept { ball_.reset(); }
+
+  /// From now on this mesh, which must outlive the port and is touched by no other; from the haptic thread.
+  void touch(mesh::surface& s) noexcept { ball_.touch(s); }
+  /// Nothing is there any more.
+  void let_go() noexcept { ball_.let_go(); }
+  [[nodiscard]] const mesh::proxy& ball() const noexcept { return ball_; }
+
+  struct request {
+    vector wanted;
+    bool nothing;
+    scalar depth;  ///< |p − x| [m]
+  };
+  template <bool Shortcut>
+  [[nodiscard]] request ask(const auto& motion, const auto& port, event& what) noexcept {
+    const request free{P::zero(), true, scalar(0)};
+    if (!ball_.touching()) {
+      what = worse(what, event::no_target);
+      return free;
+    }
+    const vector x = motion.position;
+    ball_.step(to_triple(x), static_cast<double>(port.dt));
+    const mesh::support& pressed = ball_.pressed();
+    if (!ball_.placed() || pressed.count == 0) return free;
+    const double depth = mesh::length(pressed.way);
+    const auto felt =
+        spring_.saturates(sampled_, depth) ? spring_.saturated(sampled_, depth) : sampled_;
+    const mesh::triple v = to_triple(velocity(motion));
+    const int count = ball_.planes();
+    std::array<double, mesh::proxy::most_planes> wish;  // NOLINT(*-member-init): read below count
+    std::array<mesh::triple, mesh::proxy::most_planes> n;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      n[i] = ball_.normal(static_cast<int>(i));
+      wish[i] = ball_.depth(static_cast<int>(i));
+    }
+    std::array<double, mesh::proxy::most_planes> share{};
+    for (std::size_t j = 0; j < static_cast<std::size_t>(pressed.count); ++j) {
+      share[static_cast<std::size_t>(pressed.of[j])] = pressed.share[j];
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      wish[i] = damped_depth(felt, wish[i], mesh::dot(n[i], v), share[i] * felt.stiffness);
+    }
+    mesh::support damped;
+    const bool can = mesh::shortest_way([&](int i) { return n[static_cast<std::size_t>(i)]; },
+                                        [&](int i) { return wish[static_cast<std::size_t>(i)]; },
+                                        count, 1e-12, damped);
+    mesh::triple f{};
+    const auto& by = can ? damped : pressed;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(by.count); ++j) {
+      const auto i = static_cast<std::size_t>(by.of[j]);
+      f = f + n[i] * (by.share[j] * felt.stiffness);
+    }
+    vector wanted = P::zero();
+    for (int i = 0; i < 3; ++i) P::component(wanted, i) = static_cast<scalar>(f[i]);
+    if (!P::is_finite(wanted)) return free;
+    return {wanted, false, static_cast<scalar>(depth)};
+  }
+  [[nodiscard]] constexpr result_type answered(const request& r,
+                                               const port_result<P>& port) const noexcept {
+    return {port.force, r.depth, port.energy, port.what, port.limited};
+  }
+  constexpr result_type refused(const port_result<P>& port, scalar /*dt*/) noexcept {
+    return {port.force, scalar(0), port.energy, port.what, false};
+  }
+
+ private:
+  [[nodiscard]] static constexpr mesh::triple to_triple(const vector& v) noexcept {
+    return {static_cast<double>(P::component(v, 0)), static_cast<double>(P::component(v, 1)),
+            static_cast<double>(P::component(v, 2))};
+  }
+  /// What the motion estimator says, axis by axis where it has more to say than travel and time [m/s].
+  [[nodiscard]] static constexpr vector velocity(const auto& motion) noexcept {
+    if constexpr (requires { vector(motion.travel * (scalar(1) / motion.dt)); }) {
+      return motion.travel * (scalar(1) / motion.dt);
+    } else {
+      vector v = P::zero();
+      for (int i = 0; i < P::dof; ++i) {
+        vector axis = P::zero();
+        P::component(axis, i) = scalar(1);
+        P::component(v, i) = motion.along(axis);
+      }
+      return v;
+    }
+  }
+
+  proxy_spring::at<double> spring_;
+  double stiffness_;
+  sampled_spring<double> sampled_{};
+  mesh::proxy ball_;
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Where a mesh is, as a whole.
+
+#include <passive_haptics/mesh/triple.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+namespace mesh {
+
+/// A place in the world and a turn, as a quaternion w + xi + yj + zk: p ↦ turn(p) + position.
+struct pose {
+  triple position{};  ///< [m]
+  double w = 1.0;     ///< cos of half the angle
+  triple axis{};      ///< the axis times sin of half the angle
+
+  /// Of length 1; false where it has none, or a number is not finite.
+  [[nodiscard]] constexpr bool prepare() noexcept {
+    const double size = kernels::square_root(w * w + squared(axis));
+    if (!(size > 1e-6) || !kernels::is_finite(size) || !is_finite(position)) return false;
+    w /= size;
+    axis = axis * (1.0 / size);
+    return true;
+  }
+  /// A direction of the mesh as the world sees it.
+  [[nodiscard]] constexpr triple out(const triple& v) const noexcept {
+    const triple t = cross(axis, v) * 2.0;
+    return v + t * w + cross(axis, t);
+  }
+  /// A direction of the world as the mesh sees it.
+  [[nodiscard]] constexpr triple in(const triple& v) const noexcept {
+    const triple t = cross(v, axis) * 2.0;
+    return v + t * w + cross(t, axis);
+  }
+  friend constexpr bool operator==(const pose& a, const pose& b) noexcept = default;
+};
+
+/// The way from a to b, of which s is done; the turn goes the shorter way round.
+[[nodiscard]] constexpr pose between(const pose& a, const pose& b, double s) noexcept {
+  const double side = a.w * b.w + dot(a.axis, b.axis) < 0.0 ? -1.0 : 1.0;
+  pose p{between(a.position, b.position, s), a.w + (side * b.w - a.w) * s,
+         between(a.axis, b.axis * side, s)};
+  return p.prepare() ? p : b;
+}
+
+}  // namespace mesh
+}  // namespace v0
+}  // namespace passive_haptics

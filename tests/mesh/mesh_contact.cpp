@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mesh as the source of a port: thin plates hold 1 m/s and 10 N, no joule comes out, and what rests is quiet.
+#include "mesh/shapes.hpp"
+#include <passive_haptics/environment/contact_surface.hpp>
+
+using namespace meshes;
+namespace env = ph::environment;
+
+namespace {
+
+auto port_of(double K, double mass, auto bound, double radius = 5e-4) {
+  return ph::passive_port{
+      scene{},
+      ph::mesh_contact{.spring = {.mass = mass}, .stiffness = K, .proxy = {.radius = radius}},
+      ph::reduced_energy{.damping = 0.03}, bound, ph::loop_limits{.longest_tick = T}};
+}
+auto reachable(double mass) {
+  return ph::reachable_bound{.mass = mass, .hand_force = 10};
+}
+
+using hand = sim::impedance_hand<scene>;
+using device = sim::device<scene, hand>;
+/// Drawn to a place by that many newtons at most, per metre and per metre a second.
+hand drawn(const vector& to, double newtons, double per_metre = 400, double per_speed = 2) {
+  hand h;
+  h.stiffness = per_metre;
+  h.damping = per_speed;
+  h.limit = newtons;
+  h.target = to;
+  return h;
+}
+
+}  // namespace
+
+TEST_CASE("a plate of 2 mm holds 1 m/s and 10 N from both sides, at news of 30 Hz", "[mesh]") {
+  for (const double K : {1000.0, 2000.0, 10000.0}) {
+    for (const double mass : {0.05, 0.1, 0.3}) {
+      for (const double side : {1.0, -1.0}) {
+        for (const double speed : {0.1, 1.0}) {
+          for (const bool heaves : {false, true}) {
+            const moving m{"", plate(), shaken({0, 0, heaves ? 0.005 : 0.0}, 1.5)};
+            ph::mesh::surface s(m.rest.triangles, m.rest.nodes);
+            auto port = port_of(K, mass, reachable(mass));
+            port.source().touch(s);
+            device dev({.mass = mass,
+                        .start = vector(0.003, 0.002, 0.03 * side),
+                        .start_velocity = vector(0, 0, -speed * side)},
+                       drawn(vector(0.003, 0.002, -0.2 * side), 10, 1000));
+            double other = 1.0;
+            const auto seen = sim::run(dev, port, 3000, [&](auto& now) {
+              if (now.tick % 33 == 0) REQUIRE(s.update(m.nodes(now.time)));
+              if (!port.source().ball().placed()) return;
+              const double middle = port.source().ball().triangle(0)[0].z - 0.001;
+              other = std::min(other, side * (port.source().ball().place().z - middle));
+            });
+            INFO(K << " N/m, " << mass << " kg, " << side << ", " << speed << " m/s");
+            CHECK(other > 0.001);
+            CHECK(seen.least_energy >= -1e-12);
+            CHECK(seen.largest_force > 9.0);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("the planes and quadrics that are told at 30 Hz lose the same plate", "[mesh]") {
+  // What a slow thread finds by the closest point, with a side of its own for each triangle: in the same run, a
+  // device pressed by 10 N ends on the far side. The mesh that remembers holds it.
+  const body b = plate();
+  std::vector<Eigen::Vector3d> nodes;
+  for (const triple& p : b.nodes) nodes.push_back(of(p));
+  std::vector<env::surface_triangle> triangles;
+  for (const triangle& t : b.triangles) triangles.push_back({t});
+  const env::surface_search search(triangles, nodes);
+  const auto through = [&](auto port, auto tell) {
+    device dev(
+        {.mass = 0.1, .start = vector(0.003, 0.002, 0.02), .start_velocity = vector(0, 0, -1)},
+        drawn(vector(0.003, 0.002, -0.2), 10, 1000));
+    sim::run(dev, port, 2000, [&](auto& now) { tell(port, now); });
+    return dev.position()(2) < -0.05;
+  };
+  const auto local = [](auto surface) {
+    using kind = decltype(surface);
+    return ph::passive_port{
+        scene{},
+        ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::slots<kind, 1>{}},
+        ph::reduced_energy{.damping = 0.03}, reachable(0.1), ph::loop_limits{.longest_tick = T}};
+  };
+  const auto closest = [&](const auto& now) {
+    return *search.closest_point(nodes, vector(now.sample.position));
+  };
+  CHECK(through(local(ph::half_space<scene>{}), [&](auto& port, auto& now) {
+    if (now.tick % 33 != 0) return;
+    const auto on = closest(now);
+    port.source().update(
+        0, ph::half_space<scene>{.point = on.point, .normal = on.normal, .stiffness = 1000.0});
+  }));
+  CHECK(through(local(ph::quadric<scene>{}), [&](auto& port, auto& now) {
+    if (now.tick % 33 != 0) return;
+    port.source().update(
+        0, env::quadric_at(search, nodes, closest(now), 1000.0, {.thickness = 0.002}));
+  }));
+  ph::mesh::surface s(b.triangles, b.nodes);
+  auto remembers = port_of(1000, 0.1, reachable(0.1));
+  remembers.source().touch(s);
+  CHECK_FALSE(through(remembers, [](auto&, auto&) {}));
+}
+
+TEST_CASE("no joule comes out of a mesh, however it moves, behind a strict and a reachable bound",
+          "[mesh][long]") {
+  double largest = 0.0, bare = 0.0;
+  for (const moving& m : all_worst()) {
+    const auto least = [&](auto bound, unsigned seed) {
+      ph::mesh::surface s(m.rest.triangles, m.nodes(0.0));
+      auto port = port_of(2000, 0.1, bound);
+      port.source().touch(s);
+      std::mt19937 random(seed);
+      std::uniform_real_distribution<> any(-0.06, 0.06);
+      device dev({.mass = 0.1, .start = vector(0.1, 0, 0)}, drawn(vector::Zero(), 10));
+      const auto seen = sim::run(
+          dev, port, 3000,
+          [&](auto& now) {
+            if (now.tick % 33 == 0) REQUIRE(s.update(m.nodes(now.time)));
+          },
+          [&](auto& now) {
+            // Half of them wander, half tap: inwards in the air, outwards when they are pushed out.
+            if (seed % 2 == 0 && now.tick % 200 == 0) {
+              dev.hand().target = vector(any(random), any(random), any(random));
+            }
+            if (seed % 2 == 1) {
+              const vector out = now.force;
+              dev.hand().target =
+                  out.norm() > 0.5 ? vector(now.position + out * 0.1) : vector(vector::Zero());
+            }
+          });
+      largest = std::max(largest, seen.largest_force);
+      return seen.least_energy;
+    };
+    for (const unsigned seed : {1U, 2U}) {
+      INFO(m.name << ", seed " << seed);
+      CHECK(least(ph::strict_bound{}, seed) >= -1e-12);
+      CHECK(least(reachable(0.1), seed) >= -1e-12);
+      bare = std::min(bare, least(ph::no_bound{}, seed));
+    }
+  }
+  CHECK(largest > 5.0);
+  CHECK(bare < -1e-3);  // without a bound they give out energy
+}
+
+TEST_CASE("what rests on a facet, in a groove, in a pit, on an edge or at a tip is quiet in 5 s",
+          "[mesh]") {
+  body groove{{}, {}};  // a wavy sheet: grooves and ridges along y, every 20 mm
+  for (int j = 0; j < 2; ++j) {
+    for (int i = -4; i <= 4; ++i) {
+      groove.nodes.push_back({0.01 * i, j == 0 ? -0.05 : 0.05, i % 2 == 0 ? -0.005 : 0.005});
+    }
+  }
+  for (int i = 0; i < 8; ++i) {
+    groove.triangles.push_back({i, i + 1, i + 10});
+    groove.triangles.push_back({i, i + 10, i + 9});
+  }
+  body pit;  // three facets that meet below
+  pit.nodes = {{0, 0, -0.02}, {0.05, 0, 0}, {-0.025, 0.0433, 0}, {-0.025, -0.0433, 0}};
+  pit.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
+  struct scene_of {
+    const char* name;
+    body mesh;
+    vector start, to;
+  };
+  const scene_of scenes[] = {
+      {"facet", plate(), {0.01, 0.004, 0.01}, {0.011, 0.005, -0.05}},
+      {"groove", groove, {0.003, 0.004, 0.01}, {0.001, 0.002, -0.05}},
+      {"ridge", groove, {0.009, 0.004, 0.02}, {0.0095, 0.002, -0.03}},
+      {"pit", pit, {0.003, 0.004, 0.01}, {0.001, 0.001, -0.06}},
+      {"sphere", sphere(3, 0.04), {0.003, 0.004, 0.06}, {0.002, 0.001, 0.0}},
+      {"sphere of 20480", sphere(5, 0.04), {0.003, 0.004, 0.06}, {0.002, 0.001, 0.0}},
+      {"star", star(), {0.01, 0.004, 0.09}, {0.002, 0.001, 0.0}},
+      {"noise",
+       {sphere(2, 0.04).triangles, all_worst()[12].nodes(0.1)},
+       {0.003, 0.004, 0.06},
+       {0, 0, 0.01}},
+  };
+  for (const scene_of& here : scenes) {
+    for (const double K : {500.0, 2000.0, 20000.0}) {
+      for (const double mass : {0.05, 0.3}) {
+        for (const bool stiff : {false, true}) {
+          ph::mesh::surface s(here.mesh.triangles, here.mesh.nodes);
+          auto port = port_of(K, mass, reachable(mass));
+          port.source().touch(s);
+          device dev({.mass = mass, .damping = 0.1, .start = here.start},
+                     drawn(here.to, 8, stiff ? 400 : 100, stiff ? 6 : 1));
+          sim::quiet_judge<scene> judge;
+          const auto seen = sim::run(dev, port, 5500, sim::idle, sim::idle, [&](auto& now) {
+            std::array<vector, 3> pressing;
+            const auto& ball = port.source().ball();
+            const auto count = std::size_t(ball.pressed().count);
+            for (std::size_t i = 0; i < count; ++i) {
+              pressing[i] = of(ball.normal(ball.pressed().of[i]));
+            }
+            judge.add_at(now.force, now.sample.position, T, std::span(pressing.data(), count));
+          });
+          INFO(here.name << ", " << K << " N/m, " << mass << " kg, stiff hand: " << stiff << ", "
+                         << judge.figures().force << " N, " << judge.figures().speed << " m/s, "
+                         << judge.figures().step << " N");
+          CHECK(judge.quiet());
+          CHECK(judge.since() <= 5.0);
+          CHECK(seen.least_energy >= -1e-12);
+          CHECK(seen.largest_force > 0.5);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a mesh contact states and refuses its parameters, and lives without a mesh", "[mesh]") {
+  CHECK(std::string(ph::mesh_contact{}.check().parameter) == "mass");
+  CHECK(
+      std::string(ph::mesh_contact{.spring = {.mass = 0.1}, .stiffness = 0.0}.check().parameter) ==
+      "stiffness");
+  CHECK(
+      std::string(
+          ph::mesh_contact{.spring = {.mass = 0.1}, .proxy = {.radius = 0.0}}.check().parameter) ==
+      "radius");
+  auto port = port_of(1000, 0.1, reachable(0.1));
+  const auto out = port.tick(vector::Zero(), ph::seconds{T});
+  CHECK(out.what == ph::event::no_target);
+  CHECK(out.force == vector::Zero());
+  const body b = plate();
+  ph::mesh::surface s(b.triangles, b.nodes);
+  port.source().touch(s);
+  for (int k = 0; k < 10; ++k) (void)port.tick(vector(0, 0, 0.004 - 0.001 * k), ph::seconds{T});
+  CHECK(port.source().ball().pressed().count == 1);
+  CHECK(port.source().settles());
+  CHECK(port.source().parameters().stiffness == 1000.0);
+  port.source().let_go();
+  CHECK(port.tick(vector(0, 0, -0.005), ph::seconds{T}).force == vector::Zero());
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is no mesh is refused with a sentence and the last good one stays; news cross threads whole.
+#include "mesh/shapes.hpp"
+
+#include <atomic>
+#include <thread>
+
+using namespace meshes;
+using Catch::Matchers::Contains;
+
+TEST_CASE("what is no mesh is refused by a sentence that names it", "[mesh]") {
+  const body b = plate();
+  const auto said = [](const std::vector<triangle>& t, const std::vector<triple>& n) {
+    const std::string fault = ph::mesh::surface::check(t, n);
+    CHECK_THROWS_WITH(ph::mesh::surface(t, n), Contains(fault));
+    return fault;
+  };
+  CHECK(ph::mesh::surface::check(b.triangles, b.nodes).empty());
+  CHECK_THAT(said({}, b.nodes), Contains("no triangles"));
+  CHECK_THAT(said({{0, 1, 8}}, b.nodes), Contains("triangle 0 names node 8 of 8"));
+  CHECK_THAT(said({{0, 1, 2}, {0, -1, 2}}, b.nodes), Contains("triangle 1 names node -1"));
+  auto bad = b.nodes;
+  bad[3].y = std::nan("");
+  CHECK_THAT(said(b.triangles, bad), Contains("node 3 is not finite"));
+  CHECK_THAT(said(b.triangles, std::vector<triple>(8)), Contains("has an area"));
+  // Open, inside out, double, of no area in part: all serve.
+  CHECK(ph::mesh::surface::check(std::vector<triangle>{{0, 1, 3}, {1, 0, 3}, {1, 1, 2}}, b.nodes)
+            .empty());
+}
+
+TEST_CASE("news that are no news leave the last good mesh under the finger", "[mesh]") {
+  const body b = plate();
+  ph::mesh::surface s(b.triangles, b.nodes);
+  ph::mesh::proxy ball({.radius = 5e-4});
+  ball.touch(s);
+  ball.step({0, 0, 0.01}, T);
+  CHECK_FALSE(s.update(std::vector<triple>(7)));
+  CHECK_THAT(s.fault(), Contains("news of 7 nodes for a mesh of 8"));
+  auto bad = b.nodes;
+  bad[0].x = 1.0 / 0.0;
+  CHECK_FALSE(s.update(bad));
+  CHECK_THAT(s.fault(), Contains("node 0 is not finite"));
+  CHECK_FALSE(s.update(ph::mesh::pose{.position = {0, std::nan(""), 0}}));
+  CHECK_FALSE(s.update(ph::mesh::pose{.w = 0.0}));
+  CHECK_THAT(s.fault(), Contains("pose"));
+  for (int k = 0; k < 50; ++k) ball.step({0, 0, -0.01}, T);
+  CHECK(length(ball.place() - triple{0, 0, 5e-4}) < 1e-9);
+  CHECK(s.update(
+      std::vector<std::array<double, 3>>(8, {0.0, 0.0, 0.0})));  // all in one point: no area left
+  CHECK(s.fault().empty());
+  for (int k = 0; k < 100; ++k) ball.step({0, 0, -0.01}, T);
+  CHECK(ball.clearance() >= 1.25e-4);
+}
+
+TEST_CASE("a tick sees each shape whole, whatever another thread writes meanwhile", "[mesh]") {
+  const body b = sphere(2, 0.04);
+  ph::mesh::surface s(b.triangles, b.nodes);
+  std::atomic<bool> stop{false};
+  std::thread slow([&] {
+    for (int k = 0; !stop; ++k) {
+      auto nodes = b.nodes;
+      for (triple& p : nodes) p = p * (1.0 + 0.01 * (k % 10));
+      (void)s.update(nodes);
+      ph::mesh::pose p;
+      p.position = {0.001 * (k % 5), 0, 0};
+      (void)s.update(p);
+    }
+  });
+  ph::mesh::proxy ball({.radius = 5e-4});
+  ball.touch(s);
+  int torn = 0, news = 0;
+  for (int k = 0; k < 20000; ++k) {
+    ball.step({0.001 * (k % 7), 0.0, 0.08 - 0.06 * std::min(1.0, k / 1000.0)}, T);
+    double least = 1.0, most = 0.0;  // of all nodes on their way between two spheres: one radius
+    for (int i = 0; i < int(b.triangles.size()); i += 37) {
+      for (const triple& p : ball.triangle(i)) {
+        least = std::min(least, length(p));
+        most = std::max(most, length(p));
+      }
+    }
+    torn += most - least > 1e-12 ? 1 : 0;
+    news += ball.shown() < 1.0 ? 1 : 0;
+  }
+  stop = true;
+  slow.join();
+  CHECK(torn == 0);
+  CHECK(news > 0);
+  CHECK(ball.clearance() >= 1.25e-4);
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A tick on a mesh takes nothing from the heap, nor does an update after the first four.
+#include "mesh/shapes.hpp"
+#include "support/allocations.hpp"
+
+using namespace meshes;
+
+TEST_CASE("a tick on a mesh allocates nothing, with news and without", "[mesh][realtime]") {
+  const body b = sphere(3, 0.04);
+  ph::mesh::surface s(b.triangles, b.nodes);
+  ph::passive_port port{
+      scene{}, ph::mesh_contact{.spring = {.mass = 0.1}}, ph::reduced_energy{.damping = 0.03},
+      ph::reachable_bound{.mass = 0.1, .hand_force = 10}, ph::loop_limits{.longest_tick = T}};
+  port.source().touch(s);
+  auto nodes = b.nodes;
+  long in_ticks = 0, in_late_news = 0;
+  int pressed = 0;
+  for (int k = 0; k < 2000; ++k) {
+    if (k % 33 == 0) {
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        nodes[i] = b.nodes[i] * (1.0 + 0.1 * std::sin(0.01 * k));
+      const long before = allocations();
+      CHECK(s.update(nodes));
+      if (k > 400) in_late_news += allocations() - before;
+    }
+    const double angle = 0.002 * k;
+    const long before = allocations();
+    pressed +=
+        port.tick(vector(0.036 * std::cos(angle), 0.036 * std::sin(angle), k < 20 ? 0.05 : 0.0),
+                  ph::seconds{T})
+                    .depth > 0.0
+            ? 1
+            : 0;
+    in_ticks += allocations() - before;
+  }
+  CHECK(in_ticks == 0);
+  CHECK(in_late_news == 0);
+  CHECK(pressed > 500);
+}
