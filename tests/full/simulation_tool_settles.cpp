@@ -278,8 +278,8 @@ TEST_CASE("a damper whose shares are capped takes energy up to the angle of its 
 TEST_CASE("a capped damper may feed the device, by no more than what it caps would have taken in") {
   draws draw(2504);
   int fed = 0;
-  double most = 0.0;  // of what is allowed
-  for (int i = 0; i < 50000; ++i) {
+  double most = 0.0, beyond = -1.0;  // of what is allowed [1], [W]
+  for (int i = 0; i < 200000; ++i) {
     const double c = 1e-3, a = draw.between(-0.95, 0.95), tau = 5e-3;
     Eigen::Matrix2d A;
     A << c, a * c, a * c, c;
@@ -295,10 +295,11 @@ TEST_CASE("a capped damper may feed the device, by no more than what it caps wou
       if (damped(k) < d(k) + tau * rate(k) - 1e-15) allowed += before(k) * rate(k);
     }
     const double taken = rate.dot(pressed(A, damped) - before);
-    CHECK(taken >= -allowed - 1e-12);
+    beyond = std::max(beyond, -allowed - taken);
     if (taken < -1e-9) ++fed;
     if (allowed > 1e-9) most = std::max(most, -taken / allowed);
   }
+  CHECK(beyond <= 1e-12);
   CHECK(fed > 100);   // so W proves nothing from anywhere
   CHECK(most > 0.8);  // and the bound is nearly reached
 }
