@@ -87,3 +87,25 @@ TEST_CASE("a tick sees each shape whole, whatever another thread writes meanwhil
   CHECK(news > 0);
   CHECK(ball.clearance() >= 1.25e-4);
 }
+
+TEST_CASE("a mesh outlives who touches it: the next one goes on, and no update waits", "[mesh]") {
+  const body b = plate();
+  ph::mesh::surface s(b.triangles, b.nodes);
+  auto nodes = b.nodes;
+  for (int life = 0; life < 10; ++life) {
+    ph::mesh::proxy ball({.radius = 5e-4});
+    ball.touch(s);
+    for (int k = 0; k < 7; ++k) {  // it ends on the way between two shapes
+      for (triple& p : nodes) p.z += 0.001;
+      REQUIRE(s.update(nodes));
+      ball.step({0, 0, 0.2 - 0.01 * k}, T);
+      ball.step({0, 0, 0.2 - 0.01 * k}, T);
+    }
+    CHECK(ball.shown() <= 1.0);
+  }
+  ph::mesh::proxy last({.radius = 5e-4});
+  last.touch(s);
+  last.step({0, 0, 0.2}, T);
+  for (int k = 0; k < 100; ++k) last.step({0, 0, 0.0}, T);
+  CHECK(length(last.place() - triple{0, 0, nodes[0].z + 5e-4}) < 1e-9);
+}

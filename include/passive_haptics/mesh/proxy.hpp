@@ -60,14 +60,12 @@ class proxy {
   void touch(surface& s) noexcept {
     let_go();
     surface_ = &s;
-    from_ = to_ = s.kept();
+    s.arrive();
     done_ = 1.0;
     nearest_ = -1;
   }
   /// No surface any more.
   void let_go() noexcept {
-    if (surface_ != nullptr && from_ != to_) surface_->give_back(from_);
-    if (surface_ != nullptr) surface_->keep(to_);
     surface_ = nullptr;
     reset();
   }
@@ -149,7 +147,7 @@ class proxy {
     }
   };
   [[nodiscard]] view seen_at(double done) const noexcept {
-    return {surface_, &surface_->copy(from_), &surface_->copy(to_), done, from_ == to_};
+    return {surface_, &surface_->from(), &surface_->to(), done, !surface_->moves()};
   }
   [[nodiscard]] view now() const noexcept { return seen_at(done_); }
   [[nodiscard]] triple seen(const triple& x) const noexcept {
@@ -204,18 +202,15 @@ class proxy {
       pose_done_ = (std::min)(1.0, pose_done_ + dt / pose_way_);
       shown_ = pose_done_ < 1.0 ? between(came_from_, goal_, pose_done_) : goal_;
     }
-    if (from_ != to_ && done_ >= 1.0) {
-      surface_->give_back(from_);
-      from_ = to_;
-    } else if (from_ != to_ && done_ <= 0.0 && stuck_ < 0) {  // it has gone back
-      surface_->give_back(to_);
-      to_ = from_;
+    if (surface_->moves() && done_ >= 1.0) {
+      surface_->arrive();
+    } else if (surface_->moves() && done_ <= 0.0 && stuck_ < 0) {  // it has gone back
+      surface_->turn_back();
       done_ = 1.0;
     }
-    if (from_ == to_) {
+    if (!surface_->moves()) {
       stuck_ = 0;
-      if (const int news = surface_->take(); news >= 0) {
-        to_ = news;
+      if (surface_->go()) {
         done_ = 0.0;
         shape_way_ = way_of(shape_age_, touched_way(), dt);
         shape_age_ = 0.0;
@@ -242,14 +237,14 @@ class proxy {
   /// How far a point of a triangle goes in that share of the way [m].
   [[nodiscard]] triple gone(int t, const triple& weights, double share) const noexcept {
     const auto& nodes = surface_->triangles()[slot(t)];
-    const auto &a = surface_->copy(from_).nodes, &b = surface_->copy(to_).nodes;
+    const auto &a = surface_->from().nodes, &b = surface_->to().nodes;
     const auto one = [&](int i) { return b[slot(i)] - a[slot(i)]; };
     return (one(nodes[0]) * weights.x + one(nodes[1]) * weights.y + one(nodes[2]) * weights.z) *
            share;
   }
 
   // ------------------------------------------------------------------------------- the mesh's motion
-  [[nodiscard]] bool follows() const noexcept { return from_ != to_; }
+  [[nodiscard]] bool follows() const noexcept { return surface_->moves(); }
   /// A tick of the way to the newest shape; how far the ball was carried [m]. What would crush the ball waits;
   /// if it waits for long and there are news, the way is gone back, because they may leave room.
   double follow(double dt) noexcept {
@@ -520,8 +515,7 @@ class proxy {
 
   surface* surface_ = nullptr;
   proxy_parameters rule_{};
-  int from_ = 0, to_ = 0;  ///< copies of the surface
-  double done_ = 1.0;      ///< of the way between them
+  double done_ = 1.0;  ///< of the way between them
   double shape_way_ = 1e-3, shape_age_ = 1.0, pose_way_ = 1e-3, pose_age_ = 1.0;  // [s]
   double pose_done_ = 1.0;
   int stuck_ = 0;  ///< ticks for which the mesh waits; < 0: it goes back

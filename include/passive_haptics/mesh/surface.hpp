@@ -25,6 +25,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace passive_haptics {
@@ -145,15 +146,21 @@ class surface {
   // ---------------------------------------------------------------------------------- the haptic thread
   [[nodiscard]] const box_tree& tree() const noexcept { return tree_; }
   [[nodiscard]] std::span<const triangle> triangles() const noexcept { return triangles_; }
-  [[nodiscard]] const shape& copy(int number) const noexcept { return shapes_[at(number)]; }
   /// Is there a newer shape than the last one taken?
   [[nodiscard]] bool has_news() const noexcept { return ready_.load() >= 0; }
-  /// The number of the newest shape, −1 if none came; it is the haptic thread's until give_back().
-  [[nodiscard]] int take() noexcept { return has_news() ? ready_.exchange(-1) : -1; }
-  void give_back(int number) noexcept { free_[at(number)].store(true); }
-  /// The shape that is felt while nobody touches it.
-  [[nodiscard]] int kept() const noexcept { return kept_; }
-  void keep(int number) noexcept { kept_ = number; }
+  /// The shapes that are felt: on the way from one to the other, or both the same.
+  [[nodiscard]] const shape& from() const noexcept { return shapes_[at(from_)]; }
+  [[nodiscard]] const shape& to() const noexcept { return shapes_[at(to_)]; }
+  [[nodiscard]] bool moves() const noexcept { return from_ != to_; }
+  /// Goes to the newest shape, if one came; only from one that is arrived at.
+  bool go() noexcept {
+    if (moves() || !has_news()) return false;
+    to_ = ready_.exchange(-1);
+    return true;
+  }
+  /// The one that it went to is felt, or the one that it came from; the other is free.
+  void arrive() noexcept { leave(std::exchange(from_, to_)); }
+  void turn_back() noexcept { leave(std::exchange(to_, from_)); }
   /// The newest pose, if one came since the last call.
   [[nodiscard]] const pose* take_pose() noexcept { return poses_.take(); }
 
@@ -161,6 +168,9 @@ class surface {
   static constexpr std::size_t copies = 4;
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
+  void leave(int left) noexcept {
+    if (left != from_) free_[at(left)].store(true);
+  }
   template <class Nodes>
   [[nodiscard]] static std::string not_finite(const Nodes& nodes) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -211,8 +221,8 @@ class surface {
   std::array<shape, copies> shapes_;
   std::array<std::atomic<bool>, copies> free_{};
   std::atomic<int> ready_{-1};
-  int spare_ = -1;  // the slow thread's own
-  int kept_ = 0;    // the haptic thread's own
+  int spare_ = -1;         // the slow thread's own
+  int from_ = 0, to_ = 0;  // the haptic thread's own
   exchange<pose> poses_;
   std::string fault_;
 };
