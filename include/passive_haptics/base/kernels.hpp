@@ -113,9 +113,6 @@ template <real S>
   if constexpr (std::same_as<S, double>) {
     using two [[gnu::vector_size(16)]] = S;
     return __builtin_ia32_sqrtsd(two{x})[0];
-  } else if constexpr (std::same_as<S, float>) {
-    using four [[gnu::vector_size(16)]] = S;
-    return __builtin_ia32_sqrtss(four{x})[0];
   }
 #endif
   using std::sqrt;

@@ -319,8 +319,9 @@ class sequence<First, Rest...>::on {
     return one_after_the_other(*this, desired, states...);
   }
   template <class... States>
-  requires(stateless<States...>) [[nodiscard, gnu::always_inline]] constexpr bounded<P> apply(
-      const effort& desired, const States&... states) const noexcept {
+  requires(stateless<States...>)
+      [[nodiscard]] constexpr bounded<P> apply(const effort& desired,
+                                               const States&... states) const noexcept {
     return one_after_the_other(*this, desired, states...);
   }
 

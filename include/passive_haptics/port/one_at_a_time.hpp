@@ -23,7 +23,7 @@ struct one_at_a_time {
 #if !defined(NDEBUG) && defined(__cpp_lib_atomic_ref)
   constexpr explicit one_at_a_time(std::uint8_t& byte) noexcept : busy(byte) {
     [[maybe_unused]] const bool alone = swapped(1) == 0;
-    assert(alone && "passive_haptics: two threads call one port at once: see docs/guarantees.md");
+    assert(alone && "two threads call one port at once: passive_haptics, docs/guarantees.md");
   }
   constexpr ~one_at_a_time() {
     swapped(0);
