@@ -233,3 +233,43 @@ TEST_CASE("a field that is steeper elsewhere obeys the laws, and rests",
     if (field.tilt == 0.0) CHECK(dropped_on(brick).swing < 1e-6);
   }
 }
+
+TEST_CASE("a brick ends at its thickness, which is still covered", "[geometry]") {
+  const double h = 1.0 / 128;  // so that depths are exact
+  auto floor = ph::distance_brick<d3>::sampled([](const d3::vector& x) { return x(2); },
+                                               d3::vector(-1.5 * h, -1.5 * h, -1.5 * h), h, 500.0);
+  floor.thickness = h / 2;
+  REQUIRE(floor.prepare());
+  CHECK(floor.at({0, 0, -h / 2}).covered());
+  CHECK_FALSE(floor.at({0, 0, -h * 0.501}).covered());
+}
+
+TEST_CASE("what counts of a field's slope is that at its surface, wherever this is in the brick",
+          "[geometry][curved]") {
+  // A distance at its surface, 4 mm above the middle, where its slope is 0.8.
+  const auto phi = [](const d3::vector& x) {
+    const double z = x(2) - 4e-3;
+    return z + 25.0 * z * z;
+  };
+  auto brick = ph::distance_brick<d3>::sampled(phi, {-0.0075, -0.0075, -0.0075}, 0.005, 500.0);
+  REQUIRE(brick.prepare());
+  CHECK_THAT(brick.at({0, 0, 3e-3}).depth, WithinAbs(-phi({0, 0, 3e-3}), 1e-12));
+}
+
+TEST_CASE("nowhere in a brick is more than twice its stiffness felt, whichever corner is steep",
+          "[geometry][curved]") {
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const d3::vector u = d3::vector((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
+                                    (corner & 4) != 0 ? 1 : -1)
+                             .normalized();
+    const auto phi = [&u](const d3::vector& x) {
+      const double s = u.dot(x);
+      return s + 115.0 * s * s;  // its slope is 1 in the middle and 3 there
+    };
+    auto brick = ph::distance_brick<d3>::sampled(phi, {-0.0075, -0.0075, -0.0075}, 0.005, 500.0);
+    REQUIRE(brick.prepare());
+    const d3::vector there = u * (5e-3 * std::sqrt(3.0));
+    CAPTURE(corner);
+    CHECK_THAT(d3::norm(brick.at(there).push()), WithinAbs(std::sqrt(2.0), 1e-2));
+  }
+}

@@ -298,6 +298,13 @@ TEST_CASE("parameters of a set out of range are named, and change while it works
   CHECK(named({.mass = 0.1}, {.force_rate = 0.0}) == "force_rate");
   CHECK(named({.mass = 0.1}, {.stale_after = -1.0}) == "stale_after");
 
+  auto rough = planes<d3, 3>({}, ph::stick_slip{});
+  const ph::stick_slip backwards{.static_coefficient = 0.4, .kinetic_coefficient = 0.6};
+  CHECK(std::string(planes<d3, 3>({}, backwards).check().parameter) == "kinetic_coefficient");
+  CHECK(std::string(rough.set(backwards).parameter) == "kinetic_coefficient");
+  CHECK_FALSE(rough.set(ph::stick_slip{.static_coefficient = 0.9}));
+  CHECK(rough.source().parameters().friction.static_coefficient == 0.9);
+
   auto port = corner<d3, 3>();
   const d3::vector x(-1e-3, 0.02, 0.02);
   (void)port.tick(x, ph::seconds{T});
@@ -309,6 +316,25 @@ TEST_CASE("parameters of a set out of range are named, and change while it works
   CHECK(port.set(ph::pursuit{.speed = -1.0}));
   port.reset();
   CHECK(port.tick(x, ph::seconds{T}).what == ph::event::no_target);
+}
+
+TEST_CASE("a surface that is told to be stiffer keeps the force that it presses with",
+          "[contact_set]") {
+  const double K = GENERATE(200.0, 5000.0);
+  auto port = planes<d3, 1>({.force_rate = 1e9});  // the set limits nothing: the slot does
+  const auto told = [&port](double stiffness) {
+    return port.source().update(0, ph::half_space<d3>{d3::zero(), {0, 0, 1}, stiffness});
+  };
+  REQUIRE(told(1000.0));
+  (void)port.tick(d3::vector(0, 0, 1e-3), ph::seconds{T});
+  const d3::vector x(0, 0, -1e-3);
+  (void)port.tick(x, ph::seconds{T});
+  CHECK_THAT(port.tick(x, ph::seconds{T}).force.z(), WithinRel(1.0, 1e-12));
+  REQUIRE(told(K));
+  const double rate = std::max(0.05, std::abs(1e-3 - 1.0 / K) / 0.04);  // ρ, or within t_c [m/s]
+  CHECK_THAT(port.tick(x, ph::seconds{T}).force.z(), WithinAbs(1.0, 1.001 * K * rate * T));
+  for (int n = 0; n < 100; ++n) (void)port.tick(x, ph::seconds{T});
+  CHECK_THAT(port.tick(x, ph::seconds{T}).force.z(), WithinRel(1e-3 * K, 1e-12));
 }
 
 TEST_CASE("no news steps a device that holds still, and the truth is there within a second",
@@ -511,4 +537,40 @@ TEST_CASE("surfaces out of reach sleep, and nobody feels that they do", "[contac
   CHECK(pressed > 200);
   CHECK(slept > 2000 * count / 10);
   CHECK(worst < 1e-9);
+}
+
+namespace {
+
+int looks = 0;  ///< at the planes below
+struct counted : ph::half_space<d3> {
+  using space_type = d3;
+  [[nodiscard]] probe at(const d3::vector& x) const noexcept {
+    ++looks;
+    return ph::half_space<d3>::at(x);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("what sleeps is looked at twenty times in a second, whatever else is pressed",
+          "[contact_set]") {
+  auto port =
+      open_port<d3>(ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{},
+                                    ph::slots<counted, 7>{}, ph::slots<ph::half_space<d3>, 1>{}});
+  const ph::half_space<d3> ground{d3::zero(), {0, 0, 1}, 1000.0};
+  for (int i = 0; i < 7; ++i) {
+    counted far{ground};
+    far.point = {0, 0, -0.1};
+    REQUIRE(port.source().update(i, far));
+  }
+  REQUIRE(port.source().update(0, ground));
+  const auto in_a_second = [&](double z) {
+    for (int n = 0; n < 100; ++n) (void)port.tick(d3::vector(0, 0, z), ph::seconds{T});
+    looks = 0;
+    for (int n = 0; n < 1000; ++n) (void)port.tick(d3::vector(0, 0, z), ph::seconds{T});
+    return looks / 7;
+  };
+  CHECK(in_a_second(1e-3) == Approx(20).margin(1));
+  CHECK(in_a_second(-1e-3) == Approx(20).margin(1));  // 1 N
+  CHECK(in_a_second(-0.095) == 1000);                 // the control: within reach
 }

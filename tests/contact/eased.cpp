@@ -285,6 +285,9 @@ TEST_CASE("eased forgets at a reset, and changes live", "[contact]") {
   CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(3.0, 1e-9));
   REQUIRE_FALSE(model.set(ph::damped_spring{.mass = 0.01}));
   CHECK(model.law().stiffness() == 1000.0);
+  REQUIRE_FALSE(model.set(ph::eased{ph::damped_spring{.mass = 0.02}, {.ahead = 0.05}}));
+  CHECK(model.law().parameters().law.mass == 0.02);
+  CHECK(model.law().parameters().pace.ahead == 0.05);
 
   const auto refused = [](const ph::news_pace& pace) {
     const auto fault = ph::eased{damper, pace}.check();
@@ -322,6 +325,42 @@ TEST_CASE("a surface that stops is not believed to go on for longer than news ta
   }
   CHECK(most < 500.0 * (11e-3 + 1.5e-4));
   CHECK(most > 500.0 * (11e-3 + 0.5e-4));  // the control: it is believed for some time
+}
+
+TEST_CASE("a surface that goes on is believed through twice the time that it is believed ahead",
+          "[contact]") {
+  constexpr double dt = 0x1p-10;  // so that times are exact
+  const ph::news_pace::at<double> pace({.ahead = 8 * dt});
+  ph::lag<double> lag;
+  for (int news = 0; news < 3; ++news) {  // 1 mm of 1 m/s, and nothing to make up for
+    for (int n = 0; n < 8; ++n) lag.grow_older(dt);
+    lag.hear(2e-3, 2e-3, 1e-3, 1e-3, pace);
+  }
+  const auto shown_after = [&lag](int ticks) {
+    for (int n = 0; n < ticks; ++n) {
+      lag.grow_older(dt);
+      lag.follow(dt);
+    }
+    return -lag.offset();
+  };
+  CHECK_THAT(shown_after(4), WithinAbs(0.5e-3, 1e-12));
+  CHECK_THAT(shown_after(4), WithinAbs(1e-3, 1e-12));
+  CHECK_THAT(shown_after(9),
+             WithinAbs(1e-3, 1e-12));  // it waits for 16; in the 17th it turns round
+  CHECK(shown_after(1) < 0.999e-3);
+}
+
+TEST_CASE("what was not felt and is not touched has nothing to make up for", "[contact]") {
+  const ph::news_pace::at<double> pace(ph::news_pace{});
+  for (const double own : {0.0, -1e-3}) {
+    for (const double now : {0.0, -2e-3}) {
+      ph::lag<double> lag;
+      lag.grow_older(0.01);
+      lag.hear(own, now, 0.0, 1e-3, pace);
+      CHECK(lag.offset() == 0.0);
+      CHECK(lag.settled());
+    }
+  }
 }
 
 TEST_CASE("two news between two ticks are one", "[contact]") {

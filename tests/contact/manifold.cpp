@@ -208,6 +208,25 @@ TEST_CASE("an id wins over place", "[manifold]") {
   CHECK(without.released == 1);
 }
 
+TEST_CASE("where slots are short an id keeps its own, however far it has gone", "[manifold]") {
+  using seen_type = ph::contact_manifold<plane, 2>;
+  const std::array<seen_type::id_type, 3> ids{4, 9, 5};
+  const auto first_is = [&](const auto& of) {
+    auto port = set_of<d3, plane, 2>();
+    seen_type seen;
+    seen.show(port.source(), std::array{floor_at(-5e-3), floor_at(5e-3)}, d3::zero(),
+              std::span(of).first(2));
+    // It has come 4.5 mm nearer, and what is new is deeper, but not by a millimetre.
+    const std::array told{floor_at(-5e-4), floor_at(5e-3), floor_at(-2e-4)};
+    seen.show(port.source(), told, d3::zero(), of);
+    return port.source().slot(0).target().at(d3::zero()).depth;
+  };
+  CHECK(first_is(ids) == -5e-4);
+  const std::array<seen_type::id_type, 3> none{seen_type::no_id, seen_type::no_id,
+                                               seen_type::no_id};
+  CHECK(first_is(none) == -2e-4);  // the control
+}
+
 TEST_CASE("a slot that is leaving may be taken back", "[manifold]") {
   auto port = set_of<d3, plane, 3>();
   ph::contact_manifold<plane, 3> seen;
@@ -232,6 +251,8 @@ TEST_CASE("a slot that is leaving may be taken back", "[manifold]") {
   CHECK(seen.show(port.source(), walls, x).added == 1);
   port.reset();
   CHECK(seen.show(port.source(), walls, x).added == 1);
+  port.reset();
+  CHECK(seen.show(port.source(), {}, x).released == 0);  // it is gone already
 }
 
 TEST_CASE("what is new takes the slot that presses least", "[manifold]") {
@@ -373,6 +394,7 @@ TEST_CASE("points of a tool find their walls again", "[manifold]") {
 
 TEST_CASE("a rule that is none names its fault, and matches nothing", "[manifold]") {
   CHECK_FALSE(ph::contact_manifold<plane, 2>{}.check());
+  CHECK(ph::contact_manifold<plane, 2>{{.within = 0.02}}.parameters().within == 0.02);
   CHECK(std::string_view(ph::same_surface{.within = nan_value}.check().parameter) == "within");
   CHECK(std::string_view(ph::same_surface{.lever = 0}.check().parameter) == "lever");
   CHECK(std::string_view(ph::same_surface{.stay = -1}.check().parameter) == "stay");

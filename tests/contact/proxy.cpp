@@ -103,6 +103,37 @@ TEMPLATE_TEST_CASE("of sixteen contacts, too, from whatever they pressed with be
   }
 }
 
+TEST_CASE("with each change of a set the energy falls, and none of it ever pulls", "[proxy]") {
+  ph::laws::samples random(6);
+  int stopped = 0;
+  for (int n = 0; n < 200; ++n) {
+    random_set<d3, 8> set(random, 8);
+    auto& p = set.problem;
+    for (std::size_t i = 0; i < p.count; ++i) {
+      p.pressed[i] = std::max(random.number<double>() * 3.0, 0.0);
+    }
+    const auto energy = [&] {  // ½ λᵀAλ − d'ᵀλ [J]
+      double sum = 0.0;
+      for (std::size_t i = 0; i < p.count; ++i) {
+        sum += 0.5 * p.pressed[i] * (set.gap(i) * p.own[i] - p.wish[i]);
+      }
+      return sum;
+    };
+    ph::detail::active_set<d3::vector, double, 8> pressing(p);
+    double last = energy();
+    for (int step = 0; step < 9; ++step) {
+      const bool whole = pressing.step([&](auto i, auto j) { return set.inner(i, j); });
+      CAPTURE(n, step);
+      REQUIRE(energy() <= last + 1e-15);
+      REQUIRE(*std::min_element(p.pressed.begin(), p.pressed.end()) >= 0.0);
+      last = energy();
+      if (whole) break;
+      ++stopped;
+    }
+  }
+  CHECK(stopped > 100);
+}
+
 TEST_CASE("copies of one wall are that wall, and need no more than its own set", "[proxy]") {
   ph::laws::samples random(3);
   random_set<d3, 16> copies(random, 0);
@@ -171,6 +202,9 @@ TEST_CASE("what settles is what the circle condition says, and what rings is ref
   STATIC_REQUIRE_FALSE(ph::settles(0.328, 5.0));
   STATIC_REQUIRE_FALSE(ph::settles(0.1, 1.0));
   STATIC_REQUIRE_FALSE(ph::settles(0.1, 5.0, 1));
+  CHECK_FALSE(ph::settles(0.1, 1.0));  // damped by less than a tick of its own force
+  CHECK_FALSE(ph::settles(0.0, 5.0));
+  CHECK_FALSE(ph::settles(0.1, 5.0, -1));
   CHECK(ph::settles(0.0972, 5.0, 1));
   CHECK_FALSE(ph::settles(0.0974, 5.0, 1));
   CHECK(ph::settles(0.0215, 5.0, 3));
@@ -178,6 +212,7 @@ TEST_CASE("what settles is what the circle condition says, and what rings is ref
   CHECK((ph::proxy_spring{.mass = 0.1, .stiffness_fraction = 1.0}.check().parameter ==
          std::string_view("stiffness_fraction")));
   CHECK_FALSE(ph::proxy_spring{.mass = 0.1, .damping_ratio = 0.0}.check());  // asked for
+  CHECK_FALSE(ph::proxy_spring{.mass = 0.1, .softness = 0.001}.check());     // the least there is
 }
 
 TEST_CASE("a contact that is hardly damped is damped as much as a late loop needs", "[proxy]") {

@@ -185,6 +185,21 @@ TEST_CASE("a settled force says how much of a steep one it shows, and shows all 
   CHECK(guard.source().shown() == 1.0);
 }
 
+TEST_CASE("what is steeper across the force than along it is shown by what is across",
+          "[settled_force]") {
+  const double most = rule.most_stiffness(1e-3);
+  const auto shown = [&](double along, double across) {
+    auto guard = guard_of<d3>(rule);
+    for (int n = 0; n < 2000; ++n) {
+      const d3::vector x(1e-5 * std::sin(0.31 * n), 0.0, 1e-5 * std::sin(0.2 * n));
+      (void)guard.tick(x, 1ms, {-across * x(0), 0.0, 9.0 - along * x(2)});
+    }
+    return double(guard.source().shown());
+  };
+  CHECK_THAT(shown(2.0 * most, 0.0), WithinRel(0.75 / 2.0, 0.1));
+  CHECK_THAT(shown(2.0 * most, 8.0 * most), WithinRel(0.75 / 8.0, 0.1));
+}
+
 TEST_CASE("a slide brakes what swings along a trough, and its lead what is stiff there",
           "[settled_force]") {
   const d3::coordinates down(0.0, 0.0, -1.0);
@@ -356,4 +371,5 @@ TEST_CASE("what a settled force may not be told is refused with its name", "[set
   CHECK(refused([&](auto& p) {
           p.damping_fraction = 0.5, p.lead = 0, p.slide_fraction = 0;
         }).empty());
+  CHECK(refused([](auto& p) { p.lead = 10, p.slide_fraction = 0.1; }).empty());
 }

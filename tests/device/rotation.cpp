@@ -92,3 +92,22 @@ TEST_CASE("a quaternion whose norm is off by a thousandth is none of a rotation"
   CHECK_FALSE(ph::rotation::is_unit(quat{1, 0, nan, 0}));
   CHECK_FALSE(ph::rotation::is_unit(quat{inf, 0, 0, 0}));
 }
+
+TEST_CASE("a quaternion of any norm but zero is that of a rotation when it is normalised",
+          "[rotation]") {
+  for (const double norm : {1e-100, 5e-3, 0.5, 0.99996, 1.00004, 3.0, 1e100}) {
+    CAPTURE(norm);
+    const quat q = ph::rotation::normalised(quat{0.6 * norm, 0.0, -0.8 * norm, 0.0});
+    CHECK_THAT(q.w, WithinAbs(0.6, 4e-16));
+    CHECK_THAT(q.y, WithinAbs(-0.8, 4e-16));
+  }
+}
+
+TEST_CASE("exp and log are as exact in a wider number as it is", "[rotation]") {
+  using wide = ph::rotation::vector<long double>;
+  for (const long double angle : {1e-6L, 1e-3L, 0.019L, 0.021L, 1.0L}) {
+    const wide turn(0.6L * angle, 0.0L, 0.8L * angle);
+    const wide back = ph::rotation::log(ph::rotation::exp<long double>(turn));
+    CHECK((back - turn).norm() <= 16 * std::numeric_limits<long double>::epsilon() * angle);
+  }
+}

@@ -71,6 +71,15 @@ TEST_CASE("after a fault a debt is written off and A is lent within half a secon
   rich.disturbed();
   rest(rich, 1.0);
   CHECK(rich.value() == owned);  // who has credit gets none
+
+  // Who had it at the fault and has spent it since is lent after the pause.
+  for (const double loan : {A, 1.5 * A}) {
+    auto spent = at<d1>(ph::forgiving{ph::reduced_energy{.damping = 0.1, .loan = loan}, A});
+    spent.disturbed();
+    REQUIRE(spent.update((loan - 0.25 * A) / 9.0, 9.0, T));
+    rest(spent, 1.0);
+    CHECK_THAT(spent.value(), WithinRel(A, 1e-9));
+  }
 }
 
 TEST_CASE(

@@ -45,6 +45,16 @@ TEST_CASE("reduced_energy uses the measured dt", "[observer]") {
   CHECK_THAT(ledger.value(), WithinRel(0.03 * 1e-6 / 2e-3, 1e-12));
 }
 
+TEST_CASE("where the device reports its work, the damping is booked with it (lemma J)",
+          "[observer]") {
+  auto ledger = at<d1>(thesis_ledger());
+  const auto reported = [](double work) { return ph::detail::reported_effort<d1>{0.0, work}; };
+  REQUIRE(ledger.update(1e-3, reported(0.0), 1e-3));
+  CHECK_THAT(ledger.value(), WithinRel(0.03 * 1e-6 / 1e-3, 1e-12));
+  REQUIRE(ledger.update(1e-3, reported(1e-5), 1e-3));
+  CHECK_THAT(ledger.value(), WithinRel(0.06 * 1e-6 / 1e-3 - 1e-5, 1e-9));
+}
+
 TEST_CASE("reduced_energy starts from the loan it is given (A8)", "[observer]") {
   ph::reduced_energy lent{.damping = 0.03, .loan = 0.5};
   auto ledger = at<d1>(lent);

@@ -205,6 +205,24 @@ TEST_CASE("each term of an unseen path counts", "[rigid][unseen]") {
   CHECK(one.value() == two.value());
 }
 
+TEST_CASE("from rest it has gone as far as the wrench held pushes it, and no farther",
+          "[rigid][unseen]") {
+  // For a tick that was seen, half of which counts as speed, and t that was not; a lever swings, too.
+  const double t = 4 * T, f = 3.0, m = 0.15, least = 1e-4;
+  for (const double lever : {0.0, 0.05}) {
+    const ph::rigid_inertia inertia{.mass = m, .least = least, .spread = 0.0, .offset = lever};
+    const ph::part_at<ph::rigid_reachable_bound, body> bound(
+        ph::rigid_reachable_bound{inertia, 0.0, 0.0, 1e-9, 1e-9});
+    const auto w = body::join({0, f, 0}, {0, 0, 0});
+    const double norm = f * std::sqrt(1.0 / m + lever * lever / least);
+    const double a = norm * std::sqrt(1.0 / m + lever * lever / least);  // [m/s²]
+    const double way = a * (T + t) * t / 2.0;
+    const double swung = 2.0 * lever * norm / std::sqrt(least) * (T / 2.0 + t) * t;
+    CAPTURE(lever);
+    CHECK_THAT(bound.unseen({0.0, T, 0.0, w}, b, w, t).done, WithinRel(f * (way + swung), 1e-4));
+  }
+}
+
 TEST_CASE("no cone hides more of its length than an unseen arc", "[rigid][unseen]") {
   double worst = 0.0, small = 0.0;
   for (double L = 0.2; L < 3.14; L += 0.2) {
@@ -261,6 +279,9 @@ TEST_CASE("rigid_actuator_limit shortens the wrench as a whole", "[rigid]") {
   CHECK(limit.limit(body::join({0, 0, 3}, {0.1, 0, 0}), now).factor == 1.0);
   CHECK_THAT(limit.limit(body::join({0, 0, 6}, {0.1, 0, 0}), now).factor, WithinRel(0.5));
   CHECK_THAT(limit.limit(body::join({0, 0, 6}, {0.4, 0, 0}), now).factor, WithinRel(0.25));
+  CHECK(limit.can_hold(body::join({0, 3, 0}, {0, 0, 0.1})));
+  CHECK_FALSE(limit.can_hold(body::join({0, 30, 0}, {0, 0, 0.1})));  // either is too much
+  CHECK_FALSE(limit.can_hold(body::join({0, 3, 0}, {0, 0, 1.0})));
 }
 
 TEST_CASE("rigid parts name the number that is wrong", "[rigid]") {

@@ -135,6 +135,28 @@ TEST_CASE("the steps of a sensor are no force, and a coarser one is no reason to
   }
 }
 
+TEST_CASE("what pushes with more than half of what it may is looked at without a pause",
+          "[force_bound][watched]") {
+  const auto looked = [](double push) {  // of 200 ticks
+    auto port = given_port<d1>(0.1, 5.0, 1e-6);
+    double x = 0.0, v = 1e-6;
+    int looks = 0;
+    for (int n = 0; n < 280; ++n) {
+      looks += n >= 80 && port.bound().looks() ? 1 : 0;
+      CHECK(port.tick(x, 1ms, 1e-9).what == ph::event::nominal);
+      const double a = n < 30 ? 0.0 : push / 0.1;
+      x += v * T + a * T * T / 2.0;
+      v += a * T;
+    }
+    return looks;
+  };
+  for (const double sign : {1.0, -1.0}) {
+    CHECK(looked(sign * 3.0) == 200);
+    CHECK(looked(sign * 5.0) == 200);
+    CHECK(looked(sign * 1.0) < 100);
+  }
+}
+
 TEST_CASE("a push that is too strong is forgiven, and one that goes on is not",
           "[force_bound][watched]") {
   const outcome once = ran({.push = 20.0, .stop_after = 6e-3, .quiet = 3e-3});

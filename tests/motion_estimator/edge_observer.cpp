@@ -254,6 +254,21 @@ TEST_CASE("edge_observer rests within what elastic friction holds, and nowhere e
              WithinRel(seen_swing(ph::edge_observer{q}, 0.9 * q), 1e-9));
 }
 
+TEST_CASE("edge_observer sees the mirror image of a motion as that of what it saw", "[motion]") {
+  const ph::edge_observer held{.quantum = q, .presliding = 1.5 * q};
+  auto right = at<d1>(held), left = at<d1>(held);
+  double x = 0.0;
+  (void)right.estimate(0.0, 0.0, 0.0, T, false);
+  (void)left.estimate(-q, 0.0, 0.0, T, false);
+  for (int n = 1; n < 400; ++n) {  // two steps back and forth, from the first edge on
+    const double way = n % 20 != 0 ? 0.0 : n / 20 % 4 < 2 ? q : -q;
+    x += way;
+    const double seen = right.estimate(x, way, 0.0, T, true).position;
+    CAPTURE(n);
+    REQUIRE_THAT(left.estimate(-x - q, -way, 0.0, T, true).position, WithinAbs(-seen, 1e-12));
+  }
+}
+
 TEST_CASE("edge_observer leaves a rest with the first step beyond what it swung over", "[motion]") {
   seeing eyes(ph::edge_observer{.quantum = q, .presliding = 1.5 * q});
   const auto turn_between = [&eyes](double a, double b) {

@@ -26,6 +26,19 @@ TEMPLATE_TEST_CASE("carry turns as little as takes one normal to the other", "[n
   }
 }
 
+TEMPLATE_TEST_CASE("carry keeps lengths where normals are all but opposite", "[normals]", d3, f3) {
+  using scalar = typename TestType::scalar;
+  using vector = typename TestType::vector;
+  scalar off(0);
+  for (int i = 0; i < 1000; ++i) {
+    const scalar angle = scalar(2e-6) * scalar(i);  // what rounding leaves of 1 + cos is no number
+    const vector to(-std::cos(angle), std::sin(angle), scalar(0));
+    const vector turned = ph::carry<TestType>(vector(vector::UnitY()), vector::UnitX(), to);
+    off = std::max(off, std::abs(turned.norm() - scalar(1)));
+  }
+  CHECK(off < scalar(0.1));
+}
+
 TEMPLATE_TEST_CASE("carry leaves what has no shortest way as it is", "[normals]", d2, d3) {
   using vector = typename TestType::vector;
   const vector n = vector::UnitX(), a = vector::UnitY();
