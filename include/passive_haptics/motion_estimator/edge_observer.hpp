@@ -58,10 +58,7 @@ class edge_observer::on {
     }
   };
 
-  constexpr explicit on(const edge_observer& p) noexcept {
-    set(p);
-    reset();
-  }
+  constexpr explicit on(const edge_observer& p) noexcept { set(p); }
   constexpr void set(const edge_observer& p) noexcept {
     quantum_ = detail::number<scalar>(p.quantum);
     presliding_ = detail::number<scalar>(p.presliding);
