@@ -94,7 +94,7 @@ class active_set {
   }
 
   /// λ of S goes to where A_SS λ = d', or as far as none of it turns negative: what stops it leaves S. True
-  /// when nothing did.
+  /// when it came there.
   constexpr bool step(auto between) noexcept {
     for (; factored_ < count_; ++factored_) append(between);
     std::array<Scalar, capacity> goal{};  // of A_SS λ = d', by Lᵀ
@@ -106,7 +106,6 @@ class active_set {
       const Scalar now = p_.pressed[in_[k]];
       if (!(goal[k] > Scalar(0))) share = kernels::smaller(share, Scalar(now / (now - goal[k])));
     }
-    bool whole = true;
     std::size_t kept = 0;
     for (std::size_t k = 0; k < count_; ++k) {
       const std::size_t i = in_[k];
@@ -116,13 +115,12 @@ class active_set {
       if (stops) {
         is_in_[i] = false;
         factored_ = k < factored_ ? k : factored_;
-        whole = false;
       } else {
         in_[kept++] = i;
       }
     }
     count_ = kept;
-    return whole && share == Scalar(1);
+    return share == Scalar(1);
   }
   /// d' − Aλ of a contact outside of S [m]: how much of it nobody presses yet.
   [[nodiscard]] constexpr Scalar missing(std::size_t i, auto between) const noexcept {
