@@ -470,9 +470,10 @@ class local_contact {
   /// Behind the surface, but outside its edges: only what moves can be met that way.
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<Supply::moves, bool, no_memory> beside_{};
   struct no_lag {};
+  struct no_turn {};
   struct no_surface {};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, lag<scalar>, no_lag> lag_{};
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, turning<Space>, no_lag> turn_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, turning<Space>, no_turn> turn_{};
   /// The target of the last tick, for what is new.
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, constraint_type, no_surface> shown_{};
 };
