@@ -18,19 +18,22 @@ class session {
   explicit session(simulated& device) : device_(device) {}
 
   void press(const char* what, int ticks) {
-    auto out = touch_.tick(sample_);
+    ph::tick_result<scene> out{};
+    double position = 0.0;
     for (int n = 0; n < ticks; ++n) {
-      sample_ = device_.exchange(out.force);
-      out = touch_.tick(sample_);
+      const auto sample = device_.exchange(force_);
+      out = touch_.tick(sample);
+      force_ = out.force;
+      position = sample.position;
     }
-    std::printf("%-22s %5.2f N at %5.2f mm, %s\n", what, out.force, 1e3 * sample_.position,
+    std::printf("%-22s %5.2f N at %5.2f mm, %s\n", what, out.force, 1e3 * position,
                 ph::to_string(out.what));
   }
   ph::touch<scene>& touch() { return touch_; }
 
  private:
   simulated& device_;
-  ph::device_sample<scene> sample_ = device_.exchange(0.0);
+  double force_ = 0.0;
   ph::touch<scene> touch_ = ph::make_touch<scene>(
       {.mass = 0.1, .damping = 0.03, .force_limit = 9.0, .longest_tick = 1e-3}, {.force = 5.0});
 };

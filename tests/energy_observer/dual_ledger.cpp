@@ -321,7 +321,7 @@ TEST_CASE("a device with elastic friction that rests in free space owes nothing"
                                                      .presliding = 1e-5,
                                                      .quantum = 1e-4,
                                                      .force_limit = 8.0},
-                                  {.force = 5.0});
+                                  ph::trusted_hand{{.force = 5.0}});  // who is believed
   REQUIRE(touch.update({0.0, 1.0, 800.0}));
   CHECK(touch.tick(2e-3, 1ms).energy < 0.0);  // 5/2 c p, that the friction's springs may hold
   for (int n = 0; n < 100; ++n) CHECK(touch.tick(2e-3, 1ms).what == ph::event::nominal);

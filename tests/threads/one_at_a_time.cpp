@@ -187,7 +187,7 @@ TEST_CASE("a port that looks is no larger, stays copyable, and ticks in constant
   // What both builds of this file agree on: objects of either may share a port.
   using wall = ph::local_model<scene, ph::fixed<ph::half_space<scene>>, ph::turn_at_once,
                                ph::spring, ph::reduced_energy, ph::strict_bound>;
-  CHECK(sizeof(wall) == 128);
+  CHECK(sizeof(wall) == 120);
   CHECK(std::is_trivially_copyable_v<port>);
   constexpr double pressed = [] {
     ph::passive_port own{scene{}, ph::given_force{},

@@ -97,8 +97,8 @@ class watched<Bound>::on : public part_at<Bound, P> {
   /// How far from x + V t a device may be that went with V for T₀, t later [m]; v is the sum of the speeds of both, and
   /// `most` is what its motors hold [N] (§ 13). No less than 0.12 mm: what that does is nothing.
   template <bool Exact>
-  [[nodiscard]] constexpr scalar far(scalar T0, scalar t, scalar v, scalar most,
-                                     const auto& ledger) const noexcept {
+  [[nodiscard]] constexpr scalar far_off(scalar T0, scalar t, scalar v, scalar most,
+                                         const auto& ledger) const noexcept {
     scalar error = scalar(2) * step_;
     if constexpr (!Exact) error = ledger.travel_error();
     const scalar pushed =

@@ -119,7 +119,7 @@ class trusting_guard : public last_tick<P, Latency> {
   bool seen_ = false;
 };
 
-/// Holds a sample against the motion before it, where a bound knows what can change that: far(T₀, t, v) [m] is how far
+/// Holds a sample against the motion before it, where a bound knows what can change that: far_off(T₀, t, v) [m] is how far
 /// from going on a device may be t after a motion of T₀, of both of which v is the sum of the mean speeds [m/s]. A
 /// sample that is not believed doubles what is, unless it turns out to have been an outlier; that is forgotten slowly.
 /// (§ 13)
@@ -139,11 +139,11 @@ class motion_check {
   }
   /// `t` after the last good sample.
   [[nodiscard]] constexpr bool is_possible(const motion& travel, scalar t,
-                                           const auto& far) const noexcept {
-    return !(off(travel, t, far) > width_);
+                                           const auto& far_off) const noexcept {
+    return !(off(travel, t, far_off) > width_);
   }
-  [[nodiscard]] constexpr bool judge(const motion& travel, scalar t, const auto& far) noexcept {
-    const scalar beside = off(travel, t, far);
+  [[nodiscard]] constexpr bool judge(const motion& travel, scalar t, const auto& far_off) noexcept {
+    const scalar beside = off(travel, t, far_off);
     const bool believed = !(beside > width_);
     if (!believed) width_ = kernels::smaller(width_ * scalar(2), scalar(1024));
     if (believed && beside * scalar(4) > kept_) kept_ = width_;
@@ -154,9 +154,9 @@ class motion_check {
     travel_ = travel;
     dt_ = dt;
   }
-  constexpr void ease(const auto& far, scalar T, scalar top_speed) noexcept {
+  constexpr void ease(const auto& far_off, scalar T, scalar top_speed) noexcept {
     width_ = kept_ = kernels::larger(scalar(1), kept_ * scalar(0.998));
-    const scalar change = far(T, T, scalar(0)) * width_;
+    const scalar change = far_off(T, T, scalar(0)) * width_;
     easy_ = change * change;
     least_ = change / top_speed;
   }
@@ -171,12 +171,12 @@ class motion_check {
  private:
   /// In parts of what is possible; time stamps may be off by a quarter.
   [[nodiscard]] constexpr scalar off(const motion& travel, scalar t,
-                                     const auto& far) const noexcept {
+                                     const auto& far_off) const noexcept {
     if (!(dt_ > scalar(0))) return scalar(0);
     const motion on = P::scaled(motion(travel_), t / dt_);
     const scalar step = P::norm(on);
     return P::norm(P::difference(travel, on)) /
-           (far(dt_, t, (step + P::norm(travel)) / t) + step / scalar(4));
+           (far_off(dt_, t, (step + P::norm(travel)) / t) + step / scalar(4));
   }
 
   typename P::stored_effort travel_ = P::zero();  ///< of the last motion that was believed

@@ -384,8 +384,8 @@ class passive_port {
       bool known = guard_.knows_motion() && !is_late(dt, limits_.longest_tick);
       if constexpr (!trusting) known = known && guard_.believes(position, travel, dt, limits_);
       if constexpr (doubts) {
-        known = known && seen_.is_possible(travel, dt, far());
-        if (known) seen_.ease(far(), limits_.longest_tick, limits_.top_speed);
+        known = known && seen_.is_possible(travel, dt, far_off());
+        if (known) seen_.ease(far_off(), limits_.longest_tick, limits_.top_speed);
       }
       const bool doubted = bound_.watching().seen() != event::nominal;
       bound_.watching().template look<Observer::exact>(known, travel, guard_.commanded().back(),
@@ -399,16 +399,16 @@ class passive_port {
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool thought_about(
       typename P::stored_effort travel, scalar dt) noexcept {
     if constexpr (doubts) {
-      if (!seen_.judge(travel, guard_.blind() + dt, far())) return false;
-      seen_.ease(far(), limits_.longest_tick, limits_.top_speed);
+      if (!seen_.judge(travel, guard_.blind() + dt, far_off())) return false;
+      seen_.ease(far_off(), limits_.longest_tick, limits_.top_speed);
     }
     return true;
   }
-  [[nodiscard]] constexpr auto far() noexcept {
+  [[nodiscard]] constexpr auto far_off() noexcept {
     return [this](scalar T0, scalar t, scalar speeds) {
       if constexpr (doubts) {
         const scalar most = P::norm(bound_.most_held()) / scalar(2);
-        return bound_.watching().template far<Observer::exact>(T0, t, speeds, most, observer_);
+        return bound_.watching().template far_off<Observer::exact>(T0, t, speeds, most, observer_);
       } else {
         return scalar(0);
       }
