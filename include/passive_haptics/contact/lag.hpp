@@ -173,9 +173,7 @@ class turning {
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
 
-  [[nodiscard]] constexpr bool still() const noexcept {
-    return vector(believed_) == vector(Space::zero());
-  }
+  [[nodiscard]] constexpr bool still() const noexcept { return still_; }
   /// A unit normal, turned for a time [s].
   [[nodiscard]] constexpr vector turned(const vector& normal, scalar time) const noexcept {
     if (still()) return normal;
@@ -188,15 +186,16 @@ class turning {
     const vector newer = swung / took, older = last_;
     const scalar square = Space::dot(newer, newer), most = scalar(4) * Space::dot(older, older);
     last_ = newer;
-    believed_ = Space::zero();
-    if (!(Space::dot(newer, older) > scalar(0)) || !kernels::is_finite(square)) return;
+    still_ = !(Space::dot(newer, older) > scalar(0)) || !kernels::is_finite(square);
+    if (still_) return;
     believed_ =
         square <= most ? newer : vector(newer * kernels::square_root(scalar(most / square)));
   }
-  constexpr void stop() noexcept { believed_ = Space::zero(); }
+  constexpr void stop() noexcept { still_ = true; }
 
  private:
   typename Space::coordinates believed_ = Space::zero(), last_ = Space::zero();  ///< [1/s]
+  bool still_ = true;
 };
 template <class Space>
 class turning<Space, false> {
