@@ -195,7 +195,7 @@ TEST_CASE("no cut of a file is taken for the whole", "[device_file]") {
   CHECK(read_text(whole.substr(0, whole.size() - 1)).fault.empty());  // the last line break alone
 }
 
-TEST_CASE("a file is written whole or not at all", "[device_file]") {
+TEST_CASE("the file of a device is written whole or not at all", "[device_file]") {
   const scratch_folder folder;
   const device_description d{"grip", grip, 5.0};
   CHECK(save_device(folder / "grip.json", d).empty());

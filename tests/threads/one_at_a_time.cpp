@@ -121,13 +121,13 @@ void check_found(const std::function<void(port&)>& meanwhile) {
 TEST_CASE("two threads in one port are found by a debug build, and by no release", "[threads]") {
   SECTION("both tick") {
     check_found([](port& device) {
-      may_leave = true;  // a release lets both through
+      if (!looks) may_leave = true;  // a release lets both through
       (void)device.tick(0.0, tick_length);
     });
   }
   SECTION("both tick with samples") {
     check_found([](port& device) {
-      may_leave = true;
+      if (!looks) may_leave = true;
       (void)device.tick(ph::device_sample<scene>{.position = 0.0, .dt = 1e-3, .valid = true});
     });
   }
