@@ -350,17 +350,86 @@ TEST_CASE("a surface that goes on is believed through twice the time that it is 
   CHECK(shown_after(1) < 0.999e-3);
 }
 
-TEST_CASE("what was not felt and is not touched has nothing to make up for", "[contact]") {
+TEST_CASE("a lag begins with what is not felt of a surface yet", "[contact]") {
   const ph::news_pace::at<double> pace(ph::news_pace{});
-  for (const double own : {0.0, -1e-3}) {
-    for (const double now : {0.0, -2e-3}) {
-      ph::lag<double> lag;
-      lag.grow_older(0.01);
-      lag.hear(own, now, 0.0, 1e-3, pace);
-      CHECK(lag.offset() == 0.0);
-      CHECK(lag.settled());
+  const auto begun = [&pace](double own, double now) {
+    ph::lag<double> lag;
+    lag.grow_older(0.01);
+    lag.hear(own, now, 0.0, 1e-3, pace);
+    CHECK(lag.settled() == (lag.offset() == 0.0));
+    const double offset = lag.offset();
+    lag.let_go();
+    CHECK(lag.settled());
+    lag.follow(1e-3);
+    CHECK(lag.offset() == 0.0);
+    return offset;
+  };
+  CHECK(begun(2e-3, 5e-3) == 3e-3);
+  CHECK(begun(2e-3, -1e-3) == -3e-3);  // it has gone, and is still felt
+  CHECK(begun(-1e-3, 2e-3) == 2e-3);   // it has come
+  CHECK(begun(0.0, -2e-3) == 0.0);
+  CHECK(begun(-1e-3, -2e-3) == 0.0);
+  CHECK(begun(1e-3, std::numeric_limits<double>::infinity()) == 0.0);
+}
+
+TEST_CASE(
+    "a lag is made up for within a third of the time that news take, as calmly as they let it",
+    "[contact]") {
+  // On 1000 N/m: least 5 mm/s, usual 19.5 mm/s, most 50 mm/s, of news that take 0.1 s.
+  const ph::news_pace::at<double> pace(ph::news_pace{});
+  const auto speed = [&pace](double lag, double u) {
+    for (const double sign : {1.0, -1.0}) {
+      CHECK(pace.speed_for(sign * lag, 0.1, sign * u, 1e-3) == pace.speed_for(lag, 0.1, u, 1e-3));
     }
-  }
+    return pace.speed_for(lag, 0.1, u, 1e-3);
+  };
+  CHECK_THAT(speed(0.1e-3, 0.0), WithinRel(5e-3, 1e-12));
+  CHECK_THAT(speed(0.5e-3, 0.0), WithinRel(3 * 0.5e-3 / 0.1, 1e-12));
+  CHECK_THAT(speed(1e-3, 0.0), WithinRel(19.5e-3, 1e-12));
+  CHECK_THAT(speed(30e-3, 0.0), WithinRel(30e-3 / 0.8, 1e-12));
+  CHECK_THAT(speed(0.1, 0.0), WithinRel(50e-3, 1e-12));
+  CHECK_THAT(speed(1e-3, 12e-3), WithinRel(19.5e-3 - 12e-3, 1e-12));  // u does its part
+  CHECK_THAT(speed(1e-3, -12e-3), WithinRel(19.5e-3, 1e-12));
+  CHECK_THAT(speed(2e-3, 30e-3), WithinRel(40e-3 - 30e-3, 1e-12));  // and 4/3 of it is usual
+  CHECK_THAT(speed(2e-3, -30e-3), WithinRel(40e-3, 1e-12));
+}
+
+TEST_CASE("news that take longer count at once, and sooner ones little by little", "[contact]") {
+  const ph::news_pace::at<double> pace(ph::news_pace{});
+  ph::lag<double> lag;
+  const auto P = [&](double seconds) {  // of the speed with which 0.6 mm are made up for
+    lag.grow_older(seconds);
+    lag.hear(1e-3, 1.6e-3, 0.0, 1e-3, pace);
+    lag.follow(1e-3);
+    return 3 * 0.6e-3 * 1e-3 / (0.6e-3 - lag.offset());
+  };
+  CHECK_THAT(P(0.1), WithinRel(0.3 - 0.2 / 8, 1e-9));
+  CHECK_THAT(P(0.1), WithinRel(0.275 - 0.175 / 8, 1e-9));
+  CHECK_THAT(P(0.28), WithinRel(0.28, 1e-9));
+  CHECK_THAT(P(10.0), WithinRel(0.3, 1e-9));
+  for (int n = 0; n < 1000 && !lag.settled(); ++n) lag.follow(1e-3);
+  CHECK(lag.settled());
+  CHECK(lag.offset() == 0.0);
+}
+
+TEST_CASE("a surface is believed to go on no more than twice as fast as before, and not back",
+          "[contact]") {
+  const ph::news_pace::at<double> pace(ph::news_pace{});
+  ph::lag<double> lag;
+  const auto goes_on = [&](double moved) {  // after 0.1 s [m/s]
+    lag.grow_older(0.1);
+    lag.hear(1e-3, 1e-3, moved, 1e-3, pace);
+    lag.follow(1e-3);
+    CHECK(lag.settled() == (lag.offset() == 0.0));
+    return -lag.offset() / 1e-3;
+  };
+  CHECK(goes_on(1e-3) == 0.0);  // it may have jumped
+  CHECK_THAT(goes_on(3e-3), WithinRel(0.02, 1e-9));
+  CHECK_THAT(goes_on(2e-3), WithinRel(0.02, 1e-9));
+  CHECK(goes_on(-1e-3) == 0.0);
+  CHECK_THAT(goes_on(-3e-3), WithinRel(-0.02, 1e-9));
+  CHECK_THAT(goes_on(-3e-3), WithinRel(-0.03, 1e-9));
+  CHECK(goes_on(0.0) == 0.0);
 }
 
 TEST_CASE("two news between two ticks are one", "[contact]") {

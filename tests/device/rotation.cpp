@@ -95,11 +95,24 @@ TEST_CASE("a quaternion whose norm is off by a thousandth is none of a rotation"
 
 TEST_CASE("a quaternion of any norm but zero is that of a rotation when it is normalised",
           "[rotation]") {
-  for (const double norm : {1e-100, 5e-3, 0.5, 0.99996, 1.00004, 3.0, 1e100}) {
+  for (const double norm : {1e-100, 5e-3, 0.5, 0.98, 0.99996, 1.00004, 3.0, 1e100}) {
     CAPTURE(norm);
-    const quat q = ph::rotation::normalised(quat{0.6 * norm, 0.0, -0.8 * norm, 0.0});
-    CHECK_THAT(q.w, WithinAbs(0.6, 4e-16));
-    CHECK_THAT(q.y, WithinAbs(-0.8, 4e-16));
+    const quat q = ph::rotation::normalised(quat{0.1 * norm, -0.7 * norm, 0.5 * norm, -0.5 * norm});
+    CHECK_THAT(q.w, WithinAbs(0.1, 4e-16));
+    CHECK_THAT(q.x, WithinAbs(-0.7, 4e-16));
+    CHECK_THAT(q.y, WithinAbs(0.5, 4e-16));
+    CHECK_THAT(q.z, WithinAbs(-0.5, 4e-16));
+  }
+}
+
+TEST_CASE("a quaternion and its opposite have one rotation vector, of half a turn at most",
+          "[rotation]") {
+  ph::laws::samples random(4);
+  for (int i = 0; i < 100; ++i) {
+    const quat q = random_orientation(random);
+    const vec3 turn = ph::rotation::log(quat{-q.w, -q.x, -q.y, -q.z});
+    CHECK(turn == ph::rotation::log(q));
+    CHECK(turn.norm() <= 3.1416);
   }
 }
 
