@@ -53,7 +53,7 @@ static_assert(
 // Credit that is capped costs its cap, the time that voids it, and that time so far; uncapped, nothing.
 static_assert(sizeof(at_wall<ph::capped_energy>) == sizeof(at_wall<ledger>) + 3 * sizeof(float));
 // A loop that nobody watches does not pay for watching, and shapers that keep nothing not for shaping.
-static_assert(sizeof(ph::sensor_watch<f1, true>) == 2);
+static_assert(sizeof(ph::sensor_watch<f1, true>) == 1);
 static_assert(std::is_empty_v<ph::sensor_watch<f1, false>>);
 static_assert(sizeof(at_wall<ph::shaped<ph::spring, ph::thesis_rule>>) ==
               sizeof(at_wall<ph::spring>));

@@ -189,7 +189,7 @@ class surface {
 #if defined(__cpp_exceptions)
       throw std::invalid_argument(fault);
 #else
-      std::fprintf(stderr, "passive_haptics: %s\n", fault.c_str());
+      std::fprintf(stderr, "passive_haptics, mesh: %s\n", fault.c_str());
       std::abort();
 #endif
     }
