@@ -71,10 +71,10 @@ class box_tree {
     }
   }
 
-  /// Walks to the leaves, what is nearer first: near(branch) is a squared distance [m²], wants(d²) whether a
+  /// Walks to the leaves, what is nearer first: bound(branch) is a squared distance [m²], wants(d²) whether a
   /// branch at that distance is to be looked into by now, and visit(thing) is called for what is in its leaves.
-  template <class Near, class Wants, class Visit>
-  void walk(const Near& near, const Wants& wants, const Visit& visit) const {
+  template <class Bound, class Wants, class Visit>
+  void walk(const Bound& bound, const Wants& wants, const Visit& visit) const {
     if (branches_.empty()) return;
     struct waiting {
       int branch;
@@ -82,7 +82,7 @@ class box_tree {
     };
     waiting stack[most_waiting];  // NOLINT(*-member-init): read below `height` only
     std::size_t height = 0;
-    stack[height++] = {0, near(0)};
+    stack[height++] = {0, bound(0)};
     while (height > 0) {
       const waiting top = stack[--height];
       if (!wants(top.distance2)) continue;
@@ -91,8 +91,8 @@ class box_tree {
         for (int k = b.begin; k < b.end; ++k) visit(order_[at(k)]);
         continue;
       }
-      waiting left{top.branch + 1, near(top.branch + 1)};
-      waiting right{b.right, near(b.right)};
+      waiting left{top.branch + 1, bound(top.branch + 1)};
+      waiting right{b.right, bound(b.right)};
       if (left.distance2 > right.distance2) std::swap(left, right);
       if (wants(right.distance2)) stack[height++] = right;
       if (wants(left.distance2)) stack[height++] = left;

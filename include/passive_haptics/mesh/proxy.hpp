@@ -379,16 +379,16 @@ class proxy {
       }
     }
     const triple goal = x + pressed_.way, way = goal - at_;
-    const double far = length(way);
-    if (!keeps_off(goal) || !kernels::is_finite(far)) {
+    const double whole = length(way);
+    if (!keeps_off(goal) || !kernels::is_finite(whole)) {
       stop_at(at_, x);
       return 0.0;
     }
-    if (far <= reach_) {
+    if (whole <= reach_) {
       at_ = goal;
-      return far;
+      return whole;
     }
-    stop_at(at_ + way * (reach_ / far), x);
+    stop_at(at_ + way * (reach_ / whole), x);
     return reach_;
   }
   /// The straight way to there is r/4 away from what the half-spaces stand for, and from what lies behind them.
@@ -429,7 +429,7 @@ class proxy {
     nearest_ = first.triangle;
     add(v, first);
 
-    std::array<found, most_near> near;
+    std::array<found, most_near> beside;
     int have = 0;
     double farthest = r + reach;
     surface_->tree().walk(
@@ -450,19 +450,19 @@ class proxy {
           if (have < most_near) {
             ++have;
           } else {
-            farthest = near[slot(have - 1)].distance;
+            farthest = beside[slot(have - 1)].distance;
             if (!(f.distance < farthest)) return;
             --i;
           }
-          for (; i > 0 && f.distance < near[slot(i - 1)].distance; --i) {
-            near[slot(i)] = near[slot(i - 1)];
+          for (; i > 0 && f.distance < beside[slot(i - 1)].distance; --i) {
+            beside[slot(i)] = beside[slot(i - 1)];
           }
-          near[slot(i)] = f;
-          if (have == most_near) farthest = near[slot(have - 1)].distance;
+          beside[slot(i)] = f;
+          if (have == most_near) farthest = beside[slot(have - 1)].distance;
         });
     reach_ = (std::min)(reach_, (std::max)(farthest - r, 0.0));
     for (int k = 0; k < have; ++k) {
-      const found& f = near[slot(k)];
+      const found& f = beside[slot(k)];
       if (f.distance >= r + reach_) return;
       const double allowed = f.distance <= r + behind() ? tiny() : behind();
       const corners t = v.triangle(f.triangle);
