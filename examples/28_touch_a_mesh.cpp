@@ -25,11 +25,11 @@ int main() {
   }
   ph::mesh::surface plate(triangles, nodes);
 
-  ph::passive_port touch{
-      scene{}, ph::mesh_contact{.spring = {.mass = 0.1}, .stiffness = 2000.0},
-      ph::reduced_energy{.damping = 1.0},  // by hand: a source that the door does not have
-      ph::reachable_bound{.mass = 0.1, .hand_force = 10.0},
-      ph::loop_limits{.longest_tick = 0.0011}};
+  // By hand: the mesh is a source that the door does not have.
+  ph::passive_port touch{scene{}, ph::mesh_contact{.spring = {.mass = 0.1}, .stiffness = 2000.0},
+                         ph::reduced_energy{.damping = 1.0},
+                         ph::reachable_bound{.mass = 0.1, .hand_force = 10.0},
+                         ph::loop_limits{.longest_tick = 0.0011}};
   touch.source().touch(plate);
 
   scene::vector x(0.003, 0.002, 0.02), v(0.0, 0.0, -1.0);

@@ -11,7 +11,8 @@ enum what { /* rising severity, as passive_haptics::event */
             stale_target,
             outside_workspace,
             rejected_sample,
-            rejected_parameters
+            rejected_parameters,
+            started_inside = 13 /* the least of what is not nominal */
 };
 
 static inline bool finite_number(real x) {
@@ -25,6 +26,11 @@ static inline real smaller(real a, real b) {
 }
 static inline uint8_t worse(uint8_t a, uint8_t b) {
   return a < b ? b : a;
+}
+/* A contact that was cut to nothing: nothing has been paid in yet. */
+static inline uint8_t cut_short(uint8_t what, bool pushes, real energy) {
+  if (what == nominal && !pushes && !(energy > 0)) return started_inside;
+  return what;
 }
 
 /* A margin for a dozen roundings in any direction. */

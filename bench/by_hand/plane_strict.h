@@ -116,6 +116,7 @@ __attribute__((flatten)) static inline struct answer2 plane_strict_tick(struct p
     w->own = w->newest;
     n->together = true;
   }
+  if (cut) what = cut_short(what, depth > 0 || dot2(force, force) > 0, l->energy);
   d->held = force;
   return reply2(force, depth, l->energy, what, cut);
 }

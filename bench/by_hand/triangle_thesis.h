@@ -184,6 +184,7 @@ __attribute__((flatten)) static inline struct answer3 triangle_thesis_tick(
     w->own = w->newest;
     n->together = true;
   }
+  if (cut) what = cut_short(what, depth > 0 || dot3(force, force) > 0, l->energy);
   d->held = force;
   return reply3(force, depth, l->energy, what, cut);
 }
