@@ -54,7 +54,7 @@ struct known_hand {
     return {"force", force, "above 2 % of what the motors hold, and below 300 N"};
   }
 };
-/// The same, and nobody looks: a kilobyte and 3 % of a tick less.
+/// The same, and nobody looks: 7 kB of a Cortex-M4 less (docs/firmware.md).
 struct trusted_hand : known_hand {};
 /// Nothing is known of the hand.
 struct any_hand_t {};
