@@ -25,11 +25,9 @@ int main() {
   }
   ph::mesh::surface plate(triangles, nodes);
 
-  // By hand: the mesh is a source that the door does not have.
-  ph::passive_port touch{scene{}, ph::mesh_contact{.spring = {.mass = 0.1}, .stiffness = 2000.0},
-                         ph::reduced_energy{.damping = 1.0},
-                         ph::reachable_bound{.mass = 0.1, .hand_force = 10.0},
-                         ph::loop_limits{.longest_tick = 0.0011}};
+  auto touch = ph::make_mesh_touch<scene>(
+      ph::exact_device{.mass = 0.1, .damping = 1.0, .force_limit = 20.0, .longest_tick = 0.0011},
+      {.force = 10.0}, {.stiffness = 2000.0});
   touch.source().touch(plate);
 
   scene::vector x(0.003, 0.002, 0.02), v(0.0, 0.0, -1.0);

@@ -161,6 +161,14 @@ template <class Limits>
 [[nodiscard]] constexpr auto law_of(const encoder_device& d, double most) noexcept {
   return capped{settling(d), most};
 }
+/// A spring of this device, no stiffer than `most` [N/m].
+constexpr void fit(proxy_spring& spring, const auto& d, double most) noexcept {
+  const double T = d.longest_tick;
+  spring.mass = d.mass;
+  spring.force_limit = d.force_limit;
+  spring.stiffness_fraction =
+      kernels::smaller(spring.stiffness_fraction, most * T * T / d.mass / (1.0 - spring.softness));
+}
 }  // namespace detail
 
 /// One surface: touch.update(plane), touch.tick(sample). Its normal turns as news go on turning it, and makes up for
@@ -190,11 +198,8 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
           detail::stated_hand Hand = known_hand, class... Room>
 [[nodiscard]] constexpr auto make_contacts(const Device& device, const Hand& hand,
                                            const Room&... room) noexcept {
-  const double T = device.longest_tick;
-  proxy_spring spring{.mass = device.mass, .force_limit = device.force_limit};
-  const double most = detail::budget_of(device, hand, Limits::latency) * T * T / device.mass;
-  spring.stiffness_fraction =
-      kernels::smaller(spring.stiffness_fraction, most / (1.0 - spring.softness));
+  proxy_spring spring{};
+  detail::fit(spring, device, detail::budget_of(device, hand, Limits::latency));
   pursuit pace{};
   if (device.rotary) pace = {.speed = 0.5, .force_rate = 5.5 * device.force_limit};
   return passive_port{Space{},

@@ -10,6 +10,34 @@
 //
 // Points against meshes; collisions between bodies are not in. docs/design/meshes.md has proofs and figures.
 
+#include <passive_haptics/compositions.hpp>
 #include <passive_haptics/mesh/mesh_contact.hpp>
 #include <passive_haptics/mesh/proxy.hpp>
 #include <passive_haptics/mesh/surface.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// A mesh, felt with a device of these facts: port.source().touch(surface), then port.tick(sample). It is no stiffer
+/// than what comes to rest and, on encoders, than what dry friction pays for. E ≥ 0 as of make_guard.
+///     auto touch = ph::make_mesh_touch<scene>(device, hand, {.stiffness = 1500});
+template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
+          detail::stated_hand Hand = known_hand>
+[[nodiscard]] constexpr auto make_mesh_touch(const Device& device, const Hand& hand,
+                                             mesh_contact shape = {}) noexcept {
+  detail::fit(shape.spring, device, detail::budget_of(device, hand, Limits::latency));
+  return passive_port{Space{},
+                      shape,
+                      detail::sums_of(device, hand),
+                      detail::bounds_of(device, hand),
+                      detail::limits_of<Limits>(device),
+                      detail::eyes_of(device)};
+}
+
+/// What it returns, for members of a class.
+template <class Space, class Limits = loop_limits, class Device = exact_device,
+          class Hand = known_hand>
+using mesh_touch = decltype(make_mesh_touch<Space, Limits>(Device{}, Hand{}));
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -2,6 +2,7 @@
 // A mesh as the source of a port: thin plates hold 1 m/s and 10 N, no joule comes out, and what rests is quiet.
 #include "mesh/shapes.hpp"
 #include <passive_haptics/environment/contact_surface.hpp>
+#include <passive_haptics/mesh.hpp>
 
 using namespace meshes;
 namespace env = ph::environment;
@@ -235,4 +236,36 @@ TEST_CASE("a mesh contact states and refuses its parameters, and lives without a
   CHECK(port.source().parameters().stiffness == 1000.0);
   port.source().let_go();
   CHECK(port.tick(vector(0, 0, -0.005), ph::seconds{T}).force == vector::Zero());
+}
+
+TEST_CASE("the door for a mesh takes a device's facts, and friction pays for what encoders show",
+          "[mesh]") {
+  const ph::exact_device exact{.mass = 0.1, .damping = 0.1, .force_limit = 9.0};
+  const ph::encoder_device stepped{.mass = 0.1,
+                                   .damping = 0.1,
+                                   .friction = 0.1,
+                                   .presliding = 1e-5,
+                                   .quantum = 6e-5,
+                                   .force_limit = 9.0};
+  const body b = plate();
+  const auto pressed = [&](auto port, double depth) {
+    CHECK(!port.check());
+    ph::mesh::surface s(b.triangles, b.nodes);
+    port.source().touch(s);
+    double force = 0.0, x = 0.002;
+    for (; x > -depth; x -= 1e-5) force = port.tick(vector(0, 0, x), ph::seconds{T}).force(2);
+    CHECK(port.source().settles());
+    return force;
+  };
+  const ph::known_hand hand{.force = 10.0};
+  const double stiff = pressed(ph::make_mesh_touch<scene>(exact, hand, {.stiffness = 2000}), 3e-3);
+  const double soft = pressed(ph::make_mesh_touch<scene>(stepped, hand, {.stiffness = 2000}), 3e-3);
+  const double paid_for = ph::detail::budget_of(stepped, hand, 0);
+  CHECK(stiff > 4.0);
+  CHECK(paid_for < 1900.0);
+  CHECK(soft > 0.5);
+  CHECK(soft <= 1.05 * paid_for * 3.5e-3);  // of the ball, whose radius is 0.5 mm
+  CHECK(soft < 0.9 * stiff);
+  const auto without = ph::make_mesh_touch<scene>(ph::exact_device{}, hand);
+  CHECK(without.check());
 }

@@ -4,10 +4,7 @@
 //
 //     using scene = ph::space<double, 3>;
 //     ph::mesh::surface organ(triangles, nodes);
-//     ph::passive_port touch{scene{}, ph::mesh_contact{.spring = {.mass = 0.1}, .stiffness = 1500},
-//                            ph::reduced_energy{.damping = 0.1},
-//                            ph::reachable_bound{.mass = 0.1, .hand_force = 10},
-//                            ph::loop_limits{.longest_tick = 0.0011}};
+//     auto touch = ph::make_mesh_touch<scene>(device, hand, {.stiffness = 1500});  // mesh.hpp
 //     touch.source().touch(organ);
 //     organ.update(nodes);                                   // from another thread, whenever they have moved
 //     motors.command(touch.tick(x, ph::seconds{dt}).force);  // 1 kHz
