@@ -638,7 +638,9 @@ TEST_CASE("what turns is ticked with a pose, and nothing else is", "[c_interface
     CHECK(c.tick_wanted(one, x, 1e-3, x, &r) == PH_NOT_OF_THIS_COMPOSITION);
     ph_explanation e{};
     e.size = sizeof e;
-    CHECK(c.explain(one, &e) == PH_NOT_OF_THIS_COMPOSITION);
+    CHECK(c.explain(one, &e) == PH_OK);
+    CHECK(e.shown == 0.0);
+    CHECK(std::string(e.because).find("no surface") != std::string::npos);
   }
   CHECK(c.tick_pose(touch.port, x, q, 1e-3, &r) == PH_NOT_OF_THIS_COMPOSITION);
   CHECK(r.event == PH_REJECTED_SAMPLE);
@@ -1020,5 +1022,9 @@ TEST_CASE("a port explains itself in C as it does in C++", "[c_interface]") {
   CHECK(std::string(e.because) == said.because());
   CHECK(c.explain(guard.port, &e) == PH_OK);
   CHECK(e.shown > 1000.0);
-  CHECK(c.explain(stylus.port, &e) == PH_NOT_OF_THIS_COMPOSITION);
+  const double pen[3] = {0, 0, 0.1}, turn[4] = {1, 0, 0, 0};
+  REQUIRE(c.publish_plane(stylus.port, point, up, 500.0) == PH_OK);
+  REQUIRE(c.tick_pose(stylus.port, pen, turn, 1e-3, &r) == PH_OK);
+  CHECK(c.explain(stylus.port, &e) == PH_OK);
+  CHECK(e.asked == 500.0);
 }

@@ -37,6 +37,10 @@ TEST_CASE("the tip of a stylus is where its pose says", "[at_tip]") {
   (void)port.tick(pose{{0, 0, length + 1e-3}, {}}, T);
   for (int i = 0; i < 3; ++i) (void)port.tick(pose{{0, 0, length - 1e-3}, {}}, T);
   CHECK_THAT(port.tick(pose{{0, 0, length - 1e-3}, {}}, T).force.z(), WithinRel(1.0, 1e-9));
+  const auto said = port.explain();
+  CHECK(said.shown == 1000.0);
+  CHECK_THAT(said.depth, WithinRel(1e-3, 1e-9));
+  CHECK_THAT(said.force, WithinRel(1.0, 1e-9));
   const double angle = std::acos(1.0 - 2e-3 / length);  // leaning lifts the tip by 2 mm
   for (int i = 0; i < 3; ++i) (void)port.tick(pose{{0, 0, length - 1e-3}, lean(angle)}, T);
   CHECK(port.tick(pose{{0, 0, length - 1e-3}, lean(angle)}, T).force.z() == 0.0);

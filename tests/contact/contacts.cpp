@@ -272,6 +272,10 @@ TEST_CASE("a force of one's own and a wall are two sources of one port, and a ti
                 -0.5)
           .force,
       WithinRel(0.5, 1e-9));
+  CHECK(port.explain().asked ==
+        1000.0);  // what presses explains itself, and the force is all of it
+  CHECK(port.explain().depth == 0.001);
+  CHECK_THAT(port.explain().force, WithinRel(0.5, 1e-9));
   CHECK(port.tick(-0.001, 1ms, std::nan("")).what == ph::event::rejected_target);
   CHECK_THAT(port.tick(-0.001, 1ms).force, WithinRel(0.5, 1e-9));  // the last good one
   for (int n = 0; n < 300; ++n) (void)port.tick(-0.001, 1ms);

@@ -56,6 +56,13 @@ TEMPLATE_TEST_CASE("a point of a tool presses with its force and its torque", "[
   CHECK(std::abs(out.force(3)) <= tiny);
   CHECK_THAT(out.depth, WithinRel(scalar(1e-3), scalar(1e-3)));
   CHECK(out.what == ph::event::nominal);
+  const auto said = port.explain();
+  CHECK(said.asked == 1000.0);
+  CHECK_THAT(said.shown, WithinRel(felt, 1e-3));
+  CHECK_THAT(said.depth, WithinRel(1e-3, 1e-3));
+  CHECK(said.force == static_cast<double>(out.force(2)));
+  CHECK(said.stiffness == ph::softened_by::coupling);  // the lever gives
+  CHECK(said.now == ph::softened_by::nothing);
 }
 
 TEST_CASE("a tool is no stiffer with sixteen contacts than its coupling", "[rigid_tool][long]") {

@@ -61,6 +61,10 @@ class at_tip<Source>::on {
     detail::tell(source_, longest_tick, late);
   }
   constexpr void reset() noexcept { detail::restart(source_); }
+  constexpr void explain(explanation& e, const typename Stylus::pose& device, scalar T,
+                         int late) const noexcept {
+    detail::explain(source_, e, vector(vector(Stylus::place(device)) + vector(arm_)), T, late);
+  }
   template <class Parameters>
   static constexpr int takers = detail::takers<Parameters, Source, space>;
   template <class Parameters>

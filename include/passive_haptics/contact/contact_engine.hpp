@@ -126,17 +126,29 @@ class contact_engine {
     return slots_.template slot<Surface>(i);
   }
 
-  /// How stiff the contact that presses most is shown, or the first that is there; the device is a point at x.
-  constexpr void explain(explanation& e, const vector& x, scalar /*T*/, int /*late*/) const noexcept
-      requires(frame::naps) {
+  /// How stiff the contact that presses most is shown where it is on the device, or the first that is there.
+  constexpr void explain(explanation& e, const auto& /*device*/, scalar /*T*/,
+                         int /*late*/) const noexcept {
+    const struct {
+      typename frame::stored position;
+      typename Port::effort travel;
+      scalar dt;
+    } rest{last_, Port::zero(), scalar(1)};
+    const auto now = frame::now(rest, rest, last_);
     scalar most(-1);
     e.stiffness = softened_by::no_surface;
     slots_.for_each([&](const auto& slot, std::size_t) {
       if (!slot.taken() || !(slot.pressed() > most)) return;
       most = slot.pressed();
       e.stiffness = softened_by::nothing;
-      explain_surface(e, slot.target(), x, spring_.sampled(slot.target().stiffness).stiffness,
-                      softened_by::mass_and_tick, !(slot.lag() == scalar(0)), slot.stale());
+      const auto here = now.at(slot.point);
+      const row r = now.row_of(here, slot.target().at(here.position).outward());
+      const scalar K = slot.target().stiffness;
+      const auto own = spring_.sampled(K);
+      explain_surface(e, slot.target(), here.position,
+                      scalar(1) / frame::coupling(spring_).own(r, own.compliance),
+                      own.stiffness < K ? softened_by::mass_and_tick : softened_by::coupling,
+                      !(slot.lag() == scalar(0)), slot.stale());
     });
   }
 

@@ -76,6 +76,17 @@ class contacts<Sources...>::on {
     for_each(*this, [](auto& source) { detail::restart(source); });
   }
 
+  /// Of the one that presses most, or of the first; the device is at x.
+  constexpr void explain(explanation& e, const vector& x, scalar T, int late) const noexcept {
+    detail::explain(contact<0>(), e, x, T, late);
+    for_each(*this, [&](const auto& source) {
+      explanation own;
+      own.force = e.force;
+      detail::explain(source, own, x, T, late);
+      if (own.depth > 0.0 && own.shown * own.depth > e.shown * e.depth) e = own;
+    });
+  }
+
   template <class Parameters>
   static constexpr int takers = (detail::takers<Parameters, Sources, Space> + ... + 0);
   template <class Parameters>

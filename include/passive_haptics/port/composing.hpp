@@ -182,6 +182,17 @@ template <class Part, class... Facts>
 constexpr void explain(const Part& part, explanation& e, const Facts&... facts) noexcept {
   if constexpr (requires { part.explain(e, facts...); }) part.explain(e, facts...);
 }
+/// The size of a force [N], of a wrench without its torque.
+template <class P>
+[[nodiscard]] constexpr auto force_in(const typename P::effort& f) noexcept {
+  if constexpr (requires { P::norm(f); }) {
+    return P::norm(f);
+  } else if constexpr (requires { P::linear(f); }) {
+    return P::body_space::norm(P::linear(f));
+  } else {
+    return P::geometry::norm(f);
+  }
+}
 /// The longest effort that can_hold() lets pass.
 template <class Part>
 concept knows_most_held = requires(const Part p) {

@@ -230,7 +230,7 @@ class passive_port {
                                                            : softened_by::refuted;
       return e;
     }
-    e.force = static_cast<double>(P::norm(guard_.commanded().front()));
+    e.force = static_cast<double>(detail::force_in<P>(guard_.commanded().front()));
     source_.explain(e, guard_.last(), limits_.longest_tick, latency);
     detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
     const bool as_stiff = e.force > 0.95 * e.shown * e.depth;

@@ -277,8 +277,7 @@ PH_API int32_t ph_reset(ph_port* port) PH_NOTHROW;
 PH_API int32_t ph_enable_forces(ph_port* port, int32_t on) PH_NOTHROW;
 
 /// How stiff the plane, or the contact that presses most, is shown, or how stiff a renderer may be that the guard
-/// settles, and why no stiffer. Not in every tick, from their thread. Stylus and tool do not explain themselves:
-/// PH_NOT_OF_THIS_COMPOSITION.
+/// settles, and why no stiffer; of a tool where it is touched. Not in every tick, from their thread.
 PH_API int32_t ph_explain(const ph_port* port, ph_explanation* explanation) PH_NOTHROW;
 
 /// How stiff a plane may be on this device before its ledger runs dry in ordinary use [N/m], what binds it,
