@@ -480,16 +480,15 @@ std::int32_t ph_enable_forces(ph_port* port, std::int32_t on) noexcept {
 std::int32_t ph_explain(const ph_port* port, ph_explanation* explanation) noexcept {
   if (port == nullptr || explanation == nullptr) return PH_NULL_ARGUMENT;
   if (explanation->size != sizeof(ph_explanation)) return PH_WRONG_SIZE;
-  const auto said = port->explain();
-  const ph::explanation e = said.value_or(ph::explanation{});
+  const ph::explanation e = port->explain();
   *explanation = {.size = sizeof(ph_explanation),
                   .now = e.now != ph::softened_by::nothing,
                   .asked = e.asked,
                   .shown = e.shown,
                   .depth = e.depth,
                   .force = e.force,
-                  .because = said ? e.because() : ""};
-  return said ? PH_OK : PH_NOT_OF_THIS_COMPOSITION;
+                  .because = e.because()};
+  return PH_OK;
 }
 
 std::int32_t ph_stiffness_budget(const ph_parameters* parameters, double* stiffness,

@@ -92,7 +92,7 @@ struct ph_port {
   virtual ~ph_port() = default;
   [[nodiscard]] virtual passive_haptics::parameter_fault check() const noexcept = 0;
   [[nodiscard]] virtual passive_haptics::guarantee promise() const noexcept = 0;
-  [[nodiscard]] virtual std::optional<passive_haptics::explanation> explain() const noexcept = 0;
+  [[nodiscard]] virtual passive_haptics::explanation explain() const noexcept = 0;
   /// Fills all of `out` but its size, in place: copies of a struct just written are dear.
   virtual void tick(const c_interface::moment& now, ph_result& out) noexcept = 0;
   /// Of its parameters those that may change; a fault changes nothing.
@@ -140,9 +140,8 @@ class composed final : public ph_port {
     return port_.check();
   }
   [[nodiscard]] ph::guarantee promise() const noexcept override { return Port::passivity; }
-  [[nodiscard, gnu::cold]] std::optional<ph::explanation> explain() const noexcept override {
-    if constexpr (requires { port_.explain(); }) return port_.explain();
-    return std::nullopt;
+  [[nodiscard, gnu::cold]] ph::explanation explain() const noexcept override {
+    return port_.explain();
   }
   [[gnu::cold]] ph::parameter_fault set(const ph_parameters& p) noexcept override {
     const Port fresh = made(p);
