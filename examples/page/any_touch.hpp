@@ -9,6 +9,7 @@
 
 #include "settings.hpp"
 #include <passive_haptics/passive_haptics.hpp>
+#include <passive_haptics/published.hpp>
 
 #include <array>
 #include <cstddef>

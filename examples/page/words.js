@@ -385,6 +385,7 @@ ${
       ? 'touch.tick(sample, depth > 0 ? wall.stiffness * depth : 0.0).force'
       : 'touch.tick(sample).force';
   const stored = `auto touch = ${layOut(made).replaceAll('\n', '\n  ')};`;
+  const ofOthers = /energy_bounding|sector_bound|_tank|series_|reference_energy|position_modulation|nonlinear_coupling|_increment|_augmentation/;
   const checked = pair ? 'touch.first.check()' : 'touch.check()';
   const why = pair
     ? '  // By hand, and wrong: each port spends the damping of the device, which is there once.\n'
@@ -394,7 +395,7 @@ ${
   return `// ${about.title}, pasted from the page of passive_haptics:
 //     g++ -std=c++20 -O2 -I include -isystem /usr/include/eigen3 this.cpp && ./a.out
 #include <passive_haptics/passive_haptics.hpp>
-${
+${ofOthers.test(stored) ? '#include <passive_haptics/published.hpp>\n' : ''}${
   body
     ? '#include <passive_haptics/environment/ball.hpp>\n#include <passive_haptics/environment/deformable_body.hpp>\n'
     : ''

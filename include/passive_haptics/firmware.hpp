@@ -17,15 +17,8 @@
 #include <passive_haptics/contact/virtual_coupling.hpp>
 #include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
-#include <passive_haptics/force_bound/energy_bounding.hpp>
-#include <passive_haptics/force_bound/energy_tank.hpp>
-#include <passive_haptics/force_bound/passivity_controller.hpp>
-#include <passive_haptics/force_bound/sector_bound.hpp>
 #include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 #include <passive_haptics/shaper/force_rate_limit.hpp>
-#include <passive_haptics/shaper/reference_energy.hpp>
-#include <passive_haptics/shaper/set_position_modulation.hpp>
-#include <passive_haptics/shaper/stiffness_augmentation.hpp>
 #include <passive_haptics/shaper/thesis_rule.hpp>
 #include <passive_haptics/version.hpp>
 

@@ -14,6 +14,7 @@
 //   shaper/                 shapes the wanted force by the contact, before the bound
 //   base/exchange.hpp       the newest value from another thread
 //   firmware.hpp            what of all this needs no Eigen
+//   published.hpp           controllers that others have published; not in here
 //   laws.hpp                what a part of your own must obey; not in here
 //   six_dof.hpp             devices that turn, or sense that they do; not in here
 
@@ -36,4 +37,3 @@
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/device/joint_space.hpp>
 #include <passive_haptics/firmware.hpp>
-#include <passive_haptics/force_bound/parallel_passivity_controller.hpp>

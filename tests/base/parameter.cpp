@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
-#include <passive_haptics/force_bound/energy_bounding.hpp>
-#include <passive_haptics/force_bound/energy_tank.hpp>
-#include <passive_haptics/force_bound/passivity_controller.hpp>
-#include <passive_haptics/force_bound/sector_bound.hpp>
-#include <passive_haptics/shaper/reference_energy.hpp>
-#include <passive_haptics/shaper/set_position_modulation.hpp>
-#include <passive_haptics/shaper/stiffness_augmentation.hpp>
+#include <passive_haptics/published/energy_bounding.hpp>
+#include <passive_haptics/published/energy_tank.hpp>
+#include <passive_haptics/published/passivity_controller.hpp>
+#include <passive_haptics/published/reference_energy.hpp>
+#include <passive_haptics/published/sector_bound.hpp>
+#include <passive_haptics/published/set_position_modulation.hpp>
+#include <passive_haptics/published/stiffness_augmentation.hpp>
 #include <passive_haptics/two_port/energy.hpp>
 
 #include <array>

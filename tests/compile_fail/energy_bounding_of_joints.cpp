@@ -4,8 +4,8 @@
 // Its ball has a radius in newtons.
 
 #include <passive_haptics/device/joint_space.hpp>
-#include <passive_haptics/force_bound/energy_bounding.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
+#include <passive_haptics/published/energy_bounding.hpp>
 
 namespace ph = passive_haptics;
 

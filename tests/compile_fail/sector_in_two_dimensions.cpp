@@ -4,7 +4,7 @@
 // A slope needs motion along the force.
 
 #include <passive_haptics/device/eigen_space.hpp>
-#include <passive_haptics/force_bound/sector_bound.hpp>
+#include <passive_haptics/published/sector_bound.hpp>
 
 namespace ph = passive_haptics;
 

@@ -9,10 +9,10 @@
 #include <passive_haptics/contact/spring.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
-#include <passive_haptics/force_bound/sector_bound.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/local_model.hpp>
 #include <passive_haptics/normal_interpolation/turn_at_once.hpp>
+#include <passive_haptics/published/sector_bound.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;

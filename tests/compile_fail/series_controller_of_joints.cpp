@@ -4,8 +4,8 @@
 // One number of N·s/m is no damping of joints.
 
 #include <passive_haptics/device/joint_space.hpp>
-#include <passive_haptics/force_bound/passivity_controller.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
+#include <passive_haptics/published/passivity_controller.hpp>
 
 namespace ph = passive_haptics;
 

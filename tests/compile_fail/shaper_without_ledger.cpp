@@ -12,7 +12,7 @@
 #include <passive_haptics/force_bound/actuator_limit.hpp>
 #include <passive_haptics/local_model.hpp>
 #include <passive_haptics/normal_interpolation/turn_at_once.hpp>
-#include <passive_haptics/shaper/stiffness_augmentation.hpp>
+#include <passive_haptics/published/stiffness_augmentation.hpp>
 
 namespace ph = passive_haptics;
 using scene = ph::space<float, 1>;

@@ -4,8 +4,8 @@
 // One number of N·s/m is no damping of joints.
 
 #include <passive_haptics/device/joint_space.hpp>
-#include <passive_haptics/force_bound/energy_tank.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
+#include <passive_haptics/published/energy_tank.hpp>
 
 namespace ph = passive_haptics;
 

@@ -2,10 +2,10 @@
 #include "../bench/contacts/rigid_attacks.hpp"
 #include "support/catch.hpp"
 #include <passive_haptics/device/rigid_damping.hpp>
-#include <passive_haptics/force_bound/energy_tank.hpp>
 #include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/laws.hpp>
 #include <passive_haptics/port/reported_work.hpp>
+#include <passive_haptics/published/energy_tank.hpp>
 
 #include <array>
 

@@ -2,8 +2,8 @@
 // bound_chain: the order, what survives of the promises, and how late a loop may be.
 #include "force_bound/attacks.hpp"
 #include "force_bound/upkeep.hpp"
-#include <passive_haptics/force_bound/energy_bounding.hpp>
-#include <passive_haptics/force_bound/energy_tank.hpp>
+#include <passive_haptics/published/energy_bounding.hpp>
+#include <passive_haptics/published/energy_tank.hpp>
 #include <passive_haptics/shaper/force_rate_limit.hpp>
 #include <passive_haptics/shaper/thesis_rule.hpp>
 

@@ -3,8 +3,8 @@
 // all adversaries: tests/full/bounds_families.cpp.
 #include "force_bound/attacks.hpp"
 #include "force_bound/upkeep.hpp"
-#include <passive_haptics/force_bound/energy_bounding.hpp>
-#include <passive_haptics/force_bound/sector_bound.hpp>
+#include <passive_haptics/published/energy_bounding.hpp>
+#include <passive_haptics/published/sector_bound.hpp>
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;

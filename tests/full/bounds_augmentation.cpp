@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shapers that grow stiff, with the strict bound behind them, against adversaries in 1, 2 and 3
 // dimensions; and what it is that the bound has to answer for.
-#include "shaper/growing.hpp"
+#include "published/growing.hpp"
 
 using attacks::conditions;
 

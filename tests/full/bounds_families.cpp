@@ -3,8 +3,9 @@
 // sector, against all adversaries in 1, 2 and 3 dimensions, judged by the true energy at the port.
 // Every promise has a control: something that loses under the same attack.
 #include "force_bound/attacks.hpp"
-#include "force_bound/stores.hpp"
+#include "published/stores.hpp"
 #include "support/catch.hpp"
+#include <passive_haptics/published.hpp>
 #include <passive_haptics/shaper/force_rate_limit.hpp>
 #include <passive_haptics/shaper/thesis_rule.hpp>
 

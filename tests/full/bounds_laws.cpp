@@ -3,10 +3,10 @@
 // roles at the ports they are made for: one line each. The others: laws.cpp.
 #include "force_bound/upkeep.hpp"
 #include <passive_haptics/device/joint_space.hpp>
-#include <passive_haptics/force_bound/energy_bounding.hpp>
-#include <passive_haptics/force_bound/energy_tank.hpp>
-#include <passive_haptics/force_bound/passivity_controller.hpp>
-#include <passive_haptics/force_bound/sector_bound.hpp>
+#include <passive_haptics/published/energy_bounding.hpp>
+#include <passive_haptics/published/energy_tank.hpp>
+#include <passive_haptics/published/passivity_controller.hpp>
+#include <passive_haptics/published/sector_bound.hpp>
 
 namespace {
 

@@ -2,12 +2,12 @@
 // Tanks, passivity controllers and set-position modulation against adversaries in 1, 2 and 3
 // dimensions, in loops where ticks jitter, are late and are lost.
 #include "force_bound/attacks.hpp"
-#include "force_bound/tanks.hpp"
+#include "published/tanks.hpp"
 #include "support/catch.hpp"
-#include <passive_haptics/force_bound/energy_tank.hpp>
-#include <passive_haptics/force_bound/passivity_controller.hpp>
 #include <passive_haptics/laws.hpp>
-#include <passive_haptics/shaper/set_position_modulation.hpp>
+#include <passive_haptics/published/energy_tank.hpp>
+#include <passive_haptics/published/passivity_controller.hpp>
+#include <passive_haptics/published/set_position_modulation.hpp>
 
 using attacks::conditions, attacks::least_of, attacks::worst_of;
 

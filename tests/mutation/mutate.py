@@ -39,7 +39,7 @@ REPOSITORY = HERE.parent.parent
 INCLUDE = pathlib.Path("include/passive_haptics")
 HEADERS = ["local_model.hpp", "base/*", "device/*", "port/*", "motion_estimator/*",
            "energy_observer/*", "force_bound/*", "contact/*", "constraint_geometry/*",
-           "normal_interpolation/*"]
+           "normal_interpolation/*", "published/*"]
 SWITCH = INCLUDE / "mutation.hpp"  # which mutant is executed; in the copy alone
 FOLDER = REPOSITORY / "build" / "mutation"
 MEMORY = 4 << 30  # bytes that a mutant may take

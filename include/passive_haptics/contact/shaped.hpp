@@ -4,11 +4,11 @@
 //
 //   ph::shaped{ph::spring{}, ph::force_rate_limit{.rate = 100.0}}
 //
-//   shaper/thesis_rule.hpp              the rule of the thesis             NOT passive by itself
-//   shaper/force_rate_limit.hpp         no jumps at updates
-//   shaper/stiffness_augmentation.hpp   begin soft, grow stiff
-//   shaper/set_position_modulation.hpp  PSPM: the jump of the surface
-//   shaper/reference_energy.hpp         PO/PC that repays all the way out
+//   shaper/thesis_rule.hpp                   the rule of the thesis             NOT passive by itself
+//   shaper/force_rate_limit.hpp              no jumps at updates
+//   published/stiffness_augmentation.hpp     begin soft, grow stiff
+//   published/set_position_modulation.hpp    PSPM: the jump of the surface
+//   published/reference_energy.hpp           PO/PC that repays all the way out
 //
 // A shaper may look at the contact and at the ledger, and promises nothing: the bound answers for
 // whatever is asked of it.

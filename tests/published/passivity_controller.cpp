@@ -2,11 +2,11 @@
 // The series passivity controller: its formula and its books, the rows of S0, what it keeps and loses.
 #include "force_bound/attacks.hpp"
 #include "force_bound/upkeep.hpp"
-#include <passive_haptics/force_bound/energy_tank.hpp>
-#include <passive_haptics/force_bound/parallel_passivity_controller.hpp>
-#include <passive_haptics/force_bound/passivity_controller.hpp>
-#include <passive_haptics/shaper/reference_energy.hpp>
-#include <passive_haptics/shaper/set_position_modulation.hpp>
+#include <passive_haptics/published/energy_tank.hpp>
+#include <passive_haptics/published/parallel_passivity_controller.hpp>
+#include <passive_haptics/published/passivity_controller.hpp>
+#include <passive_haptics/published/reference_energy.hpp>
+#include <passive_haptics/published/set_position_modulation.hpp>
 
 using attacks::drop, attacks::fall, attacks::inf, attacks::model_of, attacks::tapped;
 using Catch::Matchers::WithinAbs;

@@ -3,8 +3,8 @@
 // The tank that counts the worst outflow allows what strict_bound does, bit for bit.
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
-#include <passive_haptics/force_bound/energy_tank.hpp>
 #include <passive_haptics/laws.hpp>
+#include <passive_haptics/published/energy_tank.hpp>
 
 template <class Space>
 void check_tank_is_strict() {

@@ -3,9 +3,9 @@
 // The inequality of the proof of a bound without a ledger: the cost of the new force is covered by that of the
 // held force and the energy that the last tick brought.
 #include "support/scenes.hpp"
-#include <passive_haptics/force_bound/energy_bounding.hpp>
-#include <passive_haptics/force_bound/sector_bound.hpp>
 #include <passive_haptics/laws.hpp>
+#include <passive_haptics/published/energy_bounding.hpp>
+#include <passive_haptics/published/sector_bound.hpp>
 
 /// A bound without a command before the one asked for, because random states have none.
 template <class Bound>

@@ -4,7 +4,7 @@
 //
 //   series_passivity_controller     f = f* − α v   position in, force out       NOT passive
 //
-// With a reference energy, which looks at the contact, the controller is a shaper: shaper/reference_energy.hpp.
+// With a reference energy, which looks at the contact, the controller is a shaper: published/reference_energy.hpp.
 // Its dual, for devices that are told a velocity, is parallel_passivity_controller.hpp.
 //
 // Both repay a deficit that has already happened, and only if the motion (of the dual: the force) goes on as
@@ -13,8 +13,8 @@
 // The published pairing of the NEW force with the last displacement is not offered: on a sampled wall it never acts
 // (lemma L2; a test shows it).
 
-#include <passive_haptics/force_bound/own_ledger.hpp>
 #include <passive_haptics/port/concepts.hpp>
+#include <passive_haptics/published/own_ledger.hpp>
 
 #include <cstdint>
 

@@ -2,7 +2,7 @@
 // reference_energy: the passivity controller that keeps what a release will take.
 #include "force_bound/attacks.hpp"
 #include "force_bound/upkeep.hpp"
-#include <passive_haptics/shaper/reference_energy.hpp>
+#include <passive_haptics/published/reference_energy.hpp>
 
 using attacks::model_of, attacks::tapped;
 using Catch::Matchers::WithinAbs;

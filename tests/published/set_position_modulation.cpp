@@ -4,7 +4,7 @@
 #include "force_bound/attacks.hpp"
 #include "force_bound/upkeep.hpp"
 #include <passive_haptics/constraint_geometry/segment.hpp>
-#include <passive_haptics/shaper/set_position_modulation.hpp>
+#include <passive_haptics/published/set_position_modulation.hpp>
 
 using attacks::drop, attacks::fall, attacks::model_of, attacks::tapped, attacks::worst_of;
 using Catch::Matchers::WithinAbs;

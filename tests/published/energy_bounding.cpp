@@ -2,8 +2,8 @@
 // energy_bounding and tight_energy_bounding: the published window, its form in two and three
 // dimensions, how they relate, and a quick attack.
 #include "force_bound/attacks.hpp"
-#include "force_bound/stores.hpp"
 #include "force_bound/upkeep.hpp"
+#include "published/stores.hpp"
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;

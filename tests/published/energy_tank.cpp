@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Energy tanks: the worst outflow, the predicted one, two layers; what they hold and what they lose.
 #include "force_bound/attacks.hpp"
-#include "force_bound/tanks.hpp"
 #include "force_bound/upkeep.hpp"
-#include <passive_haptics/force_bound/energy_tank.hpp>
+#include "published/tanks.hpp"
+#include <passive_haptics/published/energy_tank.hpp>
 
 using attacks::inf, attacks::least_of, attacks::model_of, attacks::tapped;
 using Catch::Matchers::WithinAbs;

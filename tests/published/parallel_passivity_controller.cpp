@@ -3,7 +3,7 @@
 // judged by the true energy of a springy hand.
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
-#include <passive_haptics/force_bound/parallel_passivity_controller.hpp>
+#include <passive_haptics/published/parallel_passivity_controller.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
 #include <algorithm>

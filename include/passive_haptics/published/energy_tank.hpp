@@ -9,8 +9,8 @@
 //
 // Energy quanta from another port are not offered, because a port has one tank.
 
-#include <passive_haptics/force_bound/own_ledger.hpp>
 #include <passive_haptics/port/concepts.hpp>
+#include <passive_haptics/published/own_ledger.hpp>
 
 #include <cstdint>
 #include <limits>

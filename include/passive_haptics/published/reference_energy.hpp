@@ -5,7 +5,7 @@
 //   reference_energy                α = (E_thr + r K d²/2 − E) dt/‖Δx‖²     NOT passive
 //   reference_energy_with_damping   the same, the device's damping credited
 
-#include <passive_haptics/force_bound/passivity_controller.hpp>
+#include <passive_haptics/published/passivity_controller.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

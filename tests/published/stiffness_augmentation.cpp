@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shapers that grow stiff: growth, caps, resets, what an increment costs. Against adversaries, with
 // the strict bound behind them: tests/full/bounds_augmentation.cpp.
-#include "shaper/growing.hpp"
+#include "published/growing.hpp"
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;

@@ -4,7 +4,7 @@
 // and growth that the ledger pays for with no bound behind it.
 #include "force_bound/attacks.hpp"
 #include "force_bound/upkeep.hpp"
-#include <passive_haptics/shaper/stiffness_augmentation.hpp>
+#include <passive_haptics/published/stiffness_augmentation.hpp>
 
 inline constexpr ph::nonlinear_coupling coupling{.initial = 50, .rate = 2e5};
 inline constexpr ph::stiffness_increment increments{.initial = 50, .step = 500};

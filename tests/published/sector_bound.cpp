@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // sector_bound: its slopes, what winds no force up, and a quick attack.
 #include "force_bound/attacks.hpp"
-#include "force_bound/stores.hpp"
 #include "force_bound/upkeep.hpp"
+#include "published/stores.hpp"
 
 using Catch::Matchers::WithinRel;
 
