@@ -156,7 +156,16 @@ void plot_budget(const session& s, const std::vector<endurance_row>& rows) {
              {"How stiff a wall lasts",
               "The largest stiffness that kneading leaves standing, over the budget that the "
               "device's own figures promise beforehand. A point on or above the line of the budget "
-              "keeps the promise; far above it the budget is cautious."},
+              "keeps the promise, far above it the budget is cautious; none is below half of it.",
+              {{"none is below half of it", "",
+                [&points](const ex::recorded&) {
+                  for (const auto& [name, list] : points) {
+                    for (const auto& [budget, found] : list) {
+                      if (found < 0.5 * budget) return false;
+                    }
+                  }
+                  return true;
+                }}}},
              "set logscale xy\nset xlabel 'budget [N/m]'\nset ylabel 'largest that lasts [N/m]'\n" +
                  ex::curves(lines));
 }
