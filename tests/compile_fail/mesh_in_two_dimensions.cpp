@@ -14,8 +14,5 @@ constexpr int dof = 3;
 constexpr int dof = 2;
 #endif
 using scene = ph::space<double, dof>;
-ph::passive_port touch{scene{},
-                       ph::mesh_contact{},
-                       ph::reduced_energy{.damping = 0.03},
-                       ph::strict_bound{},
-                       ph::loop_limits{}};
+ph::passive_port touch{scene{}, ph::mesh_contact{}, ph::reduced_energy{.damping = 0.03},
+                       ph::strict_bound{}, ph::loop_limits{}};
