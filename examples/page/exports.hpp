@@ -5,9 +5,11 @@
 
 #include "stage.hpp"
 #include <passive_haptics/design/stiffness_budget.hpp>
+#include <passive_haptics/identification/device_facts.hpp>
 
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #ifdef __wasm__
 #define PAGE_EXPORT(name) extern "C" __attribute__((export_name(#name)))
@@ -158,6 +160,24 @@ PAGE_EXPORT(ph_budget) const double* ph_budget(int s) {
 }
 PAGE_EXPORT(ph_because) const char* ph_because(int s) {
   return page::budget_of(page::on(s).set).because();
+}
+
+/// The catalogue: how many devices there are, the name of each, and its mass, friction, step and peak force in SI
+/// units, not a number where nobody has published it, or where the device turns.
+PAGE_EXPORT(ph_devices) int ph_devices() {
+  return static_cast<int>(passive_haptics::design::devices::all.size());
+}
+PAGE_EXPORT(ph_device) const char* ph_device(int i) {
+  return passive_haptics::design::devices::all[static_cast<std::size_t>(i)].name;
+}
+PAGE_EXPORT(ph_facts) const double* ph_facts(int i) {
+  const auto& d = passive_haptics::design::devices::all[static_cast<std::size_t>(i)];
+  const std::array known{d.mass, d.friction, d.quantum[0], d.peak_force};
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    page::numbers[k] =
+        known[k] && !d.rotary ? known[k].value : std::numeric_limits<double>::quiet_NaN();
+  }
+  return page::numbers;
 }
 
 namespace page {

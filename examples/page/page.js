@@ -58,7 +58,7 @@
 
   // ---------------------------------------------------------------------------------------------- state
   const loaded = {}; // by module: its exports, and the index of each setting
-  const state = {scene: 'wall', chosen: [0, 0], usual: {}, set: {}, menu: []};
+  const state = {scene: 'wall', step: null, chosen: [0, 0], usual: {}, set: {}, menu: []};
   let e = null; // exports of the module of this scene
   let s = 0; // stage in it
   let hand = [0, 0];
@@ -114,10 +114,83 @@
     state.set[name] = value;
     e.ph_set(s, loaded[scenes[state.scene].module].index[name], value);
   }
+
+  // ------------------------------------------------------------------------------------------- the article
+  const titles = Object.keys(problems);
+  const wide = () => state.step !== null && problems[titles[state.step]].wide === true;
+  function tell(step, sentence) {
+    state.step = step;
+    const p = step === null ? null : problems[titles[step]];
+    $('heading').textContent = p ? `${step + 1}. ${titles[step]}` : scenes[state.scene].title;
+    $('says').textContent = sentence ?? p.says;
+    $('device').hidden = !p?.device;
+    $('back').disabled = step === 0;
+    $('next').disabled = step === titles.length - 1;
+    $('counted').hidden = !wide();
+    document.body.classList.toggle('wide', wide());
+    count(false);
+    pressed('problems', p ? titles[step] : '');
+    $('slider').replaceChildren(...(p ? [knob(p.knob)] : []));
+    $('slider').hidden = $('lab').getAttribute('aria-expanded') === 'true' || !p;
+  }
+  function count(yes) {
+    $('counted').setAttribute('aria-checked', String(yes));
+    all('.side').forEach((side, w) => side.classList.toggle('shown', Boolean(w) === yes));
+  }
+  async function go(step, set = null, left = null, right = null) {
+    const p = problems[titles[step]];
+    state.step = step;
+    await show(p.scene, left ?? p.left, right ?? p.right, set ?? p.set);
+    tell(step);
+    remember();
+  }
+  function openLab(yes) {
+    $('lab').setAttribute('aria-expanded', String(yes));
+    document.body.classList.toggle('open', yes);
+    $('slider').hidden = yes || state.step === null;
+  }
+  function takeDevice(set, said) {
+    for (const [name, x] of Object.entries(set)) put(name, x);
+    fillKnobs();
+    $('slider').replaceChildren(knob(problems[titles[state.step]].knob));
+    const right = state.menu.findIndex(c => c.name === (state.set.quantum > 0 ? 'make_touch, encoders' : 'make_touch'));
+    if (right >= 0) state.chosen[1] = right;
+    fillMenus();
+    restart();
+    if (said) notice(said);
+  }
+  function fillDevices() {
+    const none = new Option('choose one', '');
+    $('devices').replaceChildren(none);
+    for (let i = 0; i < e.ph_devices(); ++i) {
+      if (numbers(e, e.ph_facts(i), 4).some(Number.isFinite)) $('devices').append(new Option(text(e, e.ph_device(i)), i));
+    }
+    $('devices').onchange = () => {
+      if ($('devices').value === '') return;
+      const facts = [...numbers(e, e.ph_facts(Number($('devices').value)), 4)],
+        names = ['mass', 'friction', 'quantum', 'motors'];
+      const set = {},
+        unknown = ['Damping b'];
+      names.forEach((name, i) => {
+        const [label, , scale, least, most] = knobs[name];
+        if (Number.isFinite(facts[i])) set[name] = Math.min(most, Math.max(least, facts[i] * scale)) / scale;
+        else unknown.push(label);
+      });
+      takeDevice(set, `Nobody has published of this device: ${unknown.join(', ')}. They stay as they were; identify measures them.`);
+    };
+    $('take').onclick = () => {
+      const read = readDevice($('identified').value);
+      if (read.refused) notice(read.refused);
+      else takeDevice(read.set, read.said);
+    };
+  }
   function restart() {
     hand = [...numbers(e, e.ph_home(s), 2)];
     e.ph_aim(s, ...hand);
-    for (const w of sides) e.ph_choose(s, w, state.chosen[w]);
+    for (const w of sides) {
+      e.ph_choose(s, w, state.chosen[w]);
+      tellOf(w);
+    }
     e.ph_restart(s);
     ranges.force = ranges.energy = null;
     owed = 0;
@@ -126,7 +199,13 @@
     if (!$('codes').hidden) showCode();
   }
   function remember() {
-    const link = writeLink(state.scene, ...state.chosen.map(i => state.menu[i].name), state.set, state.usual);
+    const link = writeLink(
+      state.scene,
+      ...state.chosen.map(i => state.menu[i].name),
+      state.set,
+      state.usual,
+      state.step
+    );
     try {
       history.replaceState(null, '', link);
     } catch {
@@ -169,8 +248,12 @@
   function tellOf(w) {
     const c = state.menu[state.chosen[w]],
       side = all('.side')[w];
-    side.querySelector('.promise').textContent = promiseShort[c.promise];
-    side.querySelector('.promise').title = promises[c.promise];
+    const why = broken(c.promise, `${c.name} ${c.code}`, state.set),
+      promise = side.querySelector('.promise');
+    side.querySelector('.who').textContent = c.name === 'none' ? 'bare spring' : c.name;
+    promise.textContent = why ? `✗ ${promiseShort[c.promise]}: ${why}` : promiseShort[c.promise];
+    promise.classList.toggle('broken', Boolean(why));
+    promise.title = promises[c.promise];
     side.querySelector('.about').textContent = `${c.says} Its type: ${promises[c.promise]}.`;
   }
   const rebuilds = [
@@ -188,8 +271,10 @@
     'young',
   ];
   function fillKnobs() {
-    $('knobs').replaceChildren(
-      ...scenes[state.scene].knobs.map(name => {
+    $('knobs').replaceChildren(...scenes[state.scene].knobs.map(name => knob(name, 'field_')));
+  }
+  /** A slider and a field; the one of the article and the one of the lab follow each other. */
+  function knob(name, prefix = 'step_') {
         const [label, unit, scale, least, most, logarithmic, whole] = knobs[name];
         const box = document.createElement('div'),
           range = document.createElement('input'),
@@ -198,7 +283,8 @@
           of = document.createElement('span');
         box.className = 'knob';
         tag.textContent = label;
-        tag.htmlFor = field.id = `field_${name}`;
+        tag.htmlFor = field.id = `${prefix}${name}`;
+        box.dataset.name = name;
         of.className = 'unit';
         of.textContent = unit;
         field.type = 'text';
@@ -224,7 +310,7 @@
         };
         const take = x => {
           put(name, x / scale);
-          display();
+          for (const other of all(`.knob[data-name="${name}"]`)) other.display();
           if (rebuilds.includes(name)) restart();
           else {
             remember();
@@ -242,11 +328,10 @@
           if (read.said) notice(read.said);
           take(whole ? Math.round(read.value) : read.value);
         };
+        box.display = display;
         display();
         box.append(tag, field, of, range);
         return box;
-      })
-    );
   }
 
   // --------------------------------------------------------------------------------------------- the hand
@@ -272,7 +357,9 @@
       if (event.pointerType === 'pen' && event.pressure > 0) y -= 0.02 * event.pressure; // who presses, presses
       aim(cx + (event.clientX - box.left - box.width / 2) * scale, y);
     };
-    view.onpointermove = at;
+    view.onpointermove = event => {
+      if (event.pointerType !== 'mouse' || event.buttons) at(event); // who only passes by takes nothing away
+    };
     view.onpointerdown = event => {
       try {
         view.setPointerCapture(event.pointerId);
@@ -473,6 +560,93 @@
     if (scenes[state.scene].dof === 1) g.roundRect(x - 15, y - 10, 30, 10, 3);
     else g.arc(x, y, 7, 0, 7);
     g.fill();
+    if (y < 0 || y > height || x < 0 || x > width) {
+      const away = Math.max(-y, y - height, -x, x - width) / scale;
+      g.font = '13px system-ui, sans-serif';
+      g.textAlign = 'center';
+      g.textBaseline = 'middle';
+      g.fillText(
+        `the device is ${figures(away * 1e3, 2)} mm out of the picture`,
+        width / 2,
+        Math.min(height - 14, Math.max(14, y))
+      );
+    }
+    drawTank(g, width, height, rows[now + 7]);
+    if (!corners) drawGlass(w, c, rows, rowWidth, kept, count, colour);
+  }
+  /** What the hand has put in and not got back [J], on the scale of the plot below; red is overdrawn. */
+  function drawTank(g, width, height, energy) {
+    const r = ranges.energy;
+    if (!r) return;
+    const wide = Math.max(8, Math.min(22, width / 28)),
+      left = width - wide - 8,
+      top = 0.08 * height,
+      bottom = 0.92 * height;
+    const Y = v => bottom - ((v - r.low) / (r.high - r.low)) * (bottom - top);
+    g.fillStyle = energy < 0 ? colours.left : colours.right;
+    g.fillRect(left, Math.min(Y(0), Y(energy)), wide, Math.abs(Y(energy) - Y(0)));
+    g.strokeStyle = colours.edge;
+    g.lineWidth = 1.2;
+    g.strokeRect(left, top, wide, bottom - top);
+    line(
+      g,
+      [
+        [left - 5, Y(0)],
+        [left + wide + 3, Y(0)],
+      ],
+      colours.ink,
+      1.6
+    );
+  }
+  /** The contact, fifty times as large: the surface, the local model, the way of the last quarter of a second. */
+  function drawGlass(w, {g, h}, rows, rowWidth, kept, count, colour) {
+    const now = ((count - 1) % kept) * rowWidth,
+      radius = Math.max(26, Math.min(0.3 * h, 90)),
+      scale = (50 * h) / scenes[state.scene].view[2],
+      x0 = rows[now + 1],
+      y0 = rows[now + 2],
+      ox = radius + 8,
+      oy = radius + 8;
+    const near = planesOf(w, 0).some(([px, py, nx, ny]) => Math.abs((x0 - px) * nx + (y0 - py) * ny) * scale < 3 * radius);
+    if (!near) return;
+    const X = x => ox + (x - x0) * scale,
+      Y = y => oy - (y - y0) * scale,
+      far = 3 * radius;
+    g.save();
+    g.beginPath();
+    g.arc(ox, oy, radius, 0, 7);
+    g.fillStyle = colours.bg;
+    g.fill();
+    g.clip();
+    for (const [px, py, nx, ny] of planesOf(w, 0)) {
+      const d = (x0 - px) * nx + (y0 - py) * ny,
+        fx = ox - d * nx * scale,
+        fy = oy + d * ny * scale;
+      g.fillStyle = colours.wall;
+      g.beginPath();
+      g.moveTo(fx - far * ny, fy - far * nx);
+      g.lineTo(fx + far * ny, fy + far * nx);
+      g.lineTo(fx + far * (ny - nx), fy + far * (nx + ny));
+      g.lineTo(fx - far * (ny + nx), fy - far * (nx - ny));
+      g.fill();
+    }
+    const trail = [];
+    for (let i = Math.max(0, count - 250); i < count; ++i) {
+      const r = (i % kept) * rowWidth;
+      trail.push([scenes[state.scene].dof === 1 ? ox - radius + (2 * radius * (i - count + 250)) / 250 : X(rows[r + 1]), Y(rows[r + 2])]);
+    }
+    line(g, trail, colour, 1.3);
+    g.restore();
+    g.strokeStyle = colours.ink;
+    g.lineWidth = 1.2;
+    g.beginPath();
+    g.arc(ox, oy, radius, 0, 7);
+    g.stroke();
+    g.fillStyle = colours.soft;
+    g.font = '11px system-ui, sans-serif';
+    g.textAlign = 'center';
+    g.textBaseline = 'top';
+    g.fillText('× 50', ox, oy + radius + 2);
   }
 
   // Both sides share a scale; it grows at once and shrinks when nothing has needed it for a while.
@@ -702,22 +876,25 @@
   function play(n) {
     const which = $('sound').value;
     if (!audio || which === '' || n < 2 || speed !== 1) return;
-    const w = Number(which),
+    const heard = which === '2' ? sides : [Number(which)],
       kept = e.ph_rows_kept(),
       rowWidth = e.ph_row_width(),
-      count = e.ph_count(s, w),
       times = 8;
-    if (count < n + 2) return;
-    const rows = numbers(e, e.ph_rows(s, w), kept * rowWidth),
-      buffer = audio.createBuffer(1, n * times, 8000);
-    const wave = buffer.getChannelData(0),
-      force = i => rows[(i % kept) * rowWidth + 6];
-    for (let i = 0; i < n; ++i) {
-      const from = force(count - n + i - 1),
-        to = force(count - n + i);
-      for (let k = 0; k < times; ++k)
-        wave[i * times + k] = Math.max(-1, Math.min(1, 0.2 * (from + ((to - from) * k) / times)));
-    }
+    if (e.ph_count(s, heard[0]) < n + 2) return;
+    const buffer = audio.createBuffer(heard.length, n * times, 8000);
+    heard.forEach((w, channel) => {
+      const count = e.ph_count(s, w),
+        rows = numbers(e, e.ph_rows(s, w), kept * rowWidth),
+        wave = buffer.getChannelData(channel);
+      // Across and along: what is normal to the surface, and what rubs.
+      const force = i => rows[(i % kept) * rowWidth + 6] + rows[(i % kept) * rowWidth + 5];
+      for (let i = 0; i < n; ++i) {
+        const from = force(count - n + i - 1),
+          to = force(count - n + i);
+        for (let k = 0; k < times; ++k)
+          wave[i * times + k] = Math.max(-1, Math.min(1, 0.2 * (from + ((to - from) * k) / times)));
+      }
+    });
     const source = audio.createBufferSource();
     source.buffer = buffer;
     source.connect(volume);
@@ -732,6 +909,7 @@
     nextRumble = now + 80;
     const pad = [...(navigator.getGamepads?.() ?? [])].find(p => p?.vibrationActuator);
     const strength = Math.min(1, verdicts[Number(which)].swing / 6);
+    if (!pad && strength > 0.05) navigator.vibrate?.(Math.round(60 * strength));
     pad?.vibrationActuator
       .playEffect('dual-rumble', {duration: 100, strongMagnitude: strength, weakMagnitude: strength})
       .catch(() => {});
@@ -876,25 +1054,38 @@
     for (const [key, about] of Object.entries(scenes)) {
       if (!packed[about.module]) continue;
       const b = button(about.title, () => {
-        pressed('problems', '');
         const first = Object.values(problems).find(p => p.scene === key);
-        $('says').textContent = about.says;
-        show(key, first?.left, first?.right, {}).catch(refused);
+        state.step = null;
+        show(key, first?.left, first?.right, {})
+          .then(() => tell(null, about.says))
+          .catch(refused);
       });
       b.dataset.key = key;
       $('scenes').append(b);
     }
-    for (const [name, p] of Object.entries(problems)) {
+    for (const [step, [name, p]] of Object.entries(problems).entries()) {
       if (!packed[scenes[p.scene].module]) continue;
-      const b = button(name, () => {
-        $('says').textContent = p.says;
-        pressed('problems', name);
-        show(p.scene, p.left, p.right, p.set).catch(refused);
-      });
+      const b = button(`${step + 1} ${name}`, () => go(step).catch(refused));
       b.dataset.key = name;
       $('problems').append(b);
     }
     all('.view').forEach(listenTo);
+    const has = step => titles[step] && packed[scenes[problems[titles[step]].scene].module];
+    const beside = (from, by) => {
+      let step = (from ?? -by) + by;
+      while (titles[step] && !has(step)) step += by;
+      if (titles[step]) go(step).catch(refused);
+    };
+    $('back').onclick = () => beside(state.step, -1);
+    $('next').onclick = () => beside(state.step, 1);
+    $('counted').onclick = () => count($('counted').getAttribute('aria-checked') !== 'true');
+    $('lab').onclick = () => openLab($('lab').getAttribute('aria-expanded') !== 'true');
+    $('listen').onclick = () => {
+      const on = $('sound').value === '';
+      $('sound').value = on ? '2' : '';
+      chooseSound($('sound').value);
+      $('listen').setAttribute('aria-pressed', String($('sound').value !== ''));
+    };
     $('again').onclick = restart;
     $('itself').onclick = () => byItself($('itself').getAttribute('aria-pressed') !== 'true');
     $('speed').onchange = () => {
@@ -915,6 +1106,7 @@
     $('rumble').onchange = () => {
       if (
         $('rumble').value !== '' &&
+        !navigator.vibrate &&
         ![...(navigator.getGamepads?.() ?? [])].some(p => p?.vibrationActuator)
       ) {
         notice('No gamepad that can rumble has been seen. Press one of its buttons, and it will be used.');
@@ -931,12 +1123,18 @@
     requestAnimationFrame(frame);
   }
   async function open(wanted) {
-    const fresh = wanted.left === null && wanted.right === null && Object.keys(wanted.set).length === 0;
-    const name = Object.keys(problems).find(k => problems[k].scene === wanted.scene),
-      first = problems[name];
-    pressed('problems', fresh ? name : '');
-    $('says').textContent = fresh && first ? first.says : scenes[wanted.scene].says;
-    await show(wanted.scene, wanted.left ?? first?.left, wanted.right ?? first?.right, wanted.set);
+    const first = titles.findIndex(k => problems[k].scene === wanted.scene);
+    const bare = wanted.left === null && wanted.right === null && Object.keys(wanted.set).length === 0;
+    const step = wanted.step ?? (bare && first >= 0 ? first : null);
+    if (step !== null && (bare || problems[titles[step]].scene === wanted.scene)) {
+      await go(step, bare ? null : wanted.set, wanted.left, wanted.right);
+    } else {
+      state.step = null;
+      await show(wanted.scene, wanted.left ?? problems[titles[first]]?.left, wanted.right ?? problems[titles[first]]?.right, wanted.set);
+      tell(null, scenes[wanted.scene].says);
+    }
+    fillDevices();
+    openLab(state.step === null);
     if (wanted.said.length) notice(wanted.said.join(' '), 30);
   }
   function refused(problem) {

@@ -105,76 +105,106 @@ const scenes = {
   },
 };
 
+// The steps of the article, in the order in which they teach: what is on either side, the one slider, the words.
 const problems = {
-  'Wall buzzes': {
+  'A motor that should be a wall': {
     scene: 'wall',
     left: 'none',
     right: 'make_touch',
     set: {},
-    says: 'A stiff wall, felt a thousand times a second: on the left a bare spring, on the right the same wall, counted.',
+    knob: 'stiffness',
+    wide: true,
+    says:
+      'A haptic device pushes back: a motor plays the wall. The easiest wall is a spring, K times how deep you are in, a thousand times a second. Press on it. ' +
+      'Between two ticks the force stands still while the hand moves on, so on the way out the motor pushes longer than it should: the spring gives more than it got, and buzzes. ' +
+      'Now switch the counting on. The same wall, the same hand, and nothing is made.',
   },
-  'Organ jumps': {
-    scene: 'organ',
+  'What is counted': {
+    scene: 'wall',
     left: 'none',
-    right: 'make_touch',
+    right: 'strict FBA',
     set: {},
-    says: 'Tissue that answers fifteen times a second, 30 ms late. Each answer moves the plane under the device.',
+    knob: 'stiffness',
+    says:
+      'Energy is force times way. The tank beside each picture holds what the hand has put in and not got back. The bare spring overdraws it, and what is below the line came out of nothing. ' +
+      'On the right no force may be so large that the worst motion of the next tick could overdraw the tank. That holds whatever the hand does, and the price is that it begins soft.',
   },
-  'First touch is lost': {
+  'What damping pays': {
     scene: 'wall',
     left: 'strict FBA',
     right: 'make_touch',
     set: {stiffness: 2000, damping: 0.1},
-    says: 'Strict means: no force before the hand has paid. The first touch sinks in. Who states mass and hand need not wait.',
+    knob: 'damping',
+    says:
+      'Every device brakes a little, and that pays for stiffness: at most 2b/T at once, 200 N/m here. On the left nothing else pays, and the first touch sinks in. ' +
+      'On the right the smallest mass and the strongest hand are stated, too. A mass cannot be turned round within a tick, so the wall is stiff from the first touch on.',
   },
-  'Network drops packets': {
-    scene: 'heave',
+  'News comes late': {
+    scene: 'organ',
     left: 'none',
     right: 'make_touch',
-    set: {rate: 60, latency: 0.06, loss: 0.4},
-    says: 'The surface heaves, its news is 60 ms old, and four packets of ten never come.',
+    set: {},
+    knob: 'latency',
+    says:
+      'The motor wants a force a thousand times a second, and the tissue answers fifteen times, late. Each answer moves the surface under the finger, and the bare side jumps. ' +
+      'On the right a local model keeps the newest piece of surface and moves it smoothly to where the news says it is.',
   },
-  'Surface heaves': {
+  'The surface moves': {
     scene: 'heave',
     left: 'damped spring + reachable',
     right: 'make_touch',
-    set: {},
-    says: 'Passive is not smooth: on the left each piece of news is felt, on the right it is spread, and the device lags.',
+    set: {heave: 4e-3},
+    knob: 'rate',
+    says:
+      'Passive is not smooth. Both sides count, and neither makes energy; but on the left each piece of news is felt as a step, and on the right it is spread over the time to the next.',
   },
-  'Corner buzzes': {
-    scene: 'corner',
-    left: 'none',
-    right: 'make_contacts',
-    set: {},
-    says: 'Two bare springs in a corner fight each other and the hand; one port with one account is calm.',
-  },
-  'Finger sticks and slips': {
-    scene: 'rub',
-    left: 'make_contacts',
-    right: 'make_contacts, rough',
-    set: {},
-    says: 'The same pressure; on the right the surface holds the device until the hand pulls harder than µ times it.',
-  },
-  'Encoder steps are felt': {
+  'Encoders have steps': {
     scene: 'wall',
     left: 'damped spring + reachable',
     right: 'make_touch, encoders',
     set: {quantum: 55e-6, friction: 0.13, stiffness: 2000},
-    says: 'Positions come in steps of 55 µm. Dry friction can pay for them, if it is known.',
+    knob: 'quantum',
+    says:
+      'A position comes in steps, here of 55 µm. Who takes them for exact keeps wrong books: the ledger believes in motion that was none. ' +
+      'On the right the steps are in the books, and the dry friction of the device pays for them, as far as it is known.',
   },
-  'Motors are too weak': {
-    scene: 'wall',
+  'Two walls meet': {
+    scene: 'corner',
     left: 'none',
-    right: 'make_touch',
-    set: {motors: 2, hand_force: 6},
-    says: 'The hand is stronger than the motors: no controller can hold it. The page says how far it sinks.',
+    right: 'make_contacts',
+    set: {},
+    knob: 'stiffness',
+    says:
+      'In a corner two springs fight each other and the hand. One device is one account: on the right both walls ask one port for force, and it is calm in any corner.',
   },
-  'Loop is late': {
+  'A surface rubs': {
+    scene: 'rub',
+    left: 'make_contacts',
+    right: 'make_contacts, rough',
+    set: {},
+    knob: 'roughness',
+    says:
+      'Press, and pull along. On the left the surface is ice; on the right it holds the device until the hand pulls harder than µ times the pressure. Friction only ever takes, if it does not creep.',
+  },
+  'The loop is late': {
     scene: 'wall',
     left: 'strict FBA',
     right: 'make_touch, 2 ticks late',
     set: {late: 2, stiffness: 300, damping: 0.5},
-    says: 'A force that is held two ticks late makes a liar of a ledger that was not told.',
+    knob: 'late',
+    says:
+      'Devices that talk in packets hold each force a tick or two after it was computed. A ledger that was not told books the wrong force with the wrong motion, and its promise is void: the ✗ says so. ' +
+      'The one on the right was told. Set the lateness to something else, and it is wrong as well.',
+  },
+  'Your device': {
+    scene: 'wall',
+    left: 'none',
+    right: 'make_touch',
+    set: {},
+    knob: 'mass',
+    device: true,
+    says:
+      'Take one from the list, or paste what identify wrote about your own. Its mass, friction, steps and motors go into both sides; the C++ below is a whole program for it.',
   },
 };
 
@@ -244,6 +274,43 @@ function remarks(v) {
   return said;
 }
 
+/** Why the promise of a composition does not hold as the device is set, or nothing. */
+function broken(promise, code, set) {
+  if (!promise) return '';
+  const told = Number(code.match(/late_loop_limits<(\d+)>/)?.[1] ?? 0);
+  if (told !== set.late) return `you told ${told} ticks late, it is ${set.late}`;
+  const steps = set.quantum > 0 && !/encoder_device|dual_ledger|quantised_energy/.test(code);
+  if (steps) return `positions are taken for exact, and come in steps of ${figures(set.quantum * 1e6)} µm`;
+  return '';
+}
+
+/** What a file of identification/device_file.hpp says of a device, as settings; or the sentence that says why not. */
+function readDevice(text) {
+  let given;
+  try {
+    given = JSON.parse(text);
+  } catch {
+    return {refused: 'This is no JSON. Paste the whole file that “identify --json FILE” has written.'};
+  }
+  if (given === null || typeof given !== 'object' || given.passive_haptics_device !== 1)
+    return {refused: 'A file of identify begins with "passive_haptics_device": 1, and this does not.'};
+  if (given.rotary) return {refused: 'This device turns, and what is on this page goes straight.'};
+  const names = {mass: 'mass', damping: 'damping', friction: 'friction', quantum: 'quantum', latency: 'late'};
+  const set = {quantum: 0, friction: 0},
+    said = [];
+  for (const [key, name] of Object.entries({...names, force_limit: 'motors', hand_force: 'hand_force'})) {
+    if (given[key] === undefined) continue;
+    const [label, unit, scale, least, most] = knobs[name],
+      x = Number(given[key]) * scale;
+    if (typeof given[key] !== 'number' || !Number.isFinite(x))
+      return {refused: `"${key}" is no number: ${String(given[key]).slice(0, 40)}.`};
+    const kept = Math.min(most, Math.max(least, x));
+    if (kept !== x) said.push(`${label} ${figures(x)} ${unit} is shown as ${figures(kept)}`);
+    set[name] = kept / scale;
+  }
+  return {set, said: said.join('; ')};
+}
+
 /** A number of a field, or the sentence that says why it is none. */
 function readNumber(text, name) {
   const [label, unit, , least, most] = knobs[name];
@@ -268,7 +335,7 @@ function readNumber(text, name) {
 
 /** The settings in a link. What it cannot read it names, and leaves at its default. */
 function readLink(hash) {
-  const found = {scene: 'wall', left: null, right: null, set: {}, said: []};
+  const found = {scene: 'wall', step: null, left: null, right: null, set: {}, said: []};
   const given = new URLSearchParams(hash.replace(/^#/, ''));
   if ([...given].length === 0) return found;
   const other = given.get('v') !== String(version);
@@ -278,6 +345,9 @@ function readLink(hash) {
     if (key === 'scene') {
       if (Object.hasOwn(scenes, text)) found.scene = text;
       else strange.push(`scene “${text.slice(0, 30)}”`);
+    } else if (key === 'step') {
+      if (Object.keys(problems)[Number(text) - 1]) found.step = Number(text) - 1;
+      else strange.push(`step “${text.slice(0, 20)}”`);
     } else if (key === 'left' || key === 'right') {
       found[key] = text;
     } else if (Object.hasOwn(knobs, key)) {
@@ -293,8 +363,9 @@ function readLink(hash) {
   return found;
 }
 
-function writeLink(scene, left, right, set, usual) {
+function writeLink(scene, left, right, set, usual, step = null) {
   const link = new URLSearchParams({v: version, scene, left, right});
+  if (step !== null) link.set('step', step + 1);
   for (const name of scenes[scene].knobs) {
     if (set[name] !== usual[name]) link.set(name, Number((set[name] * knobs[name][2]).toPrecision(6)));
   }
@@ -461,6 +532,8 @@ if (typeof module !== 'undefined') {
     figures,
     joules,
     remarks,
+    broken,
+    readDevice,
     verdictNames,
     verdictOf,
     readNumber,

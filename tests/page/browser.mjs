@@ -54,17 +54,27 @@ async function close(page, what) {
     console.log(`${what}: the browser did not close the page within 10 s`);
   }
 }
+/** Opens the lab, in which every scene, controller and slider is. */
+async function lab(page) {
+  await page.locator('#lab').click();
+  return page;
+}
 const verdicts = page => page.evaluate(() => [window.page.verdict(0), window.page.verdict(1)]);
 const notice = page => page.locator('#notice').textContent();
 
 // The mouse, into the wall: the left makes energy, the right does not; and the words say so.
 {
-  const page = await open();
+  const page = await lab(await open());
+  await page.locator('#again').click();
   const box = await page.locator('.view').first().boundingBox();
   const at = mm => [box.x + box.width / 2, box.y + box.height / 2 - ((mm + 4) / 46) * box.height];
+  // Who only passes by takes nothing away from the demonstration.
   await page.mouse.move(...at(12));
+  await page.mouse.move(...at(-12));
+  expect((await page.locator('#itself').getAttribute('aria-pressed')) === 'true', 'hovering takes no hand over');
+  await page.mouse.move(...at(12));
+  await page.mouse.down();
   await page.waitForTimeout(300);
-  await page.locator('#again').click();
   for (let i = 0; i <= 30; ++i) await page.mouse.move(...at(12 - (28 * i) / 30));
   await page.waitForTimeout(2500);
   const [left, right] = await verdicts(page);
@@ -122,7 +132,7 @@ const notice = page => page.locator('#notice').textContent();
 
 // Every problem and every scene, for a second each; and the bits.
 {
-  const page = await open();
+  const page = await lab(await open());
   for (const group of ['#problems', '#scenes']) {
     for (const b of await page.locator(`${group} button`).all()) {
       await b.click();
@@ -141,6 +151,58 @@ const notice = page => page.locator('#notice').textContent();
   expect(equal === tried && ticks > 190000, `the bits: ${equal} of ${tried}, ${ticks} ticks`);
   console.log(await page.locator('#bitsSaid').textContent());
   await close(page, 'problems and scenes');
+}
+
+// The article: ten steps by its buttons, one slider each, and a link that brings a step back.
+{
+  const page = await open();
+  const shown = () => page.locator('#heading').textContent();
+  expect(/haptic/.test(await page.locator('#lead').textContent()), 'the first screen says what it is');
+  expect(!(await page.locator('.side.right .view').isVisible()), 'one picture first');
+  await page.locator('#counted').click();
+  expect(await page.locator('.side.right .view').isVisible(), 'the switch shows the other side');
+  expect((await page.locator('#counted').getAttribute('aria-checked')) === 'true', 'and says so');
+  expect(!(await page.locator('#knobs').isVisible()), 'the sliders are behind the lab');
+  const seen = [];
+  for (let step = 1; step <= 10; ++step) {
+    const heading = await shown();
+    seen.push(heading);
+    expect(heading.startsWith(`${step}. `), `step ${step}: ${heading}`);
+    expect((await page.locator('#slider input[type=range]').count()) === 1, `${heading}: one slider`);
+    await page.locator('#slider input[type=range]').press('ArrowRight');
+    await page.waitForTimeout(500);
+    expect((await page.evaluate(() => window.page.ticks())) > 100, `${heading}: it runs`);
+    if (step < 10) await page.locator('#next').click();
+    await page.waitForTimeout(300);
+  }
+  expect(new Set(seen).size === 10, 'ten steps that differ');
+  expect(await page.locator('#next').isDisabled(), 'the tenth is the last');
+  await page.locator('#devices').selectOption({label: '3D Systems Touch'});
+  expect(/Nobody has published/.test(await notice(page)), `what is not known: ${await notice(page)}`);
+  expect((await page.locator('#step_mass').inputValue()) === '0.045', 'its mass is taken');
+  for (const [text, sentence] of [
+    ['{', /no JSON/],
+    ['{"mass": 1}', /passive_haptics_device/],
+    ['{"passive_haptics_device": 1, "mass": "x"}', /"mass" is no number/],
+    ['{"passive_haptics_device": 1, "mass": 9}', /is shown as 0.5/],
+  ]) {
+    await page.locator('#identified').fill(text);
+    await page.locator('#take').click();
+    expect(sentence.test(await notice(page)), `${text}: ${await notice(page)}`);
+  }
+  await page.locator('#back').click();
+  await page.waitForFunction(() => document.getElementById('heading').textContent.startsWith('9.'));
+  expect(
+    /✗ strict: you told 0 ticks late, it is 2/.test(await page.locator('.side.left .promise').textContent()),
+    `a promise without its assumption: ${await page.locator('.side.left .promise').textContent()}`
+  );
+  expect(!/✗/.test(await page.locator('.side.right .promise').textContent()), 'and one that has it');
+  const hash = await page.evaluate(() => location.hash);
+  await close(page, 'the article');
+  const again = await open(hash);
+  expect((await again.locator('#heading').textContent()).startsWith('9. '), `the link brings the step back: ${hash}`);
+  expect((await again.locator('#step_late').inputValue()) === '2', 'and its slider');
+  await close(again, 'a link to a step');
 }
 
 // Keys alone; touch; resizing; a hash from another version; a page that was out of sight.
@@ -168,6 +230,7 @@ const notice = page => page.locator('#notice').textContent();
   await close(page, 'keys and sizes');
 
   const touched = await open('', {hasTouch: true, viewport: {width: 360, height: 740}});
+  await touched.locator('#counted').click();
   const box = await touched.locator('.view').nth(1).boundingBox();
   await touched.touchscreen.tap(box.x + box.width / 2, box.y + 0.9 * box.height);
   await touched.waitForTimeout(900);
@@ -210,7 +273,7 @@ for (const [what, script, sentence] of [
 }
 {
   const page = await open('', {}, 'delete window.AudioContext; delete window.webkitAudioContext');
-  await page.locator('#sound').selectOption('1');
+  await page.locator('#listen').click();
   expect(/no WebAudio/.test(await notice(page)), `no audio: “${await notice(page)}”`);
   await close(page, 'no audio');
   const still = await open('', {reducedMotion: 'reduce'});
@@ -244,6 +307,7 @@ for (const [what, script, sentence] of [
     (await page.evaluate(() => window.contexts + window.rumbles.length)) === 0,
     'neither sound nor rumble by itself'
   );
+  await lab(page);
   await page.locator('#sound').selectOption('0');
   await page.locator('#rumble').selectOption('0');
   await page.waitForTimeout(2500);
