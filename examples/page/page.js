@@ -626,8 +626,8 @@
       g.beginPath();
       g.moveTo(fx - far * ny, fy - far * nx);
       g.lineTo(fx + far * ny, fy + far * nx);
-      g.lineTo(fx + far * (ny - nx), fy + far * (nx + ny));
-      g.lineTo(fx - far * (ny + nx), fy - far * (nx - ny));
+      g.lineTo(fx + far * (ny - 2 * nx), fy + far * (nx + 2 * ny));
+      g.lineTo(fx - far * (ny + 2 * nx), fy - far * (nx - 2 * ny));
       g.fill();
     }
     const trail = [];
