@@ -125,7 +125,7 @@ std::vector<endurance_row> cells(const session& s) {
     for (const double presliding : {0.0, 5e-6, 15e-6, 30e-6}) {
       if (presliding > 0.0 && (s.chosen.quick || !(preset.friction > 0.0))) continue;
       for (const auto& what : s.judged) {
-        if (!what.fits({preset, presliding})) continue;
+        if (!what.fits({preset, presliding}) || what.is_control()) continue;
         for (const auto how : {pressing::kneading, pressing::holding}) {
           all.push_back({{preset, presliding}, &what, how, s.chosen.quick ? 5 : 60});
         }

@@ -173,7 +173,8 @@ std::vector<touch_row> cells(const session& s) {
       if (s.chosen.quick && presliding > 0.0 && presliding != 15e-6) continue;
       for (const double K : {1e3, 3e3, 1e4}) {
         for (const auto& what : s.judged) {
-          if (what.fits({preset, presliding})) all.push_back({{preset, presliding}, K, &what});
+          if (!what.fits({preset, presliding}) || what.is_control()) continue;
+          all.push_back({{preset, presliding}, K, &what});
         }
       }
     }

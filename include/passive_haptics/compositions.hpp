@@ -155,11 +155,15 @@ template <class Limits>
                               .usual_force_rate = 2.2 * d.force_limit,
                               .most_force_rate = 5.5 * d.force_limit}};
 }
-[[nodiscard]] constexpr auto law_of(const exact_device& d, double /*most*/) noexcept {
+[[nodiscard]] constexpr auto law_of(const exact_device& d, const auto& /*hand*/,
+                                    double /*most*/) noexcept {
   return settling(d);
 }
-[[nodiscard]] constexpr auto law_of(const encoder_device& d, double most) noexcept {
-  return capped{settling(d), most};
+[[nodiscard]] constexpr auto law_of(const encoder_device& d, const auto& hand,
+                                    double most) noexcept {
+  design::intended_use use{};
+  if constexpr (requires { hand.use; }) use = hand.use;
+  return capped{settling(d), most, design::stiffness_budget(d, use).working_capital};
 }
 /// A spring of this device, no stiffer than `most` [N/m].
 constexpr void fit(proxy_spring& spring, const auto& d, double most) noexcept {
@@ -183,7 +187,7 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
   return local_model{Space{},
                      followed<Constraint>{},
                      turn_limited{.rate = turn_rate},
-                     detail::law_of(device, most),
+                     detail::law_of(device, hand, most),
                      detail::sums_of(device, hand),
                      detail::bounds_of(device, hand),
                      detail::limits_of<Limits>(device),

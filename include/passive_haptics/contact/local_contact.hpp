@@ -227,6 +227,7 @@ class local_contact {
       if (fresh())
         detail::tell(law_, supply_.target().stiffness, port.longest_tick, state::latency);
     }
+    if constexpr (requires { law_.follow(in_target, port); }) law_.follow(in_target, port);
     if constexpr (Shortcut && shapers_keep_zero<state>()) {
       if (!in_target) return nothing_asked(weight);
     }
