@@ -3,7 +3,7 @@
 // The ledger for positions of which only the step is known, with dry friction or without.
 //
 //   dual_ledger         credits dry friction: stiff on real encoders     b, c, p and q are stated
-//   basic_dual_ledger   any damping, several sliders (device/sliders.hpp), a step for each axis, a compensated sum
+//   basic_dual_ledger   any damping, several sliders (identification/sliders.hpp), a step for each axis, a compensated sum
 //   quantised_energy    no friction credited                             quantised_energy.hpp
 //
 //     ph::dual_ledger{.damping = {.coefficient = 0.05, .coulomb = 0.13, .presliding = 15e-6},
@@ -16,7 +16,6 @@
 #include <passive_haptics/device/dry_friction.hpp>
 #include <passive_haptics/device/encoder_steps.hpp>
 #include <passive_haptics/energy_observer/friction_certificates.hpp>
-#include <passive_haptics/energy_observer/slider_credits.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
 #include <limits>
@@ -197,10 +196,12 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   [[nodiscard]] static constexpr scalar most_kept() noexcept {
     return kernels::largest<scalar>() / scalar(8);
   }
-  struct no_friction {};
+  struct no_friction {
+    using credits = no_friction;
+  };
   using certificates_type = std::conditional_t<rubs, detail::friction_certificates<P>, no_friction>;
-  static constexpr bool slides = detail::has_sliders<damping_type>;
-  using sliders_type = typename detail::sliders_of<damping_type, P>::type;
+  static constexpr bool slides = requires { typename damping_type::credits; };
+  using sliders_type = typename std::conditional_t<slides, damping_type, no_friction>::credits;
 
   struct credit_window {
     typename P::stored_effort travel{};  ///< Δx̂ since the window began [m]

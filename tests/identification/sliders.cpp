@@ -3,7 +3,7 @@
 // presliding it credits, which one slider does not.
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
-#include <passive_haptics/device/sliders.hpp>
+#include <passive_haptics/identification/sliders.hpp>
 #include <passive_haptics/laws.hpp>
 #include <passive_haptics/simulation/friction.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
