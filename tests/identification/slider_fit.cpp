@@ -24,7 +24,7 @@ struct recording {
 /// Moves a friction slowly from one place to the next; positions are shown in steps of `step`.
 template <class Friction>
 recording moved(const Friction& friction, const std::vector<double>& places, double step,
-                double offset = 0.0) {
+                double offset = 0.0, double speed = 0.5e-3) {
   recording seen;
   auto state = friction.begin();
   double x = 0.0;
@@ -32,7 +32,7 @@ recording moved(const Friction& friction, const std::vector<double>& places, dou
   for (const double goal : places) {
     while (std::abs(goal - x) > 1e-12) {
       const double way = std::clamp(goal - x, -0.5e-6, 0.5e-6);
-      const auto took = friction.slide(state, x, way, 1e-3);
+      const auto took = friction.slide(state, x, way, std::abs(way) / speed);
       x += way;
       seen.lost += took.dissipated;
       seen.rows.push_back({show(x), took.work / way + offset});
@@ -110,6 +110,62 @@ TEST_CASE("fit_sliders lowers friction that differs by direction to what is sure
   CHECK(std::abs(found.offset - 0.05) < 0.005);
   CHECK(found.level() < 0.22);
   CHECK(found.level() > 0.15);
+}
+
+TEST_CASE("friction that has fallen since it was stated shows with hands off, and only that",
+          "[identification][sliders]") {
+  const auto found = id::fit_sliders(moved(soft, ramps, 1e-6).rows, {.step = 1e-6});
+  REQUIRE(found.refused == nullptr);
+  const std::span<const id::slider> list(found.list.data(), static_cast<std::size_t>(found.count));
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const auto places = wander(seed, 200e-6, 40);
+    CHECK(id::sure_share(list, moved(soft, places, 1e-6).rows, 1e-6) == 1.0);
+    sim::maxwell_slip<4> worn = soft;
+    for (double& c : worn.level) c *= 0.7;
+    const double left = id::sure_share(list, moved(worn, places, 1e-6).rows, 1e-6);
+    CHECK(left < 0.8);
+    CHECK(left > 0.65);
+  }
+}
+
+TEST_CASE("which frictions a list of sliders covers, told how much", "[identification][sliders]") {
+  constexpr double step = 0.2e-6;
+  const auto overstated = [](const auto& friction, double drift, double speed) {
+    const auto found =
+        id::fit_sliders(moved(friction, ramps, step).rows, {.step = step, .drift = drift});
+    REQUIRE(found.refused == nullptr);
+    double worst = -1.0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      for (const double most : {10e-6, 40e-6, 200e-6}) {
+        const auto other = moved(friction, wander(seed, most, 400), step, 0.0, speed);
+        const double reserve = 2.5 * found.level() * found.mean_presliding();
+        worst = std::max(worst, credited(found, other) - other.lost - reserve);
+      }
+    }
+    return worst;
+  };
+  // Covered as identified: what remembers where it was reversed.
+  CHECK(overstated(soft, 0.0, 0.5e-3) <= 0.0);
+  CHECK(overstated(sim::slider_and_spring{{0.25}, {15e-6}}, 0.0, 0.5e-3) <= 0.0);
+  CHECK(overstated(sim::dupont_friction{0.2, 10e-6, 20e-6}, 0.0, 0.5e-3) <= 0.0);
+  // A Stribeck curve is covered if the kinetic level is what is told: here 0.2 N of 0.3 N at speed.
+  const sim::stribeck_friction stribeck{0.2, 0.3, 2e-3, 15e-6};
+  CHECK(overstated(stribeck, 0.4, 20e-3) <= 0.0);
+  CHECK(overstated(stribeck, 0.0, 20e-3) > 0.0);  // the control
+
+  // Covered by nothing: what forgets it. "Forward 2, back 1" goes on for less than c a metre.
+  const sim::dahl_friction dahl{0.25, 30e-6};
+  const auto found = id::fit_sliders(moved(dahl, ramps, step).rows, {.step = step});
+  REQUIRE(found.refused == nullptr);
+  std::vector<double> dither{400e-6, 0.0};
+  for (int i = 1; i < 2000; ++i) {
+    dither.push_back(dither.back() + 2e-6);
+    dither.push_back(dither.back() - 1e-6);
+  }
+  const auto creeping = moved(dahl, dither, step);
+  CAPTURE(credited(found, creeping), creeping.lost);
+  CHECK(credited(found, creeping) >
+        creeping.lost + 2.5 * found.level() * found.mean_presliding());
 }
 
 TEST_CASE("fit_sliders refuses by a sentence what is no recording", "[identification][sliders]") {
