@@ -41,7 +41,8 @@ wall touch_of(const design::stated_device& d, double most, double capital) {
   return made;
 }
 wall encoder_touch(const design::stated_device& d, double most) {
-  return touch_of(d, most, design::stiffness_budget(d).working_capital);
+  const bool follows = most < unlimited;  // what is sought is the largest that lasts as it is
+  return touch_of(d, most, follows ? design::stiffness_budget(d).working_capital : 0.0);
 }
 wall with_fixed_cap(const design::stated_device& d, double most) {
   return touch_of(d, most, 0.0);

@@ -56,18 +56,18 @@ class capped<Law>::on : public part_at<Law, Space> {
   constexpr explicit on(const capped& p) noexcept
       : law_part(p.law),
         most_(detail::number<scalar>(p.most)),
-        enough_(detail::number<scalar>(p.working_capital / 5.0)) {}
+        enough_(fifth_of(p.working_capital)) {}
   /// The new ones count from the next adopt() on.
   constexpr void set(const capped& p) noexcept {
     detail::take<Law, Space>(*this, p.law);
     most_ = detail::number<scalar>(p.most);
-    enough_ = detail::number<scalar>(p.working_capital / 5.0);
+    enough_ = fifth_of(p.working_capital);
   }
   [[nodiscard]] constexpr capped parameters() const noexcept {
     capped p;
     if constexpr (detail::has_parameters<law_part>) p.law = law_part::parameters();
     p.most = static_cast<double>(most_);
-    p.working_capital = static_cast<double>(enough_) * 5.0;
+    p.working_capital = enough_ > scalar(0) ? static_cast<double>(enough_) * 5.0 : 0.0;
     return p;
   }
   template <class Parameters>
@@ -86,20 +86,23 @@ class capped<Law>::on : public part_at<Law, Space> {
       if (share_ < scalar(1)) go_to(scalar(1), port);
       return;
     }
-    const scalar free =
-        port.energy - Space::dot(port.held, port.held) / (scalar(2) * share_ * stiffness_);
-    if (share_ < scalar(1) || free < enough_) [[unlikely]]
-      near_to(free, port);
+    const scalar square = Space::dot(port.held, port.held);
+    if (share_ < scalar(1) || (port.energy - enough_) * scalar(2) * stiffness_ < square)
+        [[unlikely]]
+      near_to(port.energy - square / (scalar(2) * share_ * stiffness_), port);
   }
   /// Does the constraint ask for more than `most`?
   [[nodiscard]] constexpr bool is_capped() const noexcept { return is_capped_; }
 
  private:
+  /// Where the cap stays no ledger is low.
+  [[nodiscard]] static constexpr scalar fifth_of(double capital) noexcept {
+    return capital > 0.0 ? detail::number<scalar>(capital / 5.0) : -kernels::largest<scalar>();
+  }
   [[gnu::cold, gnu::noinline]] constexpr void near_to(scalar free, const auto& port) noexcept {
     const scalar want = kernels::clamped(free / enough_, scalar(0.15), scalar(1));
     const scalar lower = share_ - scalar(0.3) * port.dt, higher = share_ + scalar(0.02) * port.dt;
-    if (enough_ > scalar(0))
-      go_to(kernels::clamped(want, lower, free > enough_ ? higher : share_), port);
+    go_to(kernels::clamped(want, lower, free > enough_ ? higher : share_), port);
   }
   constexpr void go_to(scalar share, const auto& port) noexcept {
     share_ = share;
