@@ -82,14 +82,12 @@ class capped<Law>::on : public part_at<Law, Space> {
   }
   /// A tick in which the surface is pressed, or not: the port's state says what is left in its ledger.
   constexpr void follow(bool pressed, const auto& port) noexcept {
-    if (!pressed) {
-      if (share_ < scalar(1)) go_to(scalar(1), port);
-      return;
+    bool moves = share_ < scalar(1);
+    if (pressed && !moves) {
+      moves = (port.energy - enough_) * scalar(2) * stiffness_ < Space::dot(port.held, port.held);
     }
-    const scalar square = Space::dot(port.held, port.held);
-    if (share_ < scalar(1) || (port.energy - enough_) * scalar(2) * stiffness_ < square)
-        [[unlikely]]
-      near_to(port.energy - square / (scalar(2) * share_ * stiffness_), port);
+    if (moves) [[unlikely]]
+      near_to(pressed, port);
   }
   /// Does the constraint ask for more than `most`?
   [[nodiscard]] constexpr bool is_capped() const noexcept { return is_capped_; }
@@ -99,13 +97,12 @@ class capped<Law>::on : public part_at<Law, Space> {
   [[nodiscard]] static constexpr scalar fifth_of(double capital) noexcept {
     return capital > 0.0 ? detail::number<scalar>(capital / 5.0) : -kernels::largest<scalar>();
   }
-  [[gnu::cold, gnu::noinline]] constexpr void near_to(scalar free, const auto& port) noexcept {
+  [[gnu::cold, gnu::noinline]] constexpr void near_to(bool pressed, const auto& port) noexcept {
+    const scalar square = Space::dot(port.held, port.held);
+    const scalar free = port.energy - square / (scalar(2) * share_ * stiffness_);
     const scalar want = kernels::clamped(free / enough_, scalar(0.15), scalar(1));
     const scalar lower = share_ - scalar(0.3) * port.dt, higher = share_ + scalar(0.02) * port.dt;
-    go_to(kernels::clamped(want, lower, free > enough_ ? higher : share_), port);
-  }
-  constexpr void go_to(scalar share, const auto& port) noexcept {
-    share_ = share;
+    share_ = pressed ? kernels::clamped(want, lower, free > enough_ ? higher : share_) : scalar(1);
     detail::tell(static_cast<law_part&>(*this), share_ * stiffness_, port.longest_tick,
                  std::remove_cvref_t<decltype(port)>::latency);
   }
