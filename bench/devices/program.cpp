@@ -4,7 +4,8 @@
 namespace devices {
 
 const std::vector<ex::section<session>>& sections() {
-  static const std::vector<ex::section<session>> all{{"compliance", run_compliance}};
+  static const std::vector<ex::section<session>> all{{"compliance", run_compliance},
+                                                     {"chains", run_chains}};
   return all;
 }
 
