@@ -4,8 +4,8 @@
 namespace devices {
 
 const std::vector<ex::section<session>>& sections() {
-  static const std::vector<ex::section<session>> all{{"compliance", run_compliance},
-                                                     {"chains", run_chains}};
+  static const std::vector<ex::section<session>> all{
+      {"compliance", run_compliance}, {"chains", run_chains}, {"late", run_late}};
   return all;
 }
 

@@ -22,6 +22,7 @@ struct session : ex::workshop {
 [[nodiscard]] const std::vector<ex::section<session>>& sections();
 [[nodiscard]] ex::failures run_compliance(const session& s);
 [[nodiscard]] ex::failures run_chains(const session& s);
+[[nodiscard]] ex::failures run_late(const session& s);
 
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);

@@ -2,3 +2,4 @@
 #pragma once
 #include <passive_haptics/compliant/modelled_reach.hpp>
 #include <passive_haptics/compliant/observed_reach.hpp>
+#include <passive_haptics/compliant/late_force.hpp>
