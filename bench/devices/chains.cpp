@@ -256,7 +256,7 @@ ex::failures run_chains(const session& s) {
     unsigned seed;
   };
   std::vector<job> jobs;
-  const int each = s.chosen.quick ? 6 : 24;
+  const int each = s.chosen.quick ? 6 : 36;
   for (int i = 0; i < each; ++i) {
     for (const int latency : {0, 1, 2}) {
       for (const bool jitters : {false, true}) {

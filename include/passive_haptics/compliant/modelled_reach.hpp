@@ -173,9 +173,6 @@ class modelled_reach<N, Late>::on {
   template <class State>
   [[nodiscard]] constexpr scalar reach(int j, const effort& direction, scalar length,
                                        const State& state) const noexcept {
-    static_assert(State::latency <= Late,
-                  "passive_haptics: this loop is later than the chain was modelled for: "
-                  "modelled_reach<N, latency>");
     if (ticks_ < seen) return kernels::largest<scalar>();
     const auto along = [&](const auto& v) { return scalar(Space::dot(v, direction) / length); };
     std::array<scalar, seen> moved{};

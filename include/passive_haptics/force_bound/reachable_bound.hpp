@@ -37,8 +37,8 @@ struct reachable_bound {
   static constexpr bound_traits traits{
       .needs_ledger = true, .exact_travel = false, .latency = any_latency};
 
-  double mass{};        ///< smallest apparent mass of the device, over all directions [kg]
-  double hand_force{};  ///< largest force of everything but motors and damper [N]
+  double mass{};        ///< smallest of all directions, of what moves rigidly with the encoder [kg]
+  double hand_force{};  ///< largest force of all but motors and damper, a cable's included [N]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
