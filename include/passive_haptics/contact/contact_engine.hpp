@@ -144,11 +144,12 @@ class contact_engine {
       const auto here = now.at(slot.point);
       const row r = now.row_of(here, slot.target().at(here.position).outward());
       const scalar K = slot.target().stiffness;
-      const auto own = spring_.sampled(K);
+      auto why = softened_by::mass_and_tick;
+      if constexpr (requires { spring_.softener(K); }) why = spring_.softener(K);
+      if (!(spring_.sampled(K).stiffness < K)) why = softened_by::coupling;
       explain_surface(e, slot.target(), here.position,
-                      scalar(1) / frame::coupling(spring_).own(r, own.compliance),
-                      own.stiffness < K ? softened_by::mass_and_tick : softened_by::coupling,
-                      !(slot.lag() == scalar(0)), slot.stale());
+                      scalar(1) / frame::coupling(spring_).own(r, spring_.sampled(K).compliance),
+                      why, !(slot.lag() == scalar(0)), slot.stale());
     });
   }
 

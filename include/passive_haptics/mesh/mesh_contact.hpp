@@ -74,6 +74,17 @@ class mesh_contact::on {
   void let_go() noexcept { ball_.let_go(); }
   [[nodiscard]] const mesh::proxy& ball() const noexcept { return ball_; }
 
+  /// Of the mesh, where the device is now.
+  void explain(explanation& e, const auto& /*x*/, scalar /*T*/, int /*late*/) const noexcept {
+    if (!ball_.touching()) {
+      e.stiffness = softened_by::no_surface;
+      return;
+    }
+    e.asked = e.shown = stiffness_;
+    e.soften(sampled_.stiffness, spring_.softener(stiffness_));
+    if (ball_.placed() && ball_.pressed().count > 0) e.depth = mesh::length(ball_.pressed().way);
+  }
+
   struct request {
     vector wanted;
     bool nothing;

@@ -231,13 +231,14 @@ class passive_port {
       return e;
     }
     e.force = static_cast<double>(detail::force_in<P>(guard_.commanded().front()));
-    source_.explain(e, guard_.last(), limits_.longest_tick, latency);
+    source_.explain(e, where(), limits_.longest_tick, latency);
     detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
-    const bool as_stiff = e.force > 0.95 * e.shown * e.depth;
-    if (as_stiff) e.now = softened_by::nothing;
-    if (as_stiff || !(e.depth > 0.0)) return e;
-    if (!(e.force > 0.0) && !(energy() > scalar(0))) e.now = softened_by::started_inside;
-    if (e.now == softened_by::nothing) e.now = softened_by::ledger;
+    const bool as_stiff = e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth;
+    if (is_cut_ ? e.now == softened_by::nothing : as_stiff) {
+      e.now = is_cut_ ? softened_by::ledger : softened_by::nothing;
+    }
+    const bool asks = is_cut_ || e.depth > 0.0;
+    if (asks && !(e.force > 0.0) && !(energy() > scalar(0))) e.now = softened_by::started_inside;
     return e;
   }
 
@@ -373,6 +374,7 @@ class passive_port {
       }
     }
     guard_.command(allowed.force);
+    is_cut_ = allowed.limited;
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
   }
 
@@ -516,6 +518,14 @@ class passive_port {
     return true;
   }
 
+  /// Where the device is taken to be: within a step of encoders the estimator knows better than they do.
+  [[nodiscard]] constexpr pose where() const noexcept {
+    if constexpr (requires { motion_.position(); }) {
+      return motion_.position();
+    } else {
+      return guard_.last();
+    }
+  }
   [[nodiscard]] constexpr scalar travel_error() const noexcept {
     if constexpr (Observer::exact) {
       return scalar(0);
@@ -581,6 +591,7 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
+  bool is_cut_ = false;             ///< the bound let less through than was last asked for
   event stopped_ = event::nominal;  ///< why there is no force until set(), or until reset()
   std::uint8_t busy_ = 0;           ///< a call is not over yet; debug builds only
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
