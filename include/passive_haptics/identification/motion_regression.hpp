@@ -62,7 +62,9 @@ class motion_regression {
  public:
   static constexpr int longest_window = 96;  ///< [ticks]
   static constexpr int groups = 12;          ///< of the jackknife
-  static constexpr double elastic = 0.4e-3;  ///< way after a turn that does not count [m]
+
+  /// `elastic` is the way after a turn that does not count, because friction gives there [m].
+  explicit motion_regression(double elastic = 0.4e-3) noexcept : elastic_(elastic) {}
 
   /// Adds the position [m] at the end of a tick of that length [s].
   void sample(double position, double length) noexcept {
@@ -86,7 +88,7 @@ class motion_regression {
   /// `turn` [m] of its last turn by more than friction is elastic.
   bool book(int ticks, int group, double slowest, double step, double turn) noexcept {
     if (ticks < 6 || ticks > longest_window || kept_ < ticks + latencies + 1) return false;
-    if (!(kernels::magnitude(at(newest_ - ticks).position - turn) > elastic + step)) return false;
+    if (!(kernels::magnitude(at(newest_ - ticks).position - turn) > elastic_ + step)) return false;
     const int sign = direction(ticks, slowest, step);
     if (sign == 0) return false;
     double whole = 0.0;
@@ -275,6 +277,7 @@ class motion_regression {
     return most;
   }
 
+  double elastic_;
   std::array<tick, capacity> ring_{};
   std::array<table, groups> sums_ = zeros();
   int newest_ = capacity, kept_ = 0, windows_ = 0;
