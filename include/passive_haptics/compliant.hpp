@@ -79,7 +79,7 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
   return local_model{Space{},
                      followed<Constraint>{},
                      turn_limited{.rate = turn_rate},
-                     detail::law_of(seen, most),
+                     detail::law_of(seen, hand, most),
                      detail::sums_of(seen, hand),
                      bound_chain{detail::bound_of<Limits::latency>(seen, transmission, hand),
                                  detail::motors_of(seen)},
