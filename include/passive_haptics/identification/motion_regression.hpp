@@ -18,6 +18,7 @@
 // (Miller, 1974) and needs no white errors.
 
 #include <passive_haptics/base/kernels.hpp>
+#include <passive_haptics/identification/trust.hpp>
 
 #include <Eigen/Cholesky>
 
@@ -29,20 +30,6 @@
 namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
-
-/// A number and the standard deviation of its error.
-struct estimate {
-  double value = 0.0;
-  double deviation = std::numeric_limits<double>::infinity();
-
-  /// The bounds `deviations` standard deviations below and above the value.
-  [[nodiscard]] constexpr double at_least(double deviations) const noexcept {
-    return value - deviations * deviation;
-  }
-  [[nodiscard]] constexpr double at_most(double deviations) const noexcept {
-    return value + deviations * deviation;
-  }
-};
 
 /// The result of the regression. It does not count while `windows` is 0.
 struct motion_found {

@@ -235,15 +235,15 @@ class byte_reader {
 
 /// Adds a matrix whose columns follow one another; one of a single column or row has its own name, else name:1, ….
 inline void add_matrix(named_columns& all, const std::string& name,
-                       const std::vector<double>& numbers, std::size_t rows, std::size_t count,
+                       const std::vector<double>& values, std::size_t rows, std::size_t count,
                        bool by_columns) {
   if (rows == 1) std::swap(rows, count);
-  if (rows < 2 || count < 1 || numbers.size() / rows < count) return;
+  if (rows < 2 || count < 1 || values.size() / rows < count) return;
   if (count > 4096) return;
   for (std::size_t c = 0; c < count; ++c) {
     std::vector<double> column(rows);
     for (std::size_t i = 0; i < rows; ++i)
-      column[i] = numbers[by_columns ? c * rows + i : i * count + c];
+      column[i] = values[by_columns ? c * rows + i : i * count + c];
     all.add(count == 1 ? name : name + ":" + std::to_string(c + 1), std::move(column));
   }
 }
@@ -295,7 +295,7 @@ inline void add_matrix(named_columns& all, const std::string& name,
     }
     if (whole.type != 14) continue;  // not a matrix
     byte_reader part(whole.data);
-    const element flags = next(part), sizes = next(part), name = next(part), numbers = next(part);
+    const element flags = next(part), sizes = next(part), name = next(part), content = next(part);
     if (!part.good() || flags.data.size() < 8 || sizes.data.size() < 8) continue;
     const auto array_class = static_cast<std::uint8_t>(flags.data[0]);
     if (array_class < 6 || array_class > 15)
@@ -315,9 +315,9 @@ inline void add_matrix(named_columns& all, const std::string& name,
                                                                          {'i', 8},
                                                                          {'u', 8}}};
     std::vector<double> values;
-    if (numbers.type >= kinds.size()) continue;
-    const auto [kind, size] = kinds[numbers.type];
-    if (!numbers_of(numbers.data, kind, size, values)) continue;
+    if (content.type >= kinds.size()) continue;
+    const auto [kind, size] = kinds[content.type];
+    if (!numbers_of(content.data, kind, size, values)) continue;
     const auto rows = byte_reader::as<std::uint32_t>(sizes.data);
     const auto count = byte_reader::as<std::uint32_t>(sizes.data.substr(4));
     add_matrix(all, std::string(name.data), values, rows, count, true);

@@ -11,11 +11,26 @@
 // it was identified, and is identified again each year, may be told less drift.
 
 #include <passive_haptics/base/parameter.hpp>
-#include <passive_haptics/identification/motion_regression.hpp>
+
+#include <limits>
 
 namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
+
+/// A number and the standard deviation of its error.
+struct estimate {
+  double value = 0.0;
+  double deviation = std::numeric_limits<double>::infinity();
+
+  /// The bounds `deviations` standard deviations below and above the value.
+  [[nodiscard]] constexpr double at_least(double deviations) const noexcept {
+    return value - deviations * deviation;
+  }
+  [[nodiscard]] constexpr double at_most(double deviations) const noexcept {
+    return value + deviations * deviation;
+  }
+};
 
 struct trust {
   double confidence =

@@ -130,7 +130,7 @@ typedef struct ph_parameters {
   uint32_t size;        ///< sizeof(ph_parameters); a struct that ends behind longest_tick will do
   uint32_t latency;     ///< whole ticks from a command to the first instant it is held: PH_MOST_…
   double mass;          ///< smallest apparent mass, over all directions and poses [kg]
-  double damping;       ///< b: half of what you identified [N·s/m]
+  double damping;       ///< b: what identify states, a lower bound [N·s/m]
   double hand_force;    ///< the most that hand, load and dry friction push with [N]
   double force_limit;   ///< what the motors hold [N]
   double longest_tick;  ///< the worst tick of YOUR loop [s]
