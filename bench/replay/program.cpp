@@ -123,7 +123,7 @@ void plot(ex::report& report, const identification::recording& r,
   }
   ledger.close();
   report.plot("recording",
-              {"The recording", "Position on the left, the motor's force on the right."},
+              {"The recording", "Position on the left, the motor's force on the right.", {}},
               "set ytics nomirror\nset y2tics\nset xlabel 'time s'\nset ylabel 'position'\nset "
               "y2label 'force'\n"
               "plot 'recording.csv' using 1:2 with lines, '' using 1:3 axes x1y2 with lines");
@@ -131,7 +131,8 @@ void plot(ex::report& report, const identification::recording& r,
               {"What the ledger says and what can be",
                "The ledger told what may be stated, through the second half. It stays below what "
                "can be; far below it, "
-               "the device moves or is told less than it takes."},
+               "the device moves or is told less than it takes.",
+               {}},
               "set xlabel 'row'\nset ylabel 'J'\nplot 'ledger.csv' using 1:2 with lines, '' using "
               "1:3 with lines");
 }
