@@ -359,16 +359,16 @@ class local_contact {
   [[nodiscard]] constexpr scalar presence([[maybe_unused]] scalar depth, scalar dt,
                                           event& what) noexcept {
     if constexpr (Supply::moves) {
-      if (supply_.refused()) what = worse(what, event::rejected_target);
+      if (supply_.refused()) what = detail::worse_yet(what, event::rejected_target);
       if (!supply_.published()) [[unlikely]] {
-        what = worse(what, event::no_target);
+        what = detail::worse_yet(what, event::no_target);
         return scalar(0);
       }
       if (!supply_.changed()) supply_.grow_older(dt);
       if (supply_.current()) [[likely]] {
         return scalar(1);
       }
-      if (supply_.stale()) what = worse(what, event::stale_target);
+      if (supply_.stale()) what = detail::worse_yet(what, event::stale_target);
       return faded(supply_.weight(), depth, dt);
     } else {
       return scalar(1);

@@ -94,7 +94,7 @@ class mesh_contact::on {
   [[nodiscard]] request ask(const auto& motion, const auto& port, event& what) noexcept {
     const request free{P::zero(), true, scalar(0)};
     if (!ball_.touching()) {
-      what = worse(what, event::no_target);
+      what = detail::worse_yet(what, event::no_target);
       return free;
     }
     const vector x = motion.position;

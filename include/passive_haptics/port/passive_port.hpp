@@ -295,6 +295,8 @@ class passive_port {
   /// Of the last tick that was seen; of any square before there was one.
   using what_was_seen =
       std::conditional_t<doubts, motion_check<P>, std::conditional_t<reaches, last_seen, unasked>>;
+  /// The observer makes amends for faults, and says what that means for what is touched.
+  static constexpr bool mends = requires(observer_type o) { o.tells(event::nominal, false); };
   /// Does the source say by itself that nothing is asked?
   static constexpr bool says_nothing = zero_stays_zero && !detail::takes_efforts<source_type, P>;
 
@@ -362,6 +364,7 @@ class passive_port {
       if (request.nothing) {
         if constexpr (looks) bound_.watching().look_on(false);
         guard_.command(P::zero());
+        amend(what, false);
         return source_.answered(request, {P::zero(), observer_.value(), what, false});
       }
     }
@@ -373,6 +376,7 @@ class passive_port {
         if (bound_.watching().lets_go()) allowed = {P::zero(), true};
       }
     }
+    amend(what, allowed.limited);
     guard_.command(allowed.force);
     is_cut_ = allowed.limited;
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
@@ -437,7 +441,16 @@ class passive_port {
         return event::late_tick;
       }
     }
+    if constexpr (mends && Observer::exact) return event::nominal;  // amend() says it
     return observer_.value() < scalar(0) && overdrawn() ? event::debt : event::nominal;
+  }
+  /// What an observer that makes amends has to say of the tick, a debt included.
+  [[gnu::always_inline]] constexpr void amend([[maybe_unused]] event& what,
+                                              [[maybe_unused]] bool cut) noexcept {
+    if constexpr (mends) {
+      if (observer_.remembers()) [[unlikely]]
+        what = observer_.tells(what, cut);
+    }
   }
   /// Has the hand been fed? A ledger that begins below zero, for what elastic friction may hold, says so itself.
   [[nodiscard]] constexpr bool overdrawn() const noexcept {
@@ -451,7 +464,7 @@ class passive_port {
     auto allowed = detail::applied<P>(bound_, wanted, state);
     if constexpr (!always_numbers) {
       if (!P::is_finite(allowed.force)) [[unlikely]] {
-        what = worse(what, event::rejected_sample);
+        what = detail::worse_yet(what, event::rejected_sample);
         return {P::zero(), true};
       }
     }
