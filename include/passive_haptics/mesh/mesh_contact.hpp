@@ -68,8 +68,8 @@ class mesh_contact::on {
   /// The side that was touched is forgotten, the mesh is not.
   constexpr void reset() noexcept { ball_.reset(); }
 
-  /// From now on this mesh, which must outlive the port and is touched by no other; from the haptic thread.
-  void touch(mesh::surface& s) noexcept { ball_.touch(s); }
+  /// From now on this mesh, which must outlive the port; from the haptic thread. False: it has 64 fingers.
+  bool touch(const mesh::surface& s) noexcept { return ball_.touch(s); }
   /// Nothing is there any more.
   void let_go() noexcept { ball_.let_go(); }
   [[nodiscard]] const mesh::proxy& ball() const noexcept { return ball_; }

@@ -139,12 +139,6 @@ class proxy {
   [[nodiscard]] const support& pressed() const noexcept { return pressed_; }
   /// What a half-space is of: which mesh, in the order of touching, which triangle and where on it.
   [[nodiscard]] const half_space_of& plane(int i) const noexcept { return planes_[slot(i)]; }
-  /// What it is made of; null where nothing was painted.
-  [[nodiscard]] const material* made_of(int i) const noexcept {
-    const half_space_of& h = planes_[slot(i)];
-    const detail::world& w = parts_[slot(h.mesh)].news.mesh();
-    return w.materials.empty() ? nullptr : &w.materials[w.material_of[slot(h.triangle)]];
-  }
   /// How far the place where it is touched went in the last step, in the world [m].
   [[nodiscard]] triple went(int i) const noexcept {
     const half_space_of& h = planes_[slot(i)];
@@ -259,20 +253,8 @@ class proxy {
       const box& a = from->boxes[slot(i)];
       return {between(a.low, b.low, done), between(a.high, b.high, done)};
     }
-    [[nodiscard]] slab between_slabs(int i) const noexcept {
-      const slab& b = to->slabs[slot(i)];
-      if (still) return b;
-      const slab& a = from->slabs[slot(i)];
-      return {a.low + (b.low - a.low) * done, a.high + (b.high - a.high) * done};
-    }
-    [[nodiscard]] static double squared_distance(const box& b, const slab& s, const triple& across,
-                                                 const triple& p) noexcept {
-      const double along = dot(across, p);
-      const double gap = (std::max)((std::max)(s.low - along, along - s.high), 0.0);
-      return (std::max)(b.squared_distance(p), gap * gap);
-    }
     [[nodiscard]] double squared_distance(int i, const triple& p) const noexcept {
-      return squared_distance(around(i), between_slabs(i), of->across[slot(i)], p);
+      return around(i).squared_distance(p);
     }
   };
   [[nodiscard]] view at_share(const part& p, double done, const pose& where) const noexcept {
@@ -503,13 +485,8 @@ class proxy {
       before.of->tree.walk(
           [&](int b) {
             box swept = before.around(b);
-            slab along = before.between_slabs(b);
-            if (goes && !before.still) {
-              const slab then = after.between_slabs(b);
-              swept.grow(after.around(b));
-              along = {(std::min)(along.low, then.low), (std::max)(along.high, then.high)};
-            }
-            const double d2 = view::squared_distance(swept, along, before.of->across[slot(b)], own);
+            if (goes && !before.still) swept.grow(after.around(b));
+            const double d2 = swept.squared_distance(own);
             if (!turns) return d2;
             const triple middle = between(swept.low, swept.high, 0.5);
             const double by = length(after.where.out(middle) + after.where.position -
@@ -688,10 +665,8 @@ class proxy {
     v.of->tree.walk(
         [&](int b) {
           const box around = v.around(b);
-          const slab along = v.between_slabs(b);
-          const triple& across = v.of->across[slot(b)];
-          const double d2 = view::squared_distance(around, along, across, own);
-          const double before = shape::farthest(around, along, across, n) - base;
+          const double d2 = around.squared_distance(own);
+          const double before = around.farthest_along(n) - base;
           return before <= (d2 <= close2 ? tiny() : behind()) ? box::infinity : d2;
         },
         [&](double d2) { return d2 < farthest * farthest; },

@@ -3,7 +3,6 @@
 // Triangles that fingers touch while another thread moves them.
 //
 //     ph::mesh::surface organ(triangles, nodes);     // any thread, once
-//     organ.paint(materials, of_each_triangle);      // if they do not all feel alike; before it is touched
 //     if (!organ.update(nodes)) log(organ.fault());  // slow thread, whenever the nodes have moved
 //     organ.update(pose);                            // slow thread, where the whole of it has moved
 //
@@ -13,7 +12,6 @@
 // the last good one stays.
 
 #include <passive_haptics/mesh/box_tree.hpp>
-#include <passive_haptics/mesh/material.hpp>
 #include <passive_haptics/mesh/news.hpp>
 #include <passive_haptics/mesh/pose.hpp>
 
@@ -22,7 +20,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -40,25 +37,10 @@ namespace mesh {
 /// The numbers of three nodes.
 using triangle = std::array<int, 3>;
 
-/// How far something reaches along a direction, n·y in [low, high] [m].
-struct slab {
-  double low = box::infinity, high = -box::infinity;
-};
-
-/// The nodes at one time, and what is around them, for each branch of the tree: a box, and a slab along
-/// world::across. Where the mesh is smooth the slab is thin, so a fine mesh is seen as the coarse one that it follows.
+/// The nodes at one time, and the boxes around them.
 struct shape {
   std::vector<triple> nodes;
   std::vector<box> boxes;
-  std::vector<slab> slabs;
-
-  /// The largest n·y in a branch [m], `across` its direction: of the two bounds the smaller.
-  [[nodiscard]] static double farthest(const box& b, const slab& s, const triple& across,
-                                       const triple& n) noexcept {
-    const double along = dot(n, across);
-    const double in_slab = along * (along > 0.0 ? s.high : s.low);
-    return (std::min)(b.farthest_along(n), in_slab + b.farthest_along(n - across * along));
-  }
 };
 
 namespace detail {
@@ -80,9 +62,6 @@ struct world {
 
   std::vector<std::array<int, 3>> triangles;
   box_tree tree;
-  std::vector<triple> across;  ///< the mean normal of each branch where it was made, unit
-  std::vector<material> materials;
-  std::vector<std::uint8_t> material_of;  ///< each triangle
   news<shape> shapes;
   news<pose> poses;
 
@@ -145,38 +124,6 @@ class surface {
   surface(const surface&) = delete;
   surface& operator=(const surface&) = delete;
 
-  /// Triangle i is of materials[of[i]]; without `of` all are of the first. Before it is touched. False: fault() says
-  /// why, and nothing has changed.
-  bool paint(std::vector<material> materials, std::vector<std::uint8_t> of = {}) {
-    fault_.clear();
-    if (world_->readers.load() > 0) {
-      fault_ = "mesh: it is painted while it is touched; paint it before";
-    } else if (materials.empty() || materials.size() > 256) {
-      fault_ = "mesh: " + std::to_string(materials.size()) + " materials; give 1 to 256";
-    } else if (!of.empty() && of.size() != world_->triangles.size()) {
-      fault_ = "mesh: materials of " + std::to_string(of.size()) + " triangles for a mesh of " +
-               std::to_string(world_->triangles.size()) + "; give one number for each, or none";
-    }
-    for (std::size_t i = 0; fault_.empty() && i < materials.size(); ++i) {
-      if (const parameter_fault f = materials[i].check()) {
-        fault_ = "mesh: material " + std::to_string(i) + " has " + f.parameter + " = " +
-                 std::to_string(f.value) + "; it must be " + f.remedy;
-      }
-    }
-    for (std::size_t i = 0; fault_.empty() && i < of.size(); ++i) {
-      if (of[i] >= materials.size()) {
-        fault_ = "mesh: triangle " + std::to_string(i) + " is of material " +
-                 std::to_string(int(of[i])) + " of " + std::to_string(materials.size()) +
-                 "; count from 0";
-      }
-    }
-    if (!fault_.empty()) return false;
-    if (of.empty()) of.assign(world_->triangles.size(), 0);
-    world_->materials = std::move(materials);
-    world_->material_of = std::move(of);
-    return true;
-  }
-
   // ------------------------------------------------------------------------------------ the slow thread
   using clock = std::chrono::steady_clock;
   /// The nodes are there now [m]. False: fault() says why, and what was last good stays. It does not allocate
@@ -217,7 +164,7 @@ class surface {
     last_ = at;
     return true;
   }
-  /// Why the last update or paint was refused; empty if it was not.
+  /// Why the last update was refused; empty if it was not.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
   [[nodiscard]] std::span<const triangle> triangles() const noexcept { return world_->triangles; }
 
@@ -352,25 +299,6 @@ class surface {
                                                            const Nodes& nodes) {
     box_tree tree(centres(triangles, nodes));
     auto w = std::make_unique<detail::world>(std::move(triangles), std::move(tree));
-    const auto branches = w->tree.branches();
-    w->across.resize(branches.size());
-    for (std::size_t b = branches.size(); b-- > 0;) {  // sums first
-      if (branches[b].right >= 0) {
-        w->across[b] = w->across[b + 1] + w->across[at(branches[b].right)];
-        continue;
-      }
-      for (const int t : w->tree.things(branches[b])) {
-        const auto& [i, j, k] = w->triangles[at(t)];
-        const triple p = detail::node_of(nodes, at(i));
-        w->across[b] = w->across[b] +
-                       cross(detail::node_of(nodes, at(j)) - p, detail::node_of(nodes, at(k)) - p);
-      }
-    }
-    for (triple& n : w->across) {
-      const double size = length(n);
-      n = size > 0.0 ? n * (1.0 / size) : triple{0.0, 0.0, 1.0};
-      if (!(squared(n) > 0.99)) n = {0.0, 0.0, 1.0};
-    }
     return w;
   }
   template <class Nodes>
@@ -378,32 +306,10 @@ class surface {
     const detail::world& w = *world_;
     s.nodes.resize(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) s.nodes[i] = detail::node_of(nodes, i);
-    const auto branches = w.tree.branches();
-    s.boxes.resize(branches.size());
-    s.slabs.resize(branches.size());
+    s.boxes.resize(w.tree.branches().size());
     w.tree.fit(s.boxes, [&](int t, box& b) {
       for (const int node : w.triangles[at(t)]) b.grow(s.nodes[at(node)]);
     });
-    for (std::size_t b = branches.size(); b-- > 0;) {
-      const triple& n = w.across[b];
-      slab fitted;
-      if (branches[b].right >= 0) {
-        for (const std::size_t c : {b + 1, at(branches[b].right)}) {
-          const auto reach = [&](const triple& way) {
-            return shape::farthest(s.boxes[c], s.slabs[c], w.across[c], way);
-          };
-          fitted = {(std::min)(fitted.low, -reach(n * -1.0)), (std::max)(fitted.high, reach(n))};
-        }
-      } else {
-        for (const int t : w.tree.things(branches[b])) {
-          for (const int node : w.triangles[at(t)]) {
-            const double along = dot(n, s.nodes[at(node)]);
-            fitted = {(std::min)(fitted.low, along), (std::max)(fitted.high, along)};
-          }
-        }
-      }
-      s.slabs[b] = fitted;
-    }
   }
 
   std::unique_ptr<detail::world> world_;
