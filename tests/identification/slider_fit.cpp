@@ -164,8 +164,7 @@ TEST_CASE("which frictions a list of sliders covers, told how much", "[identific
   }
   const auto creeping = moved(dahl, dither, step);
   CAPTURE(credited(found, creeping), creeping.lost);
-  CHECK(credited(found, creeping) >
-        creeping.lost + 2.5 * found.level() * found.mean_presliding());
+  CHECK(credited(found, creeping) > creeping.lost + 2.5 * found.level() * found.mean_presliding());
 }
 
 TEST_CASE("fit_sliders refuses by a sentence what is no recording", "[identification][sliders]") {
