@@ -20,12 +20,13 @@ TEST_CASE("a finger in the corner of two meshes is held by both, and by one when
   for (int k = 0; k < 30; ++k) ball.step({0.02 - 1e-3 * k, 0.003, 0.02 - 1e-3 * k}, T);
   CHECK(length(ball.place() - triple{5e-4, 0.003, 5e-4}) < 1e-9);
   ball.let_go(wall);  // alone, a plate from outside is at the same place
-  for (int k = 0; k < 10; ++k) ball.step({-0.009, 0.003, -0.009}, T);
+  for (int k = 0; k < 60; ++k) ball.step({-0.009, 0.003, -0.009}, T);  // r/2 a tick, or more
   CHECK(length(ball.place() - triple{-0.009, 0.003, 5e-4}) < 1e-9);
 }
 
 TEST_CASE("no mesh of two lets the ball through while both move, turn and bend", "[mesh]") {
   const body plates = plate(), balls = sphere(2, 0.03);
+  int by[2] = {0, 0};
   for (const unsigned seed : {1U, 2U, 3U}) {
     ph::mesh::surface one(plates.triangles, plates.nodes), other(balls.triangles, balls.nodes);
     ph::mesh::proxy ball({.radius = 5e-4});
@@ -35,7 +36,7 @@ TEST_CASE("no mesh of two lets the ball through while both move, turn and bend",
     std::uniform_real_distribution<> any(-0.05, 0.05);
     triple x{0.0, 0.0, 0.12}, goal;
     double round[2] = {-1e9, -1e9}, least = 1.0;
-    int through = 0, by[2] = {0, 0};
+    int through = 0;
     for (int k = 0; k < 3000; ++k) {
       if (k % 33 == 0) {
         const double half = 0.4 * std::sin(0.004 * k);
@@ -69,9 +70,9 @@ TEST_CASE("no mesh of two lets the ball through while both move, turn and bend",
     INFO("seed " << seed);
     CHECK(through == 0);
     CHECK(least >= 1.25e-4);
-    CHECK(by[0] > 0);
-    CHECK(by[1] > 0);
   }
+  CHECK(by[0] > 100);
+  CHECK(by[1] > 100);
 }
 
 TEST_CASE("several fingers on one mesh take its news each in its own time", "[mesh]") {
