@@ -123,7 +123,10 @@ void plot(ex::report& report, const identification::recording& r,
   }
   ledger.close();
   report.plot("recording",
-              {"The recording", "Position on the left, the motor's force on the right.", {}},
+              {"The recording",
+               "Position on the left, the motor's force on the right.",
+               {{"Position", "recording.csv",
+                 [](const ex::recorded& f) { return ex::swing(f["position"]) > 0.0; }}}},
               "set ytics nomirror\nset y2tics\nset xlabel 'time s'\nset ylabel 'position'\nset "
               "y2label 'force'\n"
               "plot 'recording.csv' using 1:2 with lines, '' using 1:3 axes x1y2 with lines");
