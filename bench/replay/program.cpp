@@ -135,7 +135,14 @@ void plot(ex::report& report, const identification::recording& r,
                "The ledger told what may be stated, through the second half. It stays below what "
                "can be; far below it, "
                "the device moves or is told less than it takes.",
-               {}},
+               {{"stays below what can be", "ledger.csv",
+                 [](const ex::recorded& f) {
+                   const auto &says = f["ledger J"], &may = f["at most J"];
+                   for (std::size_t i = 0; i < says.size(); ++i) {
+                     if (says[i] > may[i]) return false;
+                   }
+                   return true;
+                 }}}},
               "set xlabel 'row'\nset ylabel 'J'\nplot 'ledger.csv' using 1:2 with lines, '' using "
               "1:3 with lines");
 }
