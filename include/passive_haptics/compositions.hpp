@@ -185,7 +185,8 @@ constexpr void fit(proxy_spring& spring, const auto& d, double most) noexcept {
 }  // namespace detail
 
 /// One surface: touch.update(plane), touch.tick(sample). Its normal turns as news go on turning it, and makes up for
-/// the rest by at most `turn_rate` [rad/s]. On encoders it is no stiffer than what dry friction pays for, so that it
+/// the rest by at most `turn_rate` [rad/s] or, where little is pressed, by what turns the force at half of
+/// usual_force_rate. On encoders it is no stiffer than what dry friction pays for, so that it
 /// lasts; without dry friction nothing does, and check() refuses `most`. E ≥ 0 as long as the device and the hand are
 /// as they were stated and there is no fault, on encoders E ≥ −½ c p.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
