@@ -95,7 +95,8 @@ TEST_CASE(
   REQUIRE_FALSE(touch.set(ph::turn_limited{.rate = 0.5}));
   const d3::vector before = touch.local().normal;
   const double pressed_with = touch.tick(here, 1ms).force.norm();
-  const double angle = std::acos(before.dot(touch.local().normal));
+  const d3::vector after = touch.local().normal;
+  const double angle = std::acos(before.dot(after));
   CHECK(angle > 2e-3);
   CHECK(angle * pressed_with < 0.011);  // half of usual_force_rate in a tick [N]
 }
