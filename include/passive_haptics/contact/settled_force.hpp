@@ -127,8 +127,8 @@ class settled_force::on : private part_at<given_force, P> {
     longest_tick_ = T;
     late_ = late;
     per_tick_ = mass_ / (T * scalar(1 + late));
-    const scalar most = fraction_ * per_tick_ / ((scalar(late) + scalar(1.5)) * T);
-    steepest_ = softens_ ? kernels::smaller(most, stiffest_) : kernels::largest<scalar>();
+    const scalar settles = fraction_ * per_tick_ / ((scalar(late) + scalar(1.5)) * T);
+    steepest_ = softens_ ? kernels::smaller(settles, stiffest_) : kernels::largest<scalar>();
   }
   /// most_stiffness, as long as nobody knows how stiff the renderer is; of one that was found too steep what it is, and ¾
   /// of that.
@@ -177,11 +177,11 @@ class settled_force::on : private part_at<given_force, P> {
       moved = keep * moved + way;
       changed = keep * changed + change;
     }
-    /// Of a force so steep, how much is as steep as `most`; 100 where it is hardly steep, or where that is not sure: less
+    /// Of a force so steep, how much is as steep as `enough`; 100 where it is hardly steep, or where that is not sure: less
     /// than a quarter of what changes goes with the motion, or the rest may make all the difference. That is noise, or
     /// an effect that was added.
-    [[nodiscard]] constexpr scalar share(scalar most) const noexcept {
-      const scalar allowed = most * moved, both = moved * changed, steep = stiff * stiff;
+    [[nodiscard]] constexpr scalar share(scalar enough) const noexcept {
+      const scalar allowed = enough * moved, both = moved * changed, steep = stiff * stiff;
       const scalar beyond = stiff - allowed, rest = both - steep;
       const bool sure = scalar(4) * steep > both && !(rest > scalar(8) * beyond * beyond);
       return sure && stiff * scalar(100) > allowed ? allowed / stiff : scalar(100);
@@ -246,8 +246,8 @@ class settled_force::on : private part_at<given_force, P> {
     const scalar B = fraction_ * per_tick;
     if constexpr (P::dof == 1) {
       notice(change, v, dt);
-      const scalar most = scalar(-2) * w;
-      return w - kernels::clamped(B * v, kernels::smaller(w, most), kernels::larger(w, most));
+      const scalar inwards = scalar(-2) * w;
+      return w - kernels::clamped(B * v, kernels::smaller(w, inwards), kernels::larger(w, inwards));
     } else {
       const scalar size = kernels::square_root(squared);
       const effort n = turned(w, size, dt);
