@@ -148,7 +148,7 @@ drawn_hand<Space> draw_hand(std::mt19937& from, double most) {
   h.amplitude = most - std::abs(h.bias) * unit(from);
   h.phase = unit(from);
   h.across = Space::dof > 1 ? unit(from) : 0.0;
-  h.seed = from();
+  h.seed = static_cast<unsigned>(from());
   using kind = typename drawn_hand<Space>::kind;
   if (h.does == kind::kneads || h.does == kind::turns_at) {  // these are places, not forces
     h.bias = -5e-3 * unit(from) + 1e-3;

@@ -59,10 +59,10 @@ long double beyond_nearest(const auto& damping, const typename P::effort& f,
     return sum * static_cast<long double>(T) / 4;
   };
   long double low = 0, high = 1;
-  while (outflow(high) > E) high *= 2;
+  while (outflow(high) > static_cast<long double>(E)) high *= 2;
   for (int i = 0; i < 300; ++i) {
     const long double middle = (low + high) / 2;
-    (outflow(middle) > E ? low : high) = middle;
+    (outflow(middle) > static_cast<long double>(E) ? low : high) = middle;
   }
   long double nearest = 0, found = 0, asked = 0;
   for (int i = 0; i < P::dof; ++i) {
@@ -109,7 +109,7 @@ TEMPLATE_TEST_CASE("strict_bound takes the nearest effort that is covered, whate
         continue;
       }
       if (W < E * 1.001) continue;
-      REQUIRE(beyond_nearest<TestType>(device, f, left, E) <
+      REQUIRE(static_cast<double>(beyond_nearest<TestType>(device, f, left, E)) <
               (span > 2.0 ? 0.05 : exactness<TestType>));
       const scalar one = device.affordable(f, static_cast<scalar>(E), scalar(T));
       REQUIRE(TestType::norm(left) >= one * TestType::norm(f) * scalar(1 - 1e-5));

@@ -147,7 +147,7 @@ TEST_CASE("news that are no numbers, from the future or from the past are refuse
 
 TEST_CASE("random worlds that jump, lie, drop and overtake neither step, nor draw, nor break",
           "[contact]") {
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     CAPTURE(seed);
     sim::random_source random(seed);
     auto touch = ph::make_touch<d1>(device, hand);
