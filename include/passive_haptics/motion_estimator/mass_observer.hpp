@@ -74,7 +74,6 @@ class mass_observer::on {
     }
     return {position_, velocity_};
   }
-  [[nodiscard]] constexpr vector position() const noexcept { return position_; }  ///< x [m]
 
  private:
   using coordinates = typename P::coordinates;
