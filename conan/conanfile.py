@@ -15,8 +15,9 @@ from conan.tools.files import copy, load, rmdir
 
 
 # The companions above the core, and what of each other they bring along: CMakeLists.txt has the same.
-COMPANIONS = {"knob": [], "published": [], "mesh": [], "environment": ["mesh"], "simulation": [], "two_port": [],
-              "remote": [], "runner": [], "identification": [], "falcon": ["runner"], "adapters": ["identification"]}
+COMPANIONS = {"knob": [], "compliant": [], "published": [], "mesh": [], "environment": ["mesh"], "simulation": [],
+              "two_port": [], "remote": [], "runner": [], "identification": [], "falcon": ["runner"],
+              "adapters": ["identification"]}
 
 
 class PassiveHaptics(ConanFile):

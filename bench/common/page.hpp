@@ -3,6 +3,7 @@
 // The look of the programs' pages. The one stylesheet stands in each page, so that a page is one file beside its
 // plots and loads nothing; start_page.cmake reads the stylesheet from here as well.
 
+#include "claims.hpp"
 #include "text.hpp"
 
 #include <string>
@@ -51,12 +52,6 @@ figcaption b{display:block;color:var(--ink)}
 footer{margin-top:3rem;padding-top:1rem;padding-bottom:2.5rem;font-size:.9rem;color:var(--soft)}
 @media print{nav{display:none}figure,table{break-inside:avoid}}
 )css";
-
-/// The text of a plot.
-struct caption {
-  std::string title;  ///< a few words, without a full stop
-  std::string see;    ///< whole sentences: where to look, and what it means
-};
 
 /// The style of the plots: black becomes the text colour of the scheme, and the background that of the page. The
 /// colours of the curves have a contrast of 3 or more in both schemes.

@@ -107,20 +107,31 @@ class report {
     members_.emplace_back(name, json);
   }
 
-  /// Adds a plot by the gnuplot commands after `set output`, which read the CSV files of this folder.
+  /// Adds a plot by the gnuplot commands after `set output`, which read the CSV files of this folder. What its
+  /// caption claims is looked up in them now, so they are written by then; what is not so is in untrue().
   void plot(const std::string& name, const caption& said, const std::string& commands) {
     output_file script(path(name + ".gp"));
     script.stream() << plot_preamble << "set output '" << name << ".svg'\n" << commands << '\n';
     script.close();
     plots_.emplace_back(name, said.title);
+    const auto found = experiments::untrue(name, said, folder_);
+    untrue_.insert(untrue_.end(), found.begin(), found.end());
+    for (const auto& c : said.claims) {
+      claims_.push_back(
+          json_object({{"plot", json_string(name)}, {"words", json_string(c.words)}}));
+    }
     page_.figure(name, said);
     text_ +=
         "![" + said.title + "](" + name + ".svg)\n\n**" + said.title + ".** " + said.see + "\n\n";
   }
 
+  /// What the captions say and is not so, a sentence each.
+  [[nodiscard]] const std::vector<std::string>& untrue() const { return untrue_; }
+
   /// Writes the JSON file and the pages and runs gnuplot; `lead` is the text under the title. Returns false if
   /// gnuplot did not draw every plot.
   bool finish(const std::string& title, const std::string& lead = {}) {
+    if (!claims_.empty()) member("captions", json_array(claims_));
     output_file json(path(names_.json));
     json.stream() << "{";
     for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -169,6 +180,7 @@ class report {
   page page_;
   std::string text_;                                        // the same in Markdown
   std::vector<std::pair<std::string, std::string>> plots_;  // name and title
+  std::vector<std::string> untrue_, claims_;                // of their captions
   std::vector<std::pair<std::string, std::string>> members_;
 };
 

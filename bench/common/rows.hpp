@@ -12,9 +12,11 @@
 
 namespace experiments {
 
-/// Finishes the report of a program, prints where it is and then what has failed; returns the exit code.
+/// Finishes the report of a program, prints where it is and then what has failed, captions that are not so among
+/// it; returns the exit code.
 [[nodiscard]] inline int conclude(report& out, const std::string& program, const std::string& title,
-                                  const std::string& lead, const failures& found) {
+                                  const std::string& lead, failures found) {
+  found.insert(found.end(), out.untrue().begin(), out.untrue().end());
   out.member("failures", json_of(found));
   if (!out.finish(title, lead)) {
     std::cout << "gnuplot did not draw every plot: is it installed? The rest is complete.\n";

@@ -86,7 +86,13 @@ void plot_stroke(const session& s, const curved::triangulated& mesh) {
       {"The force on a finger that strokes a ball",
        "The finger goes 1 to 3 mm deep and back, and the force should swing as smoothly. On "
        "the nearest of 320 triangles it steps where it crosses an edge; on a quadric, which is "
-       "published 30 times a second, it has none."},
+       "published 30 times a second, it has none.",
+       {{"it steps where it crosses an edge", "stroke_force.csv",
+         [](const ex::recorded& r) { return ex::largest_step(r["nearest triangle"]) > 0.05; }},
+        {"it has none", "stroke_force.csv",
+         [](const ex::recorded& r) {
+           return ex::largest_step(r.within("quadric at 30 Hz", 0.01, 1.0)) < 0.01;
+         }}}},
       "set xlabel 'time [s]'\nset ylabel 'force [N]'\nplot 'stroke_force.csv' using 1:3 with "
       "lines lt 2 lw 1.2, '' using 1:2 with lines lt 1");
 }

@@ -118,7 +118,11 @@ void plot_news(const session& s) {
       "news_force",
       {"The force on a device that holds still while three planes change",
        "30 times a second a plane comes, goes or moves. Taken at once it is a step of newtons, "
-       "a click in the hand; followed it is a slope."},
+       "a click in the hand; followed it is a slope.",
+       {{"a step of newtons", "news_force.csv",
+         [](const ex::recorded& r) { return ex::largest_step(r["snapped"]) > 1.0; }},
+        {"followed it is a slope", "news_force.csv",
+         [](const ex::recorded& r) { return ex::largest_step(r["followed"]) < 0.1; }}}},
       "set xlabel 'time [s]'\nset ylabel 'force [N]'\nset yrange [0:*]\nplot 'news_force.csv' "
       "using 1:3 with lines lt 2 lw 1.2, '' using 1:2 with lines lt 1");
 }

@@ -162,7 +162,14 @@ void show_z_width(const session& s, const std::vector<z_row>& rows) {
                     std::to_string(sum.passive) + " of " + std::to_string(sum.cells) +
                     " are passive whatever the hand does, " + std::to_string(sum.stable) +
                     " come to rest; a cross does not. Left of and below the solid line a wall "
-                    "needs no controller at all."},
+                    "needs no controller at all.",
+                {{"Left of and below the solid line a wall needs no controller at all", "",
+                  [&rows](const ex::recorded&) {
+                    return std::none_of(rows.begin(), rows.end(), [](const z_row& r) {
+                      const bool left = r.stiffness < 0.99 * 2.0 * (0.03 - r.damping) / 1e-3;
+                      return r.controller == "none" && left && passive_for(r) != 2;
+                    });
+                  }}}},
                plot_of(sum.points));
   }
 }

@@ -33,11 +33,19 @@ wall with_rigid_friction(const design::stated_device& d, double /*most*/) {
   return settling(d, ph::dual_ledger{.damping = {d.damping, d.friction, 0.0}, .quantum = d.quantum},
                   observer(d));
 }
-wall encoder_touch(const design::stated_device& d, double most) {
+/// `capital` is what make_touch lets the cap follow, or 0 for a cap that stays.
+wall touch_of(const design::stated_device& d, double most, double capital) {
   auto made = ph::make_touch<line>(d, ph::known_hand{.force = hand_force});
-  (void)made.set(
-      ph::capped{ph::eased{ph::damped_spring{.mass = d.mass, .force_limit = d.force_limit}}, most});
+  (void)made.set(ph::capped{
+      ph::eased{ph::damped_spring{.mass = d.mass, .force_limit = d.force_limit}}, most, capital});
   return made;
+}
+wall encoder_touch(const design::stated_device& d, double most) {
+  const bool follows = most < unlimited;  // what is sought is the largest that lasts as it is
+  return touch_of(d, most, follows ? design::stiffness_budget(d).working_capital : 0.0);
+}
+wall with_fixed_cap(const design::stated_device& d, double most) {
+  return touch_of(d, most, 0.0);
 }
 wall of_exact_positions(const design::stated_device& d, double /*most*/) {
   return settling(d, ph::reduced_energy{.damping = d.damping}, ph::last_difference{});
@@ -57,7 +65,8 @@ wall unbounded(const design::stated_device& d, double /*most*/) {
 
 const std::vector<composition>& compositions() {
   static const std::vector<composition> all{
-      {.name = "dual ledger", .is_capped = true, .make = encoder_touch},
+      {.name = "dual ledger", .is_capped = true, .follows = true, .make = encoder_touch},
+      {.name = "dual ledger, fixed cap", .is_capped = true, .make = with_fixed_cap},
       {.name = "quantised energy", .make = recommended},
       {.name = "dual ledger, rigid friction",
        .takes_friction_as_rigid = true,

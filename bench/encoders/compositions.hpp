@@ -60,6 +60,7 @@ struct composition {
   bool takes_friction_as_rigid = false;
   bool promises = true;
   bool is_capped = false;  ///< its law is no stiffer than the budget
+  bool follows = false;    ///< and softer where the ledger runs low
   wall (*make)(const design::stated_device&,
                double most) = nullptr;  ///< if capped, at `most` [N/m]
 
@@ -72,6 +73,8 @@ struct composition {
   [[nodiscard]] bool fits(const machine& m) const noexcept {
     return !is_capped || m.budget().stiffness > 0.0;
   }
+  /// Is it there for the section on tremor only, to be compared with?
+  [[nodiscard]] bool is_control() const noexcept { return is_capped && !follows; }
   /// The static stiffness that its law displays of a wall K [N/m].
   [[nodiscard]] double displayed(const machine& m, double K) const noexcept {
     return m.displayed(is_capped ? std::min(K, m.budget().stiffness) : K);
@@ -81,10 +84,10 @@ struct composition {
 /// The recommended one first.
 [[nodiscard]] const std::vector<composition>& compositions();
 
-/// use(device) of a machine under a hand that follows a target: a mass of 150 g, 300 N/m, 5 N·s/m.
-[[nodiscard]] auto with_device(const machine& m, double start, auto use) {
+/// use(device) of a machine under a hand that follows a target.
+[[nodiscard]] auto with_device(const machine& m, double start,
+                               const sim::impedance_hand<line>& fingers, auto use) {
   using hand = sim::impedance_hand<line>;
-  const hand fingers{.stiffness = 300.0, .damping = 5.0, .own_mass = 0.15};
   if (m.rubs_elastically()) {
     auto p = m.preset.without_friction<line>();
     p.start = start;
@@ -96,6 +99,11 @@ struct composition {
   p.start = start;
   sim::device<line, hand> device(p, fingers);
   return use(device);
+}
+
+/// The same under a hand of 150 g, 300 N/m, 5 N·s/m.
+[[nodiscard]] auto with_device(const machine& m, double start, auto use) {
+  return with_device(m, start, {.stiffness = 300.0, .damping = 5.0, .own_mass = 0.15}, use);
 }
 
 inline constexpr double unlimited = std::numeric_limits<double>::infinity();

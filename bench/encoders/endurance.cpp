@@ -125,7 +125,7 @@ std::vector<endurance_row> cells(const session& s) {
     for (const double presliding : {0.0, 5e-6, 15e-6, 30e-6}) {
       if (presliding > 0.0 && (s.chosen.quick || !(preset.friction > 0.0))) continue;
       for (const auto& what : s.judged) {
-        if (!what.fits({preset, presliding})) continue;
+        if (!what.fits({preset, presliding}) || what.is_control()) continue;
         for (const auto how : {pressing::kneading, pressing::holding}) {
           all.push_back({{preset, presliding}, &what, how, s.chosen.quick ? 5 : 60});
         }
@@ -156,7 +156,16 @@ void plot_budget(const session& s, const std::vector<endurance_row>& rows) {
              {"How stiff a wall lasts",
               "The largest stiffness that kneading leaves standing, over the budget that the "
               "device's own figures promise beforehand. A point on or above the line of the budget "
-              "keeps the promise; far above it the budget is cautious."},
+              "keeps the promise, far above it the budget is cautious; none is below half of it.",
+              {{"none is below half of it", "",
+                [&points](const ex::recorded&) {
+                  for (const auto& [name, list] : points) {
+                    for (const auto& [budget, found] : list) {
+                      if (found < 0.5 * budget) return false;
+                    }
+                  }
+                  return true;
+                }}}},
              "set logscale xy\nset xlabel 'budget [N/m]'\nset ylabel 'largest that lasts [N/m]'\n" +
                  ex::curves(lines));
 }

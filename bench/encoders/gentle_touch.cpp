@@ -173,7 +173,8 @@ std::vector<touch_row> cells(const session& s) {
       if (s.chosen.quick && presliding > 0.0 && presliding != 15e-6) continue;
       for (const double K : {1e3, 3e3, 1e4}) {
         for (const auto& what : s.judged) {
-          if (what.fits({preset, presliding})) all.push_back({{preset, presliding}, K, &what});
+          if (!what.fits({preset, presliding}) || what.is_control()) continue;
+          all.push_back({{preset, presliding}, K, &what});
         }
       }
     }
@@ -195,7 +196,15 @@ void plot_device(const session& s, const std::vector<touch_row>& rows, const cha
              {std::string(device) + ": who feels the wall",
               "The share of gentle touches that feel 0.8 of the wall's stiffness or more; dry "
               "friction is rigid (0 µm) or elastic over 15 µm. A curve at 1 always feels the wall, "
-              "one at 0 never, as if it had been switched off."},
+              "one at 0 never, as if it had been switched off. What is capped at the budget stands "
+              "near 1.",
+              {{"What is capped at the budget stands near 1", "",
+                [&rows, device](const ex::recorded&) {
+                  return std::none_of(rows.begin(), rows.end(), [device](const touch_row& r) {
+                    return std::string(r.m.preset.name) == device && r.what->is_capped &&
+                           r.share(0.8) < 0.9;
+                  });
+                }}}},
              "set logscale x\nset xrange [900:11000]\nset xtics (1000, 3000, 10000)\nset yrange "
              "[-0.05:1.05]\nset xlabel "
              "'stiffness of the wall [N/m]'\nset ylabel 'share of touches'\n" +

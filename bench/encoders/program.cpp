@@ -6,6 +6,8 @@ namespace encoders {
 const std::vector<ex::section<session>>& sections() {
   static const std::vector<ex::section<session>> all{{"gentle_touch", run_gentle_touch},
                                                      {"endurance", run_endurance},
+                                                     {"tremor", run_tremor},
+                                                     {"nearest", run_nearest},
                                                      {"guarantee", run_guarantee}};
   return all;
 }

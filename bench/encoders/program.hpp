@@ -20,6 +20,8 @@ struct session : ex::workshop {
 [[nodiscard]] const std::vector<ex::section<session>>& sections();
 [[nodiscard]] std::vector<std::string> run_gentle_touch(const session& s);
 [[nodiscard]] std::vector<std::string> run_endurance(const session& s);
+[[nodiscard]] std::vector<std::string> run_tremor(const session& s);
+[[nodiscard]] std::vector<std::string> run_nearest(const session& s);
 [[nodiscard]] std::vector<std::string> run_guarantee(const session& s);
 
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.

@@ -210,7 +210,14 @@ void draw_surface(ex::report& out, const held_mesh& body, const std::vector<vect
       "chain_surface",
       {"The upper side of the organ at the end",
        "Coloured by how far it has moved. The dent is where the tool stood when time was up; its "
-       "file for ParaView is chain_organ.vtu."},
+       "file for ParaView is chain_organ.vtu.",
+       {{"how far it has moved", "chain_surface.csv",
+         [](const ex::recorded& r) {
+           double most = 0.0;  // lines between the triangles have no number
+           for (const double mm : r["moved mm"])
+             most = std::isfinite(mm) ? std::max(most, mm) : most;
+           return most > 0.1;
+         }}}},
       "set key noautotitle\nset pm3d depthorder\nset view 50,30,1.7\n"
       "set view equal xyz\nunset border\nunset xtics\nunset ytics\nunset ztics\n"
       "set palette defined (0 '#d8c9b4', 0.3 '#d88060', 1 '#901010')\n"
@@ -234,13 +241,35 @@ void draw_course(ex::report& out) {
       "chain_force",
       {"The force on the device",
        "It follows the strokes without a step. A spike down to zero is a tick so late that the "
-       "device's watchdog dropped the force."},
+       "device's watchdog dropped the force.",
+       {{"without a step", "chain_course.csv",
+         [](const ex::recorded& r) {  // 10 ms from one to the next
+           const auto& f = r["force N"];
+           double step = 0.0;
+           for (std::size_t i = 1; i < f.size(); ++i) {
+             if (f[i] > 0.0 && f[i - 1] > 0.0) step = std::max(step, std::abs(f[i] - f[i - 1]));
+           }
+           return step < 0.2 * ex::most(f);
+         }}}},
       "set xlabel 's'\nplot 'chain_course.csv' using 1:2 with lines");
   out.plot("chain_energy",
            {"Energy that the hand has paid in: true, and in the ledger",
             "The ledger stays below the truth, as it must, and neither falls below zero: nothing "
             "came out "
-            "that the hand had not put in."},
+            "that the hand had not put in.",
+            {{"The ledger stays below the truth", "chain_course.csv",
+              [](const ex::recorded& r) {
+                const auto &truth = r["port energy J"], &ledger = r["ledger J"];
+                for (std::size_t i = 0; i < truth.size(); ++i) {
+                  if (ledger[i] > truth[i] + 1e-9) return false;
+                }
+                return true;
+              }},
+             {"neither falls below zero", "chain_course.csv",
+              [](const ex::recorded& r) {
+                return ex::least(r["port energy J"]) >= -1e-12 &&
+                       ex::least(r["ledger J"]) >= -1e-12;
+              }}}},
            "set xlabel 's'\nplot 'chain_course.csv' using 1:4 with lines, '' using 1:5 with lines");
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program.hpp"
 
+#include "between.hpp"
 #include "chain.hpp"
 #include "large_deflection.hpp"
 #include "organ_mesh.hpp"
 #include "precision.hpp"
 #include "remote.hpp"
 #include "sparse_ldlt.hpp"
+#include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/environment/compliance_table.hpp>
 #include <passive_haptics/environment/contact_surface.hpp>
 #ifdef PASSIVE_HAPTICS_CHOLMOD
@@ -348,6 +350,23 @@ failures judge_precision(const session& s) {
   return found;
 }
 
+failures judge_between(const session& s) {
+  const auto& [out, chosen, tell] = s;
+  failures found;
+  const auto rows =
+      run_between(out, {.mesh = chosen.mesh, .unit = chosen.unit, .quick = chosen.quick});
+  for (const auto& r : rows) {
+    const bool ours = r.by != "bare", knows = r.by == "... moving quadric";
+    const std::string where =
+        r.scene + ex::format(", %g Hz, ", r.rate) + ex::format("%g ms, ", r.late) + r.by;
+    expect(found, !ours || r.least >= -1e-12, where + ": energy was lost");
+    expect(found, !knows || r.rate > 60.0 || r.of_bare <= 0.5,
+           where + ": more than half of bare's error");
+    expect(found, !knows || r.lost == 0, where + ": contact was lost");
+  }
+  return found;
+}
+
 failures judge_chain(const session& s) {
   const auto& [out, chosen, tell] = s;
   chain_settings asked{.side = chosen.chain.side,
@@ -394,11 +413,9 @@ failures judge_deflections(const session& s) {
 }
 
 const std::vector<ex::section<session>>& sections() {
-  static const std::vector<ex::section<session>> all{{"solvers", run_solvers},
-                                                     {"precision", judge_precision},
-                                                     {"chain", judge_chain},
-                                                     {"remote", judge_remote},
-                                                     {"deflections", judge_deflections}};
+  static const std::vector<ex::section<session>> all{
+      {"solvers", run_solvers}, {"precision", judge_precision}, {"between", judge_between},
+      {"chain", judge_chain},   {"remote", judge_remote},       {"deflections", judge_deflections}};
   return all;
 }
 
@@ -412,6 +429,15 @@ settings parse(const std::vector<std::string>& arguments) {
       ex::section_options(
           sections(), chosen, "a first look",
           {ex::a_switch("--large", "97 336 nodes, too (5 GB; 20 minutes)", chosen.large),
+           ex::a_text("--mesh FILE", "another organ for `between`, Gmsh MSH", chosen.mesh),
+           {"--unit METRES", "its unit of length (default: 0.001)",
+            [&chosen](const std::string& text) {
+              const auto unit = passive_haptics::to_decimal(text);
+              if (!unit || !(*unit >= 1e-9 && *unit <= 1e3)) {
+                ex::complain("--unit " + text + ": give a length from 1e-9 to 1000 m");
+              }
+              chosen.unit = *unit;
+            }},
            ex::a_number("--seconds", "of the chain (default: 60)", chain.seconds),
            ex::a_number("--side", "of the chain's organ, nodes (default: 32)", chain.side, 4),
            ex::a_number("--rate", "of its environment, Hz (default: 100)", chain.rate),

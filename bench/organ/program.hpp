@@ -15,6 +15,8 @@ namespace ex = experiments;
 
 struct settings : ex::section_settings {
   bool large = false;
+  std::string mesh{};  ///< another organ
+  double unit = 1e-3;  ///< of its coordinates [m]
   struct {
     int seconds = 60, side = 32, rate = 100;
     bool solve = false, planes = false;

@@ -131,29 +131,78 @@ void run_ball(report& out) {
              "plot 'ball_" +
                  run + ".csv' every 20 using " + columns + " with linespoints lt 1 lw 1 notitle");
   };
+  const std::string at_once = "ball_0.500_turn_at_once.csv", slowly = "ball_0.500_turn_limited.csv";
+  // The most that the device is off a straight way over 20 ms about the update of 6 s, as in the table [m].
+  const auto jump = [](const recorded& r) {
+    const auto &t = r["time s"], &x = r["x m"], &y = r["y m"], &z = r["z m"];
+    double largest = 0.0;
+    for (std::size_t n = 10; n + 10 < t.size(); ++n) {
+      if (t[n] < 5.9 || t[n] > 6.1) continue;
+      const auto bend = [n](const std::vector<double>& q) {
+        return q[n + 10] - 2 * q[n] + q[n - 10];
+      };
+      largest = std::max(largest, std::hypot(bend(x), bend(y), bend(z)));
+    }
+    return largest;
+  };
+  // The largest way from one plotted normal to the next.
+  const auto gap = [](const recorded& r, const std::string& x, const std::string& y) {
+    double largest = 0.0;
+    for (std::size_t n = 20; n < r[x].size(); n += 20) {
+      largest = std::max(largest, std::hypot(r[x][n] - r[x][n - 20], r[y][n] - r[y][n - 20]));
+    }
+    return largest;
+  };
+  const auto sent = [gap](const recorded& r) { return gap(r, "environment nx", "environment ny"); };
   positions("fig_3_5",
             {"As Fig. 3.5: an update every 0.5 s, normals taken at once",
-             "Look at 6 s: an update turns the face under the device, which jumps by millimetres "
-             "and rings. Smaller jumps stand at the updates before it."},
+             "Look at 6 s: an update turns the face under the device, which jumps aside by half a "
+             "millimetre within "
+             "20 ms, slides on by 2 mm and rings.",
+             {{"jumps aside by half a millimetre", at_once,
+               [jump](const recorded& r) { return jump(r) > 0.4e-3 && jump(r) < 0.7e-3; }},
+              {"slides on by 2 mm and rings", at_once,
+               [](const recorded& r) {
+                 const auto y = r.within("y m", 6.0, 7.0);
+                 return y.back() - y.front() > 1.5e-3 && most(y) > y.back() + 0.1e-3;
+               }}}},
             "0.500_turn_at_once");
   normals("fig_3_6",
           {"As Fig. 3.6: the normals that the environment sends, seen from above",
-           "Each point is the direction of the surface in one update. They lie far apart, and what "
-           "follows them at once jumps as far."},
+           "Each point is the direction of the surface in one update. Two of them lie 0.2 rad "
+           "apart, and what follows "
+           "them at once jumps as far.",
+           {{"0.2 rad apart", at_once,
+             [sent](const recorded& r) { return sent(r) > 0.15 && sent(r) < 0.25; }},
+            {"what follows them at once jumps as far", at_once,
+             [sent, gap](const recorded& r) { return gap(r, "nx", "ny") == sent(r); }}}},
           "8:9", "0.500_turn_at_once");
-  positions("fig_3_7",
-            {"As Fig. 3.7: the same with normals that turn slowly",
-             "The same updates, and no jump at 6 s: the device slides to where the surface has "
-             "turned."},
-            "0.500_turn_limited");
+  positions(
+      "fig_3_7",
+      {"As Fig. 3.7: the same with normals that turn slowly",
+       "The same updates, and no jump at 6 s: the device slides to where the surface has turned.",
+       {{"no jump at 6 s", slowly, [jump](const recorded& r) { return jump(r) < 0.1e-3; }},
+        {"slides to where the surface has turned", slowly,
+         [](const recorded& r) {
+           const auto y = r.within("y m", 6.0, 7.0);
+           return y.back() - y.front() > 1.5e-3;
+         }}}},
+      "0.500_turn_limited");
   normals("fig_3_8a",
           {"As Fig. 3.8a: what the environment sends to the slow normals, seen from above",
-           "A few points far apart, as before: the environment is as coarse as it was."},
+           "A few points far apart, as before: the environment is as coarse as it was.",
+           {{"as coarse as it was", slowly,
+             [sent](const recorded& r) { return sent(r) > 0.15 && sent(r) < 0.25; }}}},
           "8:9", "0.500_turn_limited");
   normals("fig_3_8b",
           {"As Fig. 3.8b: what the local model makes of it",
            "The same journey without a gap: a tick turns the normal by at most 0.0286 degrees, and "
-           "every twentieth has a point."},
+           "every twentieth has "
+           "a point.",
+           {{"without a gap", slowly,
+             [gap](const recorded& r) {
+               return gap(r, "nx", "ny") <= 20 * turning_rate * 1e-3 + 1e-9;
+             }}}},
           "5:6", "0.500_turn_limited");
 }
 

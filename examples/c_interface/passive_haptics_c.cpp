@@ -313,7 +313,8 @@ static_assert(same(PH_NOMINAL, ph::event::nominal) && same(PH_DEBT, ph::event::d
               same(PH_UNTOLD_LATENCY, ph::event::untold_latency) &&
               same(PH_WRONG_SIGN, ph::event::wrong_sign) &&
               same(PH_STARTED_INSIDE, ph::event::started_inside) &&
-              same(PH_FORCES_OFF, ph::event::forces_off));
+              same(PH_FORCES_OFF, ph::event::forces_off) &&
+              same(PH_WALL_LOST, ph::event::wall_lost) && same(PH_WALL_BACK, ph::event::wall_back));
 static_assert(PH_NONE == static_cast<int>(ph::guarantee::none) &&
               PH_CONDITIONAL == static_cast<int>(ph::guarantee::conditional) &&
               PH_STRICT == static_cast<int>(ph::guarantee::strict));
@@ -505,7 +506,7 @@ std::int32_t ph_stiffness_budget(const ph_parameters* parameters, double* stiffn
 }
 
 const char* ph_event_text(std::int32_t event) noexcept {
-  const bool is_one = event >= 0 && event <= static_cast<std::int32_t>(PH_FORCES_OFF);
+  const bool is_one = event >= 0 && event <= static_cast<std::int32_t>(PH_WALL_BACK);
   return is_one ? ph::to_string(static_cast<ph::event>(event)) : "unknown event";
 }
 

@@ -88,8 +88,9 @@ inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
 [[nodiscard]] constexpr last_difference eyes_of(const exact_device& /*d*/) noexcept {
   return {};
 }
-[[nodiscard]] constexpr mass_observer eyes_of(const encoder_device& d) noexcept {
-  return {.mass = d.mass, .quantum = d.quantum};
+/// Within its presliding friction holds the device whatever presses: the observer rests there, too.
+[[nodiscard]] constexpr edge_observer eyes_of(const encoder_device& d) noexcept {
+  return {.quantum = d.quantum, .presliding = d.friction > 0.0 ? d.presliding : 0.0};
 }
 [[nodiscard]] constexpr last_difference eyes_of_touch(const exact_device& /*d*/,
                                                       double /*most*/) noexcept {
@@ -155,24 +156,37 @@ template <class Limits>
                               .usual_force_rate = 2.2 * d.force_limit,
                               .most_force_rate = 5.5 * d.force_limit}};
 }
-[[nodiscard]] constexpr auto law_of(const exact_device& d, double /*most*/) noexcept {
+[[nodiscard]] constexpr auto law_of(const exact_device& d, const auto& /*hand*/,
+                                    double /*most*/) noexcept {
   return settling(d);
 }
-[[nodiscard]] constexpr auto law_of(const encoder_device& d, double most) noexcept {
-  return capped{settling(d), most};
+[[nodiscard]] constexpr auto law_of(const encoder_device& d, const auto& hand,
+                                    double most) noexcept {
+  design::intended_use use{};
+  if constexpr (requires { hand.use; }) use = hand.use;
+  return capped{settling(d), most, design::stiffness_budget(d, use).working_capital};
+}
+/// β of a force on this device that is no steeper than `most` [N/m], and usually as steep as `usual`: what brings the
+/// first to rest, or is critical for the second. More would be mud: at 5 mm/s 250 N·s/m hold 1 kg with 1.3 N.
+[[nodiscard]] constexpr double braking(const auto& d, double most, double usual) noexcept {
+  const double T = d.longest_tick, late = d.latency;
+  const double steep = (1.0 + late) * (late + 1.5) * most * T * T / d.mass;
+  const double critical = (1.0 + late) * 2.0 * T * kernels::square_root(usual / d.mass);
+  const double enough = kernels::larger(steep, critical),
+               usually = settled_force{}.damping_fraction;
+  return enough > 0.0 && enough < usually ? enough : usually;
 }
 /// A spring of this device, no stiffer than `most` [N/m].
 constexpr void fit(proxy_spring& spring, const auto& d, double most) noexcept {
-  const double T = d.longest_tick;
   spring.mass = d.mass;
   spring.force_limit = d.force_limit;
-  spring.stiffness_fraction =
-      kernels::smaller(spring.stiffness_fraction, most * T * T / d.mass / (1.0 - spring.softness));
+  spring.most = most;
 }
 }  // namespace detail
 
 /// One surface: touch.update(plane), touch.tick(sample). Its normal turns as news go on turning it, and makes up for
-/// the rest by at most `turn_rate` [rad/s]. On encoders it is no stiffer than what dry friction pays for, so that it
+/// the rest by at most `turn_rate` [rad/s] or, where little is pressed, by what turns the force at half of
+/// usual_force_rate. On encoders it is no stiffer than what dry friction pays for, so that it
 /// lasts; without dry friction nothing does, and check() refuses `most`. E ≥ 0 as long as the device and the hand are
 /// as they were stated and there is no fault, on encoders E ≥ −½ c p.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
@@ -183,7 +197,7 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
   return local_model{Space{},
                      followed<Constraint>{},
                      turn_limited{.rate = turn_rate},
-                     detail::law_of(device, most),
+                     detail::law_of(device, hand, most),
                      detail::sums_of(device, hand),
                      detail::bounds_of(device, hand),
                      detail::limits_of<Limits>(device),
@@ -216,8 +230,14 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
 template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
           detail::stated_hand Hand = known_hand>
 [[nodiscard]] constexpr auto make_guard(const Device& device, const Hand& hand) noexcept {
+  const double budget = detail::budget_of(device, hand, Limits::latency);
+  const double steep = device.rotary ? 50.0 * device.force_limit : 40e3;
+  const double most = kernels::smaller(budget, steep);
   return passive_port{Space{},
-                      settled_force{.mass = device.mass, .force_limit = device.force_limit},
+                      settled_force{.mass = device.mass,
+                                    .damping_fraction = detail::braking(device, most, most / 40.0),
+                                    .force_limit = device.force_limit,
+                                    .most = budget},
                       detail::sums_of(device, hand),
                       detail::bounds_of(device, hand),
                       detail::limits_of<Limits>(device),

@@ -6,6 +6,9 @@
 //   axis_identification.hpp    tick(position, dt) → force, then result(): one axis, in yours
 //   axis_found.hpp             the bounds, and stated(), what a promise may rest on
 //   describe.hpp               a table, the composition to paste, its stiffness budget
+//   recording_file.hpp         load_recording(): what somebody has logged; CSV, MAT 5, NumPy
+//   recorded_device.hpp        the numbers that a recording bears
+//   replay.hpp                 the falsifier: is a ledger told too much?
 //   identification_file.hpp    save(), load(): what was found
 //   device_file.hpp            save_device(), load_device(): what a composition is told, in JSON
 //
@@ -15,3 +18,5 @@
 #include <passive_haptics/identification/device_file.hpp>
 #include <passive_haptics/identification/identification_file.hpp>
 #include <passive_haptics/identification/identify.hpp>
+#include <passive_haptics/identification/recording_file.hpp>
+#include <passive_haptics/identification/replay.hpp>

@@ -23,6 +23,9 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
   shape.rest.force_limit = device.force_limit;
   shape.rest.softens = false;  // what is shown is known
   shape.most = kernels::smaller(shape.most, detail::budget_of(device, hand, Limits::latency));
+  const double steepest = kernels::larger(shape.stiffness, shape.stop_stiffness);
+  const double shown = kernels::smaller(shape.most, steepest);
+  shape.rest.damping_fraction = detail::braking(device, shown, shown);
   return passive_port{Space{},
                       shape,
                       detail::sums_of(device, hand),

@@ -15,7 +15,7 @@
 //              * spends_at_most_the_ledger, which not all strict bounds obey
 //   normal       stays_a_normal; * turns_at_most
 //   contact law  presses_outwards
-//   constraint   measures_depth
+//   constraint   measures_depth, where depth is the distance: its probe has no push()
 //   surface      refuses_no_stiffness, has_a_unit_normal, pushes_along_its_gradient, changes_depth_steadily
 //   supply     * keeps_the_newest
 
@@ -72,7 +72,7 @@ template <class Policy, class Port>
     if constexpr (contact_law_for<Policy, Port>) {
       if (!presses_outwards<Port>(policy)) return {"presses_outwards"};
     }
-    if constexpr (constraint_for<Policy, Port>) {
+    if constexpr (constraint_for<Policy, Port> && detail::measures_distance<Policy, Port>) {
       if (!measures_depth<Port>(policy)) return {"measures_depth"};
     }
     if constexpr (surface_for<Policy, Port>) {

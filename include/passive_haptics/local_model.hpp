@@ -54,6 +54,15 @@ class local_model : public passive_port<Space, local_contact<Space, Supply, Norm
     if (!this->source().update(next)) return {};
     return {true, shown_stiffness(this->target().stiffness)};
   }
+  /// The same, and how the surface moves by itself and how old that is: {.velocity = v, .age = 0.02}. What is felt is
+  /// where it is by now (contact/lag.hpp). For laws that are `eased`.
+  template <class Owner = Supply>
+  requires(Owner::moves&& detail::eases_news<part_at<Law, Space>>) constexpr news_taken<
+      scalar> update(const constraint_type& next, const surface_motion<Space>& how) noexcept {
+    [[maybe_unused]] const auto alone = this->one_call();
+    if (!this->source().update(next, how)) return {};
+    return {true, shown_stiffness(this->target().stiffness)};
+  }
   template <class Owner = Supply>
   requires(Owner::moves) constexpr void release() noexcept {
     [[maybe_unused]] const auto alone = this->one_call();

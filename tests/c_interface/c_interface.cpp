@@ -966,10 +966,10 @@ TEST_CASE("none but ph_create and ph_destroy allocates", "[c_interface]") {
 TEST_CASE("version, texts and budget are the library's", "[c_interface]") {
   const loaded c;
   CHECK(c.version() == 10000 * ph::version_major + 100 * ph::version_minor + ph::version_patch);
-  for (int e = PH_NOMINAL; e <= PH_FORCES_OFF; ++e) {
+  for (int e = PH_NOMINAL; e <= PH_WALL_BACK; ++e) {
     CHECK(std::string(c.event_text(e)) == ph::to_string(static_cast<ph::event>(e)));
   }
-  for (const int none : {-1, PH_FORCES_OFF + 1, 1 << 20}) {
+  for (const int none : {-1, PH_WALL_BACK + 1, 1 << 20}) {
     CHECK(std::string(c.event_text(none)) == "unknown event");
     CHECK(std::string(c.status_text(none)) == "unknown status");
   }

@@ -56,3 +56,69 @@ TEST_CASE("a capped law changes live, by its own parameters or by those of what 
   CHECK(model.law().is_capped());
   CHECK(model.set(ph::capped{ph::damped_spring{.mass = 0.1}, 0.0}));
 }
+
+namespace {
+
+/// What a port tells a law: its ledger [J], what was held [N], and ticks of 1 ms.
+struct told {
+  static constexpr int latency = 0;
+  double energy = 0.0, held = 0.0, dt = 1e-3, longest_tick = 1e-3;
+};
+using following = ph::part_at<capped_damper, d1>;
+
+}  // namespace
+
+TEST_CASE("a cap with a working capital follows the free energy, and never in a step",
+          "[contact][following]") {
+  const double K = 2000.0, C = 1e-3, f = 1.0;
+  following law(ph::capped{ph::damped_spring{.mass = 0.1}, K, C});
+  law.adopt(5000.0, 1e-3);
+  const double spring = f * f / (2.0 * K);
+
+  SECTION("what the wall's own spring gives back is not free") {
+    law.follow(true, told{.energy = spring + 0.21e-3, .held = -f});
+    CHECK(law.stiffness() == K);
+    law.follow(true, told{.energy = spring + 0.19e-3, .held = -f});
+    CHECK(law.stiffness() < K);
+    CHECK(law.stiffness() >= K * (1.0 - 0.3e-3));
+  }
+  SECTION("an empty ledger takes it to 0.15 of K in three seconds, and no farther") {
+    double before = K;
+    for (int n = 0; n < 6000; ++n) {
+      law.follow(true, told{.energy = 0.0, .held = -f});
+      REQUIRE(before - law.stiffness() <= K * 0.3e-3 * (1 + 1e-9));
+      before = law.stiffness();
+      if (n == 2800) CHECK(before < 0.17 * K);
+    }
+    CHECK_THAT(law.stiffness(), WithinRel(0.15 * K, 1e-9));
+    // it comes back by 2 % a second while there is plenty, and stays where there is just enough
+    for (int n = 0; n < 1000; ++n) {
+      law.follow(true, told{.energy = f * f / (2.0 * 0.1 * K) + C, .held = -f});
+    }
+    CHECK_THAT(law.stiffness(), WithinRel(0.17 * K, 1e-3));
+    law.follow(true, told{.energy = f * f / (2.0 * law.stiffness()) + C / 5.0 * 0.99, .held = -f});
+    CHECK(law.stiffness() <= 0.17 * K * (1 + 1e-3));
+    // news do not undo it, and a device that is let go does
+    law.adopt(5000.0, 1e-3);
+    CHECK(law.stiffness() < 0.18 * K);
+    law.follow(false, told{});
+    CHECK(law.stiffness() == K);
+  }
+  SECTION("without a working capital the cap stays") {
+    following fixed(ph::capped{ph::damped_spring{.mass = 0.1}, K});
+    fixed.adopt(5000.0, 1e-3);
+    for (int n = 0; n < 3000; ++n) fixed.follow(true, told{.energy = -1.0, .held = -f});
+    CHECK(fixed.stiffness() == K);
+  }
+  SECTION("numbers that are none, and ledgers in debt, leave a stiffness") {
+    for (const double energy : {-1e300, 1e300, 0.0}) {
+      for (const double held : {0.0, 1e200}) {
+        law.follow(true, told{.energy = energy, .held = held});
+        CHECK(law.stiffness() >= 0.15 * K * (1 - 1e-9));
+        CHECK(law.stiffness() <= K);
+      }
+    }
+    CHECK(std::string(ph::capped{ph::damped_spring{.mass = 0.1}, K, -1.0}.check().parameter) ==
+          "working_capital");
+  }
+}

@@ -167,10 +167,11 @@ TEST_CASE("what vanishes or grows stale under a device fades at a limited rate, 
 }
 
 TEST_CASE(
-    "where nothing is pressed news count at once, and where there are none an eased law is the law",
+    "where nothing is pressed news count at once, and where there are none an eased spring is the "
+    "spring",
     "[contact]") {
-  auto smooth = touching(ph::eased{damper});
-  auto plain = touching(damper);
+  auto smooth = touching(ph::eased{ph::spring{}});
+  auto plain = touching(ph::spring{});
   for (int n = 0; n < 3000; ++n) {
     const double height = n < 1000 ? 0.0 : 2e-3;  // moved in the air
     if (n == 0 || (n >= 1000 && n % 33 == 0)) {

@@ -127,7 +127,7 @@ TEST_CASE("thesis_rule spends more than the ledger holds, strict_bound behind it
   const auto bounded = [&covered](const auto& force, const auto& desired, const auto& contact,
                                   const auto& port) {
     ph::strict_bound::on<d3> bound({});
-    return covered(d3::vector(force * bound.limit(force, port).factor), desired, contact, port);
+    return covered(ph::laws::meant<d3>(bound, force, port), desired, contact, port);
   };
   CHECK(holds_in_random_contacts<d3>(ph::thesis_rule{}, bounded) == 2000);
   CHECK(holds_in_random_contacts<d3>(ph::force_rate_limit{.rate = 100.0}, bounded) == 2000);

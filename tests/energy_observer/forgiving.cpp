@@ -249,6 +249,53 @@ TEST_CASE("a refused sample and a late tick are faults, and reset() forgets them
         }) == 0.0);
 }
 
+TEST_CASE("a wall that a fault takes is said to be lost, and to be back", "[forgiving][faults]") {
+  // A hand holds a finger 4 mm deep, and one sample is off so far that its debt takes the wall.
+  struct told {
+    int lost = 0, back = 0, after = 0;
+    bool cut = true;
+    ph::event last = ph::event::nominal;
+  };
+  const auto held = [](double jump, double amends, double depth, bool again) {
+    auto touch = ph::make_touch<d1>(
+        ph::exact_device{.mass = 0.1, .damping = 0.05, .force_limit = 9.0, .longest_tick = T},
+        ph::trusted_hand{{.force = 5.0}});
+    (void)touch.set(ph::forgiving{ph::reduced_energy{.damping = 0.05}, amends});
+    (void)touch.update({0.0, 1.0, 800.0});
+    told all;
+    for (int n = 0; n < 16000; ++n) {
+      const double in = 4e-3 - (4e-3 + depth) * std::min(n / 400.0, 1.0);
+      const bool fault = n == 1000 || (again && n == 1300);
+      const auto out = touch.tick(in - (fault ? jump : 0.0), ph::seconds{T});
+      all.lost += out.what == ph::event::wall_lost;
+      all.back += out.what == ph::event::wall_back;
+      if (out.what == ph::event::wall_lost) {
+        all.after = n;
+        all.cut = all.cut && out.limited;
+      }
+      all.last = out.what;
+    }
+    return all;
+  };
+  const told once = held(4.5e-3, ph::amends_for(9.0), 4e-3, false);
+  CHECK(once.lost > 50);
+  CHECK(once.after < 1000 + 600 + 2);
+  CHECK(once.back == 1);
+  CHECK(once.cut);
+  CHECK(once.last == ph::event::nominal);
+  const told twice = held(4.5e-3, ph::amends_for(9.0), 4e-3, true);
+  CHECK(twice.after > 1300);
+  CHECK(twice.back >= 1);
+  CHECK(twice.last == ph::event::nominal);
+  // In the air nothing is lost; nor is it told where none is forgiven, or where nothing happens.
+  CHECK(held(4.5e-3, ph::amends_for(9.0), -4e-3, false).lost == 0);
+  CHECK(held(4.5e-3, ph::amends_for(9.0), -4e-3, false).back == 0);
+  const told never = held(4.5e-3, 0.0, 4e-3, false);
+  CHECK(never.lost + never.back == 0);
+  CHECK(never.last == ph::event::debt);
+  CHECK(held(0.0, ph::amends_for(9.0), 4e-3, false).lost == 0);
+}
+
 TEST_CASE("new parameters reach a forgiving ledger and what it keeps", "[forgiving]") {
   auto touch = ph::make_touch<d1>(
       {.mass = 0.1, .damping = 0.1, .force_limit = 9.0, .longest_tick = T}, {.force = 5.0});

@@ -105,7 +105,7 @@ TEST_CASE("without gnuplot a report has everything but the plots, and says so", 
   const std::string path = std::getenv("PATH");
   for (const bool there : {false, true}) {
     ex::report out(folder.path());
-    out.plot("line", {"A line", "It rises."}, "plot x");
+    out.plot("line", {"A line", "It rises.", {}}, "plot x");
     out.member("answer", "42");
     if (!there) setenv("PATH", "/nowhere", 1);
     const bool drawn = out.finish("title");
@@ -179,9 +179,9 @@ TEST_CASE("a page has a table of contents, a caption for each plot, and asks nob
   numbers.add({"a <b>", "1.5"});
   out.section("First & last", "Text.");
   out.show(numbers);
-  out.plot("line", {"A \"line\"", "It rises."}, "plot x");
+  out.plot("line", {"A \"line\"", "It rises.", {}}, "plot x");
   out.section("First & last", "The same name once more.");
-  out.plot("wave", {"A wave", "It does not."}, "plot sin(x)");
+  out.plot("wave", {"A wave", "It does not.", {}}, "plot sin(x)");
   static_cast<void>(out.finish("title", "What it is about."));
   const std::string page = text_of(folder / "index.html");
 
@@ -202,10 +202,40 @@ TEST_CASE("a page has a table of contents, a caption for each plot, and asks nob
   CHECK(external_requests(page + "<img src=\"https://example.org/a.svg\">") == 1);  // the control
 }
 
+TEST_CASE("a caption that its own curve denies fails the program", "[report]") {
+  const scratch_folder folder;
+  ex::report out(folder.path());
+  ex::csv_file csv(out.path("line.csv"), "s,force N,what");
+  for (const double s : {0.0, 1.0, 2.0}) csv.row(s, 3.0 * s, "word");
+  csv.close();
+  const auto rises = [](const ex::recorded& r) {
+    return r["force N"].back() > r["force N"].front();
+  };
+  const auto falls = [rises](const ex::recorded& r) { return !rises(r); };
+  out.plot("line", {"A line", "It rises by 6 N.", {{"It rises", "line.csv", rises}}}, "plot x");
+  CHECK(out.untrue().empty());
+  out.plot("line", {"A line", "It falls.", {{"It falls", "line.csv", falls}}}, "plot x");
+  out.plot("line", {"A line", "It goes up.", {{"It rises", "line.csv", rises}}}, "plot x");
+  out.plot("line", {"A line", "It is there.", {}}, "plot x");
+  REQUIRE(out.untrue().size() == 3);
+  CHECK(out.untrue()[0] == "the caption of line is not so: \"It falls\"");
+  CHECK(out.untrue()[1] == "the caption of line does not say \"It rises\"");
+  CHECK(out.untrue()[2] == "the caption of line claims nothing");
+  CHECK(ex::conclude(out, "program", "title", "", {}) == 1);
+  CHECK(mentions(text_of(folder / "results.json"), "\"words\": \"It rises\""));
+
+  const ex::recorded read(folder / "line.csv");
+  CHECK(read.within("force N", 0.5, 1.5) == std::vector<double>{3.0});
+  CHECK(ex::largest_step(read["force N"]) == 3.0);
+  CHECK(std::isnan(read["what"].front()));
+  CHECK_THROWS(read["depth mm"]);
+  CHECK_THROWS(ex::recorded(folder / "wave.csv"));
+}
+
 TEST_CASE("a plot has no ground of its own and is readable in both schemes", "[report]") {
   const scratch_folder folder;
   ex::report out(folder.path());
-  out.plot("line", {"Line & dot", "It rises."}, "plot x lt 1, 2*x lt -1");
+  out.plot("line", {"Line & dot", "It rises.", {}}, "plot x lt 1, 2*x lt -1");
   if (!out.finish("title")) {
     WARN("gnuplot is not installed, or did not draw: left out");
     return;

@@ -8,6 +8,7 @@
 #include <passive_haptics/falcon/recording_file.hpp>
 #include <passive_haptics/identification/device_file.hpp>
 #include <passive_haptics/identification/identification_file.hpp>
+#include <passive_haptics/identification/recording_file.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -125,11 +126,28 @@ inline const char* recording(input bytes) {
   return nullptr;
 }
 
+/// A log of time, position and force in any of its formats; the columns by their numbers.
+inline const char* logged(input bytes) {
+  const auto loaded = ph::identification::read_recording(
+      text_of(bytes), "a file", {.time = "", .position = "1", .force = "2", .tick = 1e-3});
+  if (!loaded.fault.empty()) {
+    return loaded.fault.rfind("a file: ", 0) == 0 && loaded.rows.size() == 0
+               ? nullptr
+               : "refused, and not said where";
+  }
+  const auto& r = loaded.rows;
+  if (r.size() < 200 || r.position.size() != r.size() || r.force.size() != r.size())
+    return "read, and of no use";
+  const auto s = ph::identification::statistics_of(r);
+  return std::isfinite(s.tick) && std::isfinite(s.span) ? nullptr : "statistics of nothing";
+}
+
 inline const char* files(input bytes) {
   reader in(bytes);
   const unsigned which = in.one();
   const auto rest = bytes.subspan(std::min<std::size_t>(bytes.size(), 1));
   if (which >= 252) return device(rest);
+  if (which >= 248) return logged(rest);
   switch (which % 4) {
     case 0:
       return table(rest);

@@ -284,7 +284,7 @@ TEST_CASE("every axis of a device is identified, in float as well, and stop() en
   CHECK(found.latency() == 2);
   const std::string text = identification::composition_of(found);
   for (const char* part :
-       {"ph::space<double, 2>", "ph::encoder_device device{.mass = 0.0", ".damping = 0.2",
+       {"ph::space<double, 2>", "ph::encoder_device device{.mass = 0.0", ".damping = 0.19",
         ".presliding = ", ".quantum = 1", "ph::late_loop_limits<2>", "walls of up to "}) {
     CAPTURE(part, text);
     CHECK(text.find(part) != std::string::npos);

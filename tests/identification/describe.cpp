@@ -15,7 +15,7 @@ using Catch::Matchers::WithinRel;
 namespace {
 
 device_found<2> grip() {
-  device_found<2> found{.force_limit = 3.0};
+  device_found<2> found{.force_limit = 3.0, .drift = 0.0};
   found.axes[0] = {.mass = 0.12345,
                    .damping = 0.0987654,
                    .friction = 0.14,
@@ -77,4 +77,10 @@ TEST_CASE("what is stated of a device holds on every axis", "[identification]") 
   CHECK_THAT(stated.quantum, WithinRel(13e-6, 1e-12));
   CHECK_THAT(stated.longest_tick, WithinRel(1.2e-3, 1e-12));
   CHECK(grip().latency() == 2);
+  auto drifting = grip();
+  drifting.drift = 0.3;
+  CHECK_THAT(drifting.stated().friction, WithinRel(0.7 * stated.friction, 1e-12));
+  CHECK_THAT(drifting.stated().damping, WithinRel(0.7 * stated.damping, 1e-12));
+  CHECK(drifting.stated().mass == stated.mass);
+  CHECK(composition_of(drifting).find("less 30 % of damping and friction") != std::string::npos);
 }

@@ -79,17 +79,26 @@ TEST_CASE("a hand that is said to be stronger is given less, and the ledger is k
   CHECK(allowed(0.0) == weak);
 }
 
-TEST_CASE("a normal turns at the new rate from the next tick on", "[port][set]") {
+TEST_CASE(
+    "a normal turns at the new rate from the next tick on, and faster where little is pressed",
+    "[port][set]") {
   auto touch = pressed();
   const d3::vector tilted(0.6, 0, 0.8);
   touch.update({d3::zero(), tilted, 1000});
-  for (const double rate : {2.0, 50.0, 0.5}) {
+  for (const double rate : {20.0, 50.0, 10.0}) {
     REQUIRE_FALSE(touch.set(ph::turn_limited{.rate = rate}));
     const d3::vector before = touch.local().normal;
     (void)touch.tick(here, 1ms);
     const d3::vector after = touch.local().normal;
     CHECK_THAT(std::acos(before.dot(after)), WithinAbs(rate * 1e-3, 2e-5));
   }
+  REQUIRE_FALSE(touch.set(ph::turn_limited{.rate = 0.5}));
+  const d3::vector before = touch.local().normal;
+  const double pressed_with = touch.tick(here, 1ms).force.norm();
+  const d3::vector after = touch.local().normal;
+  const double angle = std::acos(before.dot(after));
+  CHECK(angle > 2e-3);
+  CHECK(angle * pressed_with < 0.011);  // half of usual_force_rate in a tick [N]
 }
 
 TEST_CASE("the stale-data rule changes while the environment is silent", "[port][set]") {

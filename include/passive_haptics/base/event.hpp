@@ -27,6 +27,8 @@ enum class event : std::uint8_t {
   wrong_sign,      ///< it does the opposite of what it is told: force zero until reset()
   started_inside,  ///< it should push, and nothing has been paid in yet: force zero
   forces_off,      ///< enable_forces(false): force zero, and the ledger waits
+  wall_lost,  ///< a fault has taken what the ledger had: less than is asked for, until amends are made
+  wall_back,  ///< amends are made: the first tick in which it is no longer lost
 };
 
 /// The text of an event, for logs.
@@ -38,24 +40,35 @@ enum class event : std::uint8_t {
                                    "rejected sample", "rejected parameters",
                                    "outside force",   "untold latency",
                                    "wrong sign",      "started inside",
-                                   "forces off"};
-  static_assert(sizeof(names) / sizeof(*names) == static_cast<int>(event::forces_off) + 1);
-  return e <= event::forces_off ? names[static_cast<int>(e)] : "unknown event";
+                                   "forces off",      "wall lost",
+                                   "wall back"};
+  static_assert(sizeof(names) / sizeof(*names) == static_cast<int>(event::wall_back) + 1);
+  return e <= event::wall_back ? names[static_cast<int>(e)] : "unknown event";
 }
 
-/// A start inside is no fault, so the least of what is not nominal.
+/// That a wall is back, and a start inside, are no faults, so the least of what is not nominal; a lost wall says more
+/// than a debt.
 [[nodiscard]] constexpr event worse(event a, event b) noexcept {
   const auto severity = [](event e) {
-    return e == event::started_inside ? 1 : 2 * static_cast<int>(e);
+    if (e == event::wall_back) return 1;
+    if (e == event::started_inside) return 2;
+    return e == event::wall_lost ? 5 : 4 * static_cast<int>(e);
   };
   return severity(a) < severity(b) ? b : a;
 }
 
 namespace detail {
+/// The same within a tick, before its observer says of a wall that it is lost or back; as cheap as can be.
+[[nodiscard]] constexpr event worse_yet(event a, event b) noexcept {
+  const auto severity = [](event e) {
+    return e == event::started_inside ? 1 : 2 * static_cast<int>(e);
+  };
+  return severity(a) < severity(b) ? b : a;
+}
 /// The event of a force that is NaN or infinite. It is a cold function, so that this rare case costs the
 /// ordinary tick no instructions.
 [[nodiscard, gnu::cold, gnu::noinline]] constexpr event unusable(event so_far) noexcept {
-  return worse(so_far, event::rejected_target);
+  return worse_yet(so_far, event::rejected_target);
 }
 }  // namespace detail
 

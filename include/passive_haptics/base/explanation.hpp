@@ -10,6 +10,7 @@
 #include <passive_haptics/base/language.hpp>
 
 #include <cstdint>
+#include <limits>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -44,8 +45,9 @@ struct explanation {
   double asked{};  ///< K of the world's surface [N/m]; ∞ of a force of your own: nobody knows it
   double shown{};  ///< what is felt of it, at rest, as long as the motors hold it [N/m]
   softened_by stiffness = softened_by::nothing;  ///< why `shown` is less than `asked`
-  double depth{};  ///< of the device in the world's surface, at the last sample [m]; 0 outside
-  double force{};  ///< commanded last [N]
+  double
+      depth{};  ///< of the device in the world's surface, as the port takes it to be [m]; 0 outside
+  double force{};                          ///< commanded last [N]
   softened_by now = softened_by::nothing;  ///< why `force` is less than `shown` times `depth`
 
   /// The stiffness is no more than `most` [N/m], and why.
@@ -56,7 +58,8 @@ struct explanation {
   }
   /// The motors hold no more than `most` [N]; `force` is known.
   constexpr void saturate(double most) noexcept {
-    if (shown * depth > most && force > 0.95 * most) now = softened_by::motors;
+    const bool asks = shown * depth > most || !(asked < std::numeric_limits<double>::infinity());
+    if (asks && force > 0.95 * most) now = softened_by::motors;
   }
   /// A sentence: what binds now, else what binds the stiffness, and what would raise it.
   [[nodiscard]] constexpr const char* because() const noexcept {

@@ -63,6 +63,8 @@ class followed {
     news_.hear();
     return true;
   }
+  /// What has come is unusable.
+  constexpr void refuse() noexcept { refused_ = true; }
   /// Says that nothing is there any more: the contact fades, as it does when data are stale, and ends.
   constexpr void release() noexcept { news_.release(); }
   /// It has not been felt: the newest target is news again.

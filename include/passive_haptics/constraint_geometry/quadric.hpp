@@ -77,6 +77,18 @@ requires(Space::dof == 3) struct quadric {
             depth <= thickness && u * u + v * v <= reach * reach};
   }
 
+  /// The target's shape with x over its point, d [m] deep under the normal n: a local model may follow a quadric.
+  [[nodiscard]] constexpr quadric toward(const quadric& target, const vector& x, const vector& n,
+                                         scalar d) const noexcept {
+    quadric own = target;
+    const vector t = target.tangent, across = t - n * Space::dot(t, n);
+    const scalar length = Space::norm(across);
+    own.point = vector(x + n * d);
+    own.normal = n;
+    own.tangent = length > scalar(0.5) ? vector(across / length) : Space::orthogonal(n);
+    return own;
+  }
+
   /// The ball about p of radius `reach`, or of ten times the thickness if that is less.
   [[nodiscard]] constexpr neighbourhood<Space> around() const noexcept {
     return {point, kernels::smaller(reach, scalar(10) * thickness)};

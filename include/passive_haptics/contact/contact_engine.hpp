@@ -144,11 +144,12 @@ class contact_engine {
       const auto here = now.at(slot.point);
       const row r = now.row_of(here, slot.target().at(here.position).outward());
       const scalar K = slot.target().stiffness;
-      const auto own = spring_.sampled(K);
+      auto why = softened_by::mass_and_tick;
+      if constexpr (requires { spring_.softener(K); }) why = spring_.softener(K);
+      if (!(spring_.sampled(K).stiffness < K)) why = softened_by::coupling;
       explain_surface(e, slot.target(), here.position,
-                      scalar(1) / frame::coupling(spring_).own(r, own.compliance),
-                      own.stiffness < K ? softened_by::mass_and_tick : softened_by::coupling,
-                      !(slot.lag() == scalar(0)), slot.stale());
+                      scalar(1) / frame::coupling(spring_).own(r, spring_.sampled(K).compliance),
+                      why, !(slot.lag() == scalar(0)), slot.stale());
     });
   }
 
@@ -159,14 +160,14 @@ class contact_engine {
   };
   template <bool Shortcut>
   [[nodiscard]] constexpr request ask(const auto& motion, const auto& port, event& what) noexcept {
-    if (std::exchange(refused_, false)) what = worse(what, event::rejected_target);
+    if (std::exchange(refused_, false)) what = detail::worse_yet(what, event::rejected_target);
     if (!std::exchange(placed_, true)) [[unlikely]]
       last_ = frame::now(motion, port, last_).place();
     const auto now = frame::now(motion, port, last_);
     const auto coupling = frame::coupling(spring_);
     gathered all;
     gather(now, coupling, port.dt, all, what);
-    if (all.empty) what = worse(what, event::no_target);
+    if (all.empty) what = detail::worse_yet(what, event::no_target);
     const auto& rows = all.rows;
     solve(all.rows, [&coupling, &rows](std::size_t i, std::size_t j) {
       return coupling.inner(rows.row[i], rows.row[j],
@@ -293,7 +294,7 @@ class contact_engine {
         slot.asleep = false;
       }
       slot.grow_older(dt, pace_);
-      if (slot.stale()) what = worse(what, event::stale_target);
+      if (slot.stale()) what = detail::worse_yet(what, event::stale_target);
       const auto here = now.at(slot.point);
       const auto along = [&](const vector& n) { return now.along(here, n); };
       const auto unfelt = [&](const vector& n) {

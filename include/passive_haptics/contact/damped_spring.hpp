@@ -51,6 +51,10 @@ class damped_spring::on {
   static constexpr softened_by softener = softened_by::mass_and_tick;
   [[nodiscard]] constexpr scalar stiffness() const noexcept { return stiffness_; }  ///< K_s [N/m]
   [[nodiscard]] constexpr scalar damping() const noexcept { return damping_; }  ///< D_s [N·s/m]
+  /// ω² = K_s/m [1/s²], of a free device on it.
+  [[nodiscard]] constexpr scalar natural_square() const noexcept {
+    return stiffness_ / rule_.mass();
+  }
 
   [[nodiscard]] constexpr scalar force(scalar depth, scalar outward_speed) const noexcept {
     if (!(depth > scalar(0))) return scalar(0);

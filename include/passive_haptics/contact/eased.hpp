@@ -5,6 +5,7 @@
 //     ph::eased{ph::damped_spring{.mass = 0.1}}
 
 #include <passive_haptics/contact/lag.hpp>
+#include <passive_haptics/contact/swing.hpp>
 #include <passive_haptics/port/composing.hpp>
 
 namespace passive_haptics {
@@ -12,7 +13,7 @@ inline namespace v0 {
 
 /// The law, and the pace at which a local_contact makes up for news of what is pressed: a new place, another
 /// stiffness, what appears under the device and what vanishes. Between news, and for what is not pressed, it
-/// is the law itself. A device held still feels steps of (K|u| + R_most) dt at most, u the speed of the
+/// is the law itself, but for its damper, which brakes what swings and no hand (swing.hpp). A device held still feels steps of (K|u| + R_most) dt at most, u the speed of the
 /// surface itself (lag.hpp). A surface that no longer covers the device ends at once.
 template <class Law>
 struct eased {
@@ -64,8 +65,20 @@ class eased<Law>::on : public part_at<Law, Space> {
   /// How fast news are made up for.
   [[nodiscard]] constexpr const news_pace::at<scalar>& pace() const noexcept { return pace_; }
 
+  /// Of a speed outwards [m/s], what the law is to damp: a hand that moves the device is not braked (swing.hpp).
+  [[nodiscard]] constexpr scalar swinging(scalar speed, scalar dt) noexcept {
+    if constexpr (requires(law_part l) { l.natural_square(); }) {
+      return swing_.damped(speed, law_part::natural_square(), dt);
+    } else {
+      return speed;
+    }
+  }
+  /// The contact is over.
+  constexpr void let_go() noexcept { swing_.stop(); }
+
  private:
   news_pace::at<scalar> pace_;
+  swing<scalar> swing_;
 };
 
 }  // namespace v0

@@ -72,15 +72,15 @@ class given_force::on {
   template <bool Shortcut>
   [[nodiscard, gnu::always_inline]] constexpr request ask(const auto& /*motion*/, const auto& port,
                                                           event& what) noexcept {
-    if (refused_) what = worse(what, event::rejected_target);
-    if (!news_.heard()) what = worse(what, event::no_target);
+    if (refused_) what = detail::worse_yet(what, event::rejected_target);
+    if (!news_.heard()) what = detail::worse_yet(what, event::no_target);
     if (!changed_) news_.grow_older(port.dt);
     changed_ = refused_ = false;
     const effort newest = newest_;
     if (news_.current()) [[likely]] {
       return {newest};
     }
-    if (news_.stale()) what = worse(what, event::stale_target);
+    if (news_.stale()) what = detail::worse_yet(what, event::stale_target);
     return {effort(newest * news_.weight())};
   }
   [[nodiscard, gnu::always_inline]] constexpr result_type answered(

@@ -148,10 +148,13 @@ class local_contact {
     beside_ = {};
     lag_ = {};
     turn_ = {};
+    told_ = {};
+    if constexpr (eases) law_.let_go();
   }
 
   /// T [s], the latency or a parameter is another: the same surface is as stiff as they let it be.
   constexpr void adopt(scalar longest_tick, int late) noexcept {
+    if constexpr (eases) slack_ = longest_tick;
     if (supply_.target().stiffness > scalar(0)) {
       detail::tell(law_, supply_.target().stiffness, longest_tick, late);
     }
@@ -182,8 +185,22 @@ class local_contact {
   requires(Owner::moves) constexpr bool update(const constraint_type& next) noexcept {
     if constexpr (eases) {
       if (!supply_.changed()) shown_ = supply_.target();
+      told_ = {};
     }
     return supply_.update(next);
+  }
+  /// The same, of a surface that also tells how it moves and how old that is. What is no number, or older than the
+  /// last one, is refused.
+  template <class Owner = Supply>
+  requires(Owner::moves&& detail::eases_news<part_at<Law, Space>>) constexpr bool update(
+      const constraint_type& next, const surface_motion<Space>& how) noexcept {
+    if (!how.is_usable() || (supply_.published() && !is_younger(how.age))) {
+      supply_.refuse();
+      return false;
+    }
+    if (!update(next)) return false;
+    told_ = how;
+    return true;
   }
   /// Nothing is there any more: the contact fades, as it does when data are stale, and ends.
   template <class Owner = Supply>
@@ -227,14 +244,15 @@ class local_contact {
       if (fresh())
         detail::tell(law_, supply_.target().stiffness, port.longest_tick, state::latency);
     }
+    if constexpr (requires { law_.follow(in_target, port); }) law_.follow(in_target, port);
     if constexpr (Shortcut && shapers_keep_zero<state>()) {
       if (!in_target) return nothing_asked(weight);
     }
 
     const auto own = in_own(here, depth, in_target && !from_the_side);
     const vector goal = newest.outward();
-    const vector normal = turned(goal, own.touched, here, port.dt);
-    const scalar speed = motion.along(normal);
+    const vector normal = turned(goal, own.touched, here, depth, port.dt);
+    const scalar speed = damped_speed(motion.along(normal), in_target, port.dt);
     scalar felt = in_target ? depth : scalar(0);
     scalar asked = in_target ? weight * law_.force(felt, speed) : scalar(0);
     const scalar both = scalar(2) * asked + felt;  // twice: a unit normal may be an ulp too long
@@ -333,20 +351,24 @@ class local_contact {
     return true;
   }
 
+  /// News may come just before a tick or just after it.
+  [[nodiscard]] constexpr bool is_younger(scalar age) const noexcept {
+    return supply_.changed() ? age <= told_.age + slack_ : lag_.follows(age, slack_);
+  }
   /// How far the contact counts, in [0, 1]: less while a silent environment fades, 0 before its first target.
   [[nodiscard]] constexpr scalar presence([[maybe_unused]] scalar depth, scalar dt,
                                           event& what) noexcept {
     if constexpr (Supply::moves) {
-      if (supply_.refused()) what = worse(what, event::rejected_target);
+      if (supply_.refused()) what = detail::worse_yet(what, event::rejected_target);
       if (!supply_.published()) [[unlikely]] {
-        what = worse(what, event::no_target);
+        what = detail::worse_yet(what, event::no_target);
         return scalar(0);
       }
       if (!supply_.changed()) supply_.grow_older(dt);
       if (supply_.current()) [[likely]] {
         return scalar(1);
       }
-      if (supply_.stale()) what = worse(what, event::stale_target);
+      if (supply_.stale()) what = detail::worse_yet(what, event::stale_target);
       return faded(supply_.weight(), depth, dt);
     } else {
       return scalar(1);
@@ -355,6 +377,15 @@ class local_contact {
   [[nodiscard]] constexpr bool fresh() const noexcept {
     if constexpr (Supply::moves) return supply_.changed();
     return false;
+  }
+  /// Of the speed outwards, what swings; another law damps all of it.
+  [[nodiscard, gnu::always_inline]] constexpr scalar damped_speed(
+      scalar outwards, [[maybe_unused]] bool touched, [[maybe_unused]] scalar dt) noexcept {
+    if constexpr (eases) {
+      if (touched) return law_.swinging(outwards, dt);
+      law_.let_go();
+    }
+    return outwards;
   }
   /// How deep x is in the surface that is felt [m]: the newest one or, where news are eased, what follows it.
   [[nodiscard, gnu::always_inline]] constexpr scalar depth_in_own(
@@ -391,9 +422,12 @@ class local_contact {
     if (own > scalar(0) && !(as_stiff && counted == scalar(1))) {
       own = law_.depth(counted * before.force(own, scalar(0)), scalar(0));
     }
-    turn_.hear(known ? vector(supply_.target().at(x).outward() - was.outward()) : Space::zero(),
-               lag_.since());
-    lag_.hear(own, now, known ? now - was.depth : scalar(0), compliance, law_.pace());
+    const vector outward = supply_.target().at(x).outward();
+    turn_.hear(known ? vector(outward - was.outward()) : Space::zero(), lag_.between(told_.age));
+    const bool knows = told_.velocity.has_value();
+    lag_.hear(own, now, known ? now - was.depth : scalar(0), compliance, law_.pace(),
+              {knows ? Space::dot(vector(*told_.velocity), outward) : scalar(0), told_.age, knows});
+    told_ = {};
   }
   /// What vanishes takes its force along at a limited rate, too.
   [[nodiscard, gnu::noinline]] constexpr scalar faded(scalar weight, [[maybe_unused]] scalar depth,
@@ -415,7 +449,8 @@ class local_contact {
     if constexpr (Supply::moves) return std::exchange(beside_, now);
     return false;
   }
-  [[nodiscard]] constexpr request nothing_asked(scalar weight) const noexcept {
+  [[nodiscard]] constexpr request nothing_asked(scalar weight) noexcept {
+    if constexpr (eases) law_.let_go();
     const vector none = Space::zero();
     return {none, true, none, false, false, weight, scalar(0), scalar(0), none, none};
   }
@@ -441,6 +476,7 @@ class local_contact {
   }
   [[nodiscard, gnu::always_inline]] constexpr vector turned(const vector& goal, bool touched,
                                                             const vector& x,
+                                                            [[maybe_unused]] scalar depth,
                                                             scalar dt) const noexcept {
     if constexpr (Supply::moves) {
       if (touched && !supply_.together()) {
@@ -448,11 +484,23 @@ class local_contact {
         if constexpr (eases) {
           towards = turn_.turned(goal, lag_.taken_on());
           if (lag_.taking_on()) own = turn_.turned(own, dt);
+          if constexpr (requires { normals_.rate(); }) {
+            return normals_.step_by(own, towards, gentle_turn(depth, dt));
+          }
         }
         return normals_.step(own, towards, dt);
       }
     }
     return goal;
+  }
+  /// At its rate a normal turns, and where little is pressed as fast as half of R_usual lets the force change [rad].
+  [[nodiscard]] constexpr scalar gentle_turn(scalar depth, scalar dt) const noexcept {
+    const scalar pressed = law_.force(depth, scalar(0));
+    const scalar not_felt = scalar(0.5) * law_.pace().usual() * dt;
+    const scalar at_its_rate = normals_.rate() * dt;
+    if (!(not_felt > at_its_rate * pressed)) return at_its_rate;
+    return not_felt < pressed * scalar(0.5) ? not_felt / pressed
+                                            : kernels::larger(at_its_rate, scalar(0.5));
   }
   /// What the local model would push with, by the law as it was in the last tick [N].
   [[nodiscard]] constexpr scalar local_force([[maybe_unused]] const law_type& before,
@@ -476,6 +524,13 @@ class local_contact {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, turning<Space>, no_turn> turn_{};
   /// The target of the last tick, for what is new.
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, constraint_type, no_surface> shown_{};
+  struct no_account {};
+  struct no_slack {};
+  /// What the newest target tells of its motion, until a tick has heard it.
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, surface_motion<Space>, no_account>
+      told_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, scalar, no_slack>
+      slack_{};  ///< T [s]
 };
 
 /// The space is that of the constraint.

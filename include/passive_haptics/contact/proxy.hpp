@@ -15,6 +15,7 @@
 // does already at most, so that nothing steps at the touch. The damping dissipates whatever presses.
 // Source and proofs: docs/design/contacts.md.
 
+#include <passive_haptics/base/explanation.hpp>
 #include <passive_haptics/contact/sampled_spring.hpp>
 
 #include <array>
@@ -33,8 +34,12 @@ struct proxy_spring {
   double damping_fraction = 0.5;    ///< β, of m/T
   double softness = 0.05;           ///< ε: 0 would be the god-object, 1 the sum of springs
   double force_limit = std::numeric_limits<double>::infinity();  ///< what the motors hold [N]
+  double most = std::numeric_limits<double>::infinity();  ///< what encoder steps are paid for [N/m]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!(most > 0.0)) {
+      return {"most", most, "> 0 N/m; a budget of 0 says that nothing is paid for"};
+    }
     return detail::sampled_fault(*this);
   }
   template <class Scalar>
@@ -45,11 +50,14 @@ template <class Scalar>
 class proxy_spring::at {
  public:
   constexpr explicit at(const proxy_spring& p) noexcept
-      : rule_(p), softness_(detail::number<Scalar>(p.softness)) {}
+      : rule_(p),
+        softness_(detail::number<Scalar>(p.softness)),
+        most_(detail::number<Scalar>(p.most)) {}
   [[nodiscard]] constexpr proxy_spring parameters() const noexcept {
     proxy_spring p;
     rule_.state(p);
     p.softness = static_cast<double>(softness_);
+    p.most = static_cast<double>(most_);
     return p;
   }
 
@@ -58,11 +66,17 @@ class proxy_spring::at {
     sampled_every_ = T;
     late_ = late;
   }
-  /// K = min(K, (1 − ε) κ m/T²) and B = min(2ζ√(Km), β m/T).
+  /// K = min(K, (1 − ε) κ m/T², most) and B = min(2ζ√(Km), β m/T).
   [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K) const noexcept {
-    const Scalar k = rule_.stiffness(K, softness_, sampled_every_, late_);
+    const Scalar k = rule_.stiffness(kernels::smaller(K, most_), softness_, sampled_every_, late_);
     return sampled_spring<Scalar>::of(
         k, rule_.damping(k, sampled_every_, detail::late_limits<Scalar>(late_)));
+  }
+  /// Why a surface of K is shown as no stiffer than that.
+  [[nodiscard]] constexpr softened_by softener(Scalar K) const noexcept {
+    const Scalar k = sampled(K).stiffness;
+    if (!(k < K)) return softened_by::coupling;
+    return k < most_ ? softened_by::mass_and_tick : softened_by::encoder_steps;
   }
   /// The same where the motors cannot give K d: the secant F/d, so that a heavy device is stopped all
   /// the way out.
@@ -84,7 +98,7 @@ class proxy_spring::at {
 
  private:
   detail::damped_mass<Scalar> rule_;
-  Scalar softness_;
+  Scalar softness_, most_;
   Scalar sampled_every_{};  ///< T [s]
   int late_ = 0;            ///< [ticks]
 };

@@ -12,7 +12,8 @@
 //
 // The own normal is carried along with the target's first, whatever the surface: sliding is no news, however
 // fast. Over an edge, where the closest feature of a mesh changes, it turns as if the edge were rounded by r:
-// by |Δx|/r at most. Source: docs/design/contacts.md.
+// by |Δx|/r at most. Where a bend turns the push against the motion it is led by τ, as the depth is: that brakes
+// what rolls in a bowl. Source: docs/design/contacts.md.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/contact/proxy.hpp>
@@ -125,6 +126,7 @@ class pursued {
   /// A plane is the same everywhere, so it turns by news alone.
   static constexpr bool has_edges = kind_of<Surface>() == surface_kind::faceted;
   static constexpr bool turns_along = kind_of<Surface>() != surface_kind::flat;
+  static constexpr bool bends = turns_along && !has_edges;
 
  public:
   using scalar = typename Space::scalar;
@@ -219,6 +221,7 @@ class pursued {
         ends ? lag_ + pace.receding(along(own.normal), dt) : shortened(lag_, speed_ * dt);
     const vector goal = own.normal;
     const vector before = normal_;
+    if constexpr (bends) own.push = own.push + braking(goal, x, dt, pace);
     scalar most = turn_of_way(x, pace);
     const vector normal = along_the_target(before, goal, most, pace);
     if (!(normal == goal)) {
@@ -247,6 +250,17 @@ class pursued {
     } else {
       return scalar(0);
     }
+  }
+  /// How a push turns in τ from now, as (S2) leads the depth, where that brakes: nothing else damps a device that rolls
+  /// in a bowl. What turns by more than the way over r is no bend but a crease.
+  [[nodiscard]] constexpr vector braking(const vector& goal, const vector& x, scalar dt,
+                                         const pursuit::on<Space>& pace) noexcept {
+    const vector turn = goal - vector(shown_), way = Space::difference(x, place_);
+    place_ = x;
+    const scalar r = pace.edge();
+    const bool brakes = Space::dot(turn, way) < scalar(0) &&
+                        Space::dot(turn, turn) * (r * r) <= Space::dot(way, way);
+    return brakes ? vector(turn * (spring_.settling / dt)) : Space::zero();
   }
   /// The own normal, carried along with the target's; over an edge by `most` [rad], of which what is not needed
   /// remains for what is left of the edge.
@@ -294,7 +308,7 @@ class pursued {
   coordinates normal_{};  ///< its own, unit
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<turns_along, coordinates, nothing>
       shown_{};  ///< the target's, where the device was last
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<has_edges, coordinates, no_place>
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<turns_along, coordinates, no_place>
       place_{};       ///< of the device, where it was last [m]
   scalar lag_{};      ///< ℓ [m]
   scalar speed_{};    ///< with which it is made up for [m/s]

@@ -35,6 +35,7 @@ struct settled_force {
   double slide_fraction = 0.002;                                 ///< β_s, of m/T
   double turn_time = 0.02;                                       ///< τ, with which n follows w [s]
   double force_limit = std::numeric_limits<double>::infinity();  ///< F, what the motors hold [N]
+  double most = std::numeric_limits<double>::infinity();  ///< what encoder steps are paid for [N/m]
   double stale_after = 0.1;  ///< age up to which a force counts in full [s]
   double fade = 0.05;        ///< how long it then takes to end [s]
   bool softens = true;       ///< what is too steep; without, it goes out as it is, and rings
@@ -51,6 +52,9 @@ struct settled_force {
     }
     if (!detail::not_negative(turn_time)) return {"turn_time", turn_time, "finite and ≥ 0 s"};
     if (!(force_limit > 0.0)) return {"force_limit", force_limit, "> 0 N"};
+    if (!(most > 0.0)) {
+      return {"most", most, "> 0 N/m; a budget of 0 says that nothing is paid for"};
+    }
     return given_force{stale_after, fade}.check();
   }
   /// The stiffest renderer [N/m] that settles along n, K (k + l + 3/2) T ≤ B: its force is k = `renderer_late` ticks
@@ -99,6 +103,7 @@ class settled_force::on : private part_at<given_force, P> {
     softens_ = p.softens;
     if (!softens_) forget();
     most_ = detail::number<scalar>(p.force_limit);
+    stiffest_ = detail::number<scalar>(p.most);
   }
   [[nodiscard]] constexpr settled_force parameters() const noexcept {
     const given_force rule = given::parameters();
@@ -108,6 +113,7 @@ class settled_force::on : private part_at<given_force, P> {
             .slide_fraction = static_cast<double>(slide_),
             .turn_time = static_cast<double>(turn_time_),
             .force_limit = static_cast<double>(most_),
+            .most = static_cast<double>(stiffest_),
             .stale_after = rule.stale_after,
             .fade = rule.fade,
             .softens = softens_};
@@ -121,14 +127,18 @@ class settled_force::on : private part_at<given_force, P> {
     longest_tick_ = T;
     late_ = late;
     per_tick_ = mass_ / (T * scalar(1 + late));
-    const scalar most = fraction_ * per_tick_ / ((scalar(late) + scalar(1.5)) * T);
-    steepest_ = softens_ ? most : kernels::largest<scalar>();
+    const scalar settles = fraction_ * per_tick_ / ((scalar(late) + scalar(1.5)) * T);
+    steepest_ = softens_ ? kernels::smaller(settles, stiffest_) : kernels::largest<scalar>();
   }
-  /// most_stiffness: nobody knows how stiff the renderer is.
+  /// most_stiffness, as long as nobody knows how stiff the renderer is; of one that was found too steep what it is, and ¾
+  /// of that.
   constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
     e.asked = e.shown = std::numeric_limits<double>::infinity();
-    e.soften(parameters().most_stiffness(static_cast<double>(T), 0, late),
+    const double part = shown_ < scalar(1) ? 0.75 : 1.0;
+    e.soften(part * parameters().most_stiffness(static_cast<double>(T), 0, late),
              softened_by::mass_and_tick);
+    e.soften(part * static_cast<double>(stiffest_), softened_by::encoder_steps);
+    if (shown_ < scalar(1)) e.asked = e.shown / static_cast<double>(shown_);
   }
   constexpr void reset() noexcept {
     given::reset();
@@ -148,22 +158,33 @@ class settled_force::on : private part_at<given_force, P> {
     const scalar share = within(softly, most_);
     const scalar secant = share < scalar(1) ? kernels::square_root(share) : scalar(1);
     const effort w = P::scaled(softly, share);
+    if constexpr (!requires {
+                    motion.travel / motion.dt;
+                  }) {  // what creeps over steps has no speed
+      const effort change = P::difference(w, last_), way = port.travel;
+      if (-P::dot(change, way) > steepest_ * P::dot(way, way)) watched_ = long_enough;
+    }
     const effort f = settled(w, detail::velocity_of<P>(motion), per_tick_ * secant, port.dt);
     return {P::is_finite(f) ? f : w};  // f of an absurd force, or of next to none, is no number
   }
 
  private:
-  /// Σ −Δw Δx and Σ Δx² of the last 30 ms of motion.
+  /// Σ −Δw Δx, Σ Δx² and Σ Δw² of the last 30 ms of motion.
   struct slope {
-    scalar stiff{}, moved{};
-    constexpr void see(scalar work, scalar way, scalar keep) noexcept {
+    scalar stiff{}, moved{}, changed{};
+    constexpr void see(scalar work, scalar way, scalar change, scalar keep) noexcept {
       stiff = keep * stiff - work;
       moved = keep * moved + way;
+      changed = keep * changed + change;
     }
-    /// Of a force so steep, how much is as steep as `most`; 100 where it is hardly steep.
-    [[nodiscard]] constexpr scalar share(scalar most) const noexcept {
-      const scalar allowed = most * moved;
-      return stiff * scalar(100) > allowed ? allowed / stiff : scalar(100);
+    /// Of a force so steep, how much is as steep as `enough`; 100 where it is hardly steep, or where that is not sure: less
+    /// than a quarter of what changes goes with the motion, or the rest may make all the difference. That is noise, or
+    /// an effect that was added.
+    [[nodiscard]] constexpr scalar share(scalar enough) const noexcept {
+      const scalar allowed = enough * moved, both = moved * changed, steep = stiff * stiff;
+      const scalar beyond = stiff - allowed, rest = both - steep;
+      const bool sure = scalar(4) * steep > both && !(rest > scalar(8) * beyond * beyond);
+      return sure && stiff * scalar(100) > allowed ? allowed / stiff : scalar(100);
     }
   };
   static constexpr int long_enough = 30;  ///< [ticks] of motion that are looked at
@@ -172,6 +193,7 @@ class settled_force::on : private part_at<given_force, P> {
     along_ = across_ = {};
     shown_ = scalar(1);
     watched_ = 0;
+    ticks_ = scalar(0);
     knows_given_ = learns_ = false;
   }
   /// Along n the last tick was too steep: it is to be looked at.
@@ -192,14 +214,18 @@ class settled_force::on : private part_at<given_force, P> {
     if (!(size > scalar(0) && moved > slow * slow)) return;
     const scalar keep = scalar(0.03) / (scalar(0.03) + dt), little = moved * scalar(1e-4);
     const scalar out = P::dot(w, way), work = P::dot(change, way);
-    const scalar along = out * P::dot(w, change) / size, outwards = out * out / size;
-    along_.see(along, outwards + little, keep);
-    across_.see(work - along, moved - outwards + little, keep);
+    const scalar rise = P::dot(w, change), risen = rise * rise / size;
+    const scalar along = out * rise / size, outwards = out * out / size;
+    along_.see(along, outwards + little, risen, keep);
+    across_.see(work - along, moved - outwards + little, P::dot(change, change) - risen, keep);
     learns_ = learns_ || -work > steepest_ * moved;
-    const scalar s =
-        learns_ ? kernels::smaller(along_.share(steepest_), across_.share(steepest_)) : scalar(1);
+    ticks_ = keep * ticks_ + scalar(1);
+    const scalar s = learns_ && ticks_ > scalar(3)
+                         ? kernels::smaller(along_.share(steepest_), across_.share(steepest_))
+                         : scalar(1);
     if (!kernels::is_finite(s)) {
       along_ = across_ = {};
+      ticks_ = scalar(0);
     } else if (s < shown_) {
       shown_ = scalar(0.75) * s;
     } else if (s > scalar(8) / scalar(3) * shown_) {
@@ -220,8 +246,8 @@ class settled_force::on : private part_at<given_force, P> {
     const scalar B = fraction_ * per_tick;
     if constexpr (P::dof == 1) {
       notice(change, v, dt);
-      const scalar most = scalar(-2) * w;
-      return w - kernels::clamped(B * v, kernels::smaller(w, most), kernels::larger(w, most));
+      const scalar inwards = scalar(-2) * w;
+      return w - kernels::clamped(B * v, kernels::smaller(w, inwards), kernels::larger(w, inwards));
     } else {
       const scalar size = kernels::square_root(squared);
       const effort n = turned(w, size, dt);
@@ -269,7 +295,7 @@ class settled_force::on : private part_at<given_force, P> {
                                                                  scalar s) noexcept {
     return P::difference(a, P::scaled(b, s));
   }
-  scalar mass_{}, fraction_{}, slide_{}, lead_{}, turn_time_{}, most_{};
+  scalar mass_{}, fraction_{}, slide_{}, lead_{}, turn_time_{}, most_{}, stiffest_{};
   scalar per_tick_{};                 ///< m/T [N·s/m]
   scalar longest_tick_{};             ///< T [s]
   int late_ = 0;                      ///< [ticks]
@@ -277,6 +303,7 @@ class settled_force::on : private part_at<given_force, P> {
   typename P::stored_effort n_{};     ///< n; zero in the air
   scalar steepest_{};                 ///< K_m [N/m]
   bool softens_ = true, knows_given_ = false, learns_ = false;
+  scalar ticks_{};            ///< of motion that it has looked at, of the last 30 ms
   int watched_ = 0;           ///< ticks of motion for which it is still looked at how steep w is
   scalar shown_ = scalar(1);  ///< s
   slope along_{}, across_{};  ///< of what was given, along w and across

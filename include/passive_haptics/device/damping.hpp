@@ -6,6 +6,8 @@
 //   diagonal_damping       b per axis, in the frame it was identified in  unequal axes, joints
 //   damping_and_friction   b and a dry friction that is always there      dry_friction.hpp
 //
+// Where axes differ, what E1 covers is an ellipsoid, and a bound may take the effort in it that is nearest (covered()).
+//
 // Not offered: a full matrix (rotate into its principal axes), a pose-dependent one (use its lower
 // bound). All guarantees scale with b, so state a LOWER bound of it, say half the identified value.
 
@@ -31,6 +33,98 @@ template <class P>
   typename P::scalar b = damping.along_axis(0);
   for (int i = 1; i < P::dof; ++i) b = kernels::larger(b, damping.along_axis(i));
   return b;
+}
+
+/// A damping with a number for each axis: where E covers a part of f only, each axis gives way by its own share.
+template <class D, class P>
+concept differs_by_axis = P::dof >
+1 && requires(const D d, const typename P::effort f) {
+  { d.yielding(f, typename P::scalar{}) } -> std::same_as<typename P::effort>;
+};
+
+/// The λ [N·s/m] of the effort nearest to f that E [J] covers for T [s],
+///     |fᵢ| ← cᵢ + (|fᵢ| − cᵢ)₊ bᵢ/(bᵢ + λ)     with    Σ T (|fᵢ| − cᵢ)₊²/(4bᵢ) = E  after it
+/// from below: two or three of Newton's steps on 1/√Σ, which is concave, and never more than eight (§ 2, nearest). 0
+/// where E covers nothing.
+template <class P>
+[[nodiscard]] constexpr typename P::scalar yield(const auto& damping, const typename P::effort& f,
+                                                 typename P::scalar E,
+                                                 typename P::scalar T) noexcept {
+  using scalar = typename P::scalar;
+  const scalar credit = kernels::spendable(E);
+  if (!(credit > scalar(0))) return scalar(0);
+  const scalar most = kernels::square_root(scalar(4) * credit / T);
+  typename P::effort need = damping.beyond(f);  // |fᵢ|√bᵢ over the root of 4E/T
+  for (int i = 0; i < P::dof; ++i) {
+    P::component(need, i) *= kernels::square_root(damping.along_axis(i)) / most;
+  }
+  scalar lambda(0);
+  for (int i = 0; i < P::dof;
+       ++i) {  // it is no less than what the axes up to the i-th damping need
+    scalar square(0);
+    for (int j = 0; j < P::dof; ++j) {
+      const bool counts = damping.along_axis(j) <= damping.along_axis(i);
+      if (counts) square += P::component(need, j) * P::component(need, j);
+    }
+    if (!(square < kernels::largest<scalar>())) return scalar(0);
+    lambda = kernels::larger(lambda, kernels::square_root(square) - damping.along_axis(i));
+  }
+  for (int step = 0; step < 8; ++step) {
+    scalar sum(0), slope(0);
+    for (int i = 0; i < P::dof; ++i) {
+      const scalar inverse = scalar(1) / (damping.along_axis(i) + lambda);
+      const scalar part = P::component(need, i) * inverse;
+      sum += part * part;
+      slope += part * part * inverse;
+    }
+    if (!(sum > scalar(1) + scalar(1e-6))) break;
+    lambda += sum / slope * (kernels::square_root(sum) - scalar(1));
+  }
+  return lambda;
+}
+/// The effort nearest to f, in newtons or in newton metres axis by axis, that E [J] covers for T [s].
+template <class P>
+[[nodiscard]] constexpr typename P::effort nearest_covered(const auto& damping,
+                                                           const typename P::effort& f,
+                                                           typename P::scalar E,
+                                                           typename P::scalar T) noexcept {
+  const typename P::scalar share = damping.affordable(f, E, T);
+  if (share == typename P::scalar(1)) return f;
+  const typename P::effort left = damping.yielding(f, yield<P>(damping, f, E, T));
+  return left * damping.affordable(left, E, T);  // what Newton has left, and rounding
+}
+/// Of the efforts that yield(λ) on the way to the nearest that is covered for any motion, each brought down by what
+/// share_of() leaves of it, the one nearest to f: λ by halving, four times. One share for all is λ = 0 of them.
+template <class P>
+[[nodiscard]] constexpr typename P::effort nearest_of(const auto& damping,
+                                                      const typename P::effort& f,
+                                                      typename P::scalar most,
+                                                      const auto& share_of) noexcept {
+  using scalar = typename P::scalar;
+  typename P::effort best = P::zero();
+  scalar least = kernels::largest<scalar>(), at(0);
+  const auto look = [&](scalar lambda) {
+    const typename P::effort left = damping.yielding(f, lambda);
+    const typename P::effort now = left * share_of(left);
+    scalar square(0);
+    for (int i = 0; i < P::dof; ++i) {
+      const scalar off = P::component(f, i) - P::component(now, i);
+      square += off * off;
+    }
+    if (!(square < least)) return;
+    best = now;
+    least = square;
+    at = lambda;
+  };
+  look(scalar(0));
+  if (least == scalar(0) || !(most > scalar(0))) return best;
+  look(most);
+  for (scalar step = most / scalar(2); step > most / scalar(32); step /= scalar(2)) {
+    const scalar middle = at;
+    if (middle < most) look(middle + step);
+    if (middle > scalar(0)) look(middle - step);
+  }
+  return best;
 }
 }  // namespace detail
 
@@ -143,6 +237,16 @@ struct diagonal_damping {
     }
     [[nodiscard]] constexpr scalar affordable(const effort& f, scalar E, scalar T) const noexcept {
       return kernels::strict_scale(E, worst_outflow(f, T));
+    }
+    /// What of f costs the ledger anything: all of it.
+    [[nodiscard]] constexpr const effort& beyond(const effort& f) const noexcept { return f; }
+    /// fᵢ bᵢ/(bᵢ + λ), for the nearest effort that is covered.
+    [[nodiscard]] constexpr effort yielding(const effort& f, scalar lambda) const noexcept {
+      effort left = f;
+      for (int i = 0; i < Dof; ++i) {
+        Port::component(left, i) *= along_axis(i) / (along_axis(i) + lambda);
+      }
+      return left;
     }
     /// 1/(uᵀ(b/T)⁻¹u) for the direction u of `along`.
     [[nodiscard]] constexpr scalar per_tick(const effort& along, scalar T) const noexcept {

@@ -184,12 +184,21 @@ class diagonal_damping_and_friction<Dof>::on : public diagonal_damping<Dof>::tem
            sum([&](int i) { return c(i) * kernels::magnitude(Port::component(dx, i)); });
   }
   [[nodiscard]] constexpr scalar worst_outflow(const effort& f, scalar T) const noexcept {
-    effort beyond = f;
+    return dampers::worst_outflow(beyond(f), T);
+  }
+  /// (|fᵢ| − cᵢ)₊, what of f costs the ledger anything.
+  [[nodiscard]] constexpr effort beyond(const effort& f) const noexcept {
+    effort costs = f;
     for (int i = 0; i < Dof; ++i) {
-      scalar& along = Port::component(beyond, i);
+      scalar& along = Port::component(costs, i);
       along = kernels::larger(kernels::magnitude(along) - c(i), scalar(0));
     }
-    return dampers::worst_outflow(beyond, T);
+    return costs;
+  }
+  /// fᵢ up to cᵢ, and what is beyond it times bᵢ/(bᵢ + λ).
+  [[nodiscard]] constexpr effort yielding(const effort& f, scalar lambda) const noexcept {
+    const effort free = friction_near(f);
+    return free + dampers::yielding(effort(f - free), lambda);
   }
   [[nodiscard]] constexpr scalar affordable(const effort& f, scalar E, scalar T) const noexcept {
     if (!(E >= scalar(0))) return scalar(0);

@@ -3,7 +3,7 @@
 // The ledger for positions of which only the step is known, with dry friction or without.
 //
 //   dual_ledger         credits dry friction: stiff on real encoders     b, c, p and q are stated
-//   basic_dual_ledger   any damping, a step for each axis, a compensated sum
+//   basic_dual_ledger   any damping, several sliders (identification/sliders.hpp), a step for each axis, a compensated sum
 //   quantised_energy    no friction credited                             quantised_energy.hpp
 //
 //     ph::dual_ledger{.damping = {.coefficient = 0.05, .coulomb = 0.13, .presliding = 15e-6},
@@ -92,6 +92,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     window_ = detail::number<scalar>(p.window);
     if constexpr (rubs) {
       certificates_.set(damping_, steps_);
+      if constexpr (slides) sliders_ = {};
       detail::book(energy_, -kernels::larger(reserve() - reserved, scalar(0)));
     }
     take_stock();
@@ -125,7 +126,13 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     if constexpr (rubs) {
       certificates_.follow(change, doubt, damping_, steps_);
       if (moved) {
-        detail::book(energy_, certificates_.slip(shown, damping_, steps_));
+        const scalar slipped = certificates_.slip(shown, damping_, steps_);
+        detail::book(energy_, slipped);
+        if constexpr (slides) {
+          const scalar wound = sliders_.slip(slipped, shown, damping_, steps_);
+          certificates_.fall_behind(wound);
+          detail::book(energy_, wound);
+        }
         if (!(static_cast<scalar>(energy_) <= most_kept())) energy_ = most_kept();  // L7
       }
     }
@@ -157,6 +164,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     last_held_ = P::zero();
     begin_window();
     if constexpr (rubs) certificates_.reset();
+    if constexpr (slides) sliders_ = {};
     detail::book(energy_, -reserve());
     take_stock();
   }
@@ -177,6 +185,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     if constexpr (rubs) {
       lost += certificates_.given_up(held, effort(last_held_), damping_, steps_);
       certificates_.reset();
+      if constexpr (slides) sliders_ = {};
     }
     energy_ = detail::written_off(value_, lost, -reserve());
     last_held_ = P::zero();
@@ -187,8 +196,12 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   [[nodiscard]] static constexpr scalar most_kept() noexcept {
     return kernels::largest<scalar>() / scalar(8);
   }
-  struct no_friction {};
+  struct no_friction {
+    using credits = no_friction;
+  };
   using certificates_type = std::conditional_t<rubs, detail::friction_certificates<P>, no_friction>;
+  static constexpr bool slides = requires { typename damping_type::credits; };
+  using sliders_type = typename std::conditional_t<slides, damping_type, no_friction>::credits;
 
   struct credit_window {
     typename P::stored_effort travel{};  ///< Δx̂ since the window began [m]
@@ -242,6 +255,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   typename P::stored_effort last_held_ = P::zero();  ///< −σ of the choice u = 0 [N]
   credit_window window_now_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS certificates_type certificates_{};  ///< the other choices
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sliders_type sliders_{};  ///< and what single sliders earn
 };
 
 static_assert(energy_observer_for<dual_ledger, space<float, 1>>);

@@ -4,6 +4,7 @@
 //
 //   forgiving{ledger, amends}   a while after a fault E1 rises to A again
 
+#include <passive_haptics/base/event.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
 #include <passive_haptics/port/composing.hpp>
 
@@ -93,7 +94,18 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
   }
   constexpr void reset() noexcept {
     kept::reset();
-    shaken_ = false;
+    shaken_ = lacks_ = missed_ = false;
+  }
+
+  /// Has there been a fault in the last 10 s? Only then has tells() something to say, a debt included.
+  [[nodiscard]] constexpr bool remembers() const noexcept { return shaken_; }
+  /// What a tick is to be called that was called `so_far`, and whose force was cut, or not.
+  [[nodiscard, gnu::cold, gnu::noinline]] constexpr event tells(event so_far, bool cut) noexcept {
+    if (lacks_ && cut) {
+      missed_ = true;
+      return worse(so_far, event::wall_lost);
+    }
+    return worse(so_far, missed_ && !lacks_ ? event::wall_back : poor());
   }
 
  private:
@@ -114,16 +126,27 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
     if constexpr (exact) return this->value() < scalar(0);
     return this->value() < -amends_ / scalar(64);
   }
+  [[nodiscard]] constexpr event poor() const noexcept {
+    bool owed = this->value() < scalar(0);
+    if constexpr (requires(const kept k) { k.overdrawn(); }) owed = owed && kept::overdrawn();
+    return owed ? event::debt : event::nominal;
+  }
   [[gnu::cold, gnu::noinline]] constexpr void make_amends(scalar dt) noexcept {
+    if (!lacks_) missed_ = false;  // that it is back has been told
     const bool waits = shaken_ && quiet_ <= pause_;
-    if (!waits && in_debt()) return fault();
+    if (!waits && in_debt()) {
+      fault();
+      lacks_ = amends_ > scalar(0);
+      return;
+    }
     const bool lends = !paid_ && quiet_ <= pause_ + lending;
     quiet_ += dt;
     if (quiet_ > pause_ && lends && amends_ > scalar(0) && this->value() < amends_) {
       const scalar E1 = waits ? kernels::larger(this->value(), scalar(0)) : this->value();
       this->lend(kernels::smaller(E1 + amends_ / lending * dt, amends_) - this->value());
     }
-    shaken_ = quiet_ <= kernels::larger(forgotten, pause_ + lending);
+    lacks_ = lends && amends_ > scalar(0) && this->value() < amends_;
+    shaken_ = missed_ || quiet_ <= kernels::larger(forgotten, pause_ + lending);
   }
 
   scalar amends_;
@@ -131,6 +154,8 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
   scalar quiet_{};       ///< since the last fault [s]
   bool shaken_ = false;  ///< there was a fault in the last 10 s
   bool paid_ = false;    ///< its amends have been made at once
+  bool lacks_ = false;   ///< E1 < A, and amends are to come
+  bool missed_ = false;  ///< meanwhile a force was cut
 };
 
 static_assert(energy_observer_for<forgiving<>, space<float, 1>>);

@@ -120,6 +120,11 @@ class friction_certificates {
     return spare;
   }
 
+  /// The ledger itself has booked that from elsewhere [J].
+  constexpr void fall_behind(scalar booked) noexcept {
+    for (certificate* one : {&following_, &slipped_[0], &slipped_[1]}) one->lead -= booked;
+  }
+
   /// By how much the best certificate is worth more than the ledger's own A while `held` is held [J].
   [[nodiscard]] constexpr scalar lead(const effort& held, const auto& steps) const noexcept {
     const scalar own = -steps.doubt(held);

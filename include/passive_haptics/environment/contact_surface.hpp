@@ -4,10 +4,13 @@
 //
 //   quadric_at   the smooth surface through its nodes, with its curvatures    for bodies that bulge
 //   patch_at     its triangles around the contact, unchanged                  for dents and edges
+//   yielding     any of them as it is under no load, and as soft as the body under it: between news it gives way
+//                with the finger as the body will
 //
 // Both return plain values for a supply's update(), which prepares them and refuses one that cannot be used:
 //     touch.update(env::quadric_at(body, {.thickness = 0.005}))
 
+#include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/patch.hpp>
 #include <passive_haptics/constraint_geometry/quadric.hpp>
 #include <passive_haptics/environment/curvature.hpp>
@@ -172,6 +175,34 @@ template <std::size_t M = 16, class Elastic>
   if (body.contact().triangle < 0) return {};
   return patch_at<M>(body.search(), body.nodes(), point_of(body.contact()),
                      body.contact().stiffness, thickness);
+}
+
+/// The tangent plane at the last contact; before the first one that every supply refuses.
+template <class Elastic>
+[[nodiscard]] half_space<space<double, 3>> plane_at(const basic_deformable_body<Elastic>& body) {
+  if (body.contact().triangle < 0) return {};
+  return {body.contact().point, body.contact().normal, body.contact().stiffness};
+}
+
+/// A surface of a body, that gives way between news as the body does. It was solved under a force F₀, and under f it is
+/// C (f − F₀) deeper, C the compliance of the body [m/N]. So the law f = K (d − C (f − F₀)), d the depth in it, is a
+/// spring of K/(1 + K C) on d + C F₀, the depth in the surface at rest: that is what is returned. It does not move
+/// when it is pressed harder, so it needs no news of that, however old they are, and the loop of force and surface
+/// (deformable_body.hpp) is none.
+///     touch.update(env::yielding(env::plane_at(body), body.contact()));
+template <class Surface>
+[[nodiscard]] Surface yielding(Surface surface, const surface_contact& contact) {
+  const Eigen::Vector3d back = contact.rest - contact.point;
+  if constexpr (requires { surface.node_count; }) {
+    for (std::size_t i = 0; i < surface.node_count; ++i) {
+      surface.nodes[i] = Eigen::Vector3d(Eigen::Vector3d(surface.nodes[i]) + back);
+    }
+  } else {
+    surface.point = Eigen::Vector3d(Eigen::Vector3d(surface.point) + back);
+  }
+  const double K = surface.stiffness, body = contact.stiffness;
+  if (K > 0.0 && body > 0.0) surface.stiffness = K * body / (K + body);
+  return surface;
 }
 
 }  // namespace environment

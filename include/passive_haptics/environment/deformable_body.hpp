@@ -48,6 +48,7 @@ struct surface_contact {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< p: of the triangle, closest to device [m]
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< n: of the triangle, unit, outward
   Eigen::Vector3d weights = Eigen::Vector3d::Zero();  ///< barycentric, of p
+  Eigen::Vector3d rest = Eigen::Vector3d::Zero();     ///< where p is under no load [m]
   int triangle = -1;                                  ///< −1 until the first good update
   double depth = 0.0;                                 ///< (p − x)·n [m], positive inside
   double stiffness = 0.0;                             ///< of the body at p along n [N/m]
@@ -191,6 +192,7 @@ class basic_deformable_body {
                 found->point,
                 n,
                 found->weights,
+                at_rest(t, found->weights),
                 found->triangle,
                 found->depth,
                 give * options_.max_stiffness > 1.0 ? 1.0 / give : options_.max_stiffness,
@@ -223,6 +225,11 @@ class basic_deformable_body {
  private:
   [[nodiscard]] bool around() const noexcept { return options_.moved == moved_nodes::around; }
 
+  [[nodiscard]] Eigen::Vector3d at_rest(const surface_triangle& t,
+                                        const Eigen::Vector3d& weights) const {
+    return weights(0) * rest_[slot(t.nodes[0])] + weights(1) * rest_[slot(t.nodes[1])] +
+           weights(2) * rest_[slot(t.nodes[2])];
+  }
   /// F + w (F_LM − F) [N] with the w of the last contact; zero before the first contact. (A12)
   [[nodiscard]] Eigen::Vector3d relaxed(const Eigen::Vector3d& answer) const {
     if (contact_.triangle < 0) return Eigen::Vector3d::Zero();

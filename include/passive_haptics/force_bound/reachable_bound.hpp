@@ -37,8 +37,8 @@ struct reachable_bound {
   static constexpr bound_traits traits{
       .needs_ledger = true, .exact_travel = false, .latency = any_latency};
 
-  double mass{};        ///< smallest apparent mass of the device, over all directions [kg]
-  double hand_force{};  ///< largest force of everything but motors and damper [N]
+  double mass{};        ///< smallest of all directions, of what moves rigidly with the encoder [kg]
+  double hand_force{};  ///< largest force of all but motors and damper, a cable's included [N]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
@@ -64,24 +64,19 @@ class reachable_bound::on {
     return {.mass = static_cast<double>(mass_), .hand_force = static_cast<double>(hand_force_)};
   }
 
+  template <class...>
+  static constexpr bool only_reduces = true;  ///< on every axis, where they differ
   template <class State>
-  [[nodiscard]] constexpr share<scalar> limit(const effort& desired,
-                                              const State& state) const noexcept {
+  [[nodiscard]] constexpr auto limit(const effort& desired, const State& state) const noexcept {
     const scalar credit = left_for_it(state);
-    const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
-    if (outflow <= kernels::spendable(credit))
-      return share{scalar(1)};  // by the worst motion of all
-    const scalar force = Space::norm(desired);
-    if (!(force > scalar(0))) return share{scalar(1)};
-    const scalar B = state.damping.per_tick(desired, state.longest_tick);
-    scalar most = kernels::reachable_force_bound(
-        credit, B, reach<State::latency + 1>(desired, force, force, state));
-    if constexpr (State::damping_type::rubs) {
-      if (credit < scalar(0)) return share{scalar(0)};  // friction is no licence to go on spending
-      most = (state.damping.friction(desired) + most) *
-             (scalar(1) - scalar(4) * kernels::rounding<scalar>());
+    if constexpr (detail::differs_by_axis<typename State::damping_type, Space>) {
+      return detail::nearest_of<Space>(
+          state.damping, desired,
+          detail::yield<Space>(state.damping, desired, credit, state.longest_tick),
+          [&](const effort& f) { return share_of(f, credit, state); });
+    } else {
+      return share{share_of(desired, credit, state)};
     }
-    return share{most < force ? most / force : scalar(1)};
   }
 
   /// What a force can have done in `dt` [s] after a tick that was seen [J] (§ 2(a″)).
@@ -98,6 +93,23 @@ class reachable_bound::on {
   }
 
  private:
+  template <class State>
+  [[nodiscard]] constexpr scalar share_of(const effort& desired, scalar credit,
+                                          const State& state) const noexcept {
+    const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
+    if (outflow <= kernels::spendable(credit)) return scalar(1);  // by the worst motion of all
+    const scalar force = Space::norm(desired);
+    if (!(force > scalar(0))) return scalar(1);
+    const scalar B = state.damping.per_tick(desired, state.longest_tick);
+    scalar most = kernels::reachable_force_bound(
+        credit, B, reach<State::latency + 1>(desired, force, force, state));
+    if constexpr (State::damping_type::rubs) {
+      if (credit < scalar(0)) return scalar(0);  // friction is no licence to go on spending
+      most = (state.damping.friction(desired) + most) *
+             (scalar(1) - scalar(4) * kernels::rounding<scalar>());
+    }
+    return most < force ? most / force : scalar(1);
+  }
   /// E1 less the worst of what is on its way to the motors [J].
   template <class State>
   [[nodiscard]] constexpr scalar left_for_it(const State& state) const noexcept {
@@ -195,20 +207,29 @@ class basic_reachable_work_bound<Inertia>::on {
     return {.inertia = inertia_.parameters(), .hand = static_cast<double>(hand_)};
   }
 
+  template <class...>
+  static constexpr bool only_reduces = true;
   template <class State>
-  [[nodiscard]] constexpr share<scalar> limit(const effort& desired,
-                                              const State& state) const noexcept {
+  [[nodiscard]] constexpr auto limit(const effort& desired, const State& state) const noexcept {
     static_assert(!State::damping_type::rubs,
                   "passive_haptics: reachable_work_bound is proved for viscous damping: count dry "
                   "friction into `hand` instead of crediting it");
     scalar credit = state.energy;
     if constexpr (State::latency > 0) promise<1>(credit, state);
-    const scalar W = state.damping.worst_outflow(desired, state.longest_tick);
-    if (W <= kernels::spendable(credit)) return share{scalar(1)};
-    const scalar norm = inertia_.norm(desired);
-    if (!(norm > scalar(0))) return share{scalar(1)};
-    return share{
-        kernels::reachable_share(credit, W, reach<State::latency + 1>(desired, norm, norm, state))};
+    const auto share_of = [&](const effort& f) {
+      const scalar W = state.damping.worst_outflow(f, state.longest_tick);
+      if (W <= kernels::spendable(credit)) return scalar(1);
+      const scalar norm = inertia_.norm(f);
+      if (!(norm > scalar(0))) return scalar(1);
+      return kernels::reachable_share(credit, W, reach<State::latency + 1>(f, norm, norm, state));
+    };
+    if constexpr (detail::differs_by_axis<typename State::damping_type, P>) {
+      return detail::nearest_of<P>(
+          state.damping, desired,
+          detail::yield<P>(state.damping, desired, credit, state.longest_tick), share_of);
+    } else {
+      return share{share_of(desired)};
+    }
   }
 
  private:

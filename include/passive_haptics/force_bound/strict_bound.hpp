@@ -5,6 +5,7 @@
 //
 //   strict_bound      |f| ≤ √(4 B E1)         all that was ever saved: fewest cuts, late bursts
 //                     |f| ≤ c + √(4 B E1)     on a dual_ledger that credits dry friction c, for E1 ≥ 0
+//                     the nearest f           where axes are damped unequally
 //   memoryless_bound  |f| ≤ |f_held − 2B Δx|  the last force and the last tick only: nothing is saved,
 //                                             so no bursts and no drift; feels like a spring of 2b/T
 //   per_axis_bound    |fᵢ| ≤ √(4 Bᵢ Eᵢ)       one ledger per axis: no axis can spend what another has
@@ -35,6 +36,9 @@ constexpr void soften_by_damping(explanation& e, const auto& damping, typename P
 /// In a loop that is k ticks late the force commanded at n is held during [n+k, n+k+1), and the k commands
 /// on their way have been promised already: ¼ fᵀB⁻¹f ≤ E1 − ¼ Σ_{j=1..k} f(n−j)ᵀB⁻¹f(n−j). (§ 3)
 ///
+/// Where axes are damped unequally, the force is the nearest that is covered: an axis that damps little gives way
+/// first, and the force turns. |fᵢ| never grows. In one share for all, one weak joint would take the others along.
+///
 /// It assumes that b is a lower bound, every tick ≤ longest_tick, positions exact (or the ledger a
 /// quantised_energy or a dual_ledger), and the held force known. The price (lemma L4): pressed slowly from
 /// an empty ledger it shows at most 2b/T N/m.
@@ -50,10 +54,18 @@ struct strict_bound {
 
   template <port P>
   struct on {
+    template <class... States>
+    static constexpr bool only_reduces = true;  ///< on every axis, where they differ
     constexpr explicit on(const strict_bound& /*p*/) noexcept {}
-    [[nodiscard]] constexpr share<typename P::scalar> limit(const typename P::effort& desired,
-                                                            const auto& state) const noexcept {
-      return {state.damping.affordable(desired, state.credit(), state.longest_tick)};
+    template <class State>
+    [[nodiscard]] constexpr auto limit(const typename P::effort& desired,
+                                       const State& state) const noexcept {
+      const auto credit = state.credit();
+      if constexpr (detail::differs_by_axis<typename State::damping_type, P>) {
+        return detail::nearest_covered<P>(state.damping, desired, credit, state.longest_tick);
+      } else {
+        return share{state.damping.affordable(desired, credit, state.longest_tick)};
+      }
     }
     constexpr void explain(explanation& e, const auto& damping, typename P::scalar T,
                            int late) const noexcept {

@@ -6,6 +6,7 @@
 // that cost a ledger energy are upper bounds: presliding, step, noise, latency and the longest tick.
 
 #include <passive_haptics/design/stiffness_budget.hpp>
+#include <passive_haptics/identification/trust.hpp>
 
 #include <array>
 #include <cmath>
@@ -47,6 +48,8 @@ template <int Dof>
 struct device_found {
   std::array<axis_found, static_cast<std::size_t>(Dof)> axes{};
   double force_limit = 0.0;  ///< the largest force allowed in the identification [N]
+  double drift =
+      trust{}.drift;  ///< share of damping and friction that may be lost by warmth and wear
 
   /// The first problem of any axis, or null.
   [[nodiscard]] const char* problem() const noexcept {
@@ -55,7 +58,7 @@ struct device_found {
     }
     return nullptr;
   }
-  /// The bounds that hold in every direction. The presliding of several axes is √Σ p², as that of their
+  /// The bounds that hold in every direction, damping and friction less the drift. The presliding of several axes is √Σ p², as that of their
   /// deflections; longest_tick is 1.2 of the longest tick seen, to cover ticks that were not seen.
   [[nodiscard]] encoder_device stated() const noexcept {
     encoder_device d{.mass = axes[0].mass,
@@ -73,6 +76,8 @@ struct device_found {
       d.longest_tick = kernels::larger(d.longest_tick, 1.2 * a.longest_tick);
       squares += a.presliding * a.presliding;
     }
+    d.damping *= 1.0 - drift;
+    d.friction *= 1.0 - drift;
     d.presliding = d.friction > 0.0 ? std::sqrt(squares) : 0.0;
     return d;
   }

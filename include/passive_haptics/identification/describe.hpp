@@ -98,6 +98,10 @@ template <int Dof>
   const double F = rounded(d.force_limit, false), q = rounded(d.quantum, true);
   const double T = rounded(d.longest_tick, true);
   std::string all = text("using scene = ph::space<double, %d>;\n", Dof);
+  if (found.drift > 0.0) {
+    all += text("// Bounds, less %.0f %% of damping and friction for warmth and wear.\n",
+                100.0 * found.drift);
+  }
   if (q > 0.0 && !(d.friction > 0.0))
     return all + detail::on_steps_alone(m, b, F, q, T, found.latency(), use.hand_force);
   if (q > 0.0) {

@@ -59,7 +59,7 @@ struct no_force_at_the_end {
 template <port P, haptic_device_for<P> Device, class Stop>
 [[nodiscard]] device_found<P::dof> identify(Device& device, const identification_parameters& p,
                                             Stop&& stop) {
-  device_found<P::dof> found{.force_limit = p.force};
+  device_found<P::dof> found{.force_limit = p.force, .drift = p.trust.drift};
   std::array<detail::soft_hold, static_cast<std::size_t>(P::dof)> hold{};
   for (int axis = 0; axis < P::dof; ++axis) {
     axis_identification of(p,

@@ -18,6 +18,7 @@
 // (Miller, 1974) and needs no white errors.
 
 #include <passive_haptics/base/kernels.hpp>
+#include <passive_haptics/identification/trust.hpp>
 
 #include <Eigen/Cholesky>
 
@@ -29,20 +30,6 @@
 namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
-
-/// A number and the standard deviation of its error.
-struct estimate {
-  double value = 0.0;
-  double deviation = std::numeric_limits<double>::infinity();
-
-  /// The bounds `deviations` standard deviations below and above the value.
-  [[nodiscard]] constexpr double at_least(double deviations) const noexcept {
-    return value - deviations * deviation;
-  }
-  [[nodiscard]] constexpr double at_most(double deviations) const noexcept {
-    return value + deviations * deviation;
-  }
-};
 
 /// The result of the regression. It does not count while `windows` is 0.
 struct motion_found {
@@ -62,7 +49,9 @@ class motion_regression {
  public:
   static constexpr int longest_window = 96;  ///< [ticks]
   static constexpr int groups = 12;          ///< of the jackknife
-  static constexpr double elastic = 0.4e-3;  ///< way after a turn that does not count [m]
+
+  /// `elastic` is the way after a turn that does not count, because friction gives there [m].
+  explicit motion_regression(double elastic = 0.4e-3) noexcept : elastic_(elastic) {}
 
   /// Adds the position [m] at the end of a tick of that length [s].
   void sample(double position, double length) noexcept {
@@ -86,7 +75,7 @@ class motion_regression {
   /// `turn` [m] of its last turn by more than friction is elastic.
   bool book(int ticks, int group, double slowest, double step, double turn) noexcept {
     if (ticks < 6 || ticks > longest_window || kept_ < ticks + latencies + 1) return false;
-    if (!(kernels::magnitude(at(newest_ - ticks).position - turn) > elastic + step)) return false;
+    if (!(kernels::magnitude(at(newest_ - ticks).position - turn) > elastic_ + step)) return false;
     const int sign = direction(ticks, slowest, step);
     if (sign == 0) return false;
     double whole = 0.0;
@@ -275,6 +264,7 @@ class motion_regression {
     return most;
   }
 
+  double elastic_;
   std::array<tick, capacity> ring_{};
   std::array<table, groups> sums_ = zeros();
   int newest_ = capacity, kept_ = 0, windows_ = 0;

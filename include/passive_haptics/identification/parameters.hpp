@@ -2,7 +2,7 @@
 #pragma once
 // The limits of what a device does while it is identified.
 
-#include <passive_haptics/base/parameter.hpp>
+#include <passive_haptics/identification/trust.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -15,9 +15,10 @@ struct identification_parameters {
       8e-3;  ///< how far it swings to either side of its start [m]; a longer one is more accurate
   double workspace =
       40e-3;  ///< distance from its start [m], beyond which the force is zero for good
-  double sweep_time = 8.0;  ///< time of the swing for mass, damping, friction and latency [s]
-  int places = 8;           ///< number of places where it is pushed until it slips
-  int creep_cycles = 150;   ///< cycles of a force below break-away, at each level tried
+  double sweep_time = 8.0;        ///< time of the swing for mass, damping, friction and latency [s]
+  int places = 8;                 ///< number of places where it is pushed until it slips
+  int creep_cycles = 150;         ///< cycles of a force below break-away, at each level tried
+  identification::trust trust{};  ///< how much of what is found may be stated
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!passive_haptics::detail::positive(force)) return {"force", force, "finite and > 0 N"};
@@ -31,7 +32,7 @@ struct identification_parameters {
     if (creep_cycles < 10 || creep_cycles > 10000) {
       return {"creep_cycles", static_cast<double>(creep_cycles), "10 to 10000"};
     }
-    return {};
+    return trust.check();
   }
 };
 

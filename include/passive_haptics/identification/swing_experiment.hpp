@@ -14,7 +14,7 @@
 //            twelve, because one force, or one stroke, would not tell damping from friction.
 //
 // A relay moves the device (relay_motion.hpp; Åström and Hägglund, 1984). A bound is three deviations of the
-// jackknife (Miller, 1974) and 5 % away from the estimate.
+// jackknife (Miller, 1974) and 5 % away from the estimate, unless trust.hpp is told another confidence.
 
 #include <passive_haptics/identification/measure_latency.hpp>
 #include <passive_haptics/identification/motion_regression.hpp>
@@ -59,11 +59,11 @@ class swing_experiment {
   /// Writes the bounds into `found`.
   void state(axis_found& found) const noexcept {
     const motion_found& m = motion_;
-    found.mass = kernels::larger(margin * m.mass.at_least(3.0), 0.0);
+    found.mass = kernels::larger(p_.trust.at_least(m.mass), 0.0);
     for (std::size_t i = 0; i < 2; ++i) {
       const estimate& b = m.damping[1 - i];
-      found.damping_ways[i] = kernels::larger(margin * b.at_least(3.0), 0.0);
-      found.damping_max = kernels::larger(found.damping_max, b.at_most(3.0) / margin);
+      found.damping_ways[i] = kernels::larger(p_.trust.at_least(b), 0.0);
+      found.damping_max = kernels::larger(found.damping_max, p_.trust.at_most(b));
     }
     found.damping = kernels::smaller(found.damping_ways[0], found.damping_ways[1]);
     found.latency = m.latency;
@@ -76,7 +76,6 @@ class swing_experiment {
 
  private:
   enum class phase : std::uint8_t { settle, sweep, done };
-  static constexpr double margin = 0.95;   // for errors that no statistics shows
   static constexpr double slowest = 0.03;  // least speed of the windows that count [m/s]
 
   double fail(const char* why) noexcept {
@@ -160,12 +159,12 @@ class swing_experiment {
              "force";
     }
     const double spring = motion_.stiffness.value;
-    if (kernels::magnitude(spring) > 4.0 * motion_.stiffness.deviation &&
-        kernels::magnitude(spring) * p_.stroke > 0.05 * p_.force) {
+    if (kernels::magnitude(spring) > 5.0 * motion_.stiffness.deviation &&
+        kernels::magnitude(spring) * p_.stroke > 0.02 * force_) {
       return "something holds it like a spring: let go of the device, and keep off its stops";
     }
     if (kernels::magnitude(motion_.exactly.value - motion_.latency) >
-        0.15 + 3.0 * motion_.exactly.deviation) {
+        0.08 + 3.0 * motion_.exactly.deviation) {
       return "the force changes in mid-tick: hold it from sample to sample";
     }
     return nullptr;

@@ -25,6 +25,13 @@ template <class Space>
   return typename Space::scalar(1) + Space::norm(of.centre) / of.radius;
 }
 
+/// Is the depth of that surface its distance, so that it pushes along its normal?
+template <class Surface, class Space>
+concept measures_distance = requires(const Surface s, const typename Space::vector x) {
+  s.at(x);
+}
+&&!says_push<decltype(std::declval<const Surface&>().at(Space::zero()))>;
+
 }  // namespace detail
 
 namespace laws {

@@ -17,6 +17,7 @@ struct half_space_of {
   double level;   ///< [m]
   int triangle;
   triple weights;  ///< barycentric
+  int mesh = 0;    ///< of those that are touched
 };
 
 /// What the way rests on: at most three half-spaces, and how much of it goes along each normal, λ ≥ 0.

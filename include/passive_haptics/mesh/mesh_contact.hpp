@@ -68,11 +68,22 @@ class mesh_contact::on {
   /// The side that was touched is forgotten, the mesh is not.
   constexpr void reset() noexcept { ball_.reset(); }
 
-  /// From now on this mesh, which must outlive the port and is touched by no other; from the haptic thread.
-  void touch(mesh::surface& s) noexcept { ball_.touch(s); }
+  /// From now on this mesh, which must outlive the port; from the haptic thread. False: it has 64 fingers.
+  bool touch(const mesh::surface& s) noexcept { return ball_.touch(s); }
   /// Nothing is there any more.
   void let_go() noexcept { ball_.let_go(); }
   [[nodiscard]] const mesh::proxy& ball() const noexcept { return ball_; }
+
+  /// Of the mesh, where the device is now.
+  void explain(explanation& e, const auto& /*x*/, scalar /*T*/, int /*late*/) const noexcept {
+    if (!ball_.touching()) {
+      e.stiffness = softened_by::no_surface;
+      return;
+    }
+    e.asked = e.shown = stiffness_;
+    e.soften(sampled_.stiffness, spring_.softener(stiffness_));
+    if (ball_.placed() && ball_.pressed().count > 0) e.depth = mesh::length(ball_.pressed().way);
+  }
 
   struct request {
     vector wanted;
@@ -83,7 +94,7 @@ class mesh_contact::on {
   [[nodiscard]] request ask(const auto& motion, const auto& port, event& what) noexcept {
     const request free{P::zero(), true, scalar(0)};
     if (!ball_.touching()) {
-      what = worse(what, event::no_target);
+      what = detail::worse_yet(what, event::no_target);
       return free;
     }
     const vector x = motion.position;

@@ -5,7 +5,8 @@
 // which side was touched is where the ball is.
 //
 //     ph::mesh::proxy finger({.radius = 5e-4});
-//     finger.touch(organ);                          // a mesh::surface
+//     finger.touch(organ);                          // a mesh::surface, which any number of others may touch
+//     finger.also_touch(needle);                    // several, each with its own news: it is held by all of them
 //     finger.step(device, dt);                      // in every tick; then
 //     finger.place();                               // where the ball is; device − place() is how far it is held off
 //
@@ -49,40 +50,70 @@ struct proxy_parameters {
 
 class proxy {
  public:
-  static constexpr int most_planes = 16;
+  static constexpr int most_planes = 16, most_meshes = 8;
 
-  constexpr proxy() noexcept = default;
-  constexpr explicit proxy(const proxy_parameters& p) noexcept : rule_(p) {}
+  proxy() noexcept = default;
+  explicit proxy(const proxy_parameters& p) noexcept : rule_(p) {}
   [[nodiscard]] constexpr const proxy_parameters& parameters() const noexcept { return rule_; }
   constexpr void set(const proxy_parameters& p) noexcept { rule_ = p; }
 
-  /// From now on that surface, which must outlive this proxy, and has no other one.
-  void touch(surface& s) noexcept {
+  /// From now on that surface, which must outlive this. A surface has 64 places: a proxy that ends lets go first, or its
+  /// place stays taken. False: there is none, and nothing is touched.
+  bool touch(const surface& s) noexcept {
     let_go();
-    surface_ = &s;
-    s.arrive();
-    done_ = 1.0;
-    nearest_ = -1;
+    return also_touch(s);
+  }
+  /// That one, too: the ball is held by both where they meet, each with its own pose and news. False: there are
+  /// most_meshes, it has 64 readers, or it is touched already.
+  bool also_touch(const surface& s) noexcept {
+    for (const part& p : parts()) {
+      if (p.news.reads(s)) return false;
+    }
+    if (meshes_ == most_meshes) return false;
+    part fresh;
+    if (!fresh.news.join(s)) return false;
+    reframe([&] { parts_[slot(meshes_++)] = fresh; });
+    placed_ = placed_ && meshes_ > 1 && clear_of(meshes_ - 1);
+    return true;
   }
   /// No surface any more.
   void let_go() noexcept {
-    surface_ = nullptr;
+    for (part& p : parts()) {
+      p.news.leave();
+      p = {};
+    }
+    meshes_ = 0;
     reset();
+  }
+  /// Not that one any more.
+  void let_go(const surface& s) noexcept {
+    for (int m = 0; m < meshes_; ++m) {
+      if (!parts_[slot(m)].news.reads(s)) continue;
+      parts_[slot(m)].news.leave();
+      reframe([&] {
+        for (int k = m; k + 1 < meshes_; ++k) parts_[slot(k)] = parts_[slot(k + 1)];
+        parts_[slot(--meshes_)] = {};
+      });
+      beside_ = 0;
+    }
+    if (meshes_ == 0) reset();
   }
   /// It forgets where it was, and with that the side.
   void reset() noexcept {
     placed_ = false;
-    count_ = 0;
+    beside_ = count_ = 0;
     pressed_ = {};
   }
-  [[nodiscard]] bool touching() const noexcept { return surface_ != nullptr; }
+  [[nodiscard]] bool touching() const noexcept { return meshes_ > 0; }
+  [[nodiscard]] int meshes() const noexcept { return meshes_; }
   /// It has been clear of the surface since the reset; before, it has no side and holds nothing off.
   [[nodiscard]] bool placed() const noexcept { return placed_; }
 
-  /// The device is at x [m], dt [s] after the last step. A device that is not finite changes nothing.
+  /// The device is at x [m], dt [s] after the last step. A device that is not finite, or farther than 1000 km, changes
+  /// nothing.
   void step(const triple& x, double dt) noexcept {
-    if (surface_ == nullptr || !is_finite(x) || !(dt > 0.0)) return;
-    hear(dt);
+    if (meshes_ == 0 || !is_finite(x) || !(squared(x) < 1e12) || !(dt > 0.0)) return;
+    for (part& p : parts()) hear(p, dt);
     const triple own = seen(x);
     if (!placed_) {
       begin(own, dt);
@@ -97,47 +128,124 @@ class proxy {
   }
 
   /// Where the ball is, in the world [m].
-  [[nodiscard]] triple place() const noexcept { return shown_.out(at_) + shown_.position; }
+  [[nodiscard]] triple place() const noexcept { return frame().out(at_) + frame().position; }
   /// The half-spaces that it may not leave, as directions of the world, and by how much a device at the place
   /// of the last step is beyond [m]; those that press are pressed().of.
   [[nodiscard]] int planes() const noexcept { return count_; }
-  [[nodiscard]] triple normal(int i) const noexcept { return shown_.out(planes_[slot(i)].normal); }
+  [[nodiscard]] triple normal(int i) const noexcept { return frame().out(planes_[slot(i)].normal); }
   [[nodiscard]] double depth(int i) const noexcept {
     return planes_[slot(i)].level - dot(planes_[slot(i)].normal, device_);
   }
   [[nodiscard]] const support& pressed() const noexcept { return pressed_; }
-  /// The triangle that was closest, −1 before any.
-  [[nodiscard]] int nearest() const noexcept { return nearest_; }
+  /// What a half-space is of: which mesh, in the order of touching, which triangle and where on it.
+  [[nodiscard]] const half_space_of& plane(int i) const noexcept { return planes_[slot(i)]; }
+  /// How far the place where it is touched went in the last step, in the world [m].
+  [[nodiscard]] triple went(int i) const noexcept {
+    const half_space_of& h = planes_[slot(i)];
+    const part& p = parts_[slot(h.mesh)];
+    const auto in_world = [&](double done, const pose& where) {
+      const view v{&p.news.mesh(),  &p.news.from(), &p.news.to(), done,
+                   !p.news.moves(), true,           where};
+      return point_at(v.triangle(h.triangle), h.weights);
+    };
+    return in_world(p.done, p.shown) - in_world(p.done_before, p.shown_before);
+  }
+  /// The triangle that was closest, −1 before any, and its mesh.
+  [[nodiscard]] int nearest() const noexcept {
+    return meshes_ > 0 ? parts_[slot(beside_)].nearest : -1;
+  }
+  [[nodiscard]] int nearest_mesh() const noexcept { return beside_; }
   /// The way from the last shape to the newest that is shown, in [0, 1].
-  [[nodiscard]] double shown() const noexcept { return done_; }
-  /// The corners of a triangle as it is shown now, in the mesh's own frame [m].
-  [[nodiscard]] corners triangle(int i) const noexcept { return now().triangle(i); }
+  [[nodiscard]] double shown(int mesh = 0) const noexcept { return parts_[slot(mesh)].done; }
+  /// The corners of a triangle as it is shown now, in its mesh's own frame [m].
+  [[nodiscard]] corners triangle(int i, int mesh = 0) const noexcept {
+    view v = now(parts_[slot(mesh)]);
+    v.apart = false;
+    return v.triangle(i);
+  }
   /// The pose that is shown now.
-  [[nodiscard]] const pose& where() const noexcept { return shown_; }
+  [[nodiscard]] const pose& where(int mesh = 0) const noexcept { return parts_[slot(mesh)].shown; }
   /// The distance of the ball's centre from the closest triangle [m]; for tests, it looks anew.
   [[nodiscard]] double clearance() const noexcept {
-    return surface_ == nullptr ? box::infinity : closest(now(), at_, box::infinity).distance;
+    double least = box::infinity;
+    for (const part& p : parts()) least = closest(p, 0, at_, least).distance;
+    return least;
   }
 
  private:
   static constexpr int most_near = 48, most_rounds = 3;
   static constexpr std::size_t slot(int i) noexcept { return static_cast<std::size_t>(i); }
 
-  /// The mesh on its way from one shape to another.
+  /// One mesh: the shape and the pose that are shown of it, on their way to the newest.
+  struct part {
+    surface::reader news;
+    double done = 1.0, done_before = 1.0;  ///< of the way between the shapes; in the last tick
+    double shape_way = 1e-3, shape_age = 1.0, pose_way = 1e-3, pose_age = 1.0;  // [s]
+    double pose_done = 1.0;
+    int stuck = 0;  ///< ticks for which the mesh waits; < 0: it goes back
+    pose came_from{}, goal{}, shown{}, shown_before{};
+    int nearest = -1;
+    // of this tick:
+    double wanted = 0.0;   ///< share of the way between the shapes
+    pose aim{};            ///< where it is to be at the end
+    double through = 1.0;  ///< of both, what is done
+    double done_at_first = 1.0;
+    pose shown_at_first{};
+
+    [[nodiscard]] bool turns() const noexcept { return !(aim == shown_at_first); }
+    [[nodiscard]] bool goes() const noexcept { return through < 1.0; }
+  };
+  [[nodiscard]] std::span<part> parts() noexcept { return std::span(parts_).first(slot(meshes_)); }
+  [[nodiscard]] std::span<const part> parts() const noexcept {
+    return std::span(parts_).first(slot(meshes_));
+  }
+  /// One mesh alone is looked at in its own frame, so that its pose is the device's motion; several in the world's.
+  [[nodiscard]] bool alone() const noexcept { return meshes_ == 1; }
+  [[nodiscard]] const pose& frame() const noexcept {
+    static constexpr pose world_frame{};
+    return alone() ? parts_[0].shown : world_frame;
+  }
+  [[nodiscard]] triple seen(const triple& x) const noexcept {
+    return frame().in(x - frame().position);
+  }
+  /// Meshes come or go, and the ball stays where it is in the world.
+  void reframe(auto change) noexcept {
+    const triple ball = place(), device = frame().out(device_) + frame().position;
+    change();
+    at_ = seen(ball);
+    device_ = seen(device);
+    count_ = 0;
+    pressed_ = {};
+  }
+  [[nodiscard]] bool clear_of(int mesh) const noexcept {
+    return !(closest(parts_[slot(mesh)], mesh, at_, rule_.radius).triangle >= 0);
+  }
+
+  /// A mesh on its way from one shape to another, at a pose in the frame that is looked from.
   struct view {
-    const surface* of;
+    const detail::world* of;
     const shape *from, *to;
     double done;
     bool still;
+    bool apart = false;  ///< in a frame of its own
+    pose where{};
 
     [[nodiscard]] triple node(int i) const noexcept {
       const triple& b = to->nodes[slot(i)];
       return still ? b : between(from->nodes[slot(i)], b, done);
     }
     [[nodiscard]] corners triangle(int i) const noexcept {
-      const auto& t = of->triangles()[slot(i)];
-      return {node(t[0]), node(t[1]), node(t[2])};
+      const auto& t = of->triangles[slot(i)];
+      corners c{node(t[0]), node(t[1]), node(t[2])};
+      if (apart) {
+        for (triple& p : c) p = where.out(p) + where.position;
+      }
+      return c;
     }
+    [[nodiscard]] triple in(const triple& p) const noexcept {
+      return apart ? where.in(p - where.position) : p;
+    }
+    // In its own frame.
     /// Contains what is in between, because a number between is at least what is between the least.
     [[nodiscard]] box around(int i) const noexcept {
       const box& b = to->boxes[slot(i)];
@@ -145,13 +253,23 @@ class proxy {
       const box& a = from->boxes[slot(i)];
       return {between(a.low, b.low, done), between(a.high, b.high, done)};
     }
+    [[nodiscard]] double squared_distance(int i, const triple& p) const noexcept {
+      return around(i).squared_distance(p);
+    }
   };
-  [[nodiscard]] view seen_at(double done) const noexcept {
-    return {surface_, &surface_->from(), &surface_->to(), done, !surface_->moves()};
+  [[nodiscard]] view at_share(const part& p, double done, const pose& where) const noexcept {
+    return {&p.news.mesh(), &p.news.from(),  &p.news.to(),
+            done,           !p.news.moves(), !alone() && !(where == pose{}),
+            where};
   }
-  [[nodiscard]] view now() const noexcept { return seen_at(done_); }
-  [[nodiscard]] triple seen(const triple& x) const noexcept {
-    return shown_.in(x - shown_.position);
+  [[nodiscard]] view now(const part& p) const noexcept { return at_share(p, p.done, p.shown); }
+  /// When that much of what it is to do in this tick is done.
+  [[nodiscard]] view later(const part& p, double through) const noexcept {
+    return at_share(p, p.done_at_first + through * p.wanted, pose_at(p, through));
+  }
+  [[nodiscard]] static pose pose_at(const part& p, double through) noexcept {
+    if (!p.turns()) return p.shown_at_first;
+    return through < 1.0 ? between(p.shown_at_first, p.aim, through) : p.aim;
   }
 
   struct found {
@@ -159,9 +277,9 @@ class proxy {
     int triangle = -1;
     triple weights;
     triple point;
+    int mesh = 0;
   };
-  [[nodiscard]] static found on(const view& v, int i, const triple& p) noexcept {
-    const corners t = v.triangle(i);
+  [[nodiscard]] static found on(const corners& t, int i, const triple& p) noexcept {
     found f;
     f.triangle = i;
     f.weights = closest_weights(t, p);
@@ -169,117 +287,170 @@ class proxy {
     f.distance = length(f.point - p);
     return f;
   }
-  /// The closest point of the mesh, if it is within `reach` [m].
-  [[nodiscard]] found closest(const view& v, const triple& p, double reach) const noexcept {
+  /// The closest point of a mesh, if it is within `reach` [m].
+  [[nodiscard]] found closest(const part& of, int mesh, const triple& p,
+                              double reach) const noexcept {
+    const view v = now(of);
     found best;
     best.distance = reach;
-    if (nearest_ >= 0) {
-      const found likely = on(v, nearest_, p);
-      if (likely.distance < reach) best = likely;
-    }
-    surface_->tree().walk([&](int b) { return v.around(b).squared_distance(p); },
-                          [&](double d2) { return d2 < best.distance * best.distance; },
-                          [&](int t) {
-                            const found f = on(v, t, p);
-                            if (f.distance < best.distance) best = f;
-                          });
+    const auto better = [&](int t) {
+      found f = on(v.triangle(t), t, p);
+      if (!(f.distance < best.distance)) return;
+      f.mesh = mesh;
+      best = f;
+    };
+    if (of.nearest >= 0) better(of.nearest);
+    const triple own = v.in(p);
+    v.of->tree.walk([&](int b) { return v.squared_distance(b, own); },
+                    [&](double d2) { return d2 < best.distance * best.distance; }, better);
     return best;
   }
 
   // -------------------------------------------------------------------------------------------- news
-  /// What the slow thread has to say; the way to it is begun when the last one is done.
-  void hear(double dt) noexcept {
-    pose_age_ += dt;
-    shape_age_ += dt;
-    if (const pose* news = surface_->take_pose()) {
-      goal_ = *news;
-      came_from_ = placed_ ? shown_ : goal_;
-      pose_way_ = way_of(pose_age_, moved_by(*news), dt);
-      pose_done_ = 0.0;
-      pose_age_ = 0.0;
+  /// What the slow thread has to say; the way to it is begun when the last one is done. Of one mesh alone the pose is
+  /// shown at once; of several it is a motion, and may have to wait.
+  void hear(part& p, double dt) noexcept {
+    p.pose_age += dt;
+    p.shape_age += dt;
+    p.shown_before = p.shown;
+    if (const pose* news = p.news.take_pose()) {
+      p.goal = *news;
+      p.came_from = placed_ ? p.shown : p.goal;
+      p.pose_way = way_of(p.pose_age, moved_by(p, *news), dt);
+      p.pose_done = 0.0;
+      p.pose_age = 0.0;
     }
-    if (pose_done_ < 1.0) {
-      pose_done_ = (std::min)(1.0, pose_done_ + dt / pose_way_);
-      shown_ = pose_done_ < 1.0 ? between(came_from_, goal_, pose_done_) : goal_;
+    p.aim = p.shown;
+    if (p.pose_done < 1.0) {
+      p.pose_done = (std::min)(1.0, p.pose_done + dt / p.pose_way);
+      p.aim = p.pose_done < 1.0 ? between(p.came_from, p.goal, p.pose_done) : p.goal;
     }
-    if (surface_->moves() && done_ >= 1.0) {
-      surface_->arrive();
-    } else if (surface_->moves() && done_ <= 0.0 && stuck_ < 0) {  // it has gone back
-      surface_->turn_back();
-      done_ = 1.0;
+    if (alone() || !placed_) p.shown = p.aim;
+    if (p.news.moves() && p.done >= 1.0) {
+      p.news.arrive();
+    } else if (p.news.moves() && p.done <= 0.0 && p.stuck < 0) {  // it has gone back
+      p.news.turn_back();
+      p.done = 1.0;
     }
-    if (!surface_->moves()) {
-      stuck_ = 0;
-      if (surface_->go()) {
-        done_ = 0.0;
-        shape_way_ = way_of(shape_age_, touched_way(), dt);
-        shape_age_ = 0.0;
+    if (!p.news.moves()) {
+      p.stuck = 0;
+      if (p.news.go()) {
+        p.done = 0.0;
+        p.shape_way = way_of(p.shape_age, touched_way(p), dt);
+        p.shape_age = 0.0;
       }
     }
+    p.done_before = p.done;
+    p.wanted = 0.0;
+    if (p.news.moves()) {
+      p.wanted = dt / p.shape_way;
+      p.wanted = p.stuck < 0 ? -(std::min)(p.wanted, p.done) : (std::min)(p.wanted, 1.0 - p.done);
+    }
+    p.through = p.news.moves() || !(p.aim == p.shown) ? 0.0 : 1.0;
+    p.done_at_first = p.done;
+    p.shown_at_first = p.shown;
   }
   [[nodiscard]] double way_of(double age, double distance, double dt) const noexcept {
     const double asked = (std::max)(age, distance / rule_.news_speed);
     return (std::max)((std::min)(asked, rule_.longest_way), dt);
   }
-  /// How far the news move what is touched [m].
-  [[nodiscard]] double moved_by(const pose& news) const noexcept {
-    if (pressed_.count == 0) return 0.0;
-    return length(news.out(at_) + news.position - place());
+  /// Does a half-space that presses belong to that mesh?
+  [[nodiscard]] bool is_of(const half_space_of& h, const part& p) const noexcept {
+    return &parts_[slot(h.mesh)] == &p;
   }
-  [[nodiscard]] double touched_way() const noexcept {
+  /// How far the news move what is touched [m].
+  [[nodiscard]] double moved_by(const part& p, const pose& news) const noexcept {
     double most = 0.0;
     for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
-      const half_space_of& h = planes_[slot(pressed_.of[i])];
-      most = (std::max)(most, length(gone(h.triangle, h.weights, 1.0)));
+      if (!is_of(planes_[slot(pressed_.of[i])], p)) continue;
+      const triple ball = place(), own = p.shown.in(ball - p.shown.position);
+      most = length(news.out(own) + news.position - ball);
     }
     return most;
   }
-  /// How far a point of a triangle goes in that share of the way [m].
-  [[nodiscard]] triple gone(int t, const triple& weights, double share) const noexcept {
-    const auto& nodes = surface_->triangles()[slot(t)];
-    const auto &a = surface_->from().nodes, &b = surface_->to().nodes;
-    const auto one = [&](int i) { return b[slot(i)] - a[slot(i)]; };
-    return (one(nodes[0]) * weights.x + one(nodes[1]) * weights.y + one(nodes[2]) * weights.z) *
-           share;
+  [[nodiscard]] double touched_way(const part& p) const noexcept {
+    double most = 0.0;
+    for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
+      const half_space_of& h = planes_[slot(pressed_.of[i])];
+      if (!is_of(h, p)) continue;
+      const triple from = point_at(at_share(p, 0.0, p.shown).triangle(h.triangle), h.weights);
+      const triple to = point_at(at_share(p, 1.0, p.shown).triangle(h.triangle), h.weights);
+      most = (std::max)(most, length(to - from));
+    }
+    return most;
   }
 
-  // ------------------------------------------------------------------------------- the mesh's motion
-  [[nodiscard]] bool follows() const noexcept { return surface_->moves(); }
-  /// A tick of the way to the newest shape; how far the ball was carried [m]. What would crush the ball waits;
-  /// if it waits for long and there are news, the way is gone back, because they may leave room.
+  // ----------------------------------------------------------------------------- the meshes' motion
+  [[nodiscard]] bool follows() const noexcept {
+    for (const part& p : parts()) {
+      if (p.goes()) return true;
+    }
+    return false;
+  }
+  /// A tick of the ways to the newest shapes and poses; how far the ball was carried [m]. They go together, twice with
+  /// what room the ball can make; what cannot go with the others may go by itself. What would crush the ball waits; a
+  /// shape that waits for long goes back if there are news, because they may leave room.
   double follow(double dt) noexcept {
-    double wanted = dt / shape_way_;
-    if (stuck_ < 0) {
-      wanted = -(std::min)(wanted, done_);
-    } else {
-      wanted = (std::min)(wanted, 1.0 - done_);
+    double carried = 0.0;
+    int going = 0;
+    for (const part& p : parts()) going += p.goes() ? 1 : 0;
+    const auto all = [](const part& p) { return p.goes(); };
+    for (int round = 0; round < 2 && follows(); ++round) carried += go(all);
+    if (going > 1) {
+      for (int m = 0; m < meshes_; ++m) {
+        const part* one = &parts_[slot(m)];
+        if (one->goes()) carried += go([=](const part& p) { return &p == one; });
+      }
     }
-    double carried = 0.0, left = 1.0;
-    for (int round = 0; round < 2 && left > 1e-6; ++round) {
-      const double share = wanted * left;
-      const triple w = carry(share);
-      const double part = safe_part(share, w);
-      at_ = at_ + w * part;
-      carried += length(w) * part;
-      done_ += share * part;
-      left *= 1.0 - part;
-      if (part < 1.0) carried += make_room();
-    }
-    if (left <= 1e-6 && wanted > 0.0 && 1.0 - done_ < 1e-9) done_ = 1.0;
-    if (stuck_ >= 0) {
-      stuck_ = left > 0.99 ? stuck_ + 1 : 0;
-      if (stuck_ > patience && surface_->has_news()) stuck_ = -1;
-    }
+    for (part& p : parts()) settle(p, dt);
     return carried;
   }
+  void settle(part& p, double dt) noexcept {
+    if (p.goes() && p.turns()) {  // the rest of the way begins here
+      p.came_from = p.shown;
+      p.pose_way = (std::max)((1.0 - p.pose_done) * p.pose_way, dt);
+      p.pose_done = 0.0;
+    }
+    if (!p.news.moves()) return;
+    if (!p.goes() && p.wanted > 0.0 && 1.0 - p.done < 1e-9) p.done = 1.0;
+    if (p.stuck >= 0) {
+      p.stuck = p.through < 0.01 ? p.stuck + 1 : 0;
+      if (p.stuck > patience && p.news.has_news()) p.stuck = -1;
+    }
+  }
+  /// Those that `are` go as far as the ball lets them; how far it was carried or pushed [m].
+  double go(auto are) noexcept {
+    const triple w = carry(are);
+    double part_of = safe_part(are, w, 1.0);
+    bool turning = false;
+    for (const part& p : parts()) turning = turning || (are(p) && p.turns());
+    if (turning &&
+        part_of < 1.0) {  // a turn is straight only from where it is looked at to where it ends
+      part_of *= 0.5;
+      if (safe_part(are, w * part_of, part_of) < 1.0) part_of = 0.0;
+    }
+    at_ = at_ + w * part_of;
+    for (part& p : parts()) {
+      if (!are(p)) continue;
+      p.through = part_of < 1.0 ? p.through + (1.0 - p.through) * part_of : 1.0;
+      if (1.0 - p.through <= 1e-6) p.through = 1.0;
+      p.done = p.done_at_first + p.through * p.wanted;
+      p.shown = pose_at(p, p.through);
+    }
+    return length(w) * part_of + (part_of < 1.0 ? make_room() : 0.0);
+  }
   /// The ball goes with what it rests on.
-  [[nodiscard]] triple carry(double share) const noexcept {
+  [[nodiscard]] triple carry(auto are) const noexcept {
     if (pressed_.count == 0) return {};
     std::array<triple, 3> way{};
     std::size_t most = 0;
     for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
       const half_space_of& h = planes_[slot(pressed_.of[i])];
-      way[i] = gone(h.triangle, h.weights, share);
+      const part& p = parts_[slot(h.mesh)];
+      if (are(p)) {
+        way[i] = point_at(later(p, 1.0).triangle(h.triangle), h.weights) -
+                 point_at(now(p).triangle(h.triangle), h.weights);
+      }
       if (pressed_.share[i] > pressed_.share[most]) most = i;
     }
     if (pressed_.count == 1) return way[0];
@@ -293,45 +464,69 @@ class proxy {
     const double longest = length(way[most]) + rule_.radius;
     return can && squared(more.way) < longest * longest ? way[most] + more.way : way[most];
   }
-  /// The part of that share of the way, in [0, 1], in which no triangle comes nearer than r/2 to a ball that goes
-  /// by w. With n the direction from the closest point c to the ball T stays behind a plane that comes nearer by
+  /// The part of `share` of what those that `are` have still to go, in [0, 1], in which no triangle comes nearer than
+  /// r/2 to a ball that goes by w.
+  /// With n the direction from the closest point c to the ball T stays behind a plane that comes nearer by
   /// max n·u_k, u_k the way of a corner beside the ball. And of a point of T, Σ w_k y_k: those within ρ of c go by
   /// |u_c| + ρ Σ |u_k − u_c|/h_k at most, h_k the heights of T, the others are √(d² + ρ²) away or more and go by max
   /// |u_k|, so ρ = max |u_k| + r. The smaller counts.
-  [[nodiscard]] double safe_part(double share, const triple& w) const noexcept {
-    const view before = now(), after = seen_at(done_ + share);
+  [[nodiscard]] double safe_part(auto are, const triple& w, double share) const noexcept {
     const double least = 0.5 * rule_.radius, margin = least + length(w);
-    double part = 1.0;
-    surface_->tree().walk(
-        [&](int b) {
-          box swept = before.around(b);
-          swept.grow(after.around(b));
-          return swept.squared_distance(at_);
-        },
-        [&](double d2) { return d2 < margin * margin; },
-        [&](int t) {
-          const found f = on(before, t, at_);
-          const corners a = before.triangle(t), b = after.triangle(t);
-          const std::array<triple, 3> u{b[0] - a[0] - w, b[1] - a[1] - w, b[2] - a[2] - w};
-          const double fastest =
-              kernels::square_root((std::max)({squared(u[0]), squared(u[1]), squared(u[2])}));
-          const double room = (std::max)(f.distance - least, 0.0);
-          if (!(fastest > room)) return;
-          const triple here = u[0] * f.weights.x + u[1] * f.weights.y + u[2] * f.weights.z;
-          const double twice_area = length(cross(a[1] - a[0], a[2] - a[0]));
-          double bend = 0.0;
-          for (std::size_t k = 0; k < 3; ++k) {
-            bend += length(u[k] - here) * length(a[(k + 2) % 3] - a[(k + 1) % 3]);
-          }
-          double speed = 0.0;  // towards the ball: T is behind the plane across the way to it
-          for (const triple& v : u) speed = (std::max)(speed, dot(v, at_ - f.point));
-          speed = f.distance > 0.0 ? speed / f.distance : fastest;
-          if (twice_area > 0.0) {
-            speed = (std::min)(speed, length(here) + (fastest + rule_.radius) * bend / twice_area);
-          }
-          if (speed > room) part = (std::min)(part, room / speed);
-        });
-    return part;
+    double safe = 1.0;
+    for (const part& p : parts()) {
+      const bool goes = are(p);
+      if (!goes && w == triple{}) continue;
+      const view before = now(p);
+      const view after = goes ? later(p, p.through + (1.0 - p.through) * share) : before;
+      const triple own = before.in(at_);
+      // A branch that turns: its points go by what its middle goes and by what half its size turns.
+      const bool turns = goes && p.turns();
+      const double angle = turns ? turn_between(before.where, after.where) : 0.0;
+      before.of->tree.walk(
+          [&](int b) {
+            box swept = before.around(b);
+            if (goes && !before.still) swept.grow(after.around(b));
+            const double d2 = swept.squared_distance(own);
+            if (!turns) return d2;
+            const triple middle = between(swept.low, swept.high, 0.5);
+            const double by = length(after.where.out(middle) + after.where.position -
+                                     before.where.out(middle) - before.where.position) +
+                              angle * length(swept.high - middle);
+            const double d = (std::max)(kernels::square_root(d2) - by, 0.0);
+            return d * d;
+          },
+          [&](double d2) { return d2 < margin * margin; },
+          [&](int t) { limit(before.triangle(t), after.triangle(t), w, least, safe); });
+    }
+    return safe;
+  }
+  void limit(const corners& a, const corners& b, const triple& w, double least,
+             double& safe) const noexcept {
+    const found f = on(a, 0, at_);
+    const std::array<triple, 3> u{b[0] - a[0] - w, b[1] - a[1] - w, b[2] - a[2] - w};
+    const double fastest =
+        kernels::square_root((std::max)({squared(u[0]), squared(u[1]), squared(u[2])}));
+    const double room = (std::max)(f.distance - least, 0.0);
+    if (!(fastest > room)) return;
+    const triple here = u[0] * f.weights.x + u[1] * f.weights.y + u[2] * f.weights.z;
+    const double twice_area = length(cross(a[1] - a[0], a[2] - a[0]));
+    double bend = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bend += length(u[k] - here) * length(a[(k + 2) % 3] - a[(k + 1) % 3]);
+    }
+    double speed = 0.0;  // towards the ball: T is behind the plane across the way to it
+    for (const triple& v : u) speed = (std::max)(speed, dot(v, at_ - f.point));
+    speed = f.distance > 0.0 ? speed / f.distance : fastest;
+    if (twice_area > 0.0) {
+      speed = (std::min)(speed, length(here) + (fastest + rule_.radius) * bend / twice_area);
+    }
+    if (speed > room) safe = (std::min)(safe, room / speed);
+  }
+  /// At least the angle between two turns, 2 sin of its half doubled [rad].
+  [[nodiscard]] static double turn_between(const pose& a, const pose& b) noexcept {
+    const double side = a.w * b.w + dot(a.axis, b.axis) < 0.0 ? -1.0 : 1.0;
+    const double w = a.w - side * b.w;
+    return 2.0 * kernels::square_root(w * w + squared(a.axis - b.axis * side));
   }
   /// What has come nearer than r pushes the ball off; how far [m].
   double make_room() noexcept {
@@ -343,10 +538,13 @@ class proxy {
   // ------------------------------------------------------------------------------- the ball's motion
   /// Before it has a side: it waits until the device is clear of the surface.
   void begin(const triple& x, double dt) noexcept {
-    if (follows()) done_ = (std::min)(1.0, done_ + dt / shape_way_);
     device_ = x;
-    const found f = closest(now(), x, rule_.radius);
-    if (f.triangle >= 0) return;
+    bool clear = true;
+    for (part& p : parts()) {
+      if (p.news.moves()) p.done = (std::min)(1.0, p.done + dt / p.shape_way);
+      clear = clear && closest(p, 0, x, rule_.radius).triangle < 0;
+    }
+    if (!clear) return;
     at_ = x;
     placed_ = true;
     count_ = 0;
@@ -410,8 +608,8 @@ class proxy {
     if (!(d > 1e-12)) return;
     const int i = count_ < most_planes ? count_++ : most_planes - 1;
     const triple n = off * (1.0 / d);
-    const int likely = nearest_ >= 0 ? nearest_ : 0;
-    planes_[slot(i)] = {n, dot(n, there), likely, {1.0, 0.0, 0.0}};
+    const int likely = (std::max)(parts_[slot(beside_)].nearest, 0);
+    planes_[slot(i)] = {n, dot(n, there), likely, {1.0, 0.0, 0.0}, beside_};
     pressed_ = {off, {i, 0, 0}, {d, 0.0, 0.0}, 1};
   }
   /// What may stand before a half-space and is passed over while it is not near [m].
@@ -420,32 +618,65 @@ class proxy {
   /// The half-spaces of the triangles within r + reach, the closest first. Where there are too many, reach_ is
   /// less than `reach`.
   void collect(double reach) noexcept {
-    const view v = now();
     const double r = rule_.radius;
     reach_ = reach;
     count_ = 0;
-    const found first = closest(v, at_, r + reach);
+    found first;
+    first.distance = r + reach;
+    for (int m = 0; m < meshes_; ++m) {
+      const found f = closest(parts_[slot(m)], m, at_, first.distance);
+      if (f.triangle < 0) continue;
+      first = f;
+      parts_[slot(m)].nearest = f.triangle;
+    }
     if (first.triangle < 0) return;
-    nearest_ = first.triangle;
-    add(v, first);
+    beside_ = first.mesh;
+    add(now(parts_[slot(beside_)]), first);
 
-    std::array<found, most_near> beside;
+    std::array<found, most_near> beside;  // NOLINT(*-member-init): read below `have` only
     int have = 0;
     double farthest = r + reach;
-    surface_->tree().walk(
+    for (int m = 0; m < meshes_; ++m) gather(m, first, beside, have, farthest);
+    reach_ = (std::min)(reach_, (std::max)(farthest - r, 0.0));
+    for (int k = 0; k < have; ++k) {
+      const found& f = beside[slot(k)];
+      if (f.distance >= r + reach_) return;
+      const double allowed = f.distance <= r + behind() ? tiny() : behind();
+      const view v = now(parts_[slot(f.mesh)]);
+      const corners t = v.triangle(f.triangle);
+      bool hidden = false;
+      for (int i = 0; i < count_ && !hidden; ++i) hidden = lies_behind(t, i, allowed);
+      if (hidden) continue;
+      if (count_ == most_planes - 1) {  // the last one is for stop_at
+        reach_ = (std::max)(f.distance - r, 0.0);
+        return;
+      }
+      add(v, f);
+    }
+  }
+  /// Of one mesh the triangles that stand before the first half-space, the closest first.
+  void gather(int mesh, const found& first, std::array<found, most_near>& beside, int& have,
+              double& farthest) const noexcept {
+    const view v = now(parts_[slot(mesh)]);
+    const triple own = v.in(at_);
+    const triple n = v.apart ? v.where.in(planes_[0].normal) : planes_[0].normal;
+    const double base = base_[0] - (v.apart ? dot(planes_[0].normal, v.where.position) : 0.0);
+    const double close2 = (rule_.radius + behind()) * (rule_.radius + behind());
+    v.of->tree.walk(
         [&](int b) {
           const box around = v.around(b);
-          const double d2 = around.squared_distance(at_);
-          const bool close = d2 <= (r + behind()) * (r + behind());
-          const double before = around.farthest_along(planes_[0].normal) - base_[0];
-          return before <= (close ? tiny() : behind()) ? box::infinity : d2;
+          const double d2 = around.squared_distance(own);
+          const double before = around.farthest_along(n) - base;
+          return before <= (d2 <= close2 ? tiny() : behind()) ? box::infinity : d2;
         },
         [&](double d2) { return d2 < farthest * farthest; },
         [&](int t) {
-          if (t == first.triangle) return;
-          if (lies_behind(v.triangle(t), 0, tiny())) return;
-          const found f = on(v, t, at_);
+          if (t == first.triangle && mesh == first.mesh) return;
+          const corners c = v.triangle(t);
+          if (lies_behind(c, 0, tiny())) return;
+          found f = on(c, t, at_);
           if (!(f.distance < farthest)) return;
+          f.mesh = mesh;
           int i = have;
           if (have < most_near) {
             ++have;
@@ -460,21 +691,6 @@ class proxy {
           beside[slot(i)] = f;
           if (have == most_near) farthest = beside[slot(have - 1)].distance;
         });
-    reach_ = (std::min)(reach_, (std::max)(farthest - r, 0.0));
-    for (int k = 0; k < have; ++k) {
-      const found& f = beside[slot(k)];
-      if (f.distance >= r + reach_) return;
-      const double allowed = f.distance <= r + behind() ? tiny() : behind();
-      const corners t = v.triangle(f.triangle);
-      bool hidden = false;
-      for (int i = 0; i < count_ && !hidden; ++i) hidden = lies_behind(t, i, allowed);
-      if (hidden) continue;
-      if (count_ == most_planes - 1) {  // the last one is for stop_at
-        reach_ = (std::max)(f.distance - r, 0.0);
-        return;
-      }
-      add(v, f);
-    }
   }
   [[nodiscard]] double tiny() const noexcept { return 1e-6 * rule_.radius; }
   [[nodiscard]] bool lies_behind(const corners& t, int i, double allowed) const noexcept {
@@ -507,23 +723,19 @@ class proxy {
       base = (std::max)({dot(n, t[0]), dot(n, t[1]), dot(n, t[2])});
     }
     base_[slot(count_)] = base;
-    planes_[slot(count_)] = {n, base + r, f.triangle, f.weights};
+    planes_[slot(count_)] = {n, base + r, f.triangle, f.weights, f.mesh};
     ++count_;
   }
 
   static constexpr int patience = 50;  ///< ticks for which news that would crush the ball wait
 
-  surface* surface_ = nullptr;
   proxy_parameters rule_{};
-  double done_ = 1.0;  ///< of the way between them
-  double shape_way_ = 1e-3, shape_age_ = 1.0, pose_way_ = 1e-3, pose_age_ = 1.0;  // [s]
-  double pose_done_ = 1.0;
-  int stuck_ = 0;  ///< ticks for which the mesh waits; < 0: it goes back
-  pose came_from_{}, goal_{}, shown_{};
+  std::array<part, std::size_t{most_meshes}> parts_{};
+  int meshes_ = 0;
+  int beside_ = 0;  ///< the mesh that is closest
   bool placed_ = false;
-  triple at_{};      ///< the ball, as the mesh sees it [m]
-  triple device_{};  ///< the device, as the mesh sees it [m]
-  int nearest_ = -1;
+  triple at_{};      ///< the ball in frame() [m]
+  triple device_{};  ///< the device there [m]
   int count_ = 0;
   double reach_ = 0.0;  ///< how far the half-spaces count [m]
   std::array<half_space_of, most_planes> planes_{};

@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Triangles that a finger touches while another thread moves them.
+// Triangles that fingers touch while another thread moves them.
 //
 //     ph::mesh::surface organ(triangles, nodes);     // any thread, once
 //     if (!organ.update(nodes)) log(organ.fault());  // slow thread, whenever the nodes have moved
 //     organ.update(pose);                            // slow thread, where the whole of it has moved
 //
-// The slow thread copies the nodes and fits the tree's boxes; the haptic thread takes what is ready, and neither
-// waits: of four copies the haptic thread holds two, the one that it comes from and the one that it goes to, one
-// lies ready, and one is free to be filled. Sides do not matter: a surface may be open, inside out, cross itself,
-// have three triangles at an edge, or some without an area. What is no mesh is refused with a sentence, and the
-// last good one stays.
+// The slow thread copies the nodes and fits the tree's boxes; each finger takes what is newest when it has come to
+// what it took before, and nobody waits (news.hpp). Sides do not matter: a surface may be open, inside out, cross
+// itself, have three triangles at an edge, or some without an area. What is no mesh is refused with a sentence, and
+// the last good one stays.
 
-#include <passive_haptics/base/exchange.hpp>
 #include <passive_haptics/mesh/box_tree.hpp>
+#include <passive_haptics/mesh/news.hpp>
 #include <passive_haptics/mesh/pose.hpp>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -52,6 +54,25 @@ template <class Nodes>
             static_cast<double>(nodes[i][2])};
   }
 }
+
+/// What a surface and those who touch it share.
+struct world {
+  world(std::vector<std::array<int, 3>> t, box_tree around)
+      : triangles(std::move(t)), tree(std::move(around)) {}
+
+  std::vector<std::array<int, 3>> triangles;
+  box_tree tree;
+  news<shape> shapes;
+  news<pose> poses;
+
+  /// What one finger holds: the shape that it comes from and the one that it goes to, or both the same; its pose.
+  struct seat {
+    std::atomic<bool> taken{false};
+    int from = 0, to = 0, pose = -1;
+  };
+  std::array<seat, std::size_t{news<shape>::most_readers}> seats;
+  std::atomic<int> readers{0};
+};
 }  // namespace detail
 
 class surface {
@@ -96,35 +117,31 @@ class surface {
   /// holds its address.
   template <class Nodes>
   surface(std::vector<triangle> triangles, const Nodes& nodes)
-      : triangles_(believed(std::move(triangles), nodes)), tree_(centres(triangles_, nodes)) {
-    fill(0, nodes);
-    for (std::size_t i = 1; i < copies; ++i) free_[i].store(true);
+      : world_(made(believed(std::move(triangles), nodes), nodes)), count_(nodes.size()) {
+    fill(world_->shapes.blank(), nodes);
+    world_->shapes.publish();
   }
   surface(const surface&) = delete;
   surface& operator=(const surface&) = delete;
 
   // ------------------------------------------------------------------------------------ the slow thread
+  using clock = std::chrono::steady_clock;
   /// The nodes are there now [m]. False: fault() says why, and what was last good stays. It does not allocate
-  /// after three good ones.
+  /// after three good ones, as long as all who touch it keep up.
   template <class Nodes>
   requires requires(const Nodes& n) { n.size(); }
   bool update(const Nodes& nodes) {
-    if (nodes.size() != shapes_[0].nodes.size()) {
+    if (nodes.size() != count_) {
       fault_ = "mesh: news of " + std::to_string(nodes.size()) + " nodes for a mesh of " +
-               std::to_string(shapes_[0].nodes.size()) +
-               "; another topology is another mesh::surface";
+               std::to_string(count_) + "; another topology is another mesh::surface";
       return false;
     }
     if (std::string fault = not_finite(nodes); !fault.empty()) {
       fault_ = std::move(fault);
       return false;
     }
-    int copy = spare_;
-    for (int i = 0; copy < 0; i = (i + 1) % int(copies)) {
-      if (free_[at(i)].exchange(false)) copy = i;  // one is free: see above
-    }
-    fill(copy, nodes);
-    spare_ = ready_.exchange(copy);  // what nobody has fetched is filled again
+    fill(world_->shapes.blank(), nodes);
+    world_->shapes.publish();
     fault_.clear();
     return true;
   }
@@ -136,40 +153,112 @@ class surface {
           "metres and w, x, y, z";
       return false;
     }
-    poses_.publish(where);
+    world_->poses.blank() = where;
+    world_->poses.publish();
     fault_.clear();
+    return true;
+  }
+  /// Either, as it was at that time. False also where others were newer, or the time is yet to come.
+  bool update(const auto& there, clock::time_point at) {
+    if (!in_order(at) || !update(there)) return false;
+    last_ = at;
     return true;
   }
   /// Why the last update was refused; empty if it was not.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
+  [[nodiscard]] std::span<const triangle> triangles() const noexcept { return world_->triangles; }
 
-  // ---------------------------------------------------------------------------------- the haptic thread
-  [[nodiscard]] const box_tree& tree() const noexcept { return tree_; }
-  [[nodiscard]] std::span<const triangle> triangles() const noexcept { return triangles_; }
-  /// Is there a newer shape than the last one taken?
-  [[nodiscard]] bool has_news() const noexcept { return ready_.load() >= 0; }
-  /// The shapes that are felt: on the way from one to the other, or both the same.
-  [[nodiscard]] const shape& from() const noexcept { return shapes_[at(from_)]; }
-  [[nodiscard]] const shape& to() const noexcept { return shapes_[at(to_)]; }
-  [[nodiscard]] bool moves() const noexcept { return from_ != to_; }
-  /// Goes to the newest shape, if one came; only from one that is arrived at.
-  bool go() noexcept {
-    if (moves() || !has_news()) return false;
-    to_ = ready_.exchange(-1);
-    return true;
-  }
-  /// The one that it went to is felt, or the one that it came from; the other is free.
-  void arrive() noexcept { leave(std::exchange(from_, to_)); }
-  void turn_back() noexcept { leave(std::exchange(to_, from_)); }
-  /// The newest pose, if one came since the last call.
-  [[nodiscard]] const pose* take_pose() noexcept { return poses_.take(); }
+  // --------------------------------------------------------------------------------- the haptic threads
+  /// What one finger has of a surface, which outlives it: a place among most_readers, and with it the shape that it comes
+  /// from and the one that it goes to, or both the same. A copy is the same finger. Whoever ends gives its place back
+  /// with leave(), or the place stays taken.
+  class reader {
+   public:
+    /// False: there were most_readers already.
+    bool join(const surface& s) noexcept {
+      detail::world* w = s.world_.get();
+      for (std::size_t i = 0; i < w->seats.size(); ++i) {
+        if (w->seats[i].taken.exchange(true)) continue;
+        auto& mine = w->seats[i];
+        do {
+          mine.from = w->shapes.take();  // there is one since the surface was made
+        } while (mine.from < 0);
+        w->shapes.hold(mine.from);
+        mine.to = mine.from;
+        mine.pose = -1;
+        w->readers.fetch_add(1);
+        world_ = w;
+        seat_ = &mine;
+        return true;
+      }
+      return false;
+    }
+    void leave() noexcept {
+      if (world_ == nullptr) return;
+      world_->shapes.give_back(seat_->from);
+      world_->shapes.give_back(seat_->to);
+      if (seat_->pose >= 0) world_->poses.give_back(seat_->pose);
+      world_->readers.fetch_sub(1);
+      seat_->taken.store(false);
+      world_ = nullptr;
+    }
+    [[nodiscard]] bool reads(const surface& s) const noexcept { return world_ == s.world_.get(); }
+    [[nodiscard]] const detail::world& mesh() const noexcept { return *world_; }
+    [[nodiscard]] bool has_news() const noexcept { return world_->shapes.newest() != seat_->to; }
+    [[nodiscard]] const shape& from() const noexcept { return world_->shapes[seat_->from]; }
+    [[nodiscard]] const shape& to() const noexcept { return world_->shapes[seat_->to]; }
+    [[nodiscard]] bool moves() const noexcept { return seat_->from != seat_->to; }
+    /// Goes to the newest shape, if one came; only from one that is arrived at.
+    bool go() noexcept {
+      if (moves() || !has_news()) return false;
+      const int newest = world_->shapes.take();
+      if (newest < 0) return false;
+      world_->shapes.give_back(std::exchange(seat_->to, newest));
+      return true;
+    }
+    /// The one that it went to is felt, or the one that it came from.
+    void arrive() noexcept {
+      world_->shapes.hold(seat_->to);
+      world_->shapes.give_back(std::exchange(seat_->from, seat_->to));
+    }
+    void turn_back() noexcept {
+      world_->shapes.hold(seat_->from);
+      world_->shapes.give_back(std::exchange(seat_->to, seat_->from));
+    }
+    /// The newest pose, if one came since the last call.
+    [[nodiscard]] const pose* take_pose() noexcept {
+      if (world_->poses.newest() == seat_->pose) return nullptr;
+      const int newest = world_->poses.take();
+      if (newest < 0) return nullptr;
+      if (seat_->pose >= 0) world_->poses.give_back(seat_->pose);
+      seat_->pose = newest;
+      return &world_->poses[newest];
+    }
+
+   private:
+    detail::world* world_ = nullptr;
+    detail::world::seat* seat_ = nullptr;
+  };
 
  private:
-  static constexpr std::size_t copies = 4;
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
-  void leave(int left) noexcept {
-    if (left != from_) free_[at(left)].store(true);
+  [[nodiscard]] bool in_order(clock::time_point at) {
+    const auto ms = [](auto d) {
+      return std::to_string(std::chrono::duration<double, std::milli>(d).count()) + " ms";
+    };
+    const auto now = clock::now();
+    if (at > now) {
+      fault_ = "mesh: news from the future, by " + ms(at - now) +
+               "; give the time of surface::clock at which they were made";
+      return false;
+    }
+    if (at < last_) {
+      fault_ = "mesh: news from the past, older by " + ms(last_ - at) +
+               " than the last ones; publish in the order of making";
+      return false;
+    }
+    return true;
   }
   template <class Nodes>
   [[nodiscard]] static std::string not_finite(const Nodes& nodes) {
@@ -206,24 +295,26 @@ class surface {
     return all;
   }
   template <class Nodes>
-  void fill(int number, const Nodes& nodes) {
-    shape& s = shapes_[at(number)];
+  [[nodiscard]] static std::unique_ptr<detail::world> made(std::vector<triangle> triangles,
+                                                           const Nodes& nodes) {
+    box_tree tree(centres(triangles, nodes));
+    auto w = std::make_unique<detail::world>(std::move(triangles), std::move(tree));
+    return w;
+  }
+  template <class Nodes>
+  void fill(shape& s, const Nodes& nodes) const {
+    const detail::world& w = *world_;
     s.nodes.resize(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) s.nodes[i] = detail::node_of(nodes, i);
-    s.boxes.resize(tree_.branches().size());
-    tree_.fit(s.boxes, [&](int t, box& b) {
-      for (const int node : triangles_[at(t)]) b.grow(s.nodes[at(node)]);
+    s.boxes.resize(w.tree.branches().size());
+    w.tree.fit(s.boxes, [&](int t, box& b) {
+      for (const int node : w.triangles[at(t)]) b.grow(s.nodes[at(node)]);
     });
   }
 
-  std::vector<triangle> triangles_;
-  box_tree tree_;
-  std::array<shape, copies> shapes_;
-  std::array<std::atomic<bool>, copies> free_{};
-  std::atomic<int> ready_{-1};
-  int spare_ = -1;         // the slow thread's own
-  int from_ = 0, to_ = 0;  // the haptic thread's own
-  exchange<pose> poses_;
+  std::unique_ptr<detail::world> world_;
+  std::size_t count_;  ///< of the nodes
+  clock::time_point last_{};
   std::string fault_;
 };
 

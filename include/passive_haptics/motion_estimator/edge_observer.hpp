@@ -86,6 +86,7 @@ class edge_observer::on {
     }
     return {position_, velocity_, quantum_ / (scalar(8) * dt)};
   }
+  [[nodiscard]] constexpr vector position() const noexcept { return position_; }  ///< x [m]
 
  private:
   using coordinates = typename P::coordinates;

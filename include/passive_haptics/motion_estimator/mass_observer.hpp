@@ -74,6 +74,7 @@ class mass_observer::on {
     }
     return {position_, velocity_};
   }
+  [[nodiscard]] constexpr vector position() const noexcept { return position_; }  ///< x [m]
 
  private:
   using coordinates = typename P::coordinates;

@@ -34,10 +34,16 @@ struct turn_limited {
 
     [[nodiscard, gnu::always_inline]] constexpr vector step(const vector& from, const vector& to,
                                                             scalar dt) const noexcept {
+      return step_by(from, to, rate_ * dt);
+    }
+    [[nodiscard]] constexpr scalar rate() const noexcept { return rate_; }  ///< [rad/s]
+    /// The same by at most φ = `angle` [rad].
+    [[nodiscard, gnu::always_inline]] constexpr vector step_by(
+        const vector& from, const vector& to, [[maybe_unused]] scalar angle) const noexcept {
       if constexpr (Space::dof == 1) {
         return to;  // ±1: there is nothing in between
       } else {
-        const auto turn = kernels::half_angle_turn(rate_ * dt);
+        const auto turn = kernels::half_angle_turn(angle);
         const vector chord = to - from;
         const scalar chord_squared = Space::dot(chord, chord);
         if (chord_squared <= turn.chord_squared) return to;

@@ -62,6 +62,8 @@ inline namespace v0 {
 //   overdrawn()             observer             passive_port, event   any value below zero is a debt
 //   disturbed()             observer             passive_port, at a    faults are nothing to it
 //                                                refusal or a late tick
+//   remembers(), tells(e,   observer             passive_port, event   there is no wall_lost and no wall_back
+//     cut)
 //   can_hold(f)             bound                tick(device_sample)   any force that is a number may have been held
 //   explain(e, b, T, k)     bound                the port's explain()  it softens nothing
 //   explain(e, x, T, k)     source               passive_port          the port has no explain()
@@ -312,7 +314,7 @@ namespace detail {
 template <class P>
 [[nodiscard]] constexpr event cut_short(const port_result<P>& port) noexcept {
   const bool nothing = !(port.energy > typename P::scalar(0)) && port.force == P::zero();
-  return nothing ? worse(port.what, event::started_inside) : port.what;
+  return nothing ? worse_yet(port.what, event::started_inside) : port.what;
 }
 /// Does the result of a source say how deep the contact is?
 template <class R>

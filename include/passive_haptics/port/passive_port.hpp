@@ -231,13 +231,14 @@ class passive_port {
       return e;
     }
     e.force = static_cast<double>(detail::force_in<P>(guard_.commanded().front()));
-    source_.explain(e, guard_.last(), limits_.longest_tick, latency);
+    source_.explain(e, where(), limits_.longest_tick, latency);
     detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
-    const bool as_stiff = e.force > 0.95 * e.shown * e.depth;
-    if (as_stiff) e.now = softened_by::nothing;
-    if (as_stiff || !(e.depth > 0.0)) return e;
-    if (!(e.force > 0.0) && !(energy() > scalar(0))) e.now = softened_by::started_inside;
-    if (e.now == softened_by::nothing) e.now = softened_by::ledger;
+    const bool as_stiff = e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth;
+    if (is_cut_ ? e.now == softened_by::nothing : as_stiff) {
+      e.now = is_cut_ ? softened_by::ledger : softened_by::nothing;
+    }
+    const bool asks = is_cut_ || e.depth > 0.0;
+    if (asks && !(e.force > 0.0) && !(energy() > scalar(0))) e.now = softened_by::started_inside;
     return e;
   }
 
@@ -294,6 +295,8 @@ class passive_port {
   /// Of the last tick that was seen; of any square before there was one.
   using what_was_seen =
       std::conditional_t<doubts, motion_check<P>, std::conditional_t<reaches, last_seen, unasked>>;
+  /// The observer makes amends for faults, and says what that means for what is touched.
+  static constexpr bool mends = requires(observer_type o) { o.tells(event::nominal, false); };
   /// Does the source say by itself that nothing is asked?
   static constexpr bool says_nothing = zero_stays_zero && !detail::takes_efforts<source_type, P>;
 
@@ -361,6 +364,7 @@ class passive_port {
       if (request.nothing) {
         if constexpr (looks) bound_.watching().look_on(false);
         guard_.command(P::zero());
+        amend(what, false);
         return source_.answered(request, {P::zero(), observer_.value(), what, false});
       }
     }
@@ -372,7 +376,9 @@ class passive_port {
         if (bound_.watching().lets_go()) allowed = {P::zero(), true};
       }
     }
+    amend(what, allowed.limited);
     guard_.command(allowed.force);
+    is_cut_ = allowed.limited;
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
   }
 
@@ -435,7 +441,16 @@ class passive_port {
         return event::late_tick;
       }
     }
+    if constexpr (mends && Observer::exact) return event::nominal;  // amend() says it
     return observer_.value() < scalar(0) && overdrawn() ? event::debt : event::nominal;
+  }
+  /// What an observer that makes amends has to say of the tick, a debt included.
+  [[gnu::always_inline]] constexpr void amend([[maybe_unused]] event& what,
+                                              [[maybe_unused]] bool cut) noexcept {
+    if constexpr (mends) {
+      if (observer_.remembers()) [[unlikely]]
+        what = observer_.tells(what, cut);
+    }
   }
   /// Has the hand been fed? A ledger that begins below zero, for what elastic friction may hold, says so itself.
   [[nodiscard]] constexpr bool overdrawn() const noexcept {
@@ -449,7 +464,7 @@ class passive_port {
     auto allowed = detail::applied<P>(bound_, wanted, state);
     if constexpr (!always_numbers) {
       if (!P::is_finite(allowed.force)) [[unlikely]] {
-        what = worse(what, event::rejected_sample);
+        what = detail::worse_yet(what, event::rejected_sample);
         return {P::zero(), true};
       }
     }
@@ -516,6 +531,14 @@ class passive_port {
     return true;
   }
 
+  /// Where the device is taken to be: within a step of encoders the estimator knows better than they do.
+  [[nodiscard]] constexpr pose where() const noexcept {
+    if constexpr (requires { motion_.position(); }) {
+      return motion_.position();
+    } else {
+      return guard_.last();
+    }
+  }
   [[nodiscard]] constexpr scalar travel_error() const noexcept {
     if constexpr (Observer::exact) {
       return scalar(0);
@@ -581,6 +604,7 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
+  bool is_cut_ = false;             ///< the bound let less through than was last asked for
   event stopped_ = event::nominal;  ///< why there is no force until set(), or until reset()
   std::uint8_t busy_ = 0;           ///< a call is not over yet; debug builds only
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A simulated device whose transmission gives: a motor with its encoder, a cable, and the handle behind it.
+// A simulated device whose transmission gives: a motor with its encoder, a cable, and the handle behind it; or more
+// masses in a row.
 //
 //   command ─▶ held for T ─▶ rotor m_r, b ──(k_c, d_c)── load m_L ◀── hand
-//                              └─▶ encoder, meter
+//                              └─▶ encoder, meter        (of one mass, or of two or three with springs between)
 //
 //     sim::compliant_device<scene, sim::impedance_hand<scene>> arm{{.mass = 0.1, .share = 0.3, .mode = 80.0}, {.limit = 5.0}};
 
@@ -11,21 +12,26 @@
 #include <passive_haptics/simulation/driver.hpp>
 #include <passive_haptics/simulation/hand.hpp>
 
+#include <array>
+#include <cstddef>
 #include <numbers>
 
 namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// Along every axis the same two masses: m_r = share·mass and m_L = mass − m_r, μ = m_r m_L/mass, and between them
+/// Along every axis the same masses: m_r = share·mass and m_L = mass − m_r, μ = m_r m_L/mass, and between them
 ///     k_c = μ ω²      d_c = 2 ζ ω μ      ω = 2π mode
+/// The load is `masses` − 1 equal ones, and each two of them, by themselves, ring with `inner_mode` and the same ζ.
 template <class Space>
 struct compliant_parameters {
-  double mass = 0.1;      ///< of both together [kg]
-  double share = 0.5;     ///< of it that moves with the encoder, in (0, 1)
-  double mode = 100.0;    ///< frequency of the free resonance [Hz]
-  double loss = 0.03;     ///< ζ of it
-  double damping = 0.1;   ///< b, on the rotor [N·s/m]
+  double mass = 0.1;          ///< of both together [kg]
+  double share = 0.5;         ///< of it that moves with the encoder, in (0, 1)
+  double mode = 100.0;        ///< frequency of the free resonance [Hz]
+  double loss = 0.03;         ///< ζ of it
+  int masses = 2;             ///< the rotor's included, 2 to 4
+  double inner_mode = 300.0;  ///< of two neighbours within the load [Hz]
+  double damping = 0.1;       ///< b, on the rotor [N·s/m]
   double friction = 0.0;  ///< dry, on the rotor and per axis; it falls linearly below 0.1 mm/s [N]
   double force_limit = std::numeric_limits<double>::infinity();  ///< most ‖f‖ [N]
   double quantum = 0.0;                                          ///< of the encoder [m]
@@ -37,10 +43,22 @@ struct compliant_parameters {
   [[nodiscard]] parameter_fault check() const noexcept {
     if (!(share > 0.0 && share < 1.0)) return {"share", share, "in (0, 1)"};
     if (!(loss >= 0.0 && loss < 1.0)) return {"loss", loss, "in [0, 1)"};
-    const double step = 2.0 * std::numbers::pi * mode * period / substeps;
-    if (!(mode > 0.0 && step <= 0.5)) return {"mode", mode, "> 0 Hz, with substeps enough for it"};
+    if (masses < 2 || masses > 4) return {"masses", static_cast<double>(masses), "2 to 4"};
+    const auto is_resolved = [this](double f) {
+      return f > 0.0 && 2.0 * std::numbers::pi * f * period / substeps <= 0.5;
+    };
+    if (!is_resolved(mode)) return {"mode", mode, "> 0 Hz, with substeps enough for it"};
+    if (masses > 2 && !is_resolved(inner_mode)) {
+      return {"inner_mode", inner_mode, "> 0 Hz, with substeps enough for it"};
+    }
     return as_driver().check();
   }
+  /// Of mass i, the rotor's first [kg]; of the spring from it to the next [N/m], and of that spring's damper [N·s/m].
+  [[nodiscard]] double mass_of(int i) const noexcept {
+    return i == 0 ? share * mass : (1.0 - share) * mass / (masses - 1);
+  }
+  [[nodiscard]] double spring_of(int i) const noexcept { return reduced(i) * omega(i) * omega(i); }
+  [[nodiscard]] double loss_of(int i) const noexcept { return 2.0 * loss * omega(i) * reduced(i); }
   /// What a stiff device has as well.
   [[nodiscard]] device_parameters<Space> as_driver() const noexcept {
     device_parameters<Space> p;
@@ -54,6 +72,14 @@ struct compliant_parameters {
     p.substeps = substeps;
     p.latency = latency;
     return p;
+  }
+
+ private:
+  [[nodiscard]] double reduced(int i) const noexcept {
+    return i == 0 ? share * (1.0 - share) * mass : mass_of(i) / 2.0;
+  }
+  [[nodiscard]] double omega(int i) const noexcept {
+    return 2.0 * std::numbers::pi * (i == 0 ? mode : inner_mode);
   }
 };
 
@@ -71,12 +97,11 @@ class compliant_device {
       : p_(parameters),
         hand_(hand),
         driver_(parameters.as_driver()),
-        rotor_(parameters.start),
-        load_(parameters.start),
-        rotor_speed_(physical<Space>::zero()),
-        load_speed_(physical<Space>::zero()),
         period_(parameters.period),
-        sound_(!check()) {}
+        sound_(!check()) {
+    at_.fill(parameters.start);
+    speed_.fill(physical<Space>::zero());
+  }
 
   /// As device::exchange().
   device_sample<Space> exchange(const vector& force) noexcept {
@@ -86,8 +111,8 @@ class compliant_device {
     const double h = period_ / p_.substeps;
     for (int i = 0; i < p_.substeps; ++i) step(f, time_ + i * h, h);
     time_ += period_;
-    return {measured<Space>(rotor_, p_.quantum), held, static_cast<typename Space::scalar>(period_),
-            true};
+    return {measured<Space>(position(), p_.quantum), held,
+            static_cast<typename Space::scalar>(period_), true};
   }
   /// The length of the coming periods [s], for jitter.
   bool set_period(double T) noexcept {
@@ -99,66 +124,100 @@ class compliant_device {
     if (const auto fault = p_.check()) return fault;
     return hand_.check();
   }
-  [[nodiscard]] const state& position() const noexcept { return rotor_; }  ///< of the rotor [m]
-  [[nodiscard]] const state& handle() const noexcept { return load_; }     ///< of the load [m]
+  [[nodiscard]] state position() const noexcept { return at_[0]; }  ///< of the rotor [m]
+  /// Of the last mass, which the hand holds [m].
+  [[nodiscard]] state handle() const noexcept { return at_[last()]; }
   [[nodiscard]] double time() const noexcept { return time_; }
   [[nodiscard]] Hand& hand() noexcept { return hand_; }
   [[nodiscard]] double energy() const noexcept { return energy_; }  ///< through the port so far [J]
   [[nodiscard]] double minimum() const noexcept {
     return minimum_;
   }  ///< the least of it so far [J]
+  /// The most that the transmission has pulled on the rotor [N], and the fastest that it has changed [N/s].
+  [[nodiscard]] double most_pull() const noexcept { return most_pull_; }
+  [[nodiscard]] double most_slew() const noexcept { return most_slew_; }
   /// All that moves and is bent, less what came through the port and from the hand, and what was lost: zero to rounding
   /// and to the squares of the steps [J].
   [[nodiscard]] double residual() const noexcept {
-    const state bent = load_ - rotor_;
-    const double stored =
-        0.5 * rotor_mass() * physical<Space>::dot(rotor_speed_, rotor_speed_) +
-        0.5 * (p_.mass - rotor_mass()) * physical<Space>::dot(load_speed_, load_speed_) +
-        0.5 * stiffness() * physical<Space>::dot(bent, bent);
+    double stored = 0.0;
+    for (int i = 0; i < p_.masses; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const state v = speed_[at];
+      stored += 0.5 * p_.mass_of(i) * physical<Space>::dot(v, v);
+      if (i + 1 == p_.masses) break;
+      const state bent = state(at_[at + 1]) - state(at_[at]);
+      stored += 0.5 * p_.spring_of(i) * physical<Space>::dot(bent, bent);
+    }
     return stored - passed_;
   }
 
  private:
-  [[nodiscard]] double rotor_mass() const noexcept { return p_.share * p_.mass; }
-  [[nodiscard]] double reduced() const noexcept { return rotor_mass() * (1.0 - p_.share); }
-  [[nodiscard]] double omega() const noexcept { return 2.0 * std::numbers::pi * p_.mode; }
-  [[nodiscard]] double stiffness() const noexcept { return reduced() * omega() * omega(); }
-  [[nodiscard]] double loss() const noexcept { return 2.0 * p_.loss * omega() * reduced(); }
+  static constexpr std::size_t most = 4;
+  [[nodiscard]] std::size_t last() const noexcept {
+    return static_cast<std::size_t>(p_.masses - 1);
+  }
 
   void step(const state& f, double t, double h) noexcept {
-    const state x = rotor_ + rotor_speed_ * (h / 2.0), y = load_ + load_speed_ * (h / 2.0);
-    const state asked = hand_.force(t, y, load_speed_);
-    const state push = physical<Space>::is_finite(asked) ? asked : physical<Space>::zero();
-    const state slip = load_speed_ - rotor_speed_;
-    const state cable = (y - x) * stiffness() + slip * loss();
-    state rubbing = physical<Space>::zero();
+    using space = physical<Space>;
+    std::array<state, most> middle{}, before{}, force{};
+    for (std::size_t i = 0; i <= last(); ++i) {
+      before[i] = speed_[i];
+      middle[i] = state(at_[i]) + before[i] * (h / 2.0);
+      force[i] = space::zero();
+    }
+    const state asked = hand_.force(t, middle[last()], before[last()]);
+    const state push = space::is_finite(asked) ? asked : space::zero();
+    for (std::size_t i = 0; i < last(); ++i) {
+      const int n = static_cast<int>(i);
+      const state slip = before[i + 1] - before[i];
+      const state pulls = (middle[i + 1] - middle[i]) * p_.spring_of(n) + slip * p_.loss_of(n);
+      force[i] = force[i] + pulls;
+      force[i + 1] = force[i + 1] - pulls;
+    }
+    see_pull(force[0], h);
+    force[last()] = force[last()] + push;
+    state rubbing = space::zero();
     for (int i = 0; i < Space::dof; ++i) {
-      const double v = component(rotor_speed_, i) / 1e-4;
+      const double v = component(before[0], i) / 1e-4;
       component(rubbing, i) = p_.friction * (v > 1.0 ? 1.0 : v < -1.0 ? -1.0 : v);
     }
-    const state others = cable - rotor_speed_ * p_.damping - rubbing;
-    const state v = rotor_speed_, u = load_speed_;
-    rotor_speed_ = v + (f + others) * (h / rotor_mass());
-    load_speed_ = u + (push - cable) * (h / (p_.mass - rotor_mass()));
-    const state moved = (v + rotor_speed_) * (h / 2.0);
-    const state handled = (u + load_speed_) * (h / 2.0);
-    rotor_ = rotor_ + moved;
-    load_ = load_ + handled;
-    using space = physical<Space>;
-    const double square =
-        space::dot(v, v) + space::dot(v, rotor_speed_) + space::dot(rotor_speed_, rotor_speed_);
-    energy_ += p_.damping * h * square / 3.0 - space::dot(f, moved);
+    force[0] = force[0] + f - before[0] * p_.damping - rubbing;
+    std::array<state, most> moved{};
+    for (std::size_t i = 0; i <= last(); ++i) {
+      const state next = before[i] + force[i] * (h / p_.mass_of(static_cast<int>(i)));
+      moved[i] = (before[i] + next) * (h / 2.0);
+      speed_[i] = next;
+      at_[i] = state(state(at_[i]) + moved[i]);
+    }
+    const state v = before[0], u = speed_[0];
+    const double square = space::dot(v, v) + space::dot(v, u) + space::dot(u, u);
+    energy_ += p_.damping * h * square / 3.0 - space::dot(f, moved[0]);
     minimum_ = energy_ < minimum_ ? energy_ : minimum_;
-    passed_ += space::dot(f, moved) + space::dot(push, handled) -
-               space::dot(state(v * p_.damping + rubbing), moved) -
-               loss() * space::dot(slip, state(handled - moved));
+    passed_ += space::dot(f, moved[0]) + space::dot(push, moved[last()]) -
+               space::dot(state(v * p_.damping + rubbing), moved[0]);
+    for (std::size_t i = 0; i < last(); ++i) {
+      passed_ -= p_.loss_of(static_cast<int>(i)) *
+                 space::dot(state(before[i + 1] - before[i]), state(moved[i + 1] - moved[i]));
+    }
+  }
+
+  void see_pull(const state& pull, double h) noexcept {
+    const double size = physical<Space>::norm(pull);
+    most_pull_ = size > most_pull_ ? size : most_pull_;
+    if (time_ > 0.0) {
+      const double slew = physical<Space>::norm(state(pull - state(pull_))) / h;
+      most_slew_ = slew > most_slew_ ? slew : most_slew_;
+    }
+    pull_ = pull;
   }
 
   parameters_type p_;
   Hand hand_;
   driver<Space> driver_;
-  state rotor_, load_, rotor_speed_, load_speed_;
+  std::array<typename physical<Space>::coordinates, most> at_{}, speed_{};
+  typename physical<Space>::coordinates pull_{};
   double period_, time_ = 0.0, energy_ = 0.0, minimum_ = 0.0, passed_ = 0.0;
+  double most_pull_ = 0.0, most_slew_ = 0.0;
   bool sound_;
 };
 

@@ -113,7 +113,9 @@ enum ph_event {
   PH_UNTOLD_LATENCY = 11,  ///< it holds a force later, or sooner, than was stated: force zero
   PH_WRONG_SIGN = 12,      ///< it does the opposite of what it is told: force zero for good
   PH_STARTED_INSIDE = 13,  ///< it should push, and nothing has been paid in yet: force zero
-  PH_FORCES_OFF = 14       ///< the forces are off: force zero, and the ledger waits
+  PH_FORCES_OFF = 14,      ///< the forces are off: force zero, and the ledger waits
+  PH_WALL_LOST = 15,  ///< a fault has emptied the ledger: less force than asked for, for a while
+  PH_WALL_BACK = 16   ///< amends are made: the first tick in which it is no longer lost
 };
 
 /// How far a composition is passive, as in the library.
@@ -130,7 +132,7 @@ typedef struct ph_parameters {
   uint32_t size;        ///< sizeof(ph_parameters); a struct that ends behind longest_tick will do
   uint32_t latency;     ///< whole ticks from a command to the first instant it is held: PH_MOST_…
   double mass;          ///< smallest apparent mass, over all directions and poses [kg]
-  double damping;       ///< b: half of what you identified [N·s/m]
+  double damping;       ///< b: what identify states, a lower bound [N·s/m]
   double hand_force;    ///< the most that hand, load and dry friction push with [N]
   double force_limit;   ///< what the motors hold [N]
   double longest_tick;  ///< the worst tick of YOUR loop [s]

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tremor as a force: 0.3 N at 8.7 Hz beside a hold of 1.1 N, for a minute at the budget's stiffness; and the kneading
+// of the section before, by the same hands. A hand that is moved by a tremor of its target resists the device's friction
+// with all its stiffness; one that is pushed by it does not, and the device swings within its presliding, which pays
+// nothing. What is left of the wall then is for the cap to see to.
+#include "program.hpp"
+#include <passive_haptics/design/frequency.hpp>
+#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/loop.hpp>
+
+#include <array>
+
+namespace encoders {
+
+namespace {
+
+constexpr double T = 1e-3;  // [s]
+
+constexpr std::array hands{
+    sim::impedance_hand<line>{.stiffness = 60.0, .damping = 2.0, .own_mass = 0.05},
+    sim::impedance_hand<line>{.stiffness = 300.0, .damping = 5.0, .own_mass = 0.15},
+    sim::impedance_hand<line>{.stiffness = 1000.0, .damping = 15.0, .own_mass = 0.3}};
+constexpr std::array offsets{0.03, 0.53};  ///< of the surface, in steps
+
+enum class pressing : std::uint8_t { kneading, tremor };
+const char* to_string(pressing how) {
+  return how == pressing::kneading ? "kneading" : "tremor as a force";
+}
+
+struct tremor_row {
+  machine m{};
+  const composition* what = nullptr;
+  pressing how{};
+  int seconds = 60;
+  double least = 1.0;         ///< share of the budget's stiffness felt in the worst second
+  int lost = 0;               ///< of six runs, those with a second below 0.8
+  double deepest = 0.0;       ///< [m]
+  double least_energy = 0.0;  ///< [J]
+};
+
+ex::record record_of(const tremor_row& r) {
+  return {{"device", std::string(r.m.preset.name)},
+          {"presliding_um", r.m.presliding * 1e6, "%.0f"},
+          {"composition", std::string(r.what == nullptr ? "" : r.what->name)},
+          {"pressing", to_string(r.how)},
+          {"budget", r.m.budget().stiffness, "%.0f"},
+          {"least_share", r.least, "%.2f"},
+          {"runs_below_0.8", r.lost},
+          {"deepest_mm", r.deepest * 1e3, "%.2f"},
+          {"least_energy_J", r.least_energy}};
+}
+
+struct felt {
+  double least = 1.0;         ///< share of the worst second
+  double deepest = 0.0;       ///< [m]
+  double least_energy = 0.0;  ///< [J]
+};
+
+/// One run: an approach of 3 mm at 10 mm/s, then a minute.
+felt press(const tremor_row& row, const sim::impedance_hand<line>& fingers, double offset) {
+  const machine& m = row.m;
+  const double K = m.budget().stiffness, displayed = m.displayed(K);
+  const double surface = offset * m.preset.quantum;
+  const double per_newton = 1.0 / fingers.stiffness + 1.0 / displayed;
+  const double mean = std::min(1.1, 0.33 * m.preset.force_limit);
+  wall model = row.what->make(m.stated(), K);
+  (void)model.update({surface, -1.0, K});
+  return with_device(m, surface - 3e-3, fingers, [&](auto& device) {
+    felt found;
+    const double approach = (3e-3 + mean * per_newton) / 10e-3;
+    double force = 0.0, depth = 0.0;
+    const auto hand = [&](const auto& now) {
+      const double t = now.tick * T - approach;
+      const double omega = 2.0 * design::pi;
+      const bool kneads = row.how == pressing::kneading && t > 0.0;
+      const double swing = kneads ? 0.8 * std::sin(omega * t) : 0.0;
+      const double rate = kneads ? 0.8 * omega * std::cos(omega * t) : 0.0;
+      const double pushed =
+          row.how == pressing::tremor ? 0.3 * std::sin(8.7 * omega * now.tick * T) : 0.0;
+      const double goal =
+          t < 0.0 ? surface - 3e-3 + 10e-3 * now.tick * T : surface + (mean + swing) * per_newton;
+      device.hand().aim(goal + pushed / fingers.stiffness, t < 0.0 ? 10e-3 : rate * per_newton,
+                        device.time());
+    };
+    const auto watch = [&](const auto& now) {
+      const int tick = now.tick - static_cast<int>(approach / T) - 1000;
+      if (tick < 0) return true;
+      force -= now.force;
+      depth += std::max(0.0, now.position - surface);
+      found.deepest = std::max(found.deepest, now.position - surface);
+      if ((tick + 1) % 1000 != 0) return true;
+      found.least = std::min(found.least, depth > 0.0 ? force / depth / displayed : 0.0);
+      force = depth = 0.0;
+      return true;
+    };
+    const int ticks = static_cast<int>(approach / T) + 1000 * (row.seconds + 1);
+    found.least_energy = sim::run(device, model, ticks, sim::idle, hand, watch).least_energy;
+    return found;
+  });
+}
+
+tremor_row judge(tremor_row row) {
+  for (const auto& fingers : hands) {
+    for (const double offset : offsets) {
+      const felt run = press(row, fingers, offset);
+      row.least = std::min(row.least, run.least);
+      row.lost += run.least < 0.8 ? 1 : 0;
+      row.deepest = std::max(row.deepest, run.deepest);
+      row.least_energy = std::min(row.least_energy, run.least_energy);
+    }
+  }
+  return row;
+}
+
+std::vector<tremor_row> cells(const session& s) {
+  std::vector<tremor_row> all;
+  for (const auto& preset : sim::all_presets) {
+    if (!(preset.friction > 0.0) || (s.chosen.quick && !is_quick(preset))) continue;
+    for (const double presliding : {0.0, 5e-6, 15e-6, 30e-6}) {
+      if (presliding > 0.0 && s.chosen.quick) continue;
+      for (const auto& what : s.judged) {
+        if (!what.is_capped) continue;
+        for (const auto how : {pressing::kneading, pressing::tremor}) {
+          all.push_back({{preset, presliding}, &what, how, s.chosen.quick ? 5 : 60});
+        }
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> run_tremor(const session& s) {
+  const auto rows = s.rows("tremor.csv", "tremor", cells(s), judge);
+  std::vector<std::string> found;
+  for (const auto& r : rows) {
+    const auto where = std::string(r.what->name) + ", " + r.m.preset.name + ", " +
+                       to_string(r.how) + ex::format(", presliding %g µm: ", r.m.presliding * 1e6);
+    if (r.what->covers(r.m) && r.least_energy < -1e-12) {
+      found.push_back(where + ex::format("lost %.3g J", -r.least_energy));
+    }
+    if (r.what->follows && r.least < 0.15) {
+      found.push_back(where + ex::format("the wall is lost: %.2f of it is left", r.least));
+    }
+  }
+  s.out.section("Tremor as a force",
+                "1.1 N and a tremor of 0.3 N at 8.7 Hz that pushes the hand, or kneading of 0.3 to "
+                "1.9 N at 1 Hz, for a minute at the budget: what the worst second of six runs "
+                "(three hands, two offsets of the surface) leaves of the stiffness.");
+  ex::show_rows(s.out, "tremor", rows);
+  return found;
+}
+
+}  // namespace encoders

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// From the facts of a device whose transmission gives to the best that we know of it:
+//
+//   make_touch<Space>(device, transmission, hand)            as compositions.hpp's, which take the device for stiff
+//   make_contacts<Space>(device, transmission, hand, slots…)
+//   make_guard<Space>(device, transmission, hand)
+//
+// What is said of the transmission picks the bound, when it is compiled: any_transmission strict_bound,
+// observed_transmission observed_reach, chain_transmission<N> modelled_reach<N>.
+//
+//     auto touch = ph::make_touch<scene>(
+//         device, ph::chain_transmission<2>{ph::two_masses(0.1, 0.3, 160.0, 0.03, 0.1)}, {.force = 5.0});
+
+#include <passive_haptics/compliant/late_force.hpp>
+#include <passive_haptics/compliant/transmission.hpp>
+#include <passive_haptics/compositions.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+namespace detail {
+
+/// What a bound may rest on, as late as the loop is.
+template <int Late>
+[[nodiscard]] constexpr strict_bound bound_of(const auto& /*d*/, const any_transmission& /*t*/,
+                                              const known_hand& /*hand*/) noexcept {
+  return {};
+}
+template <int Late>
+[[nodiscard]] constexpr observed_reach bound_of(const auto& /*d*/, const observed_transmission& t,
+                                                const known_hand& /*hand*/) noexcept {
+  return {t.rotor, t.rotor_above, t.slew, t.friction, t.damping_above, t.pull};
+}
+template <int Late, int N>
+[[nodiscard]] constexpr modelled_reach<N, Late> bound_of(const auto& d,
+                                                         const chain_transmission<N>& t,
+                                                         const known_hand& hand) noexcept {
+  return {t.device,    positive(hand.force) ? hand.force : unstated,
+          t.friction,  d.longest_tick,
+          t.tolerance, t.loss_tolerance};
+}
+/// The mass that the contact's law settles: what moves with the encoder within a tick.
+[[nodiscard]] constexpr double rotor_of(const auto& d, const any_transmission& /*t*/) noexcept {
+  return d.mass;
+}
+[[nodiscard]] constexpr double rotor_of(const auto& /*d*/,
+                                        const observed_transmission& t) noexcept {
+  return t.rotor;
+}
+template <int N>
+[[nodiscard]] constexpr double rotor_of(const auto& /*d*/,
+                                        const chain_transmission<N>& t) noexcept {
+  return t.device.masses[0] / (1.0 + t.tolerance);
+}
+/// The device as its port sees it; a rotor heavier than what the hand feels of everything is refused by check().
+template <class Device, class Transmission>
+[[nodiscard]] constexpr Device seen_through(Device d, const Transmission& t) noexcept {
+  const double rotor = rotor_of(d, t);
+  d.mass = rotor <= d.mass * 1.05 ? rotor : unstated;
+  return d;
+}
+
+template <class T>
+concept stated_transmission = requires(const T& t, const exact_device& d, const known_hand& hand) {
+  bound_of<0>(d, t, hand);
+};
+
+}  // namespace detail
+
+/// One surface, felt through the transmission. The law settles the rotor's mass; on encoders dry friction is counted on only
+/// where it is the rotor's.
+template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
+          detail::described Device = exact_device, detail::stated_transmission Transmission>
+[[nodiscard]] constexpr auto make_touch(const Device& device, const Transmission& transmission,
+                                        const known_hand& hand, double turn_rate = 2.0) noexcept {
+  const Device seen = detail::seen_through(device, transmission);
+  const double most = detail::budget_of(seen, hand, Limits::latency);
+  return local_model{Space{},
+                     followed<Constraint>{},
+                     turn_limited{.rate = turn_rate},
+                     detail::law_of(seen, hand, most),
+                     detail::sums_of(seen, hand),
+                     bound_chain{detail::bound_of<Limits::latency>(seen, transmission, hand),
+                                 detail::motors_of(seen)},
+                     detail::limits_of<Limits>(seen),
+                     detail::eyes_of_touch(seen, most)};
+}
+
+/// Several surfaces.
+template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
+          detail::stated_transmission Transmission, class... Room>
+[[nodiscard]] constexpr auto make_contacts(const Device& device, const Transmission& transmission,
+                                           const known_hand& hand, const Room&... room) noexcept {
+  const Device seen = detail::seen_through(device, transmission);
+  proxy_spring spring{};
+  detail::fit(spring, seen, detail::budget_of(seen, hand, Limits::latency));
+  pursuit pace{};
+  if (seen.rotary) pace = {.speed = 0.5, .force_rate = 5.5 * seen.force_limit};
+  return passive_port{Space{},
+                      contact_set{spring, pace, room...},
+                      detail::sums_of(seen, hand),
+                      bound_chain{detail::bound_of<Limits::latency>(seen, transmission, hand),
+                                  detail::motors_of(seen)},
+                      detail::limits_of<Limits>(seen),
+                      detail::eyes_of(seen)};
+}
+
+/// A force of your own.
+template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
+          detail::stated_transmission Transmission>
+[[nodiscard]] constexpr auto make_guard(const Device& device, const Transmission& transmission,
+                                        const known_hand& hand) noexcept {
+  const Device seen = detail::seen_through(device, transmission);
+  return passive_port{Space{},
+                      settled_force{.mass = seen.mass, .force_limit = seen.force_limit},
+                      detail::sums_of(seen, hand),
+                      bound_chain{detail::bound_of<Limits::latency>(seen, transmission, hand),
+                                  detail::motors_of(seen)},
+                      detail::limits_of<Limits>(seen),
+                      detail::eyes_of(seen)};
+}
+
+}  // namespace v0
+}  // namespace passive_haptics

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The reachable bound of a motor that pulls on its handle through a cable, a belt or a coupler. What pulls at the other
+// end is not known, and larger than a hand; but the last three positions show it, and it cannot change at once.
+//
+//   observed_reach   the rotor's mass, and how fast what pushes on it can change        any number of modes behind it
+
+#include <passive_haptics/compliant/covered.hpp>
+
+#include <array>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+/// m ẍ = f + g: f is what the motors hold, g all else. With V₀, V₁ the mean velocities of the last two ticks, of lengths
+/// T₀, T₁, and f̂ the mean of what was held in them,
+///     ĝ = m a − f̂,     a = 2 (V₀ − V₁)/(T₀ + T₁)
+/// is the mean of g over them, and while |dg/dt| ≤ R the next tick of length T goes no farther along f than
+///     δ(1) = V₀T + T²/m ((f + h)/2 − f̂ + m a + R T + 3/2 c)          of equal ticks; any: docs/design/mathematics.md § 14
+/// h held in the last tick: reachable_bound's formula with the force measured in place of the largest one. Where |g| ≤ G is
+/// stated as well, the nearer of both reaches counts.
+///
+/// Passive (E1 ≥ 0) under ALL of these:
+///   - the mass that moves rigidly with the encoder, m, is the same in every direction and between `mass` and `mass_above`;
+///   - what pushes on it besides motor and dry friction changes by at most `slew` a second: k_c v + d_c a of a spring k_c
+///     and its damper d_c whose ends part with v (§ 14 has the formula), whatever is behind it;
+///   - dry friction is at most `friction`, and may flip at any time; the damper at most `damping_above`;
+///   - strict_bound's own, as reachable_bound has them.
+/// Necessary for it is |ĝ − ĝ_last| ≤ R (T₀ + T₁ + T₂)/3 + 2c, and |ĝ| ≤ G + c. A motion that is not so refutes what was
+/// stated: then it is strict for 0.1 s, twice as long each time, and says event::outside_force. That promises nothing.
+struct observed_reach {
+  static constexpr guarantee passivity = guarantee::conditional;
+  static constexpr bound_traits traits{
+      .needs_ledger = true, .exact_travel = false, .latency = any_latency};
+
+  double mass{};                   ///< m, at least: what moves rigidly with the encoder [kg]
+  double mass_above{};             ///< m, at most [kg]; 0: not known
+  double slew{};                   ///< R [N/s]
+  double friction{};               ///< c, dry, at most [N]
+  double damping_above{};          ///< b of that mass, at most [N·s/m]
+  double pull = detail::no_limit;  ///< G, the most that g is but for dry friction [N]
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
+    if (mass_above != 0.0 && !(mass_above >= mass)) {
+      return {"mass_above", mass_above, "≥ mass, or 0 where it is not known"};
+    }
+    if (!detail::not_negative(slew)) return {"slew", slew, "finite and ≥ 0 N/s"};
+    if (!detail::not_negative(friction)) return {"friction", friction, "finite and ≥ 0 N"};
+    if (!detail::not_negative(damping_above)) {
+      return {"damping_above", damping_above, "finite and ≥ 0 N·s/m"};
+    }
+    if (!(pull >= 0.0)) return {"pull", pull, "≥ 0 N"};
+    return {};
+  }
+  template <port Space>
+  class on;
+};
+
+template <port Space>
+class observed_reach::on {
+ public:
+  using scalar = typename Space::scalar;
+  using effort = typename Space::effort;
+  static_assert(detail::has_geometry<Space>,
+                "passive_haptics: observed_reach knows one mass for all directions of a space: "
+                "joints need reachable_work_bound, and transmissions that are stiff");
+
+  constexpr explicit on(const observed_reach& p) noexcept { set(p); }
+  constexpr void set(const observed_reach& p) noexcept {
+    stated_ = p;
+    m_ = detail::number<scalar>(p.mass);
+    above_ = detail::number<scalar>(p.mass_above);
+    R_ = detail::number<scalar>(p.slew);
+    c_ = detail::number<scalar>(p.friction);
+    b_ = detail::number<scalar>(p.damping_above);
+    G_ = detail::number<scalar>(p.pull);
+  }
+  [[nodiscard]] constexpr observed_reach parameters() const noexcept { return stated_; }
+  constexpr void reset() noexcept { *this = on(stated_); }
+
+  template <class State>
+  [[nodiscard]] constexpr share<scalar> limit(const effort& desired, const State& state) noexcept {
+    look(state);
+    const auto allowed = detail::covered<Space>(
+        desired, state,
+        [&](int j, const effort& f, scalar size) { return reach(j, f, size, state); });
+    travel_ = state.travel;
+    held_ = state.held;
+    dt_ = state.dt;
+    return allowed;
+  }
+
+  // What a port asks of a bound that looks at the motion; it looks in every tick, by itself.
+  [[nodiscard]] constexpr on& watching() noexcept { return *this; }
+  [[nodiscard]] static constexpr bool looks() noexcept { return false; }
+  template <bool Exact>
+  constexpr void look(const auto&...) noexcept {}
+  constexpr void look_on(bool /*asked*/) noexcept {}
+  [[nodiscard]] constexpr event seen() const noexcept {
+    return strict_for_ > scalar(0) ? event::outside_force : event::nominal;
+  }
+  [[nodiscard]] static constexpr bool lets_go() noexcept { return false; }
+  [[nodiscard]] static constexpr bool forgives() noexcept { return false; }
+
+ private:
+  static constexpr scalar first_pause = scalar(0.1);  // [s]
+
+  /// Counts the ticks that were seen in a row, and holds their motion against what was stated.
+  template <class State>
+  constexpr void look(const State& state) noexcept {
+    if (strict_for_ > scalar(0)) strict_for_ -= state.dt;
+    if (!state.motion_known) {
+      ticks_ = 0;
+      return;
+    }
+    if (ticks_ < 3) ++ticks_;
+    if (ticks_ < 2) return;
+    const scalar T0 = state.dt, T1 = dt_, both = T0 + T1;
+    const effort a = (effort(state.travel) / T0 - effort(travel_) / T1) * (scalar(2) / both);
+    const effort held = (effort(state.held) * T0 + effort(held_) * T1) / both;
+    const effort g = effort(a * m_) - held;
+    const scalar size = Space::norm(a);
+    const scalar wide = above_ > m_ ? above_ - m_ : scalar(0);
+    const scalar noise = scalar(2) * error_of(state) * (scalar(1) / T0 + scalar(1) / T1) / both;
+    const scalar rubbing =
+        scalar(2) * b_ * (Space::norm(state.travel) + Space::norm(effort(travel_))) / both;
+    const scalar unsure =
+        ((m_ + wide) * noise + wide * size + rubbing) +
+        scalar(16) * kernels::rounding<scalar>() * (m_ * size + Space::norm(held));
+    bool possible = Space::norm(g) <= G_ + c_ + unsure;
+    if (ticks_ == 3) {
+      const scalar changed = Space::norm(effort(g - effort(g_)));
+      possible = possible &&
+                 changed <= R_ * (both + before_) / scalar(3) + scalar(2) * c_ + unsure + unsure_;
+    }
+    g_ = g;
+    unsure_ = unsure;
+    before_ = T1;
+    if (possible) return;
+    if (!(strict_for_ > scalar(0))) pause_ *= scalar(2);
+    strict_for_ = pause_;
+  }
+
+  template <class State>
+  [[nodiscard]] static constexpr scalar error_of(const State& state) noexcept {
+    if constexpr (State::exact) {
+      return scalar(0);
+    } else {
+      return state.travel_error;
+    }
+  }
+  /// f/m, the larger of what m may be.
+  [[nodiscard]] constexpr scalar by_mass(scalar force) const noexcept {
+    if (force > scalar(0)) return force / m_;
+    return above_ > scalar(0) ? force / above_ : scalar(0);
+  }
+
+  /// δ(j) along `direction`, of length `length` [m].
+  template <class State>
+  [[nodiscard]] constexpr scalar reach(int j, const effort& direction, scalar length,
+                                       const State& state) const noexcept {
+    if (ticks_ < 1 || strict_for_ > scalar(0)) return kernels::largest<scalar>();
+    const auto along = [&](const auto& v) { return scalar(Space::dot(v, direction) / length); };
+    // h[0] was held in the last tick, h[i] will be in the i-th coming one, h[j] = length.
+    std::array<scalar, State::latency + 2> h{};
+    h[0] = along(effort(state.held));
+    for (int i = 1; i < j; ++i) h[static_cast<std::size_t>(i)] = along(effort(state.coming(i)));
+    h[static_cast<std::size_t>(j)] = length;
+    scalar nearest = kernels::largest<scalar>();
+    if (G_ < kernels::largest<scalar>()) nearest = by_size(j, h, along(state.travel), state);
+    if (ticks_ >= 2) {
+      nearest = kernels::smaller(nearest, by_slew(j, h, along(state.travel), along(effort(travel_)),
+                                                  along(effort(held_)), state));
+    }
+    return nearest;
+  }
+
+  /// |g| ≤ G: speeds up by no more than (h + G + c + 2B|Δx|)/m.
+  template <class State>
+  [[nodiscard]] constexpr scalar by_size(int j, const auto& h, scalar moved,
+                                         const State& state) const noexcept {
+    const scalar T = state.longest_tick, T0 = state.dt, e = error_of(state);
+    const scalar most = G_ + c_ + scalar(2) * b_ / T * (Space::norm(state.travel) + e);
+    const auto speeds_up = [&](int i) {
+      return kernels::larger(by_mass(h[static_cast<std::size_t>(i)] + most), scalar(0));
+    };
+    scalar speed = (moved + e) / T0 + speeds_up(0) * T0 / scalar(2);
+    for (int i = 1; i < j; ++i) speed += speeds_up(i) * T;
+    return speed * T + speeds_up(j) * T * T / scalar(2) +
+           scalar(8) * kernels::rounding<scalar>() *
+               (kernels::magnitude(moved) + speeds_up(j) * T * T);
+  }
+
+  /// |dg/dt| ≤ R: g stays what it was but for R times how much later it acts (Theorem B, § 14).
+  template <class State>
+  [[nodiscard]] constexpr scalar by_slew(int j, const auto& h, scalar moved, scalar before,
+                                         scalar held_before, const State& state) const noexcept {
+    const scalar T = state.longest_tick, T0 = state.dt, T1 = dt_, e = error_of(state), half(0.5);
+    const scalar V0 = moved / T0, V1 = before / T1, both = T0 + T1;
+    const scalar a = scalar(2) * (V0 - V1) / both;
+    const scalar held = (h[0] * T0 + held_before * T1) / both;
+    const auto speeds_up = [&](int i) {
+      return a + by_mass(h[static_cast<std::size_t>(i)] - held);
+    };
+    // w_j rises in the last tick, is 1 in those between and falls in tick j: its area, and by how much later it lies
+    const scalar S = scalar(j - 1) * T;
+    const scalar area = (T0 + T) * half + S;
+    const scalar moment = -T0 * T0 / scalar(6) + S * S * half + S * T * half + T * T / scalar(6);
+    const scalar later = moment / area + (scalar(2) * T0 + T1) / scalar(3);
+    // the damper pulls back less where the rotor slows down
+    scalar least = kernels::smaller(h[0], held_before);
+    for (int i = 1; i < j; ++i) least = kernels::smaller(least, h[static_cast<std::size_t>(i)]);
+    least = kernels::smaller(least, scalar(0));
+    const scalar slows = kernels::larger(
+        scalar(0), -(m_ * a - held + least) +
+                       R_ * (scalar(j) * T + (scalar(2) * T0 + T1) / scalar(3)) + scalar(2) * c_);
+    const scalar unsure = R_ * later + scalar(2) * c_ + b_ * later * slows / m_;
+
+    scalar speed = V0 + speeds_up(0) * T0 * half;
+    for (int i = 1; i < j; ++i) speed += kernels::larger(speeds_up(i), scalar(0)) * T;
+    const scalar last = speeds_up(j) * half;
+    scalar travel = speed * T + last * T * T;
+    if (last < scalar(0) && speed < scalar(-2) * last * T) {  // it would stop within the tick
+      travel = speed > scalar(0) ? speed * speed / (scalar(-4) * last) : scalar(0);
+    }
+    const scalar k = scalar(2) * area / both;
+    const scalar passed = (kernels::magnitude(V0) + kernels::magnitude(V1)) * (scalar(1) + k) * T;
+    return travel + T * (area * unsure / m_ + e * ((scalar(1) + k) / T0 + k / T1)) +
+           scalar(16) * kernels::rounding<scalar>() *
+               (passed + T * area *
+                             (unsure + kernels::magnitude(held) + h[static_cast<std::size_t>(j)]) /
+                             m_);
+  }
+
+  observed_reach stated_;
+  scalar m_{}, above_{}, R_{}, c_{}, b_{}, G_{};
+  typename Space::stored_effort travel_{}, held_{}, g_{};  ///< of the tick before the last one
+  scalar dt_{}, before_{}, unsure_{};
+  scalar strict_for_{}, pause_ = first_pause / scalar(2);
+  int ticks_ = 0;  ///< seen in a row, up to 3
+};
+
+static_assert(force_bound_for<observed_reach, space<float, 1>>);
+
+}  // namespace v0
+}  // namespace passive_haptics

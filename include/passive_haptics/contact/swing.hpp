@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Is a device swinging, or is a hand moving it? What only swings is to be damped: a damper that a hand works
+// against is an error of the force, in every tick, however often the world is solved.
+//
+//     V ← V + (v² − V) dt/τ,   A ← A + (a² − A) dt/τ,   τ = 0.1 s        the mean of v² and of a² = (Δv/dt)²
+//     q = A/(V W²)                                     (Ω/W)² of a motion at Ω [1/s]
+//     g = 0 below q = ¼, then 4/3 (q − ¼), 1 from q = 1 on
+//     W² = min(20², K/4m) [1/s²]
+//
+// g is the share of the speed v that is damped. A contact begins with g = 1. A free mass on K, up to four times as heavy
+// as is told, swings at W or faster and is damped in full. A hand that goes to and fro once a second is braked by a
+// twentieth, near where it turns round, for the means are short. Source: ours; docs/design/contacts.md § 6.
+
+#include <passive_haptics/base/parameter.hpp>
+
+namespace passive_haptics {
+inline namespace v0 {
+
+template <class Scalar>
+class swing {
+ public:
+  /// g v of a speed v [m/s] after a tick dt [s], on a contact whose K/m is `natural` [1/s²].
+  [[nodiscard]] constexpr Scalar damped(Scalar v, Scalar natural, Scalar dt) noexcept {
+    const Scalar W2 = kernels::smaller(Scalar(400), natural / Scalar(4));
+    const Scalar change = v - last_;
+    last_ = v;
+    if (!begun_) {
+      begun_ = true;
+      speed_ = v * v;
+      gain_ = W2 * speed_;
+      return v;
+    }
+    const Scalar share = dt < Scalar(0.1) ? dt * Scalar(10) : Scalar(1);
+    speed_ += share * (v * v - speed_);
+    gain_ += share * (change * change / (dt * dt) - gain_);
+    const Scalar most = W2 * speed_, above = gain_ - most / Scalar(4);
+    if (!(above > Scalar(0))) return Scalar(0);
+    return gain_ < most ? v * (above / (most * Scalar(0.75))) : v;
+  }
+  /// The contact is over.
+  constexpr void stop() noexcept { *this = {}; }
+
+ private:
+  Scalar speed_{}, gain_{};  ///< V [m²/s²], A [m²/s⁴]
+  Scalar last_{};            ///< v of the last tick [m/s]
+  bool begun_ = false;
+};
+
+}  // namespace v0
+}  // namespace passive_haptics

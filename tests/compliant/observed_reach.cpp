@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// observed_reach: anything within G and R pushes on the rotor, and the controls of each assumption.
+#include "compliant/pushed.hpp"
+
+namespace ph = passive_haptics;
+using d1 = ph::space<double, 1>;
+using d3 = ph::space<double, 3>;
+using f1 = ph::space<float, 1>;
+
+namespace {
+constexpr double rounding = 1e-12;  // [J]
+constexpr auto as_it_is = [](ph::observed_reach&, const pushed::world&) {};
+constexpr auto with_pull = [](ph::observed_reach& p, const pushed::world& w) { p.pull = w.G; };
+}  // namespace
+
+TEST_CASE("observed_reach loses nothing to whatever stays within its slew",
+          "[compliant][observed_reach]") {
+  CHECK(pushed::lost<d1>(60, 15, rounding, as_it_is) == 0);
+  CHECK(pushed::lost<d1, 1>(40, 15, rounding, as_it_is) == 0);
+  CHECK(pushed::lost<d1, 2>(40, 15, rounding, as_it_is) == 0);
+  CHECK(pushed::lost<d1>(60, 15, rounding, with_pull) == 0);
+}
+
+TEST_CASE("observed_reach holds in three dimensions, and in float", "[compliant][observed_reach]") {
+  CHECK(pushed::lost<d3>(30, 10, rounding, with_pull) == 0);
+  CHECK(pushed::lost<f1>(30, 10, 2e-7, as_it_is) ==
+        0);  // positions of a float are steps themselves
+}
+
+TEST_CASE("controls: observed_reach that is told a slower pull, or a heavier rotor, loses",
+          "[compliant][observed_reach]") {
+  CHECK(pushed::lost<d1>(60, 15, rounding,
+                         [](ph::observed_reach& p, const pushed::world&) { p.slew /= 3.0; }) > 0);
+  CHECK(pushed::lost<d1>(60, 15, rounding, [](ph::observed_reach& p, const pushed::world&) {
+          p.mass *= 1.5;
+          p.mass_above = 0.0;
+        }) > 0);
+}
+
+TEST_CASE("a motion that refutes what observed_reach was told is reported, and bounded strictly",
+          "[compliant][observed_reach][event]") {
+  ph::passive_port port{d1{}, ph::given_force{}, ph::reduced_energy{.damping = 0.1, .loan = 1e-3},
+                        ph::observed_reach{.mass = 0.1, .slew = 100.0},
+                        ph::loop_limits{.longest_tick = 1e-3}};
+  double x = 0.0, v = 0.0;
+  bool said = false;
+  for (int n = 0; n < 20; ++n) {
+    said = said || port.tick(x, ph::seconds{1e-3}, 0.0).what == ph::event::outside_force;
+    v += n == 10 ? 0.1 : 0.0;  // 10 N in one tick
+    x += v * 1e-3;
+  }
+  CHECK(said);
+  port.reset();
+  CHECK(port.tick(x, ph::seconds{1e-3}, 0.0).what == ph::event::nominal);
+}
+
+TEST_CASE("observed_reach names what is wrong with its numbers", "[compliant][observed_reach]") {
+  ph::observed_reach p{.mass = 0.1, .slew = 100.0};
+  CHECK_FALSE(p.check());
+  p.mass_above = 0.05;
+  CHECK(std::string(p.check().parameter) == "mass_above");
+  p = {.mass = 0.0, .slew = 100.0};
+  CHECK(std::string(p.check().parameter) == "mass");
+  p = {.mass = 0.1, .slew = -1.0};
+  CHECK(std::string(p.check().parameter) == "slew");
+  p = {.mass = 0.1, .slew = 1.0, .pull = std::nan("")};
+  CHECK(std::string(p.check().parameter) == "pull");
+}

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stiffness that explain() says of a composition is the slope that a finger finds, of every preset, exact and with
+// steps, and the reason that it says is true: raise what it names, and the stiffness rises as it says.
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/compositions.hpp>
+#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/presets.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+
+namespace sim = ph::simulation;
+using Catch::Matchers::WithinRel;
+using ph::softened_by;
+
+namespace {
+
+constexpr ph::known_hand hand{.force = 5.0};
+using plane = ph::half_space<d1>;
+constexpr plane wall(double K) {
+  return {.point = 0.0, .normal = 1.0, .stiffness = K};
+}
+
+/// A composition that is pressed onto a wall of K [N/m] at 0, and what it says.
+struct touched {
+  static auto of(const auto& device, double K) {
+    auto port = ph::make_touch<d1>(device, hand);
+    REQUIRE(port.update(wall(K)));
+    return port;
+  }
+  static auto tick(auto& port, double x, double T, double /*K*/) {
+    return port.tick(x, ph::seconds{T});
+  }
+};
+struct set {
+  static auto of(const auto& device, double K) {
+    auto port = ph::make_contacts<d1>(device, hand, ph::slots<plane, 2>{});
+    REQUIRE(port.source().update(0, wall(K)));
+    return port;
+  }
+  static auto tick(auto& port, double x, double T, double /*K*/) {
+    return port.tick(x, ph::seconds{T});
+  }
+};
+struct guarded {
+  static auto of(const auto& device, double /*K*/) { return ph::make_guard<d1>(device, hand); }
+  static auto tick(auto& port, double x, double T, double K) {
+    return port.tick(x, ph::seconds{T}, x < 0.0 ? -K * x : 0.0);
+  }
+};
+
+struct pressed {
+  double slope = 0.0;  ///< of force on true depth [N/m]
+  bool cut = false;    ///< the bound had its say
+  bool silent = true;  ///< explain() gave no reason, in no tick
+};
+/// A finger comes from 100 mm, slower from 1 mm on, and presses at 5 mm/s: from 1 to 3 N, or from 0.3 to 0.9 of what
+/// the motors hold if that is less. Positions are shown in steps of q.
+template <class As>
+pressed press(auto& port, double K, double T, double q, double motors) {
+  const auto shown = [q](double x) { return q > 0.0 ? q * std::floor(x / q) : x; };
+  for (double x = 0.0; x < 0.1; x += 0.1 * T) (void)As::tick(port, shown(x), T, K);
+  pressed found;
+  double n = 0.0, d = 0.0, f = 0.0, dd = 0.0, df = 0.0, x = 0.1;
+  for (double force = 0.0; force < std::min(3.0, 0.9 * motors) && x > -0.2;) {
+    x -= (x > 1e-3 ? 0.1 : 5e-3) * T;
+    const auto out = As::tick(port, shown(x), T, K);
+    force = out.force;
+    if (force < std::min(1.0, 0.3 * motors)) continue;
+    found.cut = found.cut || out.limited;
+    found.silent = found.silent && port.explain().now == softened_by::nothing;
+    n += 1.0;
+    d -= x;
+    f += force;
+    dd += x * x;
+    df -= x * force;
+  }
+  found.slope = (n * df - d * f) / (n * dd - d * d);
+  return found;
+}
+
+struct tally {
+  int of = 0, wrong = 0, untrue = 0;
+};
+/// Every preset, stiffness and tick; with steps those that rub.
+template <class As, bool Steps>
+tally sweep() {
+  tally all;
+  for (const auto& d : sim::all_presets) {
+    if (Steps && !(d.friction > 0.0)) continue;
+    for (const double K : {300.0, 1000.0, 3000.0, 10e3, 30e3}) {
+      for (const double T : {0.5e-3, 1e-3, 2e-3, 5e-3}) {
+        const double b = d.damping / 2.0, q = Steps ? d.quantum : 0.0;
+        const auto judge = [&](const auto& device) {
+          auto port = As::of(device, K);
+          auto said = port.explain();
+          auto found = press<As>(port, K, T, q, d.force_limit);
+          if constexpr (std::same_as<As, guarded>) {  // it learns how steep its renderer is
+            for (int again = 0; again < 4; ++again) {
+              found = press<As>(port, K, T, q, d.force_limit);
+            }
+            said = port.explain();
+          }
+          const bool close = std::abs(found.slope / std::min(said.shown, K) - 1.0) < 0.05;
+          CAPTURE(d.name, K, T, q, said.shown, to_string(said.stiffness), found.slope);
+          INFO(port.explain().because());
+          ++all.of;
+          all.wrong += !close;
+          all.untrue +=
+              found.cut == found.silent;  // it says "ledger" where that binds, and only there
+          if constexpr (std::same_as<As, touched>) CHECK(close);
+        };
+        if constexpr (Steps) {
+          judge(ph::encoder_device{.mass = d.mass,
+                                   .damping = b,
+                                   .friction = d.friction / 2.0,
+                                   .presliding = 5e-6,
+                                   .quantum = q,
+                                   .force_limit = d.force_limit,
+                                   .longest_tick = T});
+        } else {
+          judge(ph::exact_device{
+              .mass = d.mass, .damping = b, .force_limit = d.force_limit, .longest_tick = T});
+        }
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("what explain() says of a touch is the slope, of every preset", "[door]") {
+  const tally exact = sweep<touched, false>(), steps = sweep<touched, true>();
+  CHECK(exact.of == 140);
+  CHECK(steps.of == 100);
+  CHECK(exact.wrong + steps.wrong == 0);
+  CHECK(exact.untrue + steps.untrue == 0);
+}
+
+// Two heavy presets on 10 kN/m and more are felt steeper than said, by the damper, which grows with the spring in the
+// first 30 ticks: a set damps on the way in as well.
+TEST_CASE("what explain() says of a set is the slope, but where its damper has not grown",
+          "[door][contacts]") {
+  const tally exact = sweep<set, false>(), steps = sweep<set, true>();
+  CHECK(exact.wrong <= 11);
+  CHECK(steps.wrong == 0);
+  CHECK(exact.untrue + steps.untrue == 0);
+}
+
+// At 5 ms a stiff one is pressed in a few ticks, and a guard has not yet learned how stiff it is.
+TEST_CASE("what explain() says of a guard is the slope, once it has been pressed", "[door]") {
+  const tally exact = sweep<guarded, false>(), steps = sweep<guarded, true>();
+  CHECK(exact.wrong <= 2);
+  CHECK(steps.wrong <= 2);
+  CHECK(exact.untrue + steps.untrue == 0);
+}
+
+TEST_CASE("the reason is true: raise what it names, and more is shown", "[door]") {
+  const ph::exact_device light{
+      .mass = 0.05, .damping = 0.1, .force_limit = 9.0, .longest_tick = 1e-3};
+  const ph::encoder_device steps{.mass = 0.5,
+                                 .damping = 0.5,
+                                 .friction = 0.15,
+                                 .presliding = 1e-5,
+                                 .quantum = 60e-6,
+                                 .force_limit = 9.0,
+                                 .longest_tick = 1e-3};
+  const auto said = []<class As>(As, const auto& device) {
+    auto port = As::of(device, 30e3);
+    (void)As::tick(port, 0.01, device.longest_tick, 30e3);
+    return port.explain();
+  };
+  const auto each = [&]<class As>(As as) {
+    const auto now = said(as, light);
+    CHECK(now.stiffness == softened_by::mass_and_tick);
+    auto faster = light, heavier = light, damped = light;
+    faster.longest_tick /= 1.25;
+    heavier.mass *= 1.25;
+    damped.damping *= 2.0;
+    CHECK_THAT(said(as, faster).shown, WithinRel(1.25 * 1.25 * now.shown, 1e-9));  // m/T²
+    CHECK_THAT(said(as, heavier).shown, WithinRel(1.25 * now.shown, 1e-9));
+    CHECK(said(as, damped).shown == now.shown);  // the control: what it does not name does nothing
+    const auto rough = said(as, steps);
+    CHECK(rough.stiffness == softened_by::encoder_steps);
+    auto finer = steps, rubs = steps, stiffer = steps, massive = steps;
+    finer.quantum /= 2.0;
+    rubs.friction *= 1.5;
+    stiffer.presliding /= 4.0;
+    massive.mass *= 1.5;
+    CHECK(said(as, finer).shown > 1.3 * rough.shown);
+    CHECK(said(as, rubs).shown > 1.3 * rough.shown);
+    CHECK(said(as, stiffer).shown > 1.02 * rough.shown);
+    CHECK(said(as, massive).shown == rough.shown);
+  };
+  each(touched{});
+  each(set{});
+  each(guarded{});
+}
+
+// Before it was asked how sure a slope is, these were felt at 0.05 to 0.4 of what was given, for good. Now and then
+// noise still looks like a spring, and a second later no more.
+TEST_CASE("noise on a renderer's force hardly softens it", "[door][settled_force]") {
+  double shown = 0.0, of = 0.0;
+  for (const double K : {500.0, 2000.0, 8000.0}) {
+    for (const double noise : {0.05, 0.3}) {
+      for (const std::uint32_t seed : {1U, 2U, 3U}) {
+        auto guard = ph::make_guard<d1>(
+            ph::exact_device{.mass = 0.1, .damping = 0.1, .force_limit = 9.0, .longest_tick = 1e-3},
+            hand);
+        sim::device<d1, sim::impedance_hand<d1>> device{
+            {.mass = 0.12, .damping = 0.2, .start = 0.02},
+            {.stiffness = 300.0, .damping = 1.0, .limit = 5.0, .target = -0.008}};
+        std::mt19937 random(seed);
+        std::normal_distribution<double> one;
+        auto now = device.exchange(0.0);
+        for (int n = 0; n < 5000; ++n) {
+          if (n % 1000 == 0) device.hand().target = n % 2000 == 0 ? -0.012 : -0.008;
+          const double depth = -now.position;
+          const double wanted = depth > 0.0 ? K * depth + noise * one(random) : 0.0;
+          now = device.exchange(guard.tick(now, wanted).force);
+          shown += guard.source().shown();
+          of += 1.0;
+        }
+      }
+    }
+  }
+  CHECK(shown > 0.85 * of);  // 0.947
+}
+
+TEST_CASE("a guard of a heavy device is no mud: pressed and let rest, it rests within 1.5 s",
+          "[door][settled_force]") {
+  for (const double m : {0.02, 0.3, 1.0, 5.0}) {
+    for (const double K : {300.0, 1000.0, 3000.0}) {
+      CAPTURE(m, K);
+      auto guard = ph::make_guard<d1>(
+          ph::exact_device{.mass = m, .damping = 0.1, .force_limit = 20.0, .longest_tick = 1e-3},
+          ph::known_hand{.force = 8.0});
+      sim::device<d1, sim::impedance_hand<d1>> device{
+          {.mass = m, .damping = 0.2, .start = 0.02},
+          {.stiffness = 300.0, .damping = 1.0, .limit = 5.0, .target = -0.015}};
+      auto now = device.exchange(0.0);
+      for (int n = 0; n < 1500; ++n) {
+        const double w = now.position < 0.0 ? -K * now.position : 0.0;
+        now = device.exchange(guard.tick(now, w).force);
+      }
+      CHECK(std::abs(device.velocity()) < 1e-3);
+    }
+  }
+}
