@@ -37,8 +37,7 @@ template <class P>
 
 /// A damping with a number for each axis: where E covers a part of f only, each axis gives way by its own share.
 template <class D, class P>
-concept differs_by_axis = P::dof >
-1 && requires(const D d, const typename P::effort f) {
+concept differs_by_axis = (P::dof > 1) && requires(const D d, const typename P::effort f) {
   { d.yielding(f, typename P::scalar{}) } -> std::same_as<typename P::effort>;
 };
 

@@ -67,7 +67,8 @@ class reachable_bound::on {
   template <class...>
   static constexpr bool only_reduces = true;  ///< on every axis, where they differ
   template <class State>
-  [[nodiscard]] constexpr auto limit(const effort& desired, const State& state) const noexcept {
+  [[nodiscard]] constexpr detail::what_is_left<State, Space> limit(
+      const effort& desired, const State& state) const noexcept {
     const scalar credit = left_for_it(state);
     if constexpr (detail::differs_by_axis<typename State::damping_type, Space>) {
       return detail::nearest_of<Space>(
@@ -75,7 +76,7 @@ class reachable_bound::on {
           detail::yield<Space>(state.damping, desired, credit, state.longest_tick),
           [&](const effort& f) { return share_of(f, credit, state); });
     } else {
-      return share{share_of(desired, credit, state)};
+      return {share_of(desired, credit, state)};
     }
   }
 
@@ -210,7 +211,8 @@ class basic_reachable_work_bound<Inertia>::on {
   template <class...>
   static constexpr bool only_reduces = true;
   template <class State>
-  [[nodiscard]] constexpr auto limit(const effort& desired, const State& state) const noexcept {
+  [[nodiscard]] constexpr detail::what_is_left<State, P> limit(const effort& desired,
+                                                               const State& state) const noexcept {
     static_assert(!State::damping_type::rubs,
                   "passive_haptics: reachable_work_bound is proved for viscous damping: count dry "
                   "friction into `hand` instead of crediting it");
@@ -228,7 +230,7 @@ class basic_reachable_work_bound<Inertia>::on {
           state.damping, desired,
           detail::yield<P>(state.damping, desired, credit, state.longest_tick), share_of);
     } else {
-      return share{share_of(desired)};
+      return {share_of(desired)};
     }
   }
 

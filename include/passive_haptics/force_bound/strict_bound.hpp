@@ -58,13 +58,13 @@ struct strict_bound {
     static constexpr bool only_reduces = true;  ///< on every axis, where they differ
     constexpr explicit on(const strict_bound& /*p*/) noexcept {}
     template <class State>
-    [[nodiscard]] constexpr auto limit(const typename P::effort& desired,
-                                       const State& state) const noexcept {
+    [[nodiscard]] constexpr detail::what_is_left<State, P> limit(
+        const typename P::effort& desired, const State& state) const noexcept {
       const auto credit = state.credit();
       if constexpr (detail::differs_by_axis<typename State::damping_type, P>) {
         return detail::nearest_covered<P>(state.damping, desired, credit, state.longest_tick);
       } else {
-        return share{state.damping.affordable(desired, credit, state.longest_tick)};
+        return {state.damping.affordable(desired, credit, state.longest_tick)};
       }
     }
     constexpr void explain(explanation& e, const auto& damping, typename P::scalar T,

@@ -10,6 +10,8 @@
 // A reader pins what it believes to be the newest and looks once more: if it still is, the writer has seen the pin or
 // will, because both go through one order (sequentially consistent atomics); if it is not, nothing was read.
 
+#include <passive_haptics/base/language.hpp>
+
 #include <array>
 #include <atomic>
 #include <cstddef>

@@ -278,6 +278,13 @@ requires promises<Bound, P>
   }
 }
 
+namespace detail {
+/// An effort where axes are damped unequally, for then it turns; elsewhere one share for all.
+template <class State, class P>
+using what_is_left = std::conditional_t<differs_by_axis<typename State::damping_type, P>,
+                                        typename P::effort, share<typename P::scalar>>;
+}  // namespace detail
+
 /// limit() takes the desired effort and a port_state, and answers with the share that is left, or with an effort.
 template <class B, class P, class State = port_state<P, detail::some_damping<P>>>
 concept force_bound_for = plain_value<part_at<B, P>, P> &&
