@@ -7,8 +7,10 @@
 //     q = A/(V W²)                                     (Ω/W)² of a motion at Ω [1/s]
 //     g = 0 below q = ¼, then 4/3 (q − ¼), 1 from q = 1 on
 //     W² = min(20², K/4m) [1/s²]
+//     s ← s + (g − s) dt/τ_s,   τ_s = 20 ms
 //
-// g is the share of the speed v that is damped. A contact begins with g = 1. A free mass on K, up to four times as heavy
+// s is the share of the speed v that is damped. It follows g late, because news of a surface kick a², and a damper that
+// changes within a tick is a step of the force. A contact begins with s = 1. A free mass on K, up to four times as heavy
 // as is told, swings at W or faster and is damped in full. A hand that goes to and fro once a second is braked by a
 // twentieth, near where it turns round, for the means are short. Source: ours; docs/design/contacts.md § 6.
 
@@ -20,7 +22,7 @@ inline namespace v0 {
 template <class Scalar>
 class swing {
  public:
-  /// g v of a speed v [m/s] after a tick dt [s], on a contact whose K/m is `natural` [1/s²].
+  /// s v of a speed v [m/s] after a tick dt [s], on a contact whose K/m is `natural` [1/s²].
   [[nodiscard]] constexpr Scalar damped(Scalar v, Scalar natural, Scalar dt) noexcept {
     const Scalar W2 = kernels::smaller(Scalar(400), natural / Scalar(4));
     const Scalar change = v - last_;
@@ -31,12 +33,15 @@ class swing {
       gain_ = W2 * speed_;
       return v;
     }
-    const Scalar share = dt < Scalar(0.1) ? dt * Scalar(10) : Scalar(1);
-    speed_ += share * (v * v - speed_);
-    gain_ += share * (change * change / (dt * dt) - gain_);
+    const Scalar new_part = dt < Scalar(0.1) ? dt * Scalar(10) : Scalar(1);
+    speed_ += new_part * (v * v - speed_);
+    gain_ += new_part * (change * change / (dt * dt) - gain_);
     const Scalar most = W2 * speed_, above = gain_ - most / Scalar(4);
-    if (!(above > Scalar(0))) return Scalar(0);
-    return gain_ < most ? v * (above / (most * Scalar(0.75))) : v;
+    const Scalar damps = !(above > Scalar(0)) ? Scalar(0)
+                         : gain_ < most       ? above / (most * Scalar(0.75))
+                                              : Scalar(1);
+    share_ += (damps - share_) * (dt < Scalar(0.02) ? dt * Scalar(50) : Scalar(1));
+    return v * share_;
   }
   /// The contact is over.
   constexpr void stop() noexcept { *this = {}; }
@@ -44,6 +49,7 @@ class swing {
  private:
   Scalar speed_{}, gain_{};  ///< V [m²/s²], A [m²/s⁴]
   Scalar last_{};            ///< v of the last tick [m/s]
+  Scalar share_{1};          ///< s
   bool begun_ = false;
 };
 
