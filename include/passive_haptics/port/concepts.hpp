@@ -371,11 +371,12 @@ struct left_out {};
 /// became of it, refused() a tick that nobody could believe, of length dt [s]; both return the result of the
 /// tick. `asks_for_numbers`: it never asks for NaN or an infinity, so the port need not look.
 template <class S, class P, class State = port_state<P, detail::some_damping<P>>>
-concept source_for = plain_value<part_at<S, P>, P> &&
-    requires(part_at<S, P> s, const typename part_at<S, P>::request asked,
-             const detail::some_estimate<P> motion, const State state, event what,
-             const port_result<P> r, typename P::scalar dt) {
+concept source_for = plain_value<part_at<S, P>, P> && requires {
+  typename part_at<S, P>::request;
   typename part_at<S, P>::result_type;
+} && requires(part_at<S, P> s, const typename part_at<S, P>::request asked,
+              const detail::some_estimate<P> motion, const State state, event what,
+              const port_result<P> r, typename P::scalar dt) {
   { part_at<S, P>::asks_for_numbers } -> std::convertible_to<bool>;
   { asked.wanted } -> std::convertible_to<typename P::effort>;
   { asked.nothing } -> std::convertible_to<bool>;
