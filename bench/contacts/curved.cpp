@@ -71,7 +71,9 @@ void plot_stroke(const session& s, const curved::triangulated& mesh) {
                         ph::no_observer{}, ph::no_bound{},
                         ph::loop_limits{.longest_tick = T, .top_speed = 1e4}};
   port.source().update(0, curved::osculating<d3>(curved::stroke(0)));
-  static_cast<void>(port.tick(curved::stroke(0) * 1.1, ph::seconds{T}));  // it is met from outside
+  for (int i = 100; i > 0; --i) {  // it is met from outside, at 50 mm/s
+    static_cast<void>(port.tick(curved::stroke(0) * (1.0 + 1e-3 * i), ph::seconds{T}));
+  }
   ex::csv_file csv(s.out.path("stroke_force.csv"), "s,quadric at 30 Hz,nearest triangle");
   for (int i = 0; i < 1000; ++i) {
     const vector x = curved::stroke(i);
@@ -90,9 +92,7 @@ void plot_stroke(const session& s, const curved::triangulated& mesh) {
        {{"it steps where it crosses an edge", "stroke_force.csv",
          [](const ex::recorded& r) { return ex::largest_step(r["nearest triangle"]) > 0.05; }},
         {"it has none", "stroke_force.csv",
-         [](const ex::recorded& r) {
-           return ex::largest_step(r.within("quadric at 30 Hz", 0.01, 1.0)) < 0.01;
-         }}}},
+         [](const ex::recorded& r) { return ex::largest_step(r["quadric at 30 Hz"]) < 0.01; }}}},
       "set xlabel 'time [s]'\nset ylabel 'force [N]'\nplot 'stroke_force.csv' using 1:3 with "
       "lines lt 2 lw 1.2, '' using 1:2 with lines lt 1");
 }

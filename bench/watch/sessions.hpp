@@ -293,6 +293,11 @@ inline void draw_hand(truth& w, dice& g) {
     if (d.peak_force) w.force_limit = d.peak_force.value;
     if (d.latency) w.latency = static_cast<int>(d.latency.value);
   }
+  if (w.quantum > 0.0 &&
+      !(w.friction > 0.0)) {  // nobody who is honest states exact positions of it
+    w.friction = spread(g, 0.02, 0.6);
+    w.presliding = spread(g, 2e-6, 50e-6);
+  }
   return w;
 }
 inline constexpr std::size_t names = sim::all_presets.size() + ph::design::devices::all.size();

@@ -168,18 +168,17 @@ class lagging_force<Ledger>::on : public part_at<Ledger, P> {
     const scalar gone = -std::expm1(-z);  // 1 − e⁻ᶻ of the way
     const effort off = P::difference(effort(force_), held);
     const effort next = effort(held + P::scaled(off, scalar(1) - gone));
-    if (blind_ >
-        scalar(0)) {  // y is not known for a while, and nothing is sure but what is reserved
+    if (blind_ > scalar(0)) {  // y is not known yet: nothing is sure but what is reserved
       kept::forfeit(held, dt);
       blind_ -= dt;
     } else {
       const effort mean = effort(held + P::scaled(off, z > scalar(0) ? gone / z : scalar(1)));
       if (!kept::update(dx, mean, dt)) return false;
-      const scalar small = scalar(8) * kernels::rounding<scalar>(), up = scalar(1) + small;
+      const scalar off_by = scalar(8) * kernels::rounding<scalar>(), up = scalar(1) + off_by;
       this->lend(-(this->damping().worst_outflow(off, dt) * variance(z, gone) * up +
                    this->damping().worst_outflow(next, theta_) * up -
                    this->damping().worst_outflow(effort(force_), theta_) +
-                   small * (P::work(off, dx).passed + P::work(held, dx).passed)));
+                   off_by * (P::work(off, dx).passed + P::work(held, dx).passed)));
     }
     force_ = next;
     return true;
