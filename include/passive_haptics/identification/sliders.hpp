@@ -9,6 +9,7 @@
 // One slider with the mean presliding credits nothing of what motions within it lose; the stiff ones of a list are
 // crossed by a tremor and pay for it. slider_fit.hpp finds the list from a recording.
 
+#include <passive_haptics/device/dry_friction.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
 #include <array>
