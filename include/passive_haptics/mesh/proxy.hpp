@@ -111,7 +111,7 @@ class proxy {
 
   /// The device is at x [m], dt [s] after the last step. A device that is not finite, or farther than 1000 km, changes
   /// nothing.
-  void step(const triple& x, double dt) noexcept {
+  [[gnu::noinline]] void step(const triple& x, double dt) noexcept {
     if (meshes_ == 0 || !is_finite(x) || !(squared(x) < 1e12) || !(dt > 0.0)) return;
     for (part& p : parts()) hear(p, dt);
     const triple own = seen(x);
@@ -390,7 +390,7 @@ class proxy {
   /// A tick of the ways to the newest shapes and poses; how far the ball was carried [m]. They go together, twice with
   /// what room the ball can make; what cannot go with the others may go by itself. What would crush the ball waits; a
   /// shape that waits for long goes back if there are news, because they may leave room.
-  double follow(double dt) noexcept {
+  [[gnu::noinline]] double follow(double dt) noexcept {
     double carried = 0.0;
     int going = 0;
     for (const part& p : parts()) going += p.goes() ? 1 : 0;
@@ -559,7 +559,7 @@ class proxy {
     }
   }
   /// The shortest way towards x in the half-spaces of what is within `reach` [m], and no farther; how far it went.
-  double round_to(const triple& x, double reach) noexcept {
+  [[gnu::noinline]] double round_to(const triple& x, double reach) noexcept {
     collect(reach);
     const double r = rule_.radius, slack = 1e-9 * r;
     const auto normal = [&](int i) { return planes_[slot(i)].normal; };
