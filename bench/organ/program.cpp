@@ -11,6 +11,7 @@
 #include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/environment/compliance_table.hpp>
 #include <passive_haptics/environment/contact_surface.hpp>
+#include <passive_haptics/environment/deformable_body.hpp>
 #ifdef PASSIVE_HAPTICS_CHOLMOD
 #include "by_cholmod.hpp"
 #endif

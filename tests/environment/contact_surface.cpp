@@ -3,6 +3,7 @@
 #include "environment/shapes.hpp"
 #include "support/curved.hpp"
 #include <passive_haptics/environment/contact_surface.hpp>
+#include <passive_haptics/environment/deformable_body.hpp>
 #include <passive_haptics/environment/contact_tracker.hpp>
 
 namespace {

@@ -2,6 +2,7 @@
 // A mesh as the source of a port: thin plates hold 1 m/s and 10 N, no joule comes out, and what rests is quiet.
 #include "mesh/shapes.hpp"
 #include <passive_haptics/environment/contact_surface.hpp>
+#include <passive_haptics/environment/surface_search.hpp>
 #include <passive_haptics/mesh.hpp>
 
 using namespace meshes;

@@ -14,9 +14,9 @@
 #include <passive_haptics/constraint_geometry/patch.hpp>
 #include <passive_haptics/constraint_geometry/quadric.hpp>
 #include <passive_haptics/environment/curvature.hpp>
-#include <passive_haptics/environment/deformable_body.hpp>
 #include <passive_haptics/environment/surface.hpp>
-#include <passive_haptics/environment/surface_search.hpp>
+#include <passive_haptics/environment/surface_contact.hpp>
+#include <passive_haptics/environment/surface_graph.hpp>
 
 #include <Eigen/Core>
 
@@ -159,8 +159,8 @@ template <std::size_t M = 16, class Surface>
 
 /// The quadric at the last contact of a body, with the stiffness that the body reported there. Before the
 /// first contact it returns a quadric that every supply refuses.
-template <class Elastic>
-[[nodiscard]] quadric<space<double, 3>> quadric_at(const basic_deformable_body<Elastic>& body,
+template <touched_body Body>
+[[nodiscard]] quadric<space<double, 3>> quadric_at(const Body& body,
                                                    const quadric_options& options = {}) {
   if (body.contact().triangle < 0) return {};
   return quadric_at(body.search(), body.nodes(), point_of(body.contact()), body.contact().stiffness,
@@ -168,9 +168,9 @@ template <class Elastic>
 }
 
 /// The patch at the last contact of a body; before the first contact a patch that every supply refuses.
-template <std::size_t M = 16, class Elastic>
+template <std::size_t M = 16, touched_body Body>
 [[nodiscard]] patch<space<double, 3>, M> patch_at(
-    const basic_deformable_body<Elastic>& body,
+    const Body& body,
     double thickness = (std::numeric_limits<double>::max)()) {
   if (body.contact().triangle < 0) return {};
   return patch_at<M>(body.search(), body.nodes(), point_of(body.contact()),
@@ -178,8 +178,8 @@ template <std::size_t M = 16, class Elastic>
 }
 
 /// The tangent plane at the last contact; before the first one that every supply refuses.
-template <class Elastic>
-[[nodiscard]] half_space<space<double, 3>> plane_at(const basic_deformable_body<Elastic>& body) {
+template <touched_body Body>
+[[nodiscard]] half_space<space<double, 3>> plane_at(const Body& body) {
   if (body.contact().triangle < 0) return {};
   return {body.contact().point, body.contact().normal, body.contact().stiffness};
 }

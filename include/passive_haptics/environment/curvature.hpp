@@ -14,7 +14,7 @@
 // positions, so the body may deform, and none allocates.
 
 #include <passive_haptics/environment/surface.hpp>
-#include <passive_haptics/environment/surface_search.hpp>
+#include <passive_haptics/environment/surface_graph.hpp>
 #include <passive_haptics/environment/triangle_weights.hpp>
 
 #include <Eigen/Core>
@@ -70,27 +70,29 @@ template <class Surface>
     const triangle& shape, const std::array<Eigen::Vector3d, 3>& normals) {
   const Eigen::Vector3d n = unit_normal(shape);
   const Eigen::Vector3d u = (shape[1] - shape[0]).normalized(), v = n.cross(u);
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();  // of the unknowns C_uu, C_uv, C_vv
+  // The normal equations of C_uu, C_uv and C_vv: (uu, uv, 0), (uv, uu + vv, uv), (0, uv, vv) and their right side.
+  double uu = 0.0, uv = 0.0, vv = 0.0;
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector3d edge = shape[(k + 1) % 3] - shape[k];
     const Eigen::Vector3d turn = normals[(k + 1) % 3] - normals[k];
-    Eigen::Matrix<double, 2, 3> rows;
-    rows << edge.dot(u), edge.dot(v), 0.0, 0.0, edge.dot(u), edge.dot(v);
-    squares += rows.transpose() * rows;
-    right += rows.transpose() * Eigen::Vector2d(turn.dot(u), turn.dot(v));
+    const double eu = edge.dot(u), ev = edge.dot(v), tu = turn.dot(u), tv = turn.dot(v);
+    uu += eu * eu;
+    uv += eu * ev;
+    vv += ev * ev;
+    right += Eigen::Vector3d(eu * tu, ev * tu + eu * tv, ev * tv);
   }
   // Cramer's rule; the curvature of a triangle without area is taken as zero.
-  const Eigen::Vector3d a = squares.col(0), b = squares.col(1), c = squares.col(2);
+  const Eigen::Vector3d a(uu, uv, 0.0), b(uv, uu + vv, uv), c(0.0, uv, vv);
   const double volume = a.dot(b.cross(c));
-  if (!(std::abs(volume) > 1e-30 * std::pow(squares.trace(), 3))) return Eigen::Matrix3d::Zero();
-  const Eigen::Vector3d found =
-      Eigen::Vector3d(right.dot(b.cross(c)), a.dot(right.cross(c)), a.dot(b.cross(right))) / volume;
-  return found(0) * u * u.transpose() + found(1) * (u * v.transpose() + v * u.transpose()) +
-         found(2) * v * v.transpose();
+  if (!(std::abs(volume) > 1e-30 * std::pow(2.0 * (uu + vv), 3))) return Eigen::Matrix3d::Zero();
+  const double C_uu = right.dot(b.cross(c)) / volume, C_uv = a.dot(right.cross(c)) / volume,
+               C_vv = a.dot(b.cross(right)) / volume;
+  const Eigen::Vector3d along_u = C_uu * u + C_uv * v, along_v = C_uv * u + C_vv * v;
+  return along_u * u.transpose() + along_v * v.transpose();
 }
 
-/// The rotation that takes one unit vector to another the shortest way, I + [v]× + [v]×²/(1 + c) with v their
+/// The rotation that takes one unit vector to another the shortest way, c I + [v]× + v vᵀ/(1 + c) with v their
 /// cross and c their dot product (Rodrigues), or half a turn if they are opposite.
 [[nodiscard]] inline Eigen::Matrix3d turn_between(const Eigen::Vector3d& from,
                                                   const Eigen::Vector3d& to) {
@@ -100,9 +102,14 @@ template <class Surface>
     const Eigen::Vector3d axis = from.unitOrthogonal();
     return 2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
   }
-  Eigen::Matrix3d cross;
-  cross << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return Eigen::Matrix3d::Identity() + cross + cross * cross / (1.0 + c);
+  Eigen::Matrix3d turn = v * (v / (1.0 + c)).transpose();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Eigen::Index j = (i + 1) % 3, k = (i + 2) % 3;
+    turn(i, i) += c;
+    turn(k, j) += v(i);
+    turn(j, k) -= v(i);
+  }
+  return turn;
 }
 
 /// C turned with its plane, the shortest way from one normal to another.

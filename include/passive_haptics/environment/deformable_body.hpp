@@ -20,6 +20,7 @@
 #include <passive_haptics/environment/marks.hpp>
 #include <passive_haptics/environment/mesh.hpp>
 #include <passive_haptics/environment/surface.hpp>
+#include <passive_haptics/environment/surface_contact.hpp>
 #include <passive_haptics/environment/surface_search.hpp>
 #include <passive_haptics/environment/tetrahedral_fem.hpp>
 #include <passive_haptics/environment/triangle_weights.hpp>
@@ -40,20 +41,6 @@
 namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
-
-/// The contact as the local model needs it.
-struct surface_contact {
-  std::array<Eigen::Vector3d, 3> nodes{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-                                       Eigen::Vector3d::Zero()};  ///< of the triangle [m]
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< p: of the triangle, closest to device [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< n: of the triangle, unit, outward
-  Eigen::Vector3d weights = Eigen::Vector3d::Zero();  ///< barycentric, of p
-  Eigen::Vector3d rest = Eigen::Vector3d::Zero();     ///< where p is under no load [m]
-  int triangle = -1;                                  ///< −1 until the first good update
-  double depth = 0.0;                                 ///< (p − x)·n [m], positive inside
-  double stiffness = 0.0;                             ///< of the body at p along n [N/m]
-  bool fresh = false;  ///< false: an older contact, because the last input could not be used
-};
 
 enum class contact_selection : std::uint8_t {
   closest_point,  ///< with hysteresis; for any shape

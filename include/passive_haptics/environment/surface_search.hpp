@@ -2,8 +2,7 @@
 #pragma once
 // The closest point of a large surface without looking at all of it.
 //
-//   surface_graph          the triangles that meet at each node
-//   surface_search         the same with a tree of boxes:
+//   surface_search         a surface_graph with a tree of boxes:
 //     closest_point        the same answer as the linear search of surface.hpp, ties included
 //     closest_near         a search from one triangle over its neighbours, to follow a contact
 //     refit                fits the boxes to nodes that have moved; the tree stays the same
@@ -11,15 +10,14 @@
 // The tree (mesh/box_tree.hpp) is a median split of the triangles' centres at rest. Its answers stay right however
 // the body deforms, and it stays fast as long as neighbours stay neighbours. Queries do not allocate.
 
-#include <passive_haptics/environment/node_graph.hpp>
 #include <passive_haptics/environment/surface.hpp>
+#include <passive_haptics/environment/surface_graph.hpp>
 #include <passive_haptics/mesh/box_tree.hpp>
 
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -28,37 +26,6 @@
 namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
-
-class surface_graph {
- public:
-  /// `node_count` must exceed the number of every node of a triangle.
-  surface_graph(std::vector<surface_triangle> surface, std::size_t node_count)
-      : surface_(std::move(surface)), begin_(node_count + 1, 0) {
-    for (const auto& t : surface_) {
-      for (const int node : t.nodes) ++begin_.at(slot(node) + 1);
-    }
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    at_.resize(3 * surface_.size());
-    std::vector<std::size_t> next = begin_;
-    for (std::size_t i = 0; i < surface_.size(); ++i) {
-      for (const int node : surface_[i].nodes) at_[next[slot(node)]++] = static_cast<int>(i);
-    }
-  }
-
-  /// Triangles that have this node, in ascending order.
-  [[nodiscard]] std::span<const int> triangles_at(int node) const {
-    const std::size_t from = begin_[slot(node)];
-    return std::span(at_).subspan(from, begin_[slot(node) + 1] - from);
-  }
-  [[nodiscard]] const std::vector<surface_triangle>& triangles() const noexcept { return surface_; }
-  [[nodiscard]] std::size_t size() const noexcept { return surface_.size(); }
-  [[nodiscard]] const surface_triangle& operator[](std::size_t i) const { return surface_[i]; }
-
- private:
-  std::vector<surface_triangle> surface_;
-  std::vector<std::size_t> begin_;
-  std::vector<int> at_;
-};
 
 class surface_search : public surface_graph {
  public:
