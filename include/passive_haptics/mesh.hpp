@@ -4,6 +4,7 @@
 // between news. The menu:
 //
 //   mesh/surface.hpp        mesh::surface      triangles, a tree of boxes, news of nodes and poses; 1 to 5e7
+//   mesh/material.hpp       mesh::material     stiffness, friction and viscosity, of a mesh or triangle by triangle
 //   mesh/proxy.hpp          mesh::proxy        a ball that is drawn to the device and passes through nothing:
 //                                              by itself, for a renderer, an engine, another language
 //   mesh/mesh_contact.hpp   mesh_contact       the same as the source of a port, with spring and damper

@@ -36,10 +36,10 @@ struct seen {
   double clearance = 1.0;
 };
 /// An open mesh is looked at in ticks so short that the ball's way round a rim is straight enough for a witness.
-seen wandered(const moving& m, unsigned seed, int every, double radius) {
+seen wandered(const moving& m, unsigned seed, int every, double radius, double friction) {
   const double dt = m.closed ? T : T / 10;
   ph::mesh::surface s(m.rest.triangles, m.nodes(0.0));
-  ph::mesh::proxy ball({.radius = radius});
+  ph::mesh::proxy ball({.radius = radius, .friction = friction});
   ball.touch(s);
   wanderer device(seed);
   witness looks;
@@ -71,8 +71,10 @@ TEST_CASE("no mesh lets the ball through, at rest, moved, deformed, by news of 3
     for (const int every : {33, 7, 1}) {
       for (const unsigned seed : {1U, 2U}) {
         const double radius = seed == 1 ? 5e-4 : 1e-4;
-        const seen all = wandered(m, seed, every, radius);
-        INFO(m.name << ", news every " << every << " ticks, radius " << radius);
+        const double friction = seed == 1 ? 0.0 : 0.7;
+        const seen all = wandered(m, seed, every, radius, friction);
+        INFO(m.name << ", news every " << every << " ticks, radius " << radius << ", mu "
+                    << friction);
         CHECK(all.through == 0);
         CHECK(all.felt > 0);
         CHECK(all.clearance >= 0.25 * radius);

@@ -16,24 +16,33 @@
 // damper has of each; all of them that are near count. Of a mesh at rest −K (p − x) is the gradient of ½K|p − x|²,
 // no steeper than K, and the ball only ever makes that less. Nothing is promised of energy; the bound behind
 // it does. A mesh of which no news come stays as it is.
+//
+// Along the surface, of a triangle with μ and c (mesh/material.hpp), t how far the ball is held back and v_t the speed
+// beside the surface there:
+//     f_t = K t − B v_t, cut to μ times what presses;  and − min(c, m/2T) v_t
+// Where triangles of another material are met, what is felt follows by 50 N/s, so that a border is no blow.
 
 #include <passive_haptics/contact/local_contact.hpp>
 #include <passive_haptics/contact/proxy.hpp>
 #include <passive_haptics/mesh/proxy.hpp>
 
+#include <algorithm>
 #include <type_traits>
+#include <utility>
 
 namespace passive_haptics {
 inline namespace v0 {
 
 struct mesh_contact {
-  proxy_spring spring{};      ///< mass, and what a sampled mass can take; its softness is not used
-  double stiffness = 1000.0;  ///< K of the mesh [N/m], before what the sampling leaves of it
-  mesh::proxy_parameters proxy{};  ///< the radius of the finger, how news are followed
+  proxy_spring spring{};  ///< mass, and what a sampled mass can take; its softness is not used
+  double stiffness =
+      1000.0;  ///< K where a mesh states none [N/m], before what the sampling leaves of it
+  double viscosity = 0.0;          ///< c where a mesh states none [N·s/m]
+  mesh::proxy_parameters proxy{};  ///< the radius of the finger, how news are followed, μ
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = spring.check()) return fault;
-    if (!detail::positive(stiffness)) return {"stiffness", stiffness, "finite and > 0 N/m"};
+    if (const auto fault = mesh::material{stiffness, 0.0, viscosity}.check()) return fault;
     return proxy.check();
   }
   template <port P>
@@ -51,25 +60,36 @@ class mesh_contact::on {
                 "passive_haptics: a mesh is touched in a space of three dimensions");
 
   constexpr explicit on(const mesh_contact& p) noexcept
-      : spring_(p.spring), stiffness_(p.stiffness), ball_(p.proxy) {}
+      : spring_(p.spring),
+        elsewhere_{p.stiffness, 0.0, p.viscosity},
+        felt_(elsewhere_),
+        ball_(p.proxy) {}
   [[nodiscard]] constexpr mesh_contact parameters() const noexcept {
-    return {.spring = spring_.parameters(), .stiffness = stiffness_, .proxy = ball_.parameters()};
+    return {.spring = spring_.parameters(),
+            .stiffness = elsewhere_.stiffness,
+            .viscosity = elsewhere_.viscosity,
+            .proxy = ball_.parameters()};
   }
   constexpr void set(const mesh_contact& p) noexcept {
     spring_ = proxy_spring::at<double>(p.spring);
-    stiffness_ = p.stiffness;
+    elsewhere_ = {p.stiffness, 0.0, p.viscosity};
     ball_.set(p.proxy);
   }
   constexpr void adopt(scalar T, int late) noexcept {
     spring_.adopt(static_cast<double>(T), late);
-    sampled_ = spring_.sampled(stiffness_);
+    most_viscosity_ = 0.5 * spring_.parameters().mass / static_cast<double>(T);
+    sampled_ = spring_.sampled(felt_.stiffness);
   }
-  [[nodiscard]] constexpr bool settles() const noexcept { return spring_.settles(stiffness_); }
+  [[nodiscard]] constexpr bool settles() const noexcept {
+    return spring_.settles(elsewhere_.stiffness);
+  }
   /// The side that was touched is forgotten, the mesh is not.
   constexpr void reset() noexcept { ball_.reset(); }
 
   /// From now on this mesh, which must outlive the port; from the haptic thread. False: it has 64 fingers.
   bool touch(const mesh::surface& s) noexcept { return ball_.touch(s); }
+  /// That one, too (mesh/proxy.hpp). False: it has 64 fingers, or this one touches eight.
+  bool also_touch(const mesh::surface& s) noexcept { return ball_.also_touch(s); }
   /// Nothing is there any more.
   void let_go() noexcept { ball_.let_go(); }
   [[nodiscard]] const mesh::proxy& ball() const noexcept { return ball_; }
@@ -80,8 +100,9 @@ class mesh_contact::on {
       e.stiffness = softened_by::no_surface;
       return;
     }
-    e.asked = e.shown = stiffness_;
-    e.soften(sampled_.stiffness, spring_.softener(stiffness_));
+    const double asked = ball_.felt(elsewhere_).stiffness;
+    e.asked = e.shown = asked;
+    e.soften(spring_.sampled(asked).stiffness, spring_.softener(asked));
     if (ball_.placed() && ball_.pressed().count > 0) e.depth = mesh::length(ball_.pressed().way);
   }
 
@@ -100,11 +121,16 @@ class mesh_contact::on {
     const vector x = motion.position;
     ball_.step(to_triple(x), static_cast<double>(port.dt));
     const mesh::support& pressed = ball_.pressed();
-    if (!ball_.placed() || pressed.count == 0) return free;
+    if (!ball_.placed() || pressed.count == 0) {
+      presses_ = false;
+      return free;
+    }
     const double depth = mesh::length(pressed.way);
+    const mesh::triple v = to_triple(velocity(motion));
+    const double dt = static_cast<double>(port.dt);
+    const mesh::material is = made_of(depth, mesh::length(v), dt);
     const auto felt =
         spring_.saturates(sampled_, depth) ? spring_.saturated(sampled_, depth) : sampled_;
-    const mesh::triple v = to_triple(velocity(motion));
     const int count = ball_.planes();
     std::array<double, mesh::proxy::most_planes> wish;  // NOLINT(*-member-init): read below count
     std::array<mesh::triple, mesh::proxy::most_planes> n;
@@ -128,6 +154,9 @@ class mesh_contact::on {
     for (std::size_t j = 0; j < static_cast<std::size_t>(by.count); ++j) {
       const auto i = static_cast<std::size_t>(by.of[j]);
       f = f + n[i] * (by.share[j] * felt.stiffness);
+    }
+    if (is.friction > 0.0 || is.viscosity > 0.0) {
+      f = f + along(is, felt, f, v, dt);
     }
     vector wanted = P::zero();
     for (int i = 0; i < 3; ++i) P::component(wanted, i) = static_cast<scalar>(f[i]);
@@ -162,9 +191,55 @@ class mesh_contact::on {
     }
   }
 
+  /// What presses is made of, or on its way to it, and sampled_ as stiff as that; the device goes by `speed` [m/s].
+  [[nodiscard]] mesh::material made_of(double depth, double speed, double dt) noexcept {
+    const mesh::material goal =
+        ball_.felt({elsewhere_.stiffness, ball_.parameters().friction, elsewhere_.viscosity});
+    const double before = felt_.stiffness;
+    if (std::exchange(presses_, true)) {
+      const double step = border_rate * dt;  // [N]
+      const auto towards = [](double from, double to, double most) {
+        return kernels::clamped(to, from - most, from + most);
+      };
+      felt_.stiffness = towards(before, goal.stiffness, step / depth);
+      felt_.friction = towards(felt_.friction, goal.friction, step / (felt_.stiffness * depth));
+      felt_.viscosity =
+          towards(felt_.viscosity, goal.viscosity, speed > 0.0 ? step / speed : goal.viscosity);
+    } else {
+      felt_ = goal;
+    }
+    if (felt_.stiffness != before) sampled_ = spring_.sampled(felt_.stiffness);
+    return felt_;
+  }
+  /// f_t [N] beside a force f that presses, at a speed v of the device [m/s].
+  [[nodiscard]] mesh::triple along(const mesh::material& is, const sampled_spring<double>& felt,
+                                   const mesh::triple& f, const mesh::triple& v,
+                                   double dt) const noexcept {
+    const double presses = mesh::length(f);
+    if (!(presses > 0.0)) return {};
+    const mesh::triple n = f * (1.0 / presses);
+    mesh::triple beside = v;
+    const mesh::support& pressed = ball_.pressed();
+    for (std::size_t j = 0, most = 0; j < static_cast<std::size_t>(pressed.count); ++j) {
+      if (pressed.share[j] < pressed.share[most]) continue;
+      most = j;
+      beside = v - ball_.went(pressed.of[j]) * (1.0 / dt);
+    }
+    beside = beside - n * mesh::dot(n, beside);
+    mesh::triple t = (ball_.held_back() - beside * felt.settling) * felt.stiffness;
+    const double size = mesh::length(t), most = is.friction * presses;
+    if (size > most) t = t * (most / size);
+    return t - beside * (std::min)(is.viscosity, most_viscosity_);
+  }
+
+  static constexpr double border_rate = 50.0;  ///< [N/s]
+
   proxy_spring::at<double> spring_;
-  double stiffness_;
+  mesh::material elsewhere_;     ///< where a mesh does not say; its friction is the ball's
+  mesh::material felt_;          ///< of the last tick; sampled_ is of its K
+  double most_viscosity_ = 0.0;  ///< m/2T [N·s/m]
   sampled_spring<double> sampled_{};
+  bool presses_ = false;  ///< it did in the last tick
   mesh::proxy ball_;
 };
 

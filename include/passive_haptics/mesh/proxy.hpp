@@ -17,6 +17,7 @@
 //   motion  between two shapes nodes go straight. The ball goes with what it rests on, and while what is near
 //           moves by less than d − r/2 beside it, d its distance, it stays r/2 away or more. What would move more
 //           waits for the next tick.
+// With friction the ball is drawn to a place beside the device (stick()), by the same two.
 // So the distance of the ball's centre from every triangle stays > 0 whatever comes, and nothing is passed
 // through; no test of an edge, a side or a crossing is made that rounding could decide.
 //
@@ -36,7 +37,8 @@ struct proxy_parameters {
   double news_speed =
       0.05;  ///< what is touched follows its news at this speed [m/s], or faster as it must
   double longest_way =
-      0.05;  ///< news are followed within the time since the last ones, or this [s]
+      0.05;               ///< news are followed within the time since the last ones, or this [s]
+  double friction = 0.0;  ///< μ of triangles whose mesh states none
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(radius >= 1e-6 && radius <= 1.0)) return {"radius", radius, "in [1e-6, 1] m"};
@@ -44,6 +46,8 @@ struct proxy_parameters {
     if (!(longest_way > 0.0 && longest_way <= 1.0)) {
       return {"longest_way", longest_way, "in (0, 1] s"};
     }
+    if (!passive_haptics::detail::not_negative(friction))
+      return {"friction", friction, "finite and ≥ 0"};
     return {};
   }
 };
@@ -103,6 +107,7 @@ class proxy {
     placed_ = false;
     beside_ = count_ = 0;
     pressed_ = {};
+    beside_device_ = {};
   }
   [[nodiscard]] bool touching() const noexcept { return meshes_ > 0; }
   [[nodiscard]] int meshes() const noexcept { return meshes_; }
@@ -123,7 +128,8 @@ class proxy {
     double carried = 0.0;
     device_ = own;
     if (follows()) carried = follow(dt);
-    approach(own, 1.25 * (moved + carried) + 0.125 * rule_.radius,
+    beside_device_ = stick();
+    approach(own + beside_device_, 1.25 * (moved + carried) + 0.125 * rule_.radius,
              3.0 * (moved + carried) + 0.5 * rule_.radius);
   }
 
@@ -134,9 +140,28 @@ class proxy {
   [[nodiscard]] int planes() const noexcept { return count_; }
   [[nodiscard]] triple normal(int i) const noexcept { return frame().out(planes_[slot(i)].normal); }
   [[nodiscard]] double depth(int i) const noexcept {
-    return planes_[slot(i)].level - dot(planes_[slot(i)].normal, device_);
+    return planes_[slot(i)].level - dot(planes_[slot(i)].normal, device_ + beside_device_);
   }
   [[nodiscard]] const support& pressed() const noexcept { return pressed_; }
+  /// How far friction holds the ball back beside the device, along the surface, as a direction of the world [m].
+  [[nodiscard]] triple held_back() const noexcept { return frame().out(beside_device_); }
+  /// What presses is made of, by how much each triangle does; `elsewhere` where a mesh does not say.
+  [[nodiscard]] material felt(const material& elsewhere) const noexcept {
+    double all = 0.0;
+    material sum{.stiffness = 0.0};
+    for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
+      const half_space_of& h = planes_[slot(pressed_.of[i])];
+      const material* said = parts_[slot(h.mesh)].news.mesh().made(h.triangle);
+      const material& one = said != nullptr ? *said : elsewhere;
+      const double share = pressed_.share[i];
+      all += share;
+      sum.stiffness += share * one.stiffness;
+      sum.friction += share * one.friction;
+      sum.viscosity += share * one.viscosity;
+    }
+    if (!(all > 0.0)) return elsewhere;
+    return {sum.stiffness / all, sum.friction / all, sum.viscosity / all};
+  }
   /// What a half-space is of: which mesh, in the order of touching, which triangle and where on it.
   [[nodiscard]] const half_space_of& plane(int i) const noexcept { return planes_[slot(i)]; }
   /// How far the place where it is touched went in the last step, in the world [m].
@@ -216,6 +241,7 @@ class proxy {
     device_ = seen(device);
     count_ = 0;
     pressed_ = {};
+    beside_device_ = {};
   }
   [[nodiscard]] bool clear_of(int mesh) const noexcept {
     return !(closest(parts_[slot(mesh)], mesh, at_, rule_.radius).triangle >= 0);
@@ -536,6 +562,19 @@ class proxy {
   }
 
   // ------------------------------------------------------------------------------- the ball's motion
+  /// How far beside the device the ball is to stay: where it was, as it was carried, unless that is more than μ times
+  /// its depth; then that much [m].
+  [[nodiscard]] triple stick() const noexcept {
+    const double mu = felt({.friction = rule_.friction}).friction;
+    const double pressed = length(pressed_.way);
+    if (!(mu > 0.0 && pressed > 0.0)) return {};
+    const triple n = pressed_.way * (1.0 / pressed), off = at_ - device_;
+    const double deep = dot(off, n);
+    if (!(deep > 0.0)) return {};
+    const triple along = off - n * deep;
+    const double far_off = length(along), most = mu * deep;
+    return far_off > most ? along * (most / far_off) : along;
+  }
   /// Before it has a side: it waits until the device is clear of the surface.
   void begin(const triple& x, double dt) noexcept {
     device_ = x;
@@ -734,8 +773,9 @@ class proxy {
   int meshes_ = 0;
   int beside_ = 0;  ///< the mesh that is closest
   bool placed_ = false;
-  triple at_{};      ///< the ball in frame() [m]
-  triple device_{};  ///< the device there [m]
+  triple at_{};             ///< the ball in frame() [m]
+  triple device_{};         ///< the device there [m]
+  triple beside_device_{};  ///< what friction holds the ball back by [m]
   int count_ = 0;
   double reach_ = 0.0;  ///< how far the half-spaces count [m]
   std::array<half_space_of, most_planes> planes_{};

@@ -5,6 +5,7 @@
 //     ph::mesh::surface organ(triangles, nodes);     // any thread, once
 //     if (!organ.update(nodes)) log(organ.fault());  // slow thread, whenever the nodes have moved
 //     organ.update(pose);                            // slow thread, where the whole of it has moved
+//     ph::mesh::surface knee(triangles, nodes, {.materials = {bone, skin}, .of = of_triangle});
 //
 // The slow thread copies the nodes and fits the tree's boxes; each finger takes what is newest when it has come to
 // what it took before, and nobody waits (news.hpp). Sides do not matter: a surface may be open, inside out, cross
@@ -12,6 +13,7 @@
 // the last good one stays.
 
 #include <passive_haptics/mesh/box_tree.hpp>
+#include <passive_haptics/mesh/material.hpp>
 #include <passive_haptics/mesh/news.hpp>
 #include <passive_haptics/mesh/pose.hpp>
 
@@ -20,6 +22,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -36,6 +39,37 @@ namespace mesh {
 
 /// The numbers of three nodes.
 using triangle = std::array<int, 3>;
+
+/// What the triangles are made of, for the life of a mesh. Without it a mesh is of one material, that who touches it states.
+struct made_of {
+  std::vector<material> materials;  ///< at most 256
+  std::vector<std::uint8_t> of;     ///< the number of each triangle's
+
+  /// What is wrong with it for a mesh of so many triangles and what to do, or an empty text.
+  [[nodiscard]] std::string check(std::size_t triangles) const {
+    if (materials.empty() && of.empty()) return {};
+    if (materials.empty() || materials.size() > 256) {
+      return "mesh: " + std::to_string(materials.size()) + " materials; give 1 to 256";
+    }
+    if (of.size() != triangles) {
+      return "mesh: materials for " + std::to_string(of.size()) + " of " +
+             std::to_string(triangles) + " triangles; give a number for each";
+    }
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      if (const auto fault = materials[i].check()) {
+        return "mesh: of material " + std::to_string(i) + " the " + fault.parameter + " is " +
+               std::to_string(fault.value) + "; give one that is " + fault.remedy;
+      }
+    }
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      if (of[i] >= materials.size()) {
+        return "mesh: triangle " + std::to_string(i) + " is of material " + std::to_string(of[i]) +
+               " of " + std::to_string(materials.size()) + "; count materials from 0";
+      }
+    }
+    return {};
+  }
+};
 
 /// The nodes at one time, and the boxes around them.
 struct shape {
@@ -57,11 +91,18 @@ template <class Nodes>
 
 /// What a surface and those who touch it share.
 struct world {
-  world(std::vector<std::array<int, 3>> t, box_tree around)
-      : triangles(std::move(t)), tree(std::move(around)) {}
+  world(std::vector<std::array<int, 3>> t, box_tree around, made_of given)
+      : triangles(std::move(t)), tree(std::move(around)), stuff(std::move(given)) {}
+
+  /// What a triangle is made of; null where the mesh does not say.
+  [[nodiscard]] const material* made(int i) const noexcept {
+    if (stuff.of.empty()) return nullptr;
+    return &stuff.materials[stuff.of[static_cast<std::size_t>(i)]];
+  }
 
   std::vector<std::array<int, 3>> triangles;
   box_tree tree;
+  made_of stuff;
   news<shape> shapes;
   news<pose> poses;
 
@@ -113,11 +154,11 @@ class surface {
     return {};
   }
 
-  /// The mesh must pass check(): throws its sentence as std::invalid_argument. It is moved by no one: a port
-  /// holds its address.
+  /// The mesh must pass check(), and so must what it is made of: throws the sentence as std::invalid_argument. It is moved
+  /// by no one: a port holds its address.
   template <class Nodes>
-  surface(std::vector<triangle> triangles, const Nodes& nodes)
-      : world_(made(believed(std::move(triangles), nodes), nodes)), count_(nodes.size()) {
+  surface(std::vector<triangle> triangles, const Nodes& nodes, made_of stuff = {})
+      : world_(made(std::move(triangles), nodes, std::move(stuff))), count_(nodes.size()) {
     fill(world_->shapes.blank(), nodes);
     world_->shapes.publish();
   }
@@ -271,18 +312,14 @@ class surface {
     }
     return {};
   }
-  template <class Nodes>
-  [[nodiscard]] static std::vector<triangle> believed(std::vector<triangle> triangles,
-                                                      const Nodes& nodes) {
-    if (const std::string fault = check(triangles, nodes); !fault.empty()) {
+  static void believe(const std::string& fault) {
+    if (fault.empty()) return;
 #if defined(__cpp_exceptions)
-      throw std::invalid_argument(fault);
+    throw std::invalid_argument(fault);
 #else
-      std::fprintf(stderr, "passive_haptics, mesh: %s\n", fault.c_str());
-      std::abort();
+    std::fprintf(stderr, "passive_haptics, mesh: %s\n", fault.c_str());
+    std::abort();
 #endif
-    }
-    return triangles;
   }
   template <class Nodes>
   [[nodiscard]] static std::vector<triple> centres(std::span<const triangle> triangles,
@@ -296,10 +333,11 @@ class surface {
   }
   template <class Nodes>
   [[nodiscard]] static std::unique_ptr<detail::world> made(std::vector<triangle> triangles,
-                                                           const Nodes& nodes) {
+                                                           const Nodes& nodes, made_of stuff) {
+    believe(check(triangles, nodes));
+    believe(stuff.check(triangles.size()));
     box_tree tree(centres(triangles, nodes));
-    auto w = std::make_unique<detail::world>(std::move(triangles), std::move(tree));
-    return w;
+    return std::make_unique<detail::world>(std::move(triangles), std::move(tree), std::move(stuff));
   }
   template <class Nodes>
   void fill(shape& s, const Nodes& nodes) const {
