@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # How doxygen sees a header: the comment that follows `#pragma once` is the page of the file, set as it
-# stands, for it may hold a menu or a drawing; and the inline namespace is left out, which would be
-# part of every name.
+# stands, for it may hold a menu or a drawing; the inline namespace is left out, which would be part of
+# every name; and an alias that has no comment gets one, since doxygen leaves out what has none.
 /^inline namespace v[0-9]+ \{$/ || /^}  \/\/ namespace v[0-9]+$/ { $0 = "" }
 # A template argument that is left out is no tag of HTML.
 /^ *\/\/\/.*<…>/ { gsub(/<…>/, "\\<…\\>") }
@@ -24,4 +24,14 @@ opening == "due" {
   }
 }
 /^#pragma once/ { opening = "due" }
+/^ *\/\/\// { said = 1 }
+/^using [a-z_]+ =/ && !said { alias = $0 }
+/;$|^}/ { said = 0 }
+alias != "" && /;$/ {
+  sub(/^using [a-z_]+ = */, "", alias)
+  sub(/;$/, "", alias)
+  gsub(/[<>@\\#&]|::/, "\\\\&", alias)
+  $0 = $0 "  ///< Short for " (alias == "" ? "what stands there" : alias) "."
+  alias = ""
+}
 { print }

@@ -25,6 +25,10 @@ GUIDE = [
 ]
 TITLES = {"README.md": "passive_haptics"}
 LANGUAGES = {".cpp": "cpp", ".hpp": "cpp", ".h": "c", ".c": "c", ".py": "py", ".cs": "cs"}
+# Doxygen shows nothing of a namespace that has no comment, its functions and aliases included.
+NAMES = """/** @namespace passive_haptics
+@brief All of the library; simulation, identification, design and others have a namespace inside. */
+"""
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)")
 FENCE = re.compile(r"^\s*(```|~~~)")
 
@@ -270,6 +274,7 @@ def main():
     def menu(label, title, text, entries):
         write(label, f"# {title} {{#{label}}}\n\n{text}\n\n" + "".join(f"- @subpage {e}\n" for e in entries))
 
+    (given.pages / "names.dox").write_text(NAMES, "utf-8")
     write("index", site.page("README.md"))
     for path, label in guide:
         text = site.page(path)

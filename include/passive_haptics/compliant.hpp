@@ -61,6 +61,7 @@ template <class Device, class Transmission>
   return d;
 }
 
+/// A transmission that has a bound for a device and a hand.
 template <class T>
 concept stated_transmission = requires(const T& t, const exact_device& d, const known_hand& hand) {
   bound_of<0>(d, t, hand);
