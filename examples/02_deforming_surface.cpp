@@ -25,7 +25,7 @@ ph::half_space<scene> world(double t) {
 
 int main() {
   const double mass = 0.1, damping = 0.5, dt = 1e-3;  // of the device, kg and N·s/m; s
-  // By hand: every part in its place, in the order of the table in README.
+  // By hand: every part in its place, in the order of the table in docs/parts.md.
   ph::local_model touch{scene{},
                         ph::followed<ph::half_space<scene>>{},
                         ph::turn_limited{.rate = 2.0},  // rad/s

@@ -14,9 +14,12 @@ import re
 import shutil
 import sys
 
-# In the order of the menu: file, label, and where it belongs.
+# In the order of the menu: file and label.
+TASKS = ["buzz", "encoders", "force", "knob", "six_dof", "surfaces", "late", "numbers", "c_sharp"]
 GUIDE = [
     ("docs/tutorial.md", "tutorial"),
+    ("docs/loop.md", "loop"),
+    ("docs/parts.md", "parts"),
     ("examples/README.md", "examples"),
     ("docs/guarantees.md", "guarantees"),
     ("docs/errors.md", "errors"),
@@ -136,6 +139,9 @@ class Site:
             if fenced:
                 lines.append(line)
                 continue
+            finds = re.match(r"<!-- finds: (.*) -->$", line)
+            if finds:  # search.py reads it there
+                lines.append(f'@htmlonly[block]\n<p class="finds" hidden>{html.escape(finds[1])}</p>\n@endhtmlonly\n')
             if re.match(r"<!--.*-->$", line):
                 continue
             heading = re.match(r"(#{1,6}) +(.*)", line)
@@ -256,7 +262,10 @@ def main():
     design = [(p.relative_to(root).as_posix(), "design_" + p.stem)
               for p in sorted((root / "docs" / "design").glob("*.md"))]
     project = [("CHANGELOG.md", "changelog"), ("CONTRIBUTING.md", "contributing"), ("SECURITY.md", "security")]
-    for path, label in [("README.md", "index"), *guide, *practice, *design, *project]:
+    tasks = [(f"docs/tasks/{name}.md", f"task_{name}") for name in TASKS]
+    forgotten = {p.relative_to(root).as_posix() for p in (root / "docs" / "tasks").glob("*.md")} - {t[0] for t in tasks}
+    site.problems += [f"{path}: stands in no menu" for path in sorted(forgotten)]
+    for path, label in [("README.md", "index"), *tasks, *guide, *practice, *design, *project]:
         site.add(path, label)
     examples = [p for p in sorted((root / "examples").rglob("*.cpp"))
                 if p.parent == root / "examples" or p.parent.name == "tutorial"]
@@ -276,6 +285,10 @@ def main():
 
     (given.pages / "names.dox").write_text(NAMES, "utf-8")
     write("index", site.page("README.md"))
+    menu("tasks", "What do you have?", "A page each: what to compose, the whole program, which numbers, and what to read next.",
+         [label for _, label in tasks])
+    for path, label in tasks:
+        write(label, site.page(path))
     for path, label in guide:
         text = site.page(path)
         if label == "examples":

@@ -101,6 +101,55 @@ TEST_CASE("the code of every page stands in the file that it names", "[documenta
   CHECK(compared > 12);
 }
 
+namespace {
+/// The words of a page, outside of its blocks of code and its comments.
+std::size_t prose(const std::string& page) {
+  std::istringstream lines(page);
+  std::size_t count = 0;
+  bool fenced = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("```", 0) == 0)
+      fenced = !fenced;
+    else if (!fenced && line.rfind("<!--", 0) != 0)
+      count += words(line).size();
+  }
+  return count;
+}
+/// Of a page, how many blocks are a program from its first line of code to its last.
+std::size_t whole_programs(const std::filesystem::path& page) {
+  std::size_t count = 0;
+  for (const auto& b : blocks("from", page)) {
+    const std::string file = text_of(root / b.source);
+    const auto at = file.find(b.text);
+    if (at == std::string::npos || at + b.text.size() != file.size()) continue;
+    std::istringstream before(file.substr(0, at));
+    bool comments = true;
+    for (std::string line; std::getline(before, line);)
+      comments = comments && (line.empty() || line.rfind("//", 0) == 0);
+    if (comments && b.text.find("ain(") != std::string::npos) ++count;
+  }
+  return count;
+}
+}  // namespace
+
+TEST_CASE("a task is a whole program and a few words, and README is 1500", "[documentation]") {
+  std::size_t tasks = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(root / "docs" / "tasks")) {
+    INFO(entry.path());
+    const std::string page = text_of(entry.path());
+    CHECK(whole_programs(entry.path()) == 1);
+    CHECK(prose(page) <= 270);  // with some 25 lines of code: one screen
+    CHECK(std::count(page.begin(), page.end(), '\n') <= 65);
+    CHECK(page.find("numbers") != std::string::npos);
+    CHECK(page.find("**Next**") != std::string::npos);
+    ++tasks;
+  }
+  CHECK(tasks >= 7);
+  CHECK(words(text_of(root / "README.md")).size() <= 1500);  // code and tables included
+  CHECK(whole_programs(root / "docs" / "loop.md") == 0);     // the controls: pieces only, and long
+  CHECK(prose(text_of(root / "docs" / "loop.md")) > 270);
+}
+
 TEST_CASE("the page of events has a row for each, with its number", "[documentation]") {
   const auto rows = [](const std::string& page) {
     std::istringstream lines(page.substr(page.find("<!-- events -->")));
