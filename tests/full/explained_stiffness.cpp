@@ -201,6 +201,42 @@ TEST_CASE("the reason is true: raise what it names, and more is shown", "[door]"
   each(guarded{});
 }
 
+// A device that rests within a step of an edge reads either side of it, and a law of a depth answers.
+TEST_CASE("explain() says the floor K q under which nothing is quiet on encoders", "[door][quiet]") {
+  const ph::exact_device exact{
+      .mass = 0.1, .damping = 0.1, .force_limit = 9.0, .longest_tick = 1e-3};
+  for (const double q : {10e-6, 60e-6}) {
+    const ph::encoder_device steps{.mass = 0.1,
+                                   .damping = 0.5,
+                                   .friction = 0.15,
+                                   .presliding = 1e-5,
+                                   .quantum = q,
+                                   .force_limit = 9.0,
+                                   .longest_tick = 1e-3};
+    for (const double K : {400.0, 800.0, 30e3}) {
+      CAPTURE(q, K);
+      auto port = touched::of(steps, K);
+      (void)touched::tick(port, 1e-3, 1e-3, K);
+      CHECK_THAT(port.explain().floor, WithinRel(port.explain().shown * q, 1e-9));
+      CHECK_THAT(port.explain().floor, WithinRel(port.force_step(K), 1e-9));
+      const double at = -40 * q;  // two positions that are a step apart
+      double rested[2]{};
+      for (int side = 0; side < 2; ++side) {
+        auto pressed = port;
+        for (int n = 0; n < 4000; ++n) {
+          const double x = n < 2000 ? 1e-3 + (at - 1e-3) * n / 2000.0 : at - side * q;
+          rested[side] = touched::tick(pressed, x, 1e-3, K).force;
+        }
+      }
+      CHECK_THAT(rested[1] - rested[0], WithinRel(port.explain().floor, 0.05));
+    }
+  }
+  auto port = touched::of(exact, 800.0);
+  (void)touched::tick(port, 1e-3, 1e-3, 800.0);
+  CHECK(port.explain().shown > 0.0);
+  CHECK(port.explain().floor == 0.0);  // the control: exact positions have none
+}
+
 // Before it was asked how sure a slope is, these were felt at 0.05 to 0.4 of what was given, for good. Now and then
 // noise still looks like a spring, and a second later no more.
 TEST_CASE("noise on a renderer's force hardly softens it", "[door][settled_force]") {

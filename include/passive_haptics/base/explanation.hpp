@@ -4,6 +4,7 @@
 //
 //     const ph::explanation e = touch.explain();           // not in every tick: it looks anew
 //     std::printf("%.0f of %.0f N/m: %s\n", e.shown, e.asked, e.because());
+//     std::printf("steps by up to %.3f N at rest\n", e.floor);        // no law of a depth is quieter
 //
 // Shown is K_s of the law (sampled_spring.hpp), the budget (design/stiffness_budget.hpp), or 2b/T (strict_bound).
 
@@ -44,6 +45,7 @@ enum class softened_by : std::uint8_t {
 struct explanation {
   double asked{};  ///< K of the world's surface [N/m]; ∞ of a force of your own: nobody knows it
   double shown{};  ///< what is felt of it, at rest, as long as the motors hold it [N/m]
+  double floor{};  ///< K q [N]: on encoders the force at rest may step by that a tick; 0: exact positions
   softened_by stiffness = softened_by::nothing;  ///< why `shown` is less than `asked`
   double
       depth{};  ///< of the device in the world's surface, as the port takes it to be [m]; 0 outside

@@ -233,6 +233,7 @@ class passive_port {
     e.force = static_cast<double>(detail::force_in<P>(guard_.commanded().front()));
     source_.explain(e, where(), limits_.longest_tick, latency);
     detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
+    if constexpr (!Observer::exact) e.floor = e.shown * static_cast<double>(travel_error());
     const bool as_stiff = e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth;
     if (is_cut_ ? e.now == softened_by::nothing : as_stiff) {
       e.now = is_cut_ ? softened_by::ledger : softened_by::nothing;
