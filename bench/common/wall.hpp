@@ -9,11 +9,11 @@
 // docs/design/mathematics.md § 5 has the definitions: peak to peak after 2 s; settled within 0.5 mm
 // of the final mean, the last 2 s calmer than 1 mm; minimum of the TRUE port energy.
 
+#include "quiet.hpp"
 #include "report.hpp"
 #include "spring_wall.hpp"
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
-#include <passive_haptics/simulation/quiet.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
 #include <algorithm>
@@ -51,25 +51,8 @@ struct wall_result {
   double force_error = 0;        ///< mean |f − K d| in contact [N]
   double quiet = std::nan("");   ///< from then on (simulation/quiet.hpp) [s]; none: not in time
   sim::quiet_bar missed{};       ///< by the last window that was not
+  at_rest still{};               ///< the same in columns, with the stiffness of the last second
 };
-
-/// The time by which a device has to be quiet [s]. A run goes on for longer, because a hop is quiet in the air.
-inline constexpr double quiet_in = 5.0;
-
-/// The time since which it is quiet [s]; NaN if it is not quiet in time.
-inline double quiet_in_time(const sim::quiet_judge<line>& judge) {
-  return judge.since() <= quiet_in ? judge.since() : std::nan("");
-}
-/// "0.40 s", or the bar that was missed last.
-inline std::string quiet_since(double since, sim::quiet_bar missed) {
-  return std::isfinite(since) ? format("%.2f s", since)
-                              : "no: " + std::string(sim::to_string(missed));
-}
-/// The bars for a wall of stiffness K [N/m] on a device with encoders of step `quantum` [m].
-inline sim::quiet_bars quiet_on(double K, double quantum, double mass) {
-  const double most = 0.1 * mass / 1e-6;  // of κ m/T², the stiffest that is sampled
-  return sim::quiet_bars{}.on_encoders(quantum, std::min(K, most), mass);
-}
 
 inline wall_result judge(const std::vector<double>& x, double period) {
   const auto swing = [&x](std::size_t from) {
@@ -129,8 +112,10 @@ wall_result drop(auto model, Device device, const wall_scene& scene, std::uint64
   int in_contact = 0;
   sim::quiet_judge<line> judge_of_quiet(quiet_on(scene.stiffness, scene.quantum, scene.mass));
   constexpr std::array<double, 1> normal{-1.0};
+  held_stiffness held;
   const auto note = [&](const auto& now, double surface) {
     const bool touches = now.position > surface;
+    if (now.tick >= 9000) held.add(-now.force, now.position - surface);
     judge_of_quiet.add(now.force, device.velocity(), 1e-3,
                        std::span(normal).first(touches ? 1 : 0));
     if (touches) {
@@ -150,6 +135,7 @@ wall_result drop(auto model, Device device, const wall_scene& scene, std::uint64
   result.ledger = model.energy();
   result.quiet = quiet_in_time(judge_of_quiet);
   result.missed = judge_of_quiet.missed();
+  result.still.add(judge_of_quiet, {scene.stiffness, held.shown()});
   result.force_error = in_contact > 0 ? error / in_contact : 0.0;
   return result;
 }

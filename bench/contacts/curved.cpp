@@ -2,7 +2,7 @@
 // A finger that strokes a ball of 50 mm at 45 mm/s, 1 to 3 mm deep, while what it touches is published 30
 // times a second; and the work that closed loops draw out of a surface.
 #include "ball.hpp"
-#include "program.hpp"
+#include "quiet.hpp"
 #include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/force_bound/actuator_limit.hpp>
 
@@ -13,11 +13,13 @@ namespace {
 struct stroke_row {
   std::string surface;
   curved::feel feel{};
+  ex::at_rest still{};  ///< in a hand that has stopped
 };
 ex::record record_of(const stroke_row& r) {
-  return {{"surface", r.surface},
-          {"largest_step_N", r.feel.largest_step, "%.5f"},
-          {"mean_error_N", r.feel.mean_error, "%.5f"}};
+  return ex::with({{"surface", r.surface},
+                   {"largest_step_N", r.feel.largest_step, "%.5f"},
+                   {"mean_error_N", r.feel.mean_error, "%.5f"}},
+                  r.still);
 }
 struct loop_row {
   std::string surface;
@@ -39,12 +41,22 @@ stroke_row stroke_of(const std::string& name, const auto& published, int every, 
   port.source().update(0, published(start));
   for (int i = 100; i > 0; --i)
     static_cast<void>(port.tick(start * (1.0 + 0.001 * i), ph::seconds{T}));
-  return {name, curved::stroked(
-                    [&](int i, const vector& x) -> vector {
-                      if (i % every == 0) port.source().update(0, published(x));
-                      return port.tick(x, ph::seconds{T}).force;
-                    },
-                    ticks)};
+  vector end = start;
+  stroke_row row{name, curved::stroked(
+                           [&](int i, const vector& x) -> vector {
+                             if (i % every == 0) port.source().update(0, published(x));
+                             end = x;
+                             return port.tick(x, ph::seconds{T}).force;
+                           },
+                           ticks)};
+  held_point::parameters p{.damping = damping, .hand = still_hands[1]};
+  p.start = end;
+  p.goal = end - 5e-3 * end.normalized();
+  add_held(row.still, port, 1, p, [&](int tick, const vector& x) {
+    if (tick % every == 0) port.source().update(0, published(x));
+    return false;
+  });
+  return row;
 }
 
 /// The plane through the nearest point of a ball cut into triangles.
@@ -104,7 +116,10 @@ std::vector<std::string> run_curved(const session& s) {
       "Curved surfaces: stroked",
       "A finger strokes a ball of 50 mm and 500 N/m at 45 mm/s, 1 to 3 mm deep; what it "
       "touches is published every 33 ms. The largest step of the force in a tick, and the "
-      "mean error against the ball. Snapped: the nearest of 320 triangles in every tick.");
+      "mean error against the ball. Snapped: the nearest of 320 triangles in every tick, which "
+      "only the path is played to. Then a relaxed hand (100 N/m, 1 N·s/m) holds 0.1 kg there while "
+      "the surface goes on being published." +
+          std::string(ex::quiet_columns));
   const int ticks = s.chosen.quick ? 3000 : 20000;
   const auto tangent = [](const vector& x) {
     return plane{vector(x.normalized() * curved::radius), x, curved::stiffness};
@@ -125,14 +140,16 @@ std::vector<std::string> run_curved(const session& s) {
                            const vector n = flat.normal;
                            return vector(n * (curved::stiffness * std::max(0.0, flat.at(x).depth)));
                          },
-                         ticks)});
+                         ticks),
+                     {}});
   ex::show_rows(s.out, "stroke", strokes);
 
   plot_stroke(s, mesh);
   s.out.section(
       "Curved surfaces: loops",
       "The largest work that a closed loop of 10 by 2 mm, 1 to 3 mm under the surface, draws "
-      "out of K d push(), the gradient of the depth; and out of K d along the normal.");
+      "out of K d push(), the gradient of the depth; and out of K d along the normal. Quiet is "
+      "not judged here, because a loop is a path without a device or a hand that could rest.");
   const auto quadric = [] {
     auto q = curved::osculating<d3>(vector(0.0, 0.0, 1.0));
     static_cast<void>(q.prepare());

@@ -192,9 +192,6 @@ auto port_in(const point_scene& s, const auto& limits) {
 /// Presses a copy of a port 1 µm deeper along its resting force.
 template <class Port>
 void probe(quiet_run& run, Port port, const point_scene& s, const vector& x) {
-  vector f = vector::Zero();
-  for (int i = 0; i < 9; ++i) f = port.tick(x, ph::seconds{T}).force;
-  const vector push = f.normalized();
   asked_stiffness asked;
   for (int i = 0; i < static_cast<int>(s.walls.size()); ++i) {
     const auto& slot = port.source().slot(i);
@@ -202,41 +199,15 @@ void probe(quiet_run& run, Port port, const point_scene& s, const vector& x) {
     asked.add(slot.pressed(), slot.target().stiffness, most);
   }
   asked.tell(run);
-  vector deeper = f;
-  for (int i = 0; i < 9; ++i) deeper = port.tick(vector(x - probe_by * push), ph::seconds{T}).force;
-  run.shown = push.dot(deeper - f) / probe_by;
+  run.shown = ex::shown_by(
+      [&](const vector& at) -> vector { return port.tick(at, ph::seconds{T}).force; }, x);
 }
 
 template <int Late, class Port>
 quiet_run run_of(Port port, const point_scene& s) {
-  held_point device(s.device);
-  sim::quiet_judge<d3> judge;
-  quiet_run run;
-  std::array<vector, std::size_t{Late} + 1> due{};  // commands on their way, the newest last
-  due.fill(vector::Zero());
-  std::array<vector, room> pressing;
-  int until = static_cast<int>(watched / T);
-  for (int tick = 0; tick < until; ++tick) {
-    due.back() = port.tick(device.position(), ph::seconds{T}).force;
-    std::size_t presses = 0;
-    for (int i = 0; i < static_cast<int>(s.walls.size()); ++i) {
-      const auto& slot = port.source().slot(i);
-      if (slot.pressed() > 0.0) pressing[presses++] = slot.normal();
-    }
-    judge.add(due.back(), device.velocity(), T, std::span(pressing).first(presses));
-    device.step(due.front());
-    std::rotate(due.begin(), due.begin() + 1, due.end());
-    if (presses > 0) run.touched = tick * T;
-    until = ticks_of(until, tick, judge);
-    run.seconds = (tick + 1) * T;
-    if (!(device.position().norm() < 0.5)) {
-      run.gone = true;
-      break;
-    }
-  }
-  run.end(judge, device.velocity().norm());
-  run.least_energy = device.meter().minimum();
-  if (run.counts() && judge.quiet()) probe(run, port, s, device.position());
+  vector end;
+  quiet_run run = held_still<Late>(port, static_cast<int>(s.walls.size()), s.device, no_news, &end);
+  if (run.counts() && std::isfinite(run.settling)) probe(run, port, s, end);
   return run;
 }
 

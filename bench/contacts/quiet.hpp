@@ -4,9 +4,10 @@
 //
 // A device has to be quiet (simulation/quiet.hpp) from `in_time` after the last news, on.
 
+#include "../common/quiet.hpp"
 #include "program.hpp"
 #include <passive_haptics/base/samples.hpp>
-#include <passive_haptics/simulation/quiet.hpp>
+#include <passive_haptics/device/rigid_body.hpp>
 
 #include <array>
 #include <numeric>
@@ -14,11 +15,9 @@
 
 namespace contacts {
 
-inline constexpr double in_time = 5.0;           // t_s [s]
-inline constexpr double watched = 6.0;           // length of a run after the news [s]
-inline constexpr double watched_longest = 30.0;  // the same where it is not quiet in time [s]
-inline constexpr double probe_by =
-    1e-6;  // how far a resting contact is pressed for its stiffness [m]
+inline constexpr double in_time = ex::quiet_in;       // t_s [s]
+inline constexpr double watched = ex::quiet_watched;  // length of a run after the news [s]
+inline constexpr double watched_longest = 30.0;       // the same where it is not quiet in time [s]
 
 /// A hand that holds still: a spring to its position, and a damper. With both zero only the load is left.
 struct still_hand {
@@ -150,6 +149,85 @@ class asked_stiffness {
  private:
   double total_ = 0.0, asked_ = 0.0, can_be_ = 0.0;
 };
+
+/// Holds a device in a still hand until it is quiet after the last news; world(tick, x) publishes to the port before each
+/// tick, and returns true if that is news. `Late` ticks pass before a command is held.
+template <int Late = 0>
+[[nodiscard]] quiet_run held_still(auto& port, int slots, const held_point::parameters& p,
+                                   const auto& world, vector* end = nullptr) {
+  held_point device(p);
+  sim::quiet_judge<d3> judge;
+  quiet_run run;
+  std::array<vector, std::size_t{Late} + 1> due{};  // commands on their way, the newest last
+  due.fill(vector::Zero());
+  std::vector<vector> room;
+  int until = static_cast<int>(watched / T);
+  for (int tick = 0; tick < until; ++tick) {
+    if (world(tick, device.position())) {
+      judge.news();
+      until = tick + static_cast<int>(watched / T);
+    }
+    due.back() = port.tick(device.position(), ph::seconds{T}).force;
+    const auto normals = ex::pressing(port.source(), slots, room);
+    judge.add(due.back(), device.velocity(), T, normals);
+    device.step(due.front());
+    std::rotate(due.begin(), due.begin() + 1, due.end());
+    if (!normals.empty()) run.touched = tick * T;
+    until = ticks_of(until, tick, judge);
+    run.seconds = (tick + 1) * T;
+    if (!(device.position().norm() < 0.5)) {
+      run.gone = true;
+      break;
+    }
+  }
+  run.end(judge, device.velocity().norm());
+  run.least_energy = device.meter().minimum();
+  if (end != nullptr) *end = device.position();
+  return run;
+}
+inline constexpr auto no_news = [](int /*tick*/, const vector& /*x*/) { return false; };
+
+/// The stiffness asked for and shown by what presses at rest [N/m], of a copy of its port, at x.
+[[nodiscard]] ex::rest_stiffness stiffness_at_rest(auto port, int slots, const vector& x) {
+  asked_stiffness asked;
+  for (int i = 0; i < slots; ++i) {
+    const auto& slot = port.source().slot(i);
+    asked.add(slot.pressed(), slot.target().stiffness, 0.0);
+  }
+  quiet_run told;
+  asked.tell(told);
+  const auto force = [&](const vector& at) -> vector {
+    return port.tick(at, ph::seconds{T}).force;
+  };
+  return {told.asked, ex::shown_by(force, x)};
+}
+
+/// Adds to a row's columns how a copy of the port comes to rest in that hand. What slides away, or does not press in the
+/// last second, is left out.
+template <int Late = 0>
+void add_held(ex::at_rest& row, auto port, int slots, const held_point::parameters& p,
+              const auto& world) {
+  vector end;
+  const quiet_run run = held_still<Late>(port, slots, p, world, &end);
+  if (!run.counts()) return;
+  row.add(run.settling, run.missed, run.last,
+          run.settling <= in_time ? stiffness_at_rest(port, slots, end) : ex::rest_stiffness{});
+}
+
+/// The points of a tool that press, at that orientation, as rows (n, r × n).
+template <class Body>
+[[nodiscard]] std::span<const typename Body::vector> pressing_rows(
+    const auto& source, int count, const auto& orientation,
+    std::vector<typename Body::vector>& room) {
+  room.clear();
+  for (int i = 0; i < count; ++i) {
+    const auto& slot = source.slot(i);
+    if (!(slot.pressed() > 0.0)) continue;
+    const vector arm = ph::rotation::rotate<double>(orientation, slot.point);
+    room.push_back(Body::join(slot.normal(), d3::cross(arm, slot.normal())));
+  }
+  return room;
+}
 
 /// The result of many scenes of one kind.
 struct quiet_row {

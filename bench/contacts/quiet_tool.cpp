@@ -119,19 +119,13 @@ quiet_run run_of(const tool_scene& scene, const drawn_tool& tool, const grip& he
   bars.lever = scene.lever;
   sim::quiet_judge<body> judge(bars);
   quiet_run run;
-  std::vector<body::vector> pressing;
+  std::vector<body::vector> room;
   body::effort command = body::zero();
   int until = static_cast<int>(watched / T);
   for (int tick = 0; tick < until; ++tick) {
     command = port.tick(device.at(), ph::seconds{T}).force;
-    pressing.clear();
-    for (int i = 0; i < slots; ++i) {
-      const auto& slot = port.source().slot(i);
-      if (!(slot.pressed() > 0.0)) continue;
-      const vector arm = ph::rotation::rotate<double>(device.at().orientation, slot.point);
-      pressing.push_back(body::join(slot.normal(), d3::cross(arm, slot.normal())));
-    }
-    judge.add(command, body::join(device.velocity(), device.rate()), T, pressing);
+    const auto rows = pressing_rows<body>(port.source(), slots, device.at().orientation, room);
+    judge.add(command, body::join(device.velocity(), device.rate()), T, rows);
     for (int i = 0; i < 4; ++i) {
       const auto off = body::between({goal, {}}, device.at());
       const auto& hand = held.hand;
@@ -142,7 +136,7 @@ quiet_run run_of(const tool_scene& scene, const drawn_tool& tool, const grip& he
       static_cast<void>(device.exchange(command));
       run.least_energy = std::min(run.least_energy, device.energy());
     }
-    if (!pressing.empty()) run.touched = tick * T;
+    if (!rows.empty()) run.touched = tick * T;
     until = ticks_of(until, tick, judge);
     run.seconds = (tick + 1) * T;
     if (!(vector(device.at().position).norm() < 0.4)) {
@@ -154,12 +148,6 @@ quiet_run run_of(const tool_scene& scene, const drawn_tool& tool, const grip& he
   run.loss_allowed += std::abs(device.residual());
   if (!run.counts() || !judge.quiet()) return run;
   auto at = device.at();
-  const auto pressed = [&] {
-    body::effort f = body::zero();
-    for (int i = 0; i < 9; ++i) f = port.tick(at, ph::seconds{T}).force;
-    return vector(body::linear(f));
-  };
-  const vector f = pressed(), push = f.normalized();
   asked_stiffness asked;
   for (int i = 0; i < slots; ++i) {
     const auto& slot = port.source().slot(i);
@@ -167,8 +155,12 @@ quiet_run run_of(const tool_scene& scene, const drawn_tool& tool, const grip& he
     asked.add(slot.pressed(), slot.target().stiffness, can_be);
   }
   asked.tell(run);
-  at.position = vector(vector(at.position) - probe_by * push);
-  run.shown = push.dot(pressed() - f) / probe_by;
+  run.shown = ex::shown_by(
+      [&](const vector& where) -> vector {
+        at.position = where;
+        return body::linear(port.tick(at, ph::seconds{T}).force);
+      },
+      vector(at.position));
   return run;
 }
 

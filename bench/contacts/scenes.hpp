@@ -102,18 +102,18 @@ struct settled {
   double least_energy = 0.0;  ///< at the port [J]
 };
 
-/// Runs a device for so long and says how it came to rest.
+/// Runs a device for so long and says how it came to rest; watch(now) is called in each tick.
 template <class Device, class Port>
-settled settle(Device& device, Port& port, double seconds) {
+settled settle(Device& device, Port& port, double seconds, const auto& watch) {
   std::vector<vector> track;
   const int ticks = static_cast<int>(seconds / T);
   track.reserve(static_cast<std::size_t>(ticks));
   settled result;
-  result.least_energy =
-      sim::run(device, port, ticks, sim::idle, sim::idle, [&](const auto& /*now*/) {
-        track.push_back(device.position());
-        return device.position().norm() < 1.0;
-      }).least_energy;
+  result.least_energy = sim::run(device, port, ticks, sim::idle, sim::idle, [&](const auto& now) {
+                          watch(now);
+                          track.push_back(device.position());
+                          return device.position().norm() < 1.0;
+                        }).least_energy;
   if (track.size() < static_cast<std::size_t>(ticks)) return {seconds, 1.0, result.least_energy};
   const std::size_t last = static_cast<std::size_t>(2.0 / T);
   vector end = vector::Zero();

@@ -150,7 +150,8 @@ std::vector<std::string> run_adversaries(const session& s) {
                     "means that not one lost anything. In brackets: outside what the tag covers. A "
                     "covered cell below -1e-12 J fails the run; a conditional controller must lose "
                     "in some bracket, and so must one without a guarantee. adversaries.csv has "
-                    "every dimension and the seed of each worst run.");
+                    "every dimension and the seed of each worst run. Quiet is not judged here, "
+                    "because no adversary holds still: the walls above have it.");
   s.out.show(worst_of(s.judged, list, rows));
   s.out.member("adversaries", ex::json_of(rows));
   const auto found = contradictions(rows);

@@ -374,7 +374,8 @@ std::vector<std::string> run_assumptions(const session& s) {
                 "tapping and trembling, limited in force, and a search for the worst push; of the "
                 "strict one: the ten adversaries that keep to the longest tick, a search for the "
                 "worst motion, and one that is pushed out by less than it has pressed against. A "
-                "kept cell above 1e-12 J fails the run, and so does a violated one below 1e-9 J.");
+                "kept cell above 1e-12 J fails the run, and so does a violated one below 1e-9 J. "
+                "Quiet is not judged here, because none of these hands holds still.");
   s.out.show(ex::table_of(rows, [](const assumption_row& r) {
     auto line = record_of(r);
     line.pop_back();

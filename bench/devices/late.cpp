@@ -190,12 +190,14 @@ late_row on_encoders(const std::string& name, bool promised, const auto& ledger,
 }  // namespace
 
 ex::failures run_late(const session& s) {
-  s.out.section("A force that changes between two samples",
-                "Exact positions: any motion and any force that collude, climbed, with 1 µJ lent "
-                "to begin with. Encoders of 20 µm with elastic friction, "
-                "15 µm, 0.1 kg: hands of 5 N and forces of 9 N; covered there are the ½ c p that "
-                "friction may store. Controls "
-                "are told another fraction or time constant than there is.");
+  s.out.section(
+      "A force that changes between two samples",
+      "Exact positions: any motion and any force that collude, climbed, with 1 µJ lent "
+      "to begin with. Encoders of 20 µm with elastic friction, "
+      "15 µm, 0.1 kg: hands of 5 N and forces of 9 N; covered there are the ½ c p that "
+      "friction may store. Controls "
+      "are told another fraction or time constant than there is. Quiet is not judged "
+      "here, because force and motion are drawn anew in every tick, and no contact rests.");
   struct job {
     int kind;
     double number;

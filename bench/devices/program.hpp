@@ -4,6 +4,7 @@
 // adds its tables to the report and returns a sentence for each promise that was broken, and for each control that
 // should have lost and did not.
 
+#include "../common/quiet.hpp"
 #include "../common/rows.hpp"
 #include "../common/sections.hpp"
 #include <passive_haptics/passive_haptics.hpp>

@@ -63,7 +63,7 @@ struct touch_row {
   double buzz = 0.0;             ///< largest swing of the device while it is held [m]
   double own_swing = 0.0;        ///< the same with an ideal spring in place of the wall [m]
   double least_energy = 0.0;     ///< at the port, friction included [J]
-  int holds = 0, quiet = 0;      ///< and those that are quiet at their end
+  ex::at_rest still{};           ///< each hold, at its end
 
   [[nodiscard]] double displayed() const { return what->displayed(m, stiffness); }
   [[nodiscard]] double share(double least) const {
@@ -81,18 +81,18 @@ struct touch_row {
 
 ex::record record_of(const touch_row& r) {
   const double budget = r.m.budget().stiffness;
-  return {{"device", std::string(r.m.preset.name)},
-          {"stiffness", r.stiffness, "%.0f"},
-          {"presliding_um", r.m.presliding * 1e6, "%.0f"},
-          {"composition", std::string(r.what == nullptr ? "" : r.what->name)},
-          {"budget", budget, "%.0f"},
-          {"share_080", r.share(0.8), "%.2f"},
-          {"median_ratio", r.median(), "%.2f"},
-          {"first_three_ratio", r.first_three, "%.2f"},
-          {"buzz_steps", r.buzz / r.m.preset.quantum, "%.1f"},
-          {"own_swing_steps", r.own_swing / r.m.preset.quantum, "%.1f"},
-          {"quiet_share", static_cast<double>(r.quiet) / std::max(1, r.holds), "%.2f"},
-          {"least_energy_J", r.least_energy}};
+  return ex::with_floor({{"device", std::string(r.m.preset.name)},
+                         {"stiffness", r.stiffness, "%.0f"},
+                         {"presliding_um", r.m.presliding * 1e6, "%.0f"},
+                         {"composition", std::string(r.what == nullptr ? "" : r.what->name)},
+                         {"budget", budget, "%.0f"},
+                         {"share_080", r.share(0.8), "%.2f"},
+                         {"median_ratio", r.median(), "%.2f"},
+                         {"first_three_ratio", r.first_three, "%.2f"},
+                         {"buzz_steps", r.buzz / r.m.preset.quantum, "%.1f"},
+                         {"own_swing_steps", r.own_swing / r.m.preset.quantum, "%.1f"},
+                         {"least_energy_J", r.least_energy}},
+                        r.still);
 }
 
 /// The touches of one session; returns the least energy at the port.
@@ -117,8 +117,8 @@ double touch(touch_row& job, int touches, std::uint64_t seed, std::vector<double
         if (legs[at].felt) {
           ratios.push_back(depth > 0.0 ? force / depth / displayed : 0.0);
           job.buzz = std::max(job.buzz, highest - lowest);
-          ++job.holds;
-          if (judge.quiet()) ++job.quiet;
+          job.still.add(judge, {job.stiffness, depth > 0.0 ? force / depth : std::nan("")});
+          job.still.on_floor(job.m.preset.quantum * displayed);
         }
         force = depth = 0.0;
         lowest = unlimited, highest = -unlimited;
@@ -244,10 +244,9 @@ std::vector<std::string> run_gentle_touch(const session& s) {
       "of the device's damping and friction stated, nothing lent. Ratio: force over true "
       "depth, over what the contact law displays; share_080: of the touches, those of 0.8 "
       "and more. Buzz: largest swing of the device in the second half of a hold; own swing: on "
-      "an ideal spring of that stiffness, seen exactly. Quiet: the share of the holds, of 0.3 to "
-      "1 s, that end so (docs/design/settling.md), by the floor of the steps under the stiffness "
-      "displayed. Least energy: at the port, what friction "
-      "took and stores included.");
+      "an ideal spring of that stiffness, seen exactly. Least energy: at the port, what friction "
+      "took and stores included. A run, for the columns on quiet, is a hold of 0.3 to 1 s." +
+          std::string(ex::quiet_columns) + quiet_on_steps);
   ex::show_rows(s.out, "gentle_touch", rows);
   int number = 0;
   for (const auto& preset : sim::all_presets) {

@@ -2,6 +2,7 @@
 #pragma once
 // The program, apart from main(), so that a test can run it; and what its sections share.
 
+#include "../common/quiet.hpp"
 #include "../common/rows.hpp"
 #include "../common/sections.hpp"
 #include "compositions.hpp"
@@ -16,6 +17,43 @@ struct session : ex::workshop {
   const settings& chosen;
   const std::vector<composition>& judged;
 };
+
+/// The hand holds still on a wall at the end of a run: is it quiet there, by the floor of the steps?
+class rest_of_hold {
+ public:
+  static constexpr double T = 1e-3;  ///< [s]
+  static constexpr int ticks = static_cast<int>(ex::quiet_watched / T);
+
+  /// On that machine, on a wall of K [N/m], with so much of the hand's own mass on it [kg].
+  rest_of_hold(const machine& m, double K, double own_mass)
+      : K_(K),
+        floor_(m.preset.quantum * m.displayed(K)),
+        judge_(sim::quiet_bars{}.on_encoders(m.preset.quantum, m.displayed(K),
+                                             m.preset.mass + own_mass)) {}
+
+  /// A tick: the force commanded [N], the true depth [m], the velocity [m/s]. Always true.
+  bool see(double force, double depth, double velocity) {
+    constexpr std::array<double, 1> normal{-1.0};
+    judge_.add(force, velocity, T, std::span(normal).first(depth > 0.0 ? 1 : 0));
+    if (++seen_ > ticks - 1000) held_.add(-force, depth);
+    return true;
+  }
+  void tell(ex::at_rest& row) const {
+    row.add(judge_, {K_, held_.shown()});
+    row.on_floor(floor_);
+  }
+
+ private:
+  double K_, floor_;  // [N/m], K q [N]
+  sim::quiet_judge<line> judge_;
+  ex::held_stiffness held_;
+  int seen_ = 0;
+};
+/// Of the captions of these tables: whose bars are judged.
+inline constexpr const char* quiet_on_steps =
+    " On encoders of step q the bars are K q/2, q/2 (K/m)^0.5 and K q of the stiffness displayed, "
+    "where those are higher; floor: K q. Shown: the mean force over the mean true depth of the "
+    "last second.";
 
 [[nodiscard]] const std::vector<ex::section<session>>& sections();
 [[nodiscard]] std::vector<std::string> run_gentle_touch(const session& s);

@@ -36,27 +36,30 @@ struct tremor_row {
   int lost = 0;               ///< of six runs, those with a second below 0.8
   double deepest = 0.0;       ///< [m]
   double least_energy = 0.0;  ///< [J]
+  ex::at_rest still{};        ///< when the hand holds still afterwards
 };
 
 ex::record record_of(const tremor_row& r) {
-  return {{"device", std::string(r.m.preset.name)},
-          {"presliding_um", r.m.presliding * 1e6, "%.0f"},
-          {"composition", std::string(r.what == nullptr ? "" : r.what->name)},
-          {"pressing", to_string(r.how)},
-          {"budget", r.m.budget().stiffness, "%.0f"},
-          {"least_share", r.least, "%.2f"},
-          {"runs_below_0.8", r.lost},
-          {"deepest_mm", r.deepest * 1e3, "%.2f"},
-          {"least_energy_J", r.least_energy}};
+  return ex::with_floor({{"device", std::string(r.m.preset.name)},
+                         {"presliding_um", r.m.presliding * 1e6, "%.0f"},
+                         {"composition", std::string(r.what == nullptr ? "" : r.what->name)},
+                         {"pressing", to_string(r.how)},
+                         {"budget", r.m.budget().stiffness, "%.0f"},
+                         {"least_share", r.least, "%.2f"},
+                         {"runs_below_0.8", r.lost},
+                         {"deepest_mm", r.deepest * 1e3, "%.2f"},
+                         {"least_energy_J", r.least_energy}},
+                        r.still);
 }
 
 struct felt {
   double least = 1.0;         ///< share of the worst second
   double deepest = 0.0;       ///< [m]
   double least_energy = 0.0;  ///< [J]
+  ex::at_rest still{};
 };
 
-/// One run: an approach of 3 mm at 10 mm/s, then a minute.
+/// One run: an approach of 3 mm at 10 mm/s, then a minute, then 6 s in which the hand holds still.
 felt press(const tremor_row& row, const sim::impedance_hand<line>& fingers, double offset) {
   const machine& m = row.m;
   const double K = m.budget().stiffness, displayed = m.displayed(K);
@@ -69,9 +72,15 @@ felt press(const tremor_row& row, const sim::impedance_hand<line>& fingers, doub
     felt found;
     const double approach = (3e-3 + mean * per_newton) / 10e-3;
     double force = 0.0, depth = 0.0;
+    const int end = static_cast<int>(approach / T) + 1000 * (row.seconds + 1);
+    rest_of_hold hold(m, K, fingers.own_mass);
     const auto hand = [&](const auto& now) {
       const double t = now.tick * T - approach;
       const double omega = 2.0 * design::pi;
+      if (now.tick >= end) {
+        device.hand().aim(surface + mean * per_newton, 0.0, device.time());
+        return;
+      }
       const bool kneads = row.how == pressing::kneading && t > 0.0;
       const double swing = kneads ? 0.8 * std::sin(omega * t) : 0.0;
       const double rate = kneads ? 0.8 * omega * std::cos(omega * t) : 0.0;
@@ -85,6 +94,7 @@ felt press(const tremor_row& row, const sim::impedance_hand<line>& fingers, doub
     const auto watch = [&](const auto& now) {
       const int tick = now.tick - static_cast<int>(approach / T) - 1000;
       if (tick < 0) return true;
+      if (now.tick >= end) return hold.see(now.force, now.position - surface, device.velocity());
       force -= now.force;
       depth += std::max(0.0, now.position - surface);
       found.deepest = std::max(found.deepest, now.position - surface);
@@ -93,8 +103,9 @@ felt press(const tremor_row& row, const sim::impedance_hand<line>& fingers, doub
       force = depth = 0.0;
       return true;
     };
-    const int ticks = static_cast<int>(approach / T) + 1000 * (row.seconds + 1);
+    const int ticks = end + rest_of_hold::ticks;
     found.least_energy = sim::run(device, model, ticks, sim::idle, hand, watch).least_energy;
+    hold.tell(found.still);
     return found;
   });
 }
@@ -107,6 +118,7 @@ tremor_row judge(tremor_row row) {
       row.lost += run.least < 0.8 ? 1 : 0;
       row.deepest = std::max(row.deepest, run.deepest);
       row.least_energy = std::min(row.least_energy, run.least_energy);
+      row.still.add(run.still);
     }
   }
   return row;
@@ -147,7 +159,9 @@ std::vector<std::string> run_tremor(const session& s) {
   s.out.section("Tremor as a force",
                 "1.1 N and a tremor of 0.3 N at 8.7 Hz that pushes the hand, or kneading of 0.3 to "
                 "1.9 N at 1 Hz, for a minute at the budget: what the worst second of six runs "
-                "(three hands, two offsets of the surface) leaves of the stiffness.");
+                "(three hands, two offsets of the surface) leaves of the stiffness. Then the hand "
+                "holds still at 1.1 N for 6 s." +
+                    std::string(ex::quiet_columns) + quiet_on_steps);
   ex::show_rows(s.out, "tremor", rows);
   return found;
 }

@@ -2,6 +2,7 @@
 #pragma once
 // Single faults of a haptic loop, and their effect on a wall that a hand is pressing.
 
+#include "../common/quiet.hpp"
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
@@ -145,7 +146,8 @@ struct subject {
   double amends = 0.0;  ///< A of § 11 [J]
   int learns = 0;       ///< the loop learns ticks of up to this length [T]
   std::function<controller(double amends)> make;
-  bool world = false;  ///< somebody publishes to it
+  bool world = false;        ///< somebody publishes to it
+  double stiffness = 800.0;  ///< of the floor, and of the surfaces beside it [N/m]
 };
 
 /// What a port has created so far, at worst [J]; dry friction is a part of the device (simulation/meter.hpp).
@@ -160,7 +162,12 @@ struct course {
   double created = 0.0;              ///< energy created at the port, by the true motion [J]
   ph::event worst = ph::event::nominal;
   bool finite = true;
+  experiments::at_rest still{};  ///< of a hand that holds still, from the fault's end on
 };
+/// The bars of a subject: those of its encoders' floor.
+[[nodiscard]] inline sim::quiet_bars bars_of(const subject& who) {
+  return sim::quiet_bars{}.on_encoders(who.device.quantum, who.stiffness, who.device.mass);
+}
 [[nodiscard]] inline course press(const subject& who, double amends, bool taps, int at,
                                   const fault* f, int ticks = 3000) {
   auto parameters = who.device;
@@ -169,6 +176,11 @@ struct course {
   sim::device<d3, hand> device(parameters, {.stiffness = 300.0, .damping = 2.0, .limit = 5.0});
   const controller loop = who.make(amends);
   course all;
+  sim::quiet_judge<d3> judge(bars_of(who));
+  const std::array<vector, 1> up{vector(0, 0, 1)};
+  const int news =
+      f ? at + std::max(f->lasts, f->held) : 250;  // the last: before it nothing counts
+  experiments::held_stiffness held;
   sample s = device.exchange(vector::Zero());
   auto before = s.position;
   for (int n = 0; n < ticks;) {
@@ -190,6 +202,11 @@ struct course {
       const double in = std::min(n, 250) / 250.0;
       const double tap = taps && n > 400 ? 7e-3 * (1.0 - std::cos(6.2832e-3 * (n - 400))) : 0.0;
       device.hand().target = vector(0, 0, 4e-3 - 14e-3 * in + tap);
+      if (n >= news && n >= 250) {
+        const double depth = -device.position().z();
+        judge.add(a.force, device.velocity(), T, std::span(up).first(depth > 0.0 ? 1 : 0));
+        if (n >= ticks - 500) held.add(a.force.z(), depth);
+      }
       s = device.exchange(a.force);
       dt += s.dt;
       all.created = created(device.meter(), all.created);
@@ -197,6 +214,10 @@ struct course {
       all.depth.push_back(-device.position().z());
     }
     s.dt = dt;
+  }
+  if (!taps) {
+    all.still.add(judge, {who.stiffness, held.shown()});
+    all.still.on_floor(who.device.quantum * who.stiffness);
   }
   return all;
 }
@@ -226,6 +247,7 @@ struct harm {
   double back = 0.0;       ///< at worst [s]
   ph::event worst = ph::event::nominal;
   bool finite = true;
+  experiments::at_rest still{};  ///< of the hands that hold still
 };
 [[nodiscard]] inline harm tried(const subject& who, const fault& f, const std::vector<int>& when) {
   harm all;
@@ -242,6 +264,7 @@ struct harm {
       all.largest = std::max(all.largest, found.largest);
       all.worst = ph::worse(all.worst, found.worst);
       all.finite = all.finite && found.finite;
+      all.still.add(found.still);
     }
   }
   return all;

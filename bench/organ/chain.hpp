@@ -3,6 +3,7 @@
 // The whole chain in real threads: an organ of finite elements at its own rate, exchange, a haptic loop of
 // 1 kHz on a runner, a simulated device in the hand of somebody who strokes the organ, a scope, pictures.
 
+#include "../common/quiet.hpp"
 #include "../common/rows.hpp"
 #include <passive_haptics/environment/stiffness_solver.hpp>
 
@@ -40,6 +41,7 @@ struct chain_row {
   double missing = 0.0;       ///< from the books of the simulated device [J]
   double haptic_cpu = 0.0;    ///< of a core [%]
   double environment_cpu = 0.0;
+  ex::at_rest still{};  ///< the hand has stopped, and the organ goes on answering
 };
 [[nodiscard]] ex::record record_of(const chain_row& r);
 

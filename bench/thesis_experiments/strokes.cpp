@@ -100,7 +100,9 @@ void show_strokes(report& out, const stroke_scene& scene, const strokes& runs) {
           " kPa. A stroke 1-3 mm below the surface, haptic tick 1 kHz. reference and bare: "
           "turn_at_once, no bound. passive: turn_limited, force-rate limit, reachable bound. "
           "Contact lost: ticks of the stroke without force. Median environment update " +
-          format("%.3f", update_ms) + " ms (wall clock of this machine).");
+          format("%.3f", update_ms) +
+          " ms (wall clock of this machine). Quiet is not judged here, because the hand is a path "
+          "that never rests and leaves at the end; organ --only chain judges an organ at rest.");
   std::cout << which.file << ": " << nodes << '\n';
   for (const auto& note : which.notes) std::cout << "  " << note << '\n';
   std::cout << '\n';

@@ -66,6 +66,7 @@ void run_wall(report& out, int seeds) {
         mean.force_error += r.force_error / runs;
         mean.rest += r.rest / runs;
         mean.port_energy = std::min(mean.port_energy, r.port_energy);
+        mean.still.add(r.still);
         if (std::isfinite(r.settle)) {
           ++settled;
           worst = std::max(worst, r.settle);
@@ -73,15 +74,16 @@ void run_wall(report& out, int seeds) {
         bar.step();
       }
       const double settle = settled == runs ? worst : std::nan("");
-      rows.push_back({{"scene", scene.name},
-                      {"controller", controller.name},
-                      {"runs", runs},
-                      {"peak to peak mm", mean.peak_to_peak * 1e3, "%.3f"},
-                      {"settled", std::to_string(settled) + " of " + std::to_string(runs)},
-                      {"settle s (worst)", settle, "%.3f"},
-                      {"min port energy J", mean.port_energy},
-                      {"mean force error N", mean.force_error},
-                      {"rest mm", mean.rest * 1e3, "%.3f"}});
+      rows.push_back(with({{"scene", scene.name},
+                           {"controller", controller.name},
+                           {"runs", runs},
+                           {"peak to peak mm", mean.peak_to_peak * 1e3, "%.3f"},
+                           {"settled", std::to_string(settled) + " of " + std::to_string(runs)},
+                           {"settle s (worst)", settle, "%.3f"},
+                           {"min port energy J", mean.port_energy},
+                           {"mean force error N", mean.force_error},
+                           {"rest mm", mean.rest * 1e3, "%.3f"}},
+                          mean.still));
     }
   }
   out.section("Wall (thesis section 3.2)",
@@ -91,15 +93,18 @@ void run_wall(report& out, int seeds) {
               "to peak after 2 s. Settle time and "
               "energy are "
               "the worst of the runs, swing and force error their mean. The port energy is the "
-              "simulator's own, never the observer's.");
+              "simulator's own, never the observer's." +
+                  std::string(quiet_columns));
   out.show(table_of(rows, [](const record& r) {
-    return record{r[0],
-                  r[1],
-                  r[3].renamed("swing mm"),
-                  r[4],
-                  r[5].renamed("settle s"),
-                  r[6],
-                  r[7].renamed("force error N")};
+    record some{r[0],
+                r[1],
+                r[3].renamed("swing mm"),
+                r[4],
+                r[5].renamed("settle s"),
+                r[6],
+                r[7].renamed("force error N")};
+    some.insert(some.end(), r.begin() + 9, r.end());  // on quiet
+    return some;
   }));
   out.member("wall", json_of(rows));
   const auto figure = [&out](const std::string& name, const std::string& run,

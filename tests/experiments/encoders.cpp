@@ -40,9 +40,9 @@ TEST_CASE("gentle touches tell a wall that stays from one that the hand sinks th
                                     encoders::compositions());
   CHECK(found.code == 0);
   const std::string json = content(out / "encoders.json");
-  for (const char* key :
-       {"gentle_touch", "device", "stiffness", "presliding_um", "composition", "budget",
-        "share_080", "median_ratio", "first_three_ratio", "least_energy_J"}) {
+  for (const char* key : {"gentle_touch", "device", "stiffness", "presliding_um", "composition",
+                          "budget", "share_080", "median_ratio", "first_three_ratio",
+                          "least_energy_J", "floor_Kq_N", "quiet", "rest_step_N"}) {
     CAPTURE(key);
     CHECK(json.find('"' + std::string(key) + '"') != std::string::npos);
   }
