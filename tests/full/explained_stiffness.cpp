@@ -202,7 +202,8 @@ TEST_CASE("the reason is true: raise what it names, and more is shown", "[door]"
 }
 
 // A device that rests within a step of an edge reads either side of it, and a law of a depth answers.
-TEST_CASE("explain() says the floor K q under which nothing is quiet on encoders", "[door][quiet]") {
+TEST_CASE("explain() says the floor K q under which nothing is quiet on encoders",
+          "[door][quiet]") {
   const ph::exact_device exact{
       .mass = 0.1, .damping = 0.1, .force_limit = 9.0, .longest_tick = 1e-3};
   for (const double q : {10e-6, 60e-6}) {

@@ -45,7 +45,7 @@ enum class softened_by : std::uint8_t {
 struct explanation {
   double asked{};  ///< K of the world's surface [N/m]; ∞ of a force of your own: nobody knows it
   double shown{};  ///< what is felt of it, at rest, as long as the motors hold it [N/m]
-  double floor{};  ///< K q [N]: on encoders the force at rest may step by that a tick; 0: exact positions
+  double floor{};  ///< K q [N]: the force at rest may step by it on encoders; 0 of exact positions
   softened_by stiffness = softened_by::nothing;  ///< why `shown` is less than `asked`
   double
       depth{};  ///< of the device in the world's surface, as the port takes it to be [m]; 0 outside
