@@ -54,14 +54,14 @@ void for_triangles_at(const surface_graph& surface, nodes_view nodes, int node,
 /// exact where the node and its neighbours lie on one sphere, and zero for a node of no usable triangle.
 template <class Surface>
 [[nodiscard]] Eigen::Vector3d node_normal(const Surface& surface, nodes_view nodes, int node) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  mesh::triple sum;
   for_triangles_at(surface, nodes, node, [&](const surface_triangle& t, std::size_t k) {
-    const triangle shape = corners(t, nodes);
-    const Eigen::Vector3d a = shape[(k + 1) % 3] - shape[k];
-    const Eigen::Vector3d b = shape[(k + 2) % 3] - shape[k];
-    sum += a.cross(b) / (a.squaredNorm() * b.squaredNorm());
+    const mesh::corners shape = triples_of(corners(t, nodes));
+    const mesh::triple a = shape[(k + 1) % 3] - shape[k], b = shape[(k + 2) % 3] - shape[k];
+    sum = sum + mesh::cross(a, b) * (1.0 / (mesh::squared(a) * mesh::squared(b)));
   });
-  return sum.normalized();
+  const double size = mesh::length(sum);
+  return size > 0.0 ? vector_of(sum * (1.0 / size)) : Eigen::Vector3d(0.0, 0.0, 0.0);
 }
 
 /// The tensor C [1/m] in the plane of the triangle with C eₖ ≈ Δnₖ by least squares, where eₖ are its edges [m]
@@ -88,28 +88,41 @@ template <class Surface>
   if (!(std::abs(volume) > 1e-30 * std::pow(2.0 * (uu + vv), 3))) return Eigen::Matrix3d::Zero();
   const double C_uu = right.dot(b.cross(c)) / volume, C_uv = a.dot(right.cross(c)) / volume,
                C_vv = a.dot(b.cross(right)) / volume;
-  const Eigen::Vector3d along_u = C_uu * u + C_uv * v, along_v = C_uv * u + C_vv * v;
-  return along_u * u.transpose() + along_v * v.transpose();
+  Eigen::Matrix3d curvature;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      curvature(i, j) = (C_uu * u[i] + C_uv * v[i]) * u[j] + (C_uv * u[i] + C_vv * v[i]) * v[j];
+    }
+  }
+  return curvature;
 }
 
 /// The rotation that takes one unit vector to another the shortest way, c I + [v]× + v vᵀ/(1 + c) with v their
 /// cross and c their dot product (Rodrigues), or half a turn if they are opposite.
 [[nodiscard]] inline Eigen::Matrix3d turn_between(const Eigen::Vector3d& from,
                                                   const Eigen::Vector3d& to) {
-  const Eigen::Vector3d v = from.cross(to);
-  const double c = from.dot(to);
-  if (1.0 + c < 1e-12) {
-    const Eigen::Vector3d axis = from.unitOrthogonal();
-    return 2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
-  }
-  Eigen::Matrix3d turn = v * (v / (1.0 + c)).transpose();
+  const bool opposite = 1.0 + from.dot(to) < 1e-12;
+  const Eigen::Vector3d v = opposite ? from.unitOrthogonal() : from.cross(to);
+  const double c = opposite ? -1.0 : from.dot(to), along = opposite ? 2.0 : 1.0 / (1.0 + c);
+  Eigen::Matrix3d turn;
   for (Eigen::Index i = 0; i < 3; ++i) {
     const Eigen::Index j = (i + 1) % 3, k = (i + 2) % 3;
-    turn(i, i) += c;
-    turn(k, j) += v(i);
-    turn(j, k) -= v(i);
+    const double sine = opposite ? 0.0 : v[i];
+    turn(i, i) = along * v[i] * v[i] + c;
+    turn(j, k) = along * v[j] * v[k] - sine;
+    turn(k, j) = along * v[j] * v[k] + sine;
   }
   return turn;
+}
+
+/// aᵀ C b.
+[[nodiscard]] inline double across(const Eigen::Matrix3d& C, const Eigen::Vector3d& a,
+                                   const Eigen::Vector3d& b) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) sum += a[i] * C(i, j) * b[j];
+  }
+  return sum;
 }
 
 /// C turned with its plane, the shortest way from one normal to another.
@@ -117,7 +130,13 @@ template <class Surface>
                                             const Eigen::Vector3d& from,
                                             const Eigen::Vector3d& to) {
   const Eigen::Matrix3d turn = turn_between(from, to);
-  return turn * curvature * turn.transpose();
+  Eigen::Matrix3d result;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      result(i, j) = across(curvature, turn.row(i).transpose(), turn.row(j).transpose());
+    }
+  }
+  return result;
 }
 
 /// The curvature [1/m] at a node: the mean over its triangles, weighted by their areas.
@@ -175,13 +194,14 @@ template <class Surface>
   const Eigen::Vector3d on_facet = point_at(shape, weights);
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector3d way = shape[k] - on_facet;
-    result.rise += weights[static_cast<Eigen::Index>(k)] * 0.5 * way.dot(curvature * way);
+    result.rise += weights[static_cast<Eigen::Index>(k)] * 0.5 * across(curvature, way, way);
   }
   result.point = on_facet + result.rise * result.normal;
 
   // The two principal axes, in any frame of the tangent plane.
   const Eigen::Vector3d a = result.normal.unitOrthogonal(), b = result.normal.cross(a);
-  const double aa = a.dot(curvature * a), ab = a.dot(curvature * b), bb = b.dot(curvature * b);
+  const double aa = across(curvature, a, a), ab = across(curvature, a, b),
+               bb = across(curvature, b, b);
   const double angle = 0.5 * std::atan2(2.0 * ab, aa - bb);
   result.tangent = std::cos(angle) * a + std::sin(angle) * b;
   const double spread = std::hypot(0.5 * (aa - bb), ab);

@@ -83,16 +83,17 @@ struct surface_point {
 /// finite.
 [[nodiscard]] inline std::optional<surface_point> point_on(surface_view surface, nodes_view nodes,
                                                            int number, const Eigen::Vector3d& x) {
-  const triangle t = corners(surface[static_cast<std::size_t>(number)], nodes);
-  if (is_degenerate(t) || !x.allFinite()) return std::nullopt;
-  surface_point result;
-  result.triangle = number;
-  result.weights = closest_weights(t, x);
-  result.point = point_at(t, result.weights);
-  result.normal = unit_normal(t);
-  result.distance = (result.point - x).norm();
-  result.depth = (result.point - x).dot(result.normal);
-  return result;
+  const mesh::corners t = triples_of(corners(surface[static_cast<std::size_t>(number)], nodes));
+  const mesh::triple from = triple_of(x);
+  if (is_degenerate(t) || !mesh::is_finite(from)) return std::nullopt;
+  const mesh::triple weights = mesh::closest_weights(t, from), point = mesh::point_at(t, weights),
+                     normal = normal_of(t);
+  return surface_point{.triangle = number,
+                       .point = vector_of(point),
+                       .weights = vector_of(weights),
+                       .normal = vector_of(normal),
+                       .distance = mesh::length(point - from),
+                       .depth = mesh::dot(point - from, normal)};
 }
 
 /// True if t has every corner of `owner` whose weight is > 0, that is, touches the face, edge or node of a point.
@@ -115,26 +116,28 @@ template <class ForEach>
 [[nodiscard]] Eigen::Vector3d pseudo_normal(surface_view surface, nodes_view nodes,
                                             const surface_point& on, const ForEach& for_each) {
   const surface_triangle& owner = surface[static_cast<std::size_t>(on.triangle)];
-  Eigen::Index heaviest = 0;
-  on.weights.maxCoeff(&heaviest);
-  const bool at_node = (on.weights.array() > 0.0).count() == 1;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::size_t heaviest = 0, held = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double weight = on.weights[static_cast<Eigen::Index>(k)];
+    held += weight > 0.0 ? 1 : 0;
+    if (weight > on.weights[static_cast<Eigen::Index>(heaviest)]) heaviest = k;
+  }
+  const bool at_node = held == 1;
+  mesh::triple sum;
   for_each([&](int number) {
     const surface_triangle& t = surface[static_cast<std::size_t>(number)];
-    const triangle shape = corners(t, nodes);
+    const mesh::corners shape = triples_of(corners(t, nodes));
     if (!touches(t, owner, on.weights) || is_degenerate(shape)) return;
     double angle = 1.0;  // the same for both sides of an edge
     if (at_node) {
-      const int node = owner.nodes[static_cast<std::size_t>(heaviest)];
-      const auto k = static_cast<std::size_t>(std::find(t.nodes.begin(), t.nodes.end(), node) -
-                                              t.nodes.begin());
-      const Eigen::Vector3d a = shape[(k + 1) % 3] - shape[k];
-      const Eigen::Vector3d b = shape[(k + 2) % 3] - shape[k];
-      angle = std::atan2(a.cross(b).norm(), a.dot(b));
+      const auto k = static_cast<std::size_t>(
+          std::find(t.nodes.begin(), t.nodes.end(), owner.nodes[heaviest]) - t.nodes.begin());
+      const mesh::triple a = shape[(k + 1) % 3] - shape[k], b = shape[(k + 2) % 3] - shape[k];
+      angle = std::atan2(mesh::length(mesh::cross(a, b)), mesh::dot(a, b));
     }
-    sum += angle * unit_normal(shape);
+    sum = sum + normal_of(shape) * angle;
   });
-  return sum;
+  return vector_of(sum);
 }
 
 /// The closest point, on that one of the triangles touching it which faces x most squarely.

@@ -89,9 +89,6 @@ class surface_search : public surface_graph {
   }
 
  private:
-  [[nodiscard]] static mesh::triple triple_of(const Eigen::Vector3d& v) {
-    return {v[0], v[1], v[2]};
-  }
   [[nodiscard]] static std::vector<mesh::triple> centres(surface_view surface, nodes_view nodes) {
     std::vector<mesh::triple> all;
     all.reserve(surface.size());

@@ -9,9 +9,9 @@
 //                                  (A25)
 
 #include <passive_haptics/base/language.hpp>
+#include <passive_haptics/mesh/triple.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
@@ -25,28 +25,50 @@ namespace environment {
 
 using triangle = std::array<Eigen::Vector3d, 3>;  ///< corners [m], counter-clockwise from outside
 
+// The arithmetic is that of mesh/triple.hpp, plain numbers: expressions of Eigen would take a user's compiler as long
+// as all the rest of a program.
+[[nodiscard]] inline mesh::triple triple_of(const Eigen::Vector3d& v) noexcept {
+  return {v[0], v[1], v[2]};
+}
+[[nodiscard]] inline Eigen::Vector3d vector_of(const mesh::triple& v) noexcept {
+  return {v.x, v.y, v.z};
+}
+[[nodiscard]] inline mesh::corners triples_of(const triangle& t) noexcept {
+  return {triple_of(t[0]), triple_of(t[1]), triple_of(t[2])};
+}
+
 /// ½ (b − a)×(c − a) [m²]: it is along the normal, and its length is the area.
+[[nodiscard]] inline mesh::triple area_of(const mesh::corners& t) noexcept {
+  return mesh::cross(t[1] - t[0], t[2] - t[0]) * 0.5;
+}
 [[nodiscard]] inline Eigen::Vector3d area_vector(const triangle& t) {
-  return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]);
+  return vector_of(area_of(triples_of(t)));
 }
 
 /// True when the triangle has no usable normal: twice its area ≤ 1e-9 of its longest edge squared,
 /// or a corner that is not finite. (A17)
-[[nodiscard]] inline bool is_degenerate(const triangle& t) {
+[[nodiscard]] inline bool is_degenerate(const mesh::corners& t) noexcept {
   const double longest = (std::max)(
-      {(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
-  return !(2.0 * area_vector(t).norm() > 1e-9 * longest) ||
+      {mesh::squared(t[1] - t[0]), mesh::squared(t[2] - t[1]), mesh::squared(t[0] - t[2])});
+  return !(2.0 * mesh::length(area_of(t)) > 1e-9 * longest) ||
          !(longest < std::numeric_limits<double>::infinity());
+}
+[[nodiscard]] inline bool is_degenerate(const triangle& t) {
+  return is_degenerate(triples_of(t));
 }
 
 /// The unit normal n of a triangle that is not degenerate.
+[[nodiscard]] inline mesh::triple normal_of(const mesh::corners& t) noexcept {
+  const mesh::triple area = area_of(t);
+  return area * (1.0 / mesh::length(area));
+}
 [[nodiscard]] inline Eigen::Vector3d unit_normal(const triangle& t) {
-  return area_vector(t).normalized();
+  return vector_of(normal_of(triples_of(t)));
 }
 
 /// Σ wⱼ xⱼ [m].
 [[nodiscard]] inline Eigen::Vector3d point_at(const triangle& t, const Eigen::Vector3d& weights) {
-  return weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
+  return vector_of(mesh::point_at(triples_of(t), triple_of(weights)));
 }
 
 /// Barycentric weights of the point of the triangle closest to p [m]: wⱼ ≥ 0, Σ wⱼ = 1, and exactly zero
@@ -55,30 +77,7 @@ using triangle = std::array<Eigen::Vector3d, 3>;  ///< corners [m], counter-cloc
 /// turns one of these signs, the point changes by no more than rounding. Of a degenerate triangle only
 /// the edges count.
 [[nodiscard]] inline Eigen::Vector3d closest_weights(const triangle& t, const Eigen::Vector3d& p) {
-  if (!is_degenerate(t)) {
-    const Eigen::Vector3d normal = 2.0 * area_vector(t);
-    const Eigen::Vector3d r = p - t[0];
-    const double b = r.cross(t[2] - t[0]).dot(normal) / normal.squaredNorm();
-    const double c = (t[1] - t[0]).cross(r).dot(normal) / normal.squaredNorm();
-    const double a = 1.0 - b - c;
-    if (a > 0.0 && b > 0.0 && c > 0.0) return {a, b, c};
-  }
-  Eigen::Vector3d best = Eigen::Vector3d::UnitX();
-  double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const Eigen::Vector3d edge = t[j] - t[i];
-    const double length2 = edge.squaredNorm();
-    const double s = length2 > 0.0 ? std::clamp((p - t[i]).dot(edge) / length2, 0.0, 1.0) : 0.0;
-    const double distance2 = (t[i] + s * edge - p).squaredNorm();
-    if (distance2 < shortest) {
-      shortest = distance2;
-      best.setZero();
-      best[static_cast<Eigen::Index>(i)] = 1.0 - s;
-      best[static_cast<Eigen::Index>(j)] = s;
-    }
-  }
-  return best;
+  return vector_of(mesh::closest_weights(triples_of(t), triple_of(p)));
 }
 
 /// The rule by which a force at a point of a triangle is shared out to its nodes.
