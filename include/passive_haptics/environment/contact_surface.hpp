@@ -170,8 +170,7 @@ template <touched_body Body>
 /// The patch at the last contact of a body; before the first contact a patch that every supply refuses.
 template <std::size_t M = 16, touched_body Body>
 [[nodiscard]] patch<space<double, 3>, M> patch_at(
-    const Body& body,
-    double thickness = (std::numeric_limits<double>::max)()) {
+    const Body& body, double thickness = (std::numeric_limits<double>::max)()) {
   if (body.contact().triangle < 0) return {};
   return patch_at<M>(body.search(), body.nodes(), point_of(body.contact()),
                      body.contact().stiffness, thickness);
@@ -184,11 +183,15 @@ template <touched_body Body>
   return {body.contact().point, body.contact().normal, body.contact().stiffness};
 }
 
-/// A surface of a body, that gives way between news as the body does. It was solved under a force F₀, and under f it is
-/// C (f − F₀) deeper, C the compliance of the body [m/N]. So the law f = K (d − C (f − F₀)), d the depth in it, is a
-/// spring of K/(1 + K C) on d + C F₀, the depth in the surface at rest: that is what is returned. It does not move
-/// when it is pressed harder, so it needs no news of that, however old they are, and the loop of force and surface
-/// (deformable_body.hpp) is none.
+/// A surface of a body that gives way between news as the body will. The body was solved under a force F₀ [N]; under a
+/// force f its surface lies C (f − F₀) deeper, where C is the compliance of the body [m/N]. With d [m] the depth in the
+/// surface as it was told, the law
+///
+///     f = K (d − C (f − F₀))    is the same as    f = K/(1 + K C) · (d + C F₀)
+///
+/// and d + C F₀ is the depth in the surface at rest. So the surface at rest is returned with the stiffness K/(1 + K C).
+/// It does not move when it is pressed harder, so late news of the force do no harm, and the loop of force and surface
+/// that deformable_body.hpp describes does not arise.
 ///     touch.update(env::yielding(env::plane_at(body), body.contact()));
 template <class Surface>
 [[nodiscard]] Surface yielding(Surface surface, const surface_contact& contact) {

@@ -26,7 +26,7 @@ struct node_graph {
   std::vector<int> begin;  ///< N + 1 places in `neighbours` at which those of a node begin
   std::vector<int> neighbours;
   std::vector<int> touched =
-      {};  ///< nodes that contacts will be on, in any order: a solver may keep them at hand
+      {};  ///< nodes that contacts will be on: a solver may keep them at hand
 
   [[nodiscard]] int size() const noexcept { return static_cast<int>(points.size()); }
   [[nodiscard]] std::span<const int> neighbours_of(int node) const {
@@ -60,8 +60,8 @@ struct node_graph {
   std::vector<int> all(start.back());
   for_pairs([&](int from, int to) { all[next[slot(from)]++] = to; });
   graph.begin.push_back(0);
-  for (std::size_t i = 0; i + 1 < start.size();
-       ++i) {  // an edge is there once per element around it
+  for (std::size_t i = 0; i + 1 < start.size(); ++i) {
+    // An edge is in the list once for each element around it, so duplicates are dropped.
     const auto from = all.begin() + static_cast<std::ptrdiff_t>(start[i]);
     const auto to = all.begin() + static_cast<std::ptrdiff_t>(start[i + 1]);
     std::sort(from, to);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Is what was stated of a device possible? The motion can refute it, and then the bound relies on it no longer.
+// Holds what was stated of a device against its motion. Where the motion refutes it, the bound stops relying on it.
 //
-//   watched{reachable_bound{…}}   as the bound itself while nothing contradicts it
+//   watched{reachable_bound{…}}   is the bound itself as long as nothing contradicts what was stated
 
 #include <passive_haptics/port/composing.hpp>
 
@@ -13,29 +13,29 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A mass of at least m, pushed by the motors' f and by at most F besides, accelerates no more than both allow. Of two
-/// windows A, B of two ticks each (four where the sensor's steps e ask for it), with mean velocities V, it is necessary
+/// A mass of at least m that the motors' f and at most F besides push accelerates no more than both allow. For two
+/// windows A, B of two ticks each (of four where the sensor's steps e are large) with mean velocities V it follows that
 ///     |J| ≤ ε     or     |J| ≤ ε + u·L + A_w (9/8 F + 2b(|V_A| + |V_B|))      [N·s]                   (§ 12)
 ///     J = m (V_B − V_A),   L = ∫ w f dt, w the hat over both, of area A_w = (T_A + T_B)/2,   ε = m e (1/T_A + 1/T_B)
-/// with a unit vector u that is ε/|J| from J at most,
-/// for all that reachable_bound rests on. It is looked for from the beginning of a contact on, then ever more rarely,
-/// every 96 ticks at last, and without a pause where more than half of the slack is used.
+/// with some unit vector u no farther than ε/|J| from J, if everything holds that reachable_bound assumes. The test is
+/// made from the beginning of a contact on, then ever more rarely, at last every 96 ticks, and without a pause while
+/// J takes up more than half of what is allowed.
 ///
-/// A window that refutes it, an outlier or a blow on the handle, is an event::outside_force, and for 0.1 s of contact
-/// the force is bounded strictly, ¼fᵀB⁻¹f ≤ E1. Four of them, each within 0.25 s of contact after the last, are not
-/// forgiven until reset(). While all of them are explained by one of these, the force is zero for 25 ms in place of
-/// that, and after three it is so until reset():
-///     wrong_sign       the device does −f; at once if it reports so for three ticks
-///     untold_latency   f is held one to three ticks later than stated, or one sooner; seen in reports as well
-/// What else there is, a lighter or compliant device, a stronger hand, another port, stays outside_force.
+/// A window that fails the test (by an outlier, by a blow on the handle) is an event::outside_force, and for 0.1 s of
+/// contact the bound is the strict one, ¼fᵀB⁻¹f ≤ E1. Four such windows, each within 0.25 s of contact after the one
+/// before, are not forgiven until reset(). As long as one of these causes explains all of them, the force is zero for
+/// 25 ms instead of bounded strictly, and after three windows it is zero until reset():
+///     wrong_sign       the device holds −f; it is found at once if the device reports −f for three ticks
+///     untold_latency   f is held one to three ticks later than stated, or one sooner; reports of held forces count
+/// Every other cause (a lighter or compliant device, a stronger hand, another port) stays an outside_force.
 ///
-/// It promises nothing that the bound does not: what stays within 9/8 F and the slack is not seen. It is wrong about a
-/// hand that pushes harder than F where nothing resists, an end stop, jumps of the sensor, and time stamps that are off
-/// by more than about A_w F/(m |V|) of a window.
+/// The test promises nothing beyond the bound: it does not see what stays within 9/8 F and the slack. It is mistaken
+/// about a hand that pushes harder than F where nothing resists, about end stops, about jumps of the sensor, and about
+/// time stamps that are off by more than about A_w F/(m |V|) of a window.
 template <class Bound>
 requires requires(const Bound b) {
   b.mass, b.hand_force;
-}  // what can be refuted
+}  // the two statements that a motion can refute
 struct watched {
   static constexpr guarantee passivity = Bound::passivity;
   static constexpr bound_traits traits = Bound::traits;
@@ -78,14 +78,14 @@ class watched<Bound>::on : public part_at<Bound, P> {
   constexpr void reset() noexcept { *this = on(stated_); }
 
   [[nodiscard]] constexpr on& watching() noexcept { return *this; }
-  /// Does it look at this tick? From the second of a contact on, and not while it pauses.
+  /// True if this tick is looked at: from the second tick of a contact on, and not during a pause.
   [[nodiscard]] constexpr bool looks() const noexcept { return rest_ < 0; }
-  /// The tick that is over: its motion, if it is known, what was to be held and what was, its length, and the ledger.
+  /// Takes the tick that is over: its motion [m], if known, the force told and held [N], its length [s], the ledger.
   template <bool Exact>
   constexpr void look(bool known, const stored& travel, const stored& told, const stored& held,
                       scalar dt, const auto& ledger) noexcept {
     scalar error(0);
-    if constexpr (Exact) {  // no sensor shows less than its steps
+    if constexpr (Exact) {  // the least motion seen is no smaller than a step of the sensor
       const scalar moved = P::norm(travel);
       if (known && moved > scalar(0) && moved < step_) step_ = moved;
       error = step_;
@@ -94,8 +94,8 @@ class watched<Bound>::on : public part_at<Bound, P> {
     }
     watch(known, {travel, told, held, dt}, error, detail::most_damping<P>(ledger.damping()));
   }
-  /// How far from x + V t a device may be that went with V for T₀, t later [m]; v is the sum of the speeds of both, and
-  /// `most` is what its motors hold [N] (§ 13). No less than 0.12 mm: what that does is nothing.
+  /// The farthest [m] that a device may be from x + V t at a time t after a tick of T₀ with velocity V (§ 13); v is the
+  /// sum of both speeds, `most` what its motors hold [N]. It is 0.12 mm at least, which is too little to do harm.
   template <bool Exact>
   [[nodiscard]] constexpr scalar far_off(scalar T0, scalar t, scalar v, scalar most,
                                          const auto& ledger) const noexcept {
@@ -106,37 +106,39 @@ class watched<Bound>::on : public part_at<Bound, P> {
     const scalar reach = t * (T0 + t) / scalar(2) * pushed / mass();
     return kernels::larger(reach + error * (scalar(1) + t / T0), scalar(2) * unsaid);
   }
-  /// Is something asked in this tick? Where nothing is, the next contact is looked at from its beginning.
+  /// Says whether this tick asks for a force. If it asks for none, the next contact is looked at from its beginning.
   constexpr void look_on(bool asked) noexcept {
     if (!asked) at_ = rest_ = pause_ = 0;
     if (asked) --rest_;
   }
-  /// What it has come to; what is worse than outside_force stops the port.
+  /// The verdict so far; one that is worse than outside_force stops the port.
   [[nodiscard]] constexpr event seen() const noexcept { return what_; }
-  /// Is the force to be zero meanwhile? What letting go changes tells a cause from a strong hand.
+  /// True while the force must be zero: whether the motion changes then tells such a cause from a strong hand.
   [[nodiscard]] constexpr bool lets_go() const noexcept { return lets_go_; }
-  /// Has there been one such window only, and is it relied upon again?
+  /// True if only one window has failed, and what was stated is relied upon again.
   [[nodiscard]] constexpr bool forgives() const noexcept {
     return what_ == event::nominal && doubts_ == 1;
   }
 
  private:
-  static constexpr int N = 4;               ///< ticks of half a window
-  static constexpr int lag = 3;             ///< ticks of latency that are looked for
-  static constexpr int longest_pause = 96;  ///< between looks at what is far from refuted [ticks]
-  static constexpr int enough = 4;          ///< windows that are not forgiven
-  static constexpr int says_no = 3;         ///< ticks in a row, reported to have been the opposite
+  static constexpr int N = 4;    ///< ticks of half a window
+  static constexpr int lag = 3;  ///< ticks of latency that are looked for
+  static constexpr int longest_pause =
+      96;                            ///< between two looks at what is far from refuted [ticks]
+  static constexpr int enough = 4;   ///< so many windows are not forgiven any more
+  static constexpr int says_no = 3;  ///< so many reports in a row of the opposite force decide
   static constexpr std::uint8_t sign = 1, late = 2 + 8 + 16 + 32, all_causes = sign + late;
   static constexpr scalar mistrust = scalar(0.1), letting_go = scalar(0.025),
-                          memory = scalar(0.25);   // [s]
-  static constexpr scalar unsaid = scalar(60e-6);  ///< steps of "exact" positions, at most [m]
+                          memory = scalar(0.25);  // [s]
+  static constexpr scalar unsaid =
+      scalar(60e-6);  ///< the largest step that "exact" positions may have [m]
 
   struct tick_seen {
     stored travel, told, held;
     scalar dt;
   };
 
-  /// A hand of any force is what leaves the strict bound.
+  /// With a hand of any force the bound that remains is the strict one.
   constexpr void rely(event what) noexcept {
     what_ = what;
     Bound p = stated_.bound;
@@ -159,7 +161,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
   constexpr void watch(bool good, const tick_seen& now, scalar error, scalar b) noexcept {
     rest_ = 0;
     if (doubts_ >= enough) return;
-    if (at_ == 0) {  // a contact begins, or motion that is known
+    if (at_ == 0) {  // a contact begins, or the motion is known again
       trust_again();
       quiet_ += mistrust / scalar(2);
       if (!alert_) at_ = lag;
@@ -186,7 +188,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
     }
   }
 
-  /// A window of 2N ticks, `lag` before it and one after it.
+  /// Judges a window of 2N ticks; the `lag` ticks before it and the one after it tell of latencies.
   constexpr void judge(scalar error, scalar b) noexcept {
     const auto at = [this](int i) -> const tick_seen& {
       return seen_[static_cast<std::size_t>(lag + i)];
@@ -205,9 +207,9 @@ class watched<Bound>::on : public part_at<Bound, P> {
     const scalar reach = (TA + TB) / scalar(2) *
                          (force() * scalar(1.125) + scalar(2) * b * (P::norm(VA) + P::norm(VB)));
     const scalar off = mass() * error * (scalar(1) / TA + scalar(1) / TB);
-    /// How much of the reach J needs, if `force(i)` was held in tick i [N·s].
+    /// The part of `reach` that J takes up if `force(i)` was held in tick i [N·s].
     const auto needed = [&](const auto& force) {
-      if (!(size > off)) return scalar(0);  // it may have been none
+      if (!(size > off)) return scalar(0);  // the sensor's error alone may explain J
       effort L = P::zero();
       scalar passed(0);
       for (int i = 0; i < 2 * half_; ++i) {
@@ -249,7 +251,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
         if (needed([&](int i) { return effort(at(i - k).told); }) <= reach) possible |= later_by(k);
       }
     }
-    if (!alert_) possible |= late;  // there was nothing to tell by
+    if (!alert_) possible |= late;  // the ticks around the window, which would tell, were not kept
     if (doubts_ == 0) could_be_ = all_causes;
     could_be_ &= possible;
     if (refuted) {
@@ -271,7 +273,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
     if (doubts_ < enough && quiet_ > (lets_go_ ? letting_go : mistrust)) trust_again();
   }
 
-  /// Σ |held − told, k ticks later|² over the window [N²].
+  /// Σ |held − told|² [N²] over the window, where what was told k ticks before counts.
   [[nodiscard]] constexpr scalar off_by(int k) const noexcept {
     scalar sum(0);
     for (int i = lag; i < lag + 2 * half_; ++i) {
@@ -281,7 +283,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
     }
     return sum;
   }
-  /// Is it reported to have held other forces than it was to, by 3 %?
+  /// True if the device reports forces that are off by more than 3 % from those that it was told.
   [[nodiscard]] constexpr bool reports_others() const noexcept {
     scalar told(0);
     for (int i = lag; i < lag + 2 * half_; ++i) {
@@ -290,7 +292,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
     }
     return off_by(0) * scalar(1024) > told;
   }
-  /// The latencies that explain such a report.
+  /// The bits of the latencies that explain these reports.
   [[nodiscard]] constexpr std::uint8_t misreported() const noexcept {
     std::uint8_t found = 0;
     for (int k = -1; k <= lag; ++k) {
@@ -304,16 +306,16 @@ class watched<Bound>::on : public part_at<Bound, P> {
   }
 
   watched stated_;
-  scalar step_ = unsaid;  ///< the least that the sensor has moved by [m]
-  scalar quiet_{};        ///< contact since then [s]
-  int rest_ = 0;          ///< ticks until it looks again, which it does below 0
+  scalar step_ = unsaid;  ///< the least motion that the sensor has shown [m]
+  scalar quiet_{};        ///< contact since the last window that failed [s]
+  int rest_ = 0;          ///< ticks until the next look; below 0 a tick is looked at
   int half_ = N;          ///< ticks of half a window
-  int pause_ = 0;         ///< the next of them
+  int pause_ = 0;         ///< length of the next rest [ticks]
   int at_ = 0;            ///< ticks seen in a row
-  int doubts_ = 0;        ///< windows that refuted it
+  int doubts_ = 0;        ///< windows that have failed the test
   int opposed_ = 0;
-  std::uint8_t could_be_ = 0;  ///< causes that explain all that was seen since the first of them
-  bool alert_ = false;         ///< windows are looked at with what is around them
+  std::uint8_t could_be_ = 0;  ///< causes that explain every window since the first doubt
+  bool alert_ = false;         ///< the ticks around a window are kept as well
   bool lets_go_ = false;
   event what_ = event::nominal;
   std::array<tick_seen, lag + 2 * N + 1> seen_{};

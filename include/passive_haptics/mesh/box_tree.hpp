@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A tree over numbered things that have a place: which of them are near, without a look at all. It is a median
-// split of where they are when it is made, and it does not change; the boxes around what it splits are kept
-// apart, so that one tree serves a body in several shapes. Whatever moves, answers stay right once the boxes
-// are fitted, and they stay fast as long as neighbours stay neighbours.
+// A tree over numbered things that have a place. It finds those that are near without looking at all of them. The
+// tree is a median split of the places at which it was made, and it does not change. The boxes are kept apart from
+// it, so that one tree serves a body in several shapes. Once the boxes are fitted its answers are right however the
+// things have moved, and it stays fast as long as neighbours stay neighbours.
 
 #include <passive_haptics/mesh/triple.hpp>
 
@@ -20,7 +20,8 @@ namespace mesh {
 class box_tree {
  public:
   static constexpr int leaf_size = 4;
-  /// At most so many wait in a walk that goes on with one child and puts off the other: the tree is balanced.
+  /// The most branches that wait in a walk, which goes on with one child and puts off the other. The tree is
+  /// balanced, so its depth bounds them.
   static constexpr std::size_t most_waiting = 64;
 
   /// A node of the tree; its left child comes right after it.
@@ -30,7 +31,7 @@ class box_tree {
     int parent = -1;
   };
 
-  /// Of things at these places [m]; one that is not finite may be anywhere.
+  /// Makes the tree of things at these places [m]. A thing whose place is not finite gets any leaf.
   explicit box_tree(std::vector<triple> places) : order_(places.size()), leaf_of_(places.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     for (triple& p : places) {
@@ -54,7 +55,7 @@ class box_tree {
   void fit(std::span<box> boxes, const Grow& grow) const {
     for (std::size_t b = branches_.size(); b-- > 0;) fit_one(b, boxes, grow);
   }
-  /// The same, where only the things `moved` have moved.
+  /// The same if no other things than `moved` have moved.
   template <class Grow>
   void fit(std::span<box> boxes, std::span<const int> moved, const Grow& grow) {
     dirty_list_.clear();
@@ -71,8 +72,8 @@ class box_tree {
     }
   }
 
-  /// Walks to the leaves, what is nearer first: bound(branch) is a squared distance [m²], wants(d²) whether a
-  /// branch at that distance is to be looked into by now, and visit(thing) is called for what is in its leaves.
+  /// Walks to the leaves, nearer ones first. bound(branch) returns the squared distance of a branch [m²], wants(d²)
+  /// says whether a branch at that distance is still of interest, and visit(thing) is called for each thing found.
   template <class Bound, class Wants, class Visit>
   void walk(const Bound& bound, const Wants& wants, const Visit& visit) const {
     if (branches_.empty()) return;

@@ -11,16 +11,17 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace mesh {
 
-/// n·p ≥ level: all of it is at least a radius away from `triangle`, which touches it at `weights`.
+/// The half-space n·p ≥ level, all of which is at least a radius away from `triangle`; `weights` are the barycentric
+/// ones of the point of the triangle that was closest.
 struct half_space_of {
   triple normal;  ///< n, unit
   double level;   ///< [m]
   int triangle;
   triple weights;  ///< barycentric
-  int mesh = 0;    ///< of those that are touched
+  int mesh = 0;    ///< number of its mesh among those that are touched
 };
 
-/// What the way rests on: at most three half-spaces, and how much of it goes along each normal, λ ≥ 0.
+/// A way out of the half-spaces' complements, Σ λ n: it rests on at most three of them, with λ ≥ 0 along each normal.
 struct support {
   triple way;                     ///< Σ λ n [m]
   std::array<int, 3> of{};        ///< numbers of half-spaces
@@ -30,7 +31,7 @@ struct support {
 
 namespace detail {
 
-/// Of unit vectors, what n is made of, n = Σ r_j basis_j + z, z across all of them.
+/// The parts of a unit vector n along up to three others, n = Σ r_j basis_j + z, with z perpendicular to all of them.
 struct parts {
   std::array<double, 3> r{};
   triple z;
@@ -59,9 +60,9 @@ struct parts {
 
 }  // namespace detail
 
-/// The shortest way y with n_i·y ≥ missing(i) [m] for i < count, within `slack` [m]; false if there is none. It is
-/// the dual method of Goldfarb and Idnani (1983), from memory: the half-space that is missed by most joins those
-/// that press, and those leave that would have to pull.
+/// Finds the shortest way y with n_i·y ≥ missing(i) [m], up to `slack` [m], for i < count; returns false if there is
+/// none. The method is the dual one of Goldfarb and Idnani (1983), from memory: in each round the half-space that y
+/// misses by most joins those that press, and any that would have to pull leaves them.
 [[nodiscard]] constexpr bool shortest_way(auto normal, auto missing, int count, double slack,
                                           support& s) noexcept {
   constexpr double parallel = 1e-8;  // |z|² of normals that count as one

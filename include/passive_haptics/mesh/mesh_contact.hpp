@@ -12,10 +12,10 @@
 // The force is K (p − x), p the place of the ball (mesh/proxy.hpp) and x the device, with the damper of
 // proxy_spring along whatever presses:
 //     y ≥ 0 shortest with n_i·y ≥ d_i + min(−τ n_i·v, max(2 d_i, ⅔ λ_i, 0)),   f* = K y
-// n_i and d_i are the half-spaces that hold the ball off x and how far, λ_i what the shortest y without the
-// damper has of each; all of them that are near count. Of a mesh at rest −K (p − x) is the gradient of ½K|p − x|²,
-// no steeper than K, and the ball only ever makes that less. Nothing is promised of energy; the bound behind
-// it does. A mesh of which no news come stays as it is.
+// n_i are the normals of the half-spaces near the ball, d_i [m] is how far x is beyond each, and λ_i [m] is the share
+// that n_i has in the shortest y without the damper. On a mesh at rest −K (p − x) is the gradient of ½K|p − x|², is no
+// steeper than K, and the ball moves only so that this energy falls. The source promises nothing about the energy at
+// the port; the bound behind it does. A mesh of which no news come stays where it is.
 //
 // Along the surface, of a triangle with μ and c (mesh/material.hpp), t how far the ball is held back and v_t the speed
 // beside the surface there:
@@ -83,18 +83,19 @@ class mesh_contact::on {
   [[nodiscard]] constexpr bool settles() const noexcept {
     return spring_.settles(elsewhere_.stiffness);
   }
-  /// The side that was touched is forgotten, the mesh is not.
+  /// Forgets which side was touched, but keeps the mesh.
   constexpr void reset() noexcept { ball_.reset(); }
 
-  /// From now on this mesh, which must outlive the port; from the haptic thread. False: it has 64 fingers.
+  /// Touches this mesh from now on; it must outlive the port. Call it from the haptic thread. It returns false if 64
+  /// fingers touch the mesh already.
   bool touch(const mesh::surface& s) noexcept { return ball_.touch(s); }
-  /// That one, too (mesh/proxy.hpp). False: it has 64 fingers, or this one touches eight.
+  /// Touches this mesh as well (mesh/proxy.hpp). It returns false if 64 fingers touch it, or if eight are touched.
   bool also_touch(const mesh::surface& s) noexcept { return ball_.also_touch(s); }
-  /// Nothing is there any more.
+  /// Touches nothing any more.
   void let_go() noexcept { ball_.let_go(); }
   [[nodiscard]] const mesh::proxy& ball() const noexcept { return ball_; }
 
-  /// Of the mesh, where the device is now.
+  /// Explains the stiffness that is shown where the device is now.
   void explain(explanation& e, const auto& /*x*/, scalar /*T*/, int /*late*/) const noexcept {
     if (!ball_.touching()) {
       e.stiffness = softened_by::no_surface;
@@ -176,7 +177,7 @@ class mesh_contact::on {
     return {static_cast<double>(P::component(v, 0)), static_cast<double>(P::component(v, 1)),
             static_cast<double>(P::component(v, 2))};
   }
-  /// What the motion estimator says, axis by axis where it has more to say than travel and time [m/s].
+  /// The velocity [m/s]: travel over time, or what the motion estimator says along each axis if it has no travel.
   [[nodiscard]] static constexpr vector velocity(const auto& motion) noexcept {
     if constexpr (requires { vector(motion.travel * (scalar(1) / motion.dt)); }) {
       return motion.travel * (scalar(1) / motion.dt);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What one thread writes and several read, whole, and nobody waits: of more copies than all readers can hold, one is
-// the newest, and what nobody holds is filled again.
+// One thread writes a value and several read it, always whole, and no thread waits. There are more copies of the
+// value than all readers can hold: one is the newest, and one that no reader holds is filled next.
 //
 //     news<shape> all;
 //     fill(all.blank());  all.publish();                    // the one writer
 //     const int mine = all.take();  use(all[mine]);  all.give_back(mine);      // each reader
 //
-// A reader pins what it believes to be the newest and looks once more: if it still is, the writer has seen the pin or
-// will, because both go through one order (sequentially consistent atomics); if it is not, nothing was read.
+// A reader pins the copy that it believes to be the newest and looks again. If that copy still is the newest, the
+// writer sees the pin before it fills another copy, because all atomics share one order (they are sequentially
+// consistent). If it is not, the reader has read nothing of it and gives it back.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -23,14 +24,15 @@ namespace mesh {
 template <class T>
 class news {
  public:
-  /// So many readers at once; each holds two copies and is on its way to a third.
+  /// The most readers at one time; each holds up to two copies and may be pinning a third.
   static constexpr int most_readers = 64;
 
   // ---------------------------------------------------------------------------------------- the writer
-  /// One that nobody reads, to be filled; the same until it is published. Those that were filled before come first.
+  /// The copy to fill next, which no reader holds. It stays the same until it is published. The search begins at the
+  /// first copy, so that as few as possible are ever filled.
   [[nodiscard]] T& blank() noexcept {
     const int newest = newest_.load();
-    for (int i = 0; spare_ < 0; i = (i + 1) % copies) {  // there is one: see most_readers
+    for (int i = 0; spare_ < 0; i = (i + 1) % copies) {  // most_readers leaves one free
       if (i != newest && pins_[at(i)].load() == 0) spare_ = i;
     }
     return all_[at(spare_)];
@@ -41,9 +43,9 @@ class news {
   }
 
   // ---------------------------------------------------------------------------------------- each reader
-  /// The number of the newest, −1 before any; another one than the one that is held is news.
+  /// The number of the newest copy, −1 before the first. It is news for a reader that holds another one.
   [[nodiscard]] int newest() const noexcept { return newest_.load(); }
-  /// Holds the newest; −1 if there is none, or if the writer was faster several times.
+  /// Pins the newest copy and returns its number; −1 if there is none, or if the writer overtook it four times.
   [[nodiscard]] int take() noexcept {
     for (int attempt = 0; attempt < 4; ++attempt) {
       const int i = newest_.load();
@@ -54,7 +56,7 @@ class news {
     }
     return -1;
   }
-  /// Once more what is held already.
+  /// Pins a copy that is held already a second time.
   void hold(int i) noexcept { pins_[at(i)].fetch_add(1); }
   void give_back(int i) noexcept { pins_[at(i)].fetch_sub(1); }
   [[nodiscard]] const T& operator[](int i) const noexcept { return all_[at(i)]; }
@@ -66,7 +68,7 @@ class news {
   std::array<T, static_cast<std::size_t>(copies)> all_{};
   std::array<std::atomic<int>, static_cast<std::size_t>(copies)> pins_{};
   std::atomic<int> newest_{-1};
-  int spare_ = -1;  ///< the writer's own
+  int spare_ = -1;  ///< the copy that blank() has chosen, for the writer only; −1: none
 };
 
 }  // namespace mesh

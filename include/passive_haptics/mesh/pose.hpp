@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Where a mesh is, as a whole.
+// The place and the turn of a whole mesh in the world.
 
 #include <passive_haptics/mesh/triple.hpp>
 
@@ -14,7 +14,7 @@ struct pose {
   double w = 1.0;     ///< cos of half the angle
   triple axis{};      ///< the axis times sin of half the angle
 
-  /// Of length 1; false where it has none, or a number is not finite.
+  /// Makes the quaternion one of length 1; returns false if it has no length or a number is not finite.
   [[nodiscard]] constexpr bool prepare() noexcept {
     const double size = kernels::square_root(w * w + squared(axis));
     if (!(size > 1e-6) || !kernels::is_finite(size) || !is_finite(position)) return false;
@@ -35,7 +35,7 @@ struct pose {
   friend constexpr bool operator==(const pose& a, const pose& b) noexcept = default;
 };
 
-/// The way from a to b, of which s is done; the turn goes the shorter way round.
+/// The pose at the share s of the way from a to b; the turn goes the shorter way round.
 [[nodiscard]] constexpr pose between(const pose& a, const pose& b, double s) noexcept {
   const double side = a.w * b.w + dot(a.axis, b.axis) < 0.0 ? -1.0 : 1.0;
   pose p{between(a.position, b.position, s), a.w + (side * b.w - a.w) * s,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Where a finger would be that no triangle lets through: a ball of radius r that is drawn to the device and
-// stays r away from every triangle of a mesh, at rest, moved or deformed. It has no idea of inside and outside;
-// which side was touched is where the ball is.
+// The place of a finger that passes through no triangle: a ball of radius r [m] is drawn to the device and stays r
+// away from every triangle of a mesh, whether the mesh rests, moves or deforms. There is no inside and no outside:
+// the side that is touched is the side on which the ball is.
 //
 //     ph::mesh::proxy finger({.radius = 5e-4});
 //     finger.touch(organ);                          // a mesh::surface, which any number of others may touch
@@ -10,16 +10,16 @@
 //     finger.step(device, dt);                      // in every tick; then
 //     finger.place();                               // where the ball is; device − place() is how far it is held off
 //
-// Two statements are all that it rests on:
-//   rest    a half-space that a triangle T is at least r away from is free of T, so in the intersection of one
-//           for each triangle nearby the ball goes any way, straight, and touches none: the shortest way to the
-//           device (free_region.hpp). For a T that lies behind a half-space already none is needed.
-//   motion  between two shapes nodes go straight. The ball goes with what it rests on, and while what is near
-//           moves by less than d − r/2 beside it, d its distance, it stays r/2 away or more. What would move more
-//           waits for the next tick.
+// Two statements prove it:
+//   rest    A half-space that is at least r away from a triangle T is free of T. So in the intersection of one such
+//           half-space for each triangle nearby the ball may go any straight way and touches none of them; it goes
+//           the shortest way to the device (free_region.hpp). A T that lies behind one of them already needs none.
+//   motion  Between two shapes each node goes straight, and the ball goes along with what it rests on. While a
+//           triangle at the distance d moves by less than d − r/2 relative to the ball, it stays r/2 away or more. A
+//           triangle that would move farther waits for the next tick.
 // With friction the ball is drawn to a place beside the device (stick()), by the same two.
-// So the distance of the ball's centre from every triangle stays > 0 whatever comes, and nothing is passed
-// through; no test of an edge, a side or a crossing is made that rounding could decide.
+// So the distance of the ball's centre from every triangle stays > 0 whatever news come, and the ball passes through
+// nothing. No test of an edge, a side or a crossing is made whose result rounding could turn.
 //
 // Source: god-object (Zilles, Salisbury 1995) and proxy (Ruspini, Kolarov, Khatib 1997), from memory; the
 // half-spaces by distance, and the motion of the mesh, are derived here: docs/design/meshes.md.
@@ -61,14 +61,14 @@ class proxy {
   [[nodiscard]] constexpr const proxy_parameters& parameters() const noexcept { return rule_; }
   constexpr void set(const proxy_parameters& p) noexcept { rule_ = p; }
 
-  /// From now on that surface, which must outlive this. A surface has 64 places: a proxy that ends lets go first, or its
-  /// place stays taken. False: there is none, and nothing is touched.
+  /// Touches this surface from now on; it must outlive the proxy. A surface has 64 places, and a proxy that ends must
+  /// call let_go(), or its place stays taken. It returns false, and nothing is touched, if no place is left.
   bool touch(const surface& s) noexcept {
     let_go();
     return also_touch(s);
   }
-  /// That one, too: the ball is held by both where they meet, each with its own pose and news. False: there are
-  /// most_meshes, it has 64 readers, or it is touched already.
+  /// Touches this surface as well. Each has its own pose and news, and where they meet all of them hold the ball. It
+  /// returns false if most_meshes are touched, if the surface has no place left, or if it is touched already.
   bool also_touch(const surface& s) noexcept {
     for (const part& p : parts()) {
       if (p.news.reads(s)) return false;
@@ -80,7 +80,7 @@ class proxy {
     placed_ = placed_ && meshes_ > 1 && clear_of(meshes_ - 1);
     return true;
   }
-  /// No surface any more.
+  /// Touches no surface any more.
   void let_go() noexcept {
     for (part& p : parts()) {
       p.news.leave();
@@ -89,7 +89,7 @@ class proxy {
     meshes_ = 0;
     reset();
   }
-  /// Not that one any more.
+  /// Touches this surface no more, and the others as before.
   void let_go(const surface& s) noexcept {
     for (int m = 0; m < meshes_; ++m) {
       if (!parts_[slot(m)].news.reads(s)) continue;
@@ -102,7 +102,7 @@ class proxy {
     }
     if (meshes_ == 0) reset();
   }
-  /// It forgets where it was, and with that the side.
+  /// Forgets where the ball was, and with that which side was touched.
   void reset() noexcept {
     placed_ = false;
     beside_ = count_ = 0;
@@ -111,7 +111,8 @@ class proxy {
   }
   [[nodiscard]] bool touching() const noexcept { return meshes_ > 0; }
   [[nodiscard]] int meshes() const noexcept { return meshes_; }
-  /// It has been clear of the surface since the reset; before, it has no side and holds nothing off.
+  /// True if the device has been clear of the surfaces once since the reset. Until then the ball has no side and
+  /// holds nothing off.
   [[nodiscard]] bool placed() const noexcept { return placed_; }
 
   /// The device is at x [m], dt [s] after the last step. A device that is not finite, or farther than 1000 km, changes
@@ -135,8 +136,8 @@ class proxy {
 
   /// Where the ball is, in the world [m].
   [[nodiscard]] triple place() const noexcept { return frame().out(at_) + frame().position; }
-  /// The half-spaces that it may not leave, as directions of the world, and by how much a device at the place
-  /// of the last step is beyond [m]; those that press are pressed().of.
+  /// The half-spaces that the ball may not leave: their normals in the world, and how far [m] the device was beyond
+  /// each in the last step. Those that press have their numbers in pressed().of.
   [[nodiscard]] int planes() const noexcept { return count_; }
   [[nodiscard]] triple normal(int i) const noexcept { return frame().out(planes_[slot(i)].normal); }
   [[nodiscard]] double depth(int i) const noexcept {
@@ -162,9 +163,9 @@ class proxy {
     if (!(all > 0.0)) return elsewhere;
     return {sum.stiffness / all, sum.friction / all, sum.viscosity / all};
   }
-  /// What a half-space is of: which mesh, in the order of touching, which triangle and where on it.
+  /// The origin of a half-space: the mesh, in the order of touching, the triangle, and the point on it.
   [[nodiscard]] const half_space_of& plane(int i) const noexcept { return planes_[slot(i)]; }
-  /// How far the place where it is touched went in the last step, in the world [m].
+  /// The way [m] that the touched point of half-space i went in the last step, in the world.
   [[nodiscard]] triple went(int i) const noexcept {
     const half_space_of& h = planes_[slot(i)];
     const part& p = parts_[slot(h.mesh)];
@@ -175,7 +176,7 @@ class proxy {
     };
     return in_world(p.done, p.shown) - in_world(p.done_before, p.shown_before);
   }
-  /// The triangle that was closest, −1 before any, and its mesh.
+  /// The triangle that was closest in the last step, −1 before the first, and its mesh.
   [[nodiscard]] int nearest() const noexcept {
     return meshes_ > 0 ? parts_[slot(beside_)].nearest : -1;
   }
@@ -201,7 +202,7 @@ class proxy {
   static constexpr int most_near = 48, most_rounds = 3;
   static constexpr std::size_t slot(int i) noexcept { return static_cast<std::size_t>(i); }
 
-  /// One mesh: the shape and the pose that are shown of it, on their way to the newest.
+  /// One mesh, and how far its shape and its pose have come on their way to the newest ones.
   struct part {
     surface::reader news;
     double done = 1.0, done_before = 1.0;  ///< of the way between the shapes; in the last tick
@@ -224,7 +225,8 @@ class proxy {
   [[nodiscard]] std::span<const part> parts() const noexcept {
     return std::span(parts_).first(slot(meshes_));
   }
-  /// One mesh alone is looked at in its own frame, so that its pose is the device's motion; several in the world's.
+  /// A single mesh is looked at in its own frame, where its pose acts as a motion of the device; several meshes are
+  /// looked at in the frame of the world.
   [[nodiscard]] bool alone() const noexcept { return meshes_ == 1; }
   [[nodiscard]] const pose& frame() const noexcept {
     static constexpr pose world_frame{};
@@ -233,7 +235,7 @@ class proxy {
   [[nodiscard]] triple seen(const triple& x) const noexcept {
     return frame().in(x - frame().position);
   }
-  /// Meshes come or go, and the ball stays where it is in the world.
+  /// Lets meshes come or go by `change`, while the ball keeps its place in the world.
   void reframe(auto change) noexcept {
     const triple ball = place(), device = frame().out(device_) + frame().position;
     change();
@@ -272,7 +274,8 @@ class proxy {
       return apart ? where.in(p - where.position) : p;
     }
     // In its own frame.
-    /// Contains what is in between, because a number between is at least what is between the least.
+    /// Box i at the present share of the way. It holds the moved nodes, because each node and each bound go the same
+    /// share of their ways, and no node is beyond its bound at either end.
     [[nodiscard]] box around(int i) const noexcept {
       const box& b = to->boxes[slot(i)];
       if (still) return b;
@@ -333,8 +336,8 @@ class proxy {
   }
 
   // -------------------------------------------------------------------------------------------- news
-  /// What the slow thread has to say; the way to it is begun when the last one is done. Of one mesh alone the pose is
-  /// shown at once; of several it is a motion, and may have to wait.
+  /// Takes the news of the slow thread; the way to a new shape begins when the last way is done. The pose of a single
+  /// mesh is shown at once; among several it is a motion, which may have to wait.
   void hear(part& p, double dt) noexcept {
     p.pose_age += dt;
     p.shape_age += dt;
@@ -380,7 +383,7 @@ class proxy {
     const double asked = (std::max)(age, distance / rule_.news_speed);
     return (std::max)((std::min)(asked, rule_.longest_way), dt);
   }
-  /// Does a half-space that presses belong to that mesh?
+  /// True if the half-space is one of a triangle of this mesh.
   [[nodiscard]] bool is_of(const half_space_of& h, const part& p) const noexcept {
     return &parts_[slot(h.mesh)] == &p;
   }
@@ -413,19 +416,18 @@ class proxy {
     }
     return false;
   }
-  /// A tick of the ways to the newest shapes and poses; how far the ball was carried [m]. They go together, twice with
-  /// what room the ball can make; what cannot go with the others may go by itself. What would crush the ball waits; a
-  /// shape that waits for long goes back if there are news, because they may leave room.
+  /// Advances all meshes by one tick on their ways to the newest shapes and poses; returns how far they carried the
+  /// ball [m]. First they go together, twice, so that the ball can make room; then each that could not go with the
+  /// others tries by itself. A mesh that would crush the ball waits. A shape that has waited for `patience` ticks goes
+  /// back if there are newer news, because those may leave room.
   [[gnu::noinline]] double follow(double dt) noexcept {
     double carried = 0.0;
     int going = 0;
     for (const part& p : parts()) going += p.goes() ? 1 : 0;
-    const auto all = [](const part& p) { return p.goes(); };
-    for (int round = 0; round < 2 && follows(); ++round) carried += go(all);
+    for (int round = 0; round < 2 && follows(); ++round) carried += go(nullptr);
     if (going > 1) {
       for (int m = 0; m < meshes_; ++m) {
-        const part* one = &parts_[slot(m)];
-        if (one->goes()) carried += go([=](const part& p) { return &p == one; });
+        if (parts_[slot(m)].goes()) carried += go(&parts_[slot(m)]);
       }
     }
     for (part& p : parts()) settle(p, dt);
@@ -444,20 +446,24 @@ class proxy {
       if (p.stuck > patience && p.news.has_news()) p.stuck = -1;
     }
   }
-  /// Those that `are` go as far as the ball lets them; how far it was carried or pushed [m].
-  double go(auto are) noexcept {
-    const triple w = carry(are);
-    double part_of = safe_part(are, w, 1.0);
+  /// True for this one mesh or, if it is null, for every mesh that is on its way.
+  [[nodiscard]] static bool takes_part(const part& p, const part* one) noexcept {
+    return one == nullptr ? p.goes() : &p == one;
+  }
+  /// Moves the meshes that take part as far as the ball lets them; returns how far it was carried or pushed [m].
+  double go(const part* one) noexcept {
+    const triple w = carry(one);
+    double part_of = safe_part(one, w, 1.0);
     bool turning = false;
-    for (const part& p : parts()) turning = turning || (are(p) && p.turns());
+    for (const part& p : parts()) turning = turning || (takes_part(p, one) && p.turns());
     if (turning &&
         part_of < 1.0) {  // a turn is straight only from where it is looked at to where it ends
       part_of *= 0.5;
-      if (safe_part(are, w * part_of, part_of) < 1.0) part_of = 0.0;
+      if (safe_part(one, w * part_of, part_of) < 1.0) part_of = 0.0;
     }
     at_ = at_ + w * part_of;
     for (part& p : parts()) {
-      if (!are(p)) continue;
+      if (!takes_part(p, one)) continue;
       p.through = part_of < 1.0 ? p.through + (1.0 - p.through) * part_of : 1.0;
       if (1.0 - p.through <= 1e-6) p.through = 1.0;
       p.done = p.done_at_first + p.through * p.wanted;
@@ -465,15 +471,15 @@ class proxy {
     }
     return length(w) * part_of + (part_of < 1.0 ? make_room() : 0.0);
   }
-  /// The ball goes with what it rests on.
-  [[nodiscard]] triple carry(auto are) const noexcept {
+  /// The way [m] on which the ball goes along with what it rests on.
+  [[nodiscard]] triple carry(const part* one) const noexcept {
     if (pressed_.count == 0) return {};
     std::array<triple, 3> way{};
     std::size_t most = 0;
     for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
       const half_space_of& h = planes_[slot(pressed_.of[i])];
       const part& p = parts_[slot(h.mesh)];
-      if (are(p)) {
+      if (takes_part(p, one)) {
         way[i] = point_at(later(p, 1.0).triangle(h.triangle), h.weights) -
                  point_at(now(p).triangle(h.triangle), h.weights);
       }
@@ -490,17 +496,20 @@ class proxy {
     const double longest = length(way[most]) + rule_.radius;
     return can && squared(more.way) < longest * longest ? way[most] + more.way : way[most];
   }
-  /// The part of `share` of what those that `are` have still to go, in [0, 1], in which no triangle comes nearer than
-  /// r/2 to a ball that goes by w.
-  /// With n the direction from the closest point c to the ball T stays behind a plane that comes nearer by
-  /// max n·u_k, u_k the way of a corner beside the ball. And of a point of T, Σ w_k y_k: those within ρ of c go by
-  /// |u_c| + ρ Σ |u_k − u_c|/h_k at most, h_k the heights of T, the others are √(d² + ρ²) away or more and go by max
-  /// |u_k|, so ρ = max |u_k| + r. The smaller counts.
-  [[nodiscard]] double safe_part(auto are, const triple& w, double share) const noexcept {
+  /// The part, in [0, 1], of `share` of the way still to go that the meshes that take part can go, while the
+  /// ball goes by w [m], before a triangle T is nearer to it than r/2.
+  ///
+  /// Two bounds of how much nearer T comes are computed, and the smaller counts. c is the point of T closest to the
+  /// ball, d its distance, u_k the way of corner k relative to the ball, u_c that of c.
+  ///     max n·u_k                            T stays behind the plane across n, the direction from c to the ball
+  ///     |u_c| + ρ Σ |u_k − u_c|/h_k          no point within ρ of c goes farther; h_k are the heights of T
+  /// In the second, points farther than ρ from c are √(d² + ρ²) away or more and go by max |u_k| at most, so that they
+  /// do not matter for ρ = max |u_k| + r.
+  [[nodiscard]] double safe_part(const part* one, const triple& w, double share) const noexcept {
     const double least = 0.5 * rule_.radius, margin = least + length(w);
     double safe = 1.0;
     for (const part& p : parts()) {
-      const bool goes = are(p);
+      const bool goes = takes_part(p, one);
       if (!goes && w == triple{}) continue;
       const view before = now(p);
       const view after = goes ? later(p, p.through + (1.0 - p.through) * share) : before;
@@ -548,13 +557,14 @@ class proxy {
     }
     if (speed > room) safe = (std::min)(safe, room / speed);
   }
-  /// At least the angle between two turns, 2 sin of its half doubled [rad].
+  /// How far two turns an angle θ apart may bring a point at the distance 1 apart: 2 sin θ/2 ≤ 4 sin θ/4, which is
+  /// twice the distance of their quaternions.
   [[nodiscard]] static double turn_between(const pose& a, const pose& b) noexcept {
     const double side = a.w * b.w + dot(a.axis, b.axis) < 0.0 ? -1.0 : 1.0;
     const double w = a.w - side * b.w;
     return 2.0 * kernels::square_root(w * w + squared(a.axis - b.axis * side));
   }
-  /// What has come nearer than r pushes the ball off; how far [m].
+  /// Pushes the ball off what has come nearer than r; returns how far it went [m].
   double make_room() noexcept {
     const triple before = at_;
     round_to(at_, 0.5 * rule_.radius);
@@ -575,7 +585,7 @@ class proxy {
     const double far_off = length(along), most = mu * deep;
     return far_off > most ? along * (most / far_off) : along;
   }
-  /// Before it has a side: it waits until the device is clear of the surface.
+  /// A step before the ball has a side: it waits until the device is clear of the surfaces.
   void begin(const triple& x, double dt) noexcept {
     device_ = x;
     bool clear = true;
@@ -597,7 +607,8 @@ class proxy {
       if (!(gone_by > 1e-3 * rule_.radius) || !(budget > 0.0)) return;
     }
   }
-  /// The shortest way towards x in the half-spaces of what is within `reach` [m], and no farther; how far it went.
+  /// Moves the ball towards x inside the half-spaces of all that is within `reach` [m], by `reach` at most; returns
+  /// how far it went [m].
   [[gnu::noinline]] double round_to(const triple& x, double reach) noexcept {
     collect(reach);
     const double r = rule_.radius, slack = 1e-9 * r;
@@ -606,7 +617,8 @@ class proxy {
       return planes_[slot(i)].level - dot(planes_[slot(i)].normal, x);
     };
     if (!shortest_way(normal, missing, count_, slack, pressed_)) {
-      for (int i = 0; i < count_; ++i) {  // no room for r: at least what there is
+      for (int i = 0; i < count_;
+           ++i) {  // there is no room for r, so the ball keeps the room that it has
         half_space_of& h = planes_[slot(i)];
         h.level = (std::min)(h.level, dot(h.normal, at_));
       }
@@ -628,7 +640,7 @@ class proxy {
     stop_at(at_ + way * (reach_ / whole), x);
     return reach_;
   }
-  /// The straight way to there is r/4 away from what the half-spaces stand for, and from what lies behind them.
+  /// True if the straight way to `goal` stays r/4 away from the triangles of all half-spaces and what is behind them.
   [[nodiscard]] bool keeps_off(const triple& goal) const noexcept {
     for (int i = 0; i < count_; ++i) {
       const half_space_of& h = planes_[slot(i)];
@@ -639,7 +651,7 @@ class proxy {
     }
     return true;
   }
-  /// It goes there and no farther now: one more half-space, across the way to x.
+  /// Puts the ball there and holds it with one more half-space across the way to x.
   void stop_at(const triple& there, const triple& x) noexcept {
     const triple off = there - x;
     const double d = length(off);
@@ -651,11 +663,11 @@ class proxy {
     planes_[slot(i)] = {n, dot(n, there), likely, {1.0, 0.0, 0.0}, beside_};
     pressed_ = {off, {i, 0, 0}, {d, 0.0, 0.0}, 1};
   }
-  /// What may stand before a half-space and is passed over while it is not near [m].
+  /// How far [m] a triangle that is not near may stand out of a half-space and yet need none of its own.
   [[nodiscard]] double behind() const noexcept { return 0.02 * rule_.radius; }
 
-  /// The half-spaces of the triangles within r + reach, the closest first. Where there are too many, reach_ is
-  /// less than `reach`.
+  /// Collects the half-spaces of the triangles within r + reach, the closest first. Where there are too many, reach_
+  /// becomes less than `reach`.
   void collect(double reach) noexcept {
     const double r = rule_.radius;
     reach_ = reach;
@@ -693,7 +705,7 @@ class proxy {
       add(v, f);
     }
   }
-  /// Of one mesh the triangles that stand before the first half-space, the closest first.
+  /// Adds the triangles of one mesh that stand out of the first half-space to `beside`, the closest first.
   void gather(int mesh, const found& first, std::array<found, most_near>& beside, int& have,
               double& farthest) const noexcept {
     const view v = now(parts_[slot(mesh)]);
@@ -737,8 +749,8 @@ class proxy {
     const double most = base_[slot(i)] + allowed;
     return dot(n, t[0]) <= most && dot(n, t[1]) <= most && dot(n, t[2]) <= most;
   }
-  /// The half-space of a triangle: beside its own plane where the ball is above it, else across the way to its
-  /// closest point.
+  /// Adds the half-space of a triangle: it is parallel to the triangle where the ball is above it, and otherwise lies
+  /// across the way from its closest point to the ball.
   void add(const view& v, const found& f) noexcept {
     const corners t = v.triangle(f.triangle);
     const double r = rule_.radius;

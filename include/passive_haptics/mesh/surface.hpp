@@ -7,10 +7,10 @@
 //     organ.update(pose);                            // slow thread, where the whole of it has moved
 //     ph::mesh::surface knee(triangles, nodes, {.materials = {bone, skin}, .of = of_triangle});
 //
-// The slow thread copies the nodes and fits the tree's boxes; each finger takes what is newest when it has come to
-// what it took before, and nobody waits (news.hpp). Sides do not matter: a surface may be open, inside out, cross
-// itself, have three triangles at an edge, or some without an area. What is no mesh is refused with a sentence, and
-// the last good one stays.
+// The slow thread copies the nodes and fits the boxes of the tree. Each finger takes the newest shape as soon as it
+// has arrived at the one that it took before, and no thread waits for another (news.hpp). No side is the outside: a
+// surface may be open, inside out, or cross itself, have three triangles at an edge, or triangles without an area.
+// An input that is no mesh is refused with a sentence, and the last good one stays.
 
 #include <passive_haptics/mesh/box_tree.hpp>
 #include <passive_haptics/mesh/material.hpp>
@@ -89,7 +89,7 @@ template <class Nodes>
   }
 }
 
-/// What a surface and those who touch it share.
+/// The data that a surface shares with the fingers that touch it.
 struct world {
   world(std::vector<std::array<int, 3>> t, box_tree around, made_of given)
       : triangles(std::move(t)), tree(std::move(around)), stuff(std::move(given)) {}
@@ -106,7 +106,8 @@ struct world {
   news<shape> shapes;
   news<pose> poses;
 
-  /// What one finger holds: the shape that it comes from and the one that it goes to, or both the same; its pose.
+  /// The numbers of the shapes that one finger holds, `from` which and `to` which it goes (the same one while it
+  /// rests), and of its pose; −1 is none.
   struct seat {
     std::atomic<bool> taken{false};
     int from = 0, to = 0, pose = -1;
@@ -154,8 +155,8 @@ class surface {
     return {};
   }
 
-  /// The mesh must pass check(), and so must what it is made of: throws the sentence as std::invalid_argument. It is moved
-  /// by no one: a port holds its address.
+  /// The mesh must pass check(), and so must what it is made of; a sentence is thrown as std::invalid_argument. A
+  /// surface cannot be copied or moved, because fingers hold its address.
   template <class Nodes>
   surface(std::vector<triangle> triangles, const Nodes& nodes, made_of stuff = {})
       : world_(made(std::move(triangles), nodes, std::move(stuff))), count_(nodes.size()) {
@@ -167,8 +168,8 @@ class surface {
 
   // ------------------------------------------------------------------------------------ the slow thread
   using clock = std::chrono::steady_clock;
-  /// The nodes are there now [m]. False: fault() says why, and what was last good stays. It does not allocate
-  /// after three good ones, as long as all who touch it keep up.
+  /// Moves the nodes to these places [m]. If it returns false, fault() says why, and the last good shape stays. After
+  /// three good updates it does not allocate, as long as every finger keeps up.
   template <class Nodes>
   requires requires(const Nodes& n) { n.size(); }
   bool update(const Nodes& nodes) {
@@ -186,7 +187,7 @@ class surface {
     fault_.clear();
     return true;
   }
-  /// The whole of it is there now. False: a number is not finite, or the quaternion has no length.
+  /// Moves the whole mesh to this pose. It returns false if a number is not finite or the quaternion has no length.
   bool update(pose where) {
     if (!where.prepare()) {
       fault_ =
@@ -199,7 +200,8 @@ class surface {
     fault_.clear();
     return true;
   }
-  /// Either, as it was at that time. False also where others were newer, or the time is yet to come.
+  /// The same for nodes or a pose of the time `at`. It also returns false if later news were told before, or if `at`
+  /// is in the future.
   bool update(const auto& there, clock::time_point at) {
     if (!in_order(at) || !update(there)) return false;
     last_ = at;
@@ -210,12 +212,12 @@ class surface {
   [[nodiscard]] std::span<const triangle> triangles() const noexcept { return world_->triangles; }
 
   // --------------------------------------------------------------------------------- the haptic threads
-  /// What one finger has of a surface, which outlives it: a place among most_readers, and with it the shape that it comes
-  /// from and the one that it goes to, or both the same. A copy is the same finger. Whoever ends gives its place back
-  /// with leave(), or the place stays taken.
+  /// One finger's hold on a surface, which must outlive it: one of most_readers places, and with it the shape that the
+  /// finger comes from and the one that it goes to. A copy is the same finger. A finger that ends must call leave(), or
+  /// its place stays taken.
   class reader {
    public:
-    /// False: there were most_readers already.
+    /// Takes a place; returns false if there were most_readers already.
     bool join(const surface& s) noexcept {
       detail::world* w = s.world_.get();
       for (std::size_t i = 0; i < w->seats.size(); ++i) {
@@ -249,7 +251,7 @@ class surface {
     [[nodiscard]] const shape& from() const noexcept { return world_->shapes[seat_->from]; }
     [[nodiscard]] const shape& to() const noexcept { return world_->shapes[seat_->to]; }
     [[nodiscard]] bool moves() const noexcept { return seat_->from != seat_->to; }
-    /// Goes to the newest shape, if one came; only from one that is arrived at.
+    /// Sets out for the newest shape. It returns false if there is none, or if the last way is not done.
     bool go() noexcept {
       if (moves() || !has_news()) return false;
       const int newest = world_->shapes.take();
@@ -257,7 +259,7 @@ class surface {
       world_->shapes.give_back(std::exchange(seat_->to, newest));
       return true;
     }
-    /// The one that it went to is felt, or the one that it came from.
+    /// The way ends: from now on both shapes are the one it went to, or after turn_back() the one it came from.
     void arrive() noexcept {
       world_->shapes.hold(seat_->to);
       world_->shapes.give_back(std::exchange(seat_->from, seat_->to));
@@ -266,7 +268,7 @@ class surface {
       world_->shapes.hold(seat_->from);
       world_->shapes.give_back(std::exchange(seat_->to, seat_->from));
     }
-    /// The newest pose, if one came since the last call.
+    /// The newest pose, or null if none came since the last call.
     [[nodiscard]] const pose* take_pose() noexcept {
       if (world_->poses.newest() == seat_->pose) return nullptr;
       const int newest = world_->poses.take();
@@ -351,7 +353,7 @@ class surface {
   }
 
   std::unique_ptr<detail::world> world_;
-  std::size_t count_;  ///< of the nodes
+  std::size_t count_;  ///< number of nodes
   clock::time_point last_{};
   std::string fault_;
 };
