@@ -12,6 +12,7 @@ int main() {
 
   stroke hand;
   const int untrue = hand.over(
+      {.error = 0.5, .step = 0.1},
       [&](const organ& body, const env::surface_point& on) {  // the slow thread
         touch.update(surface_at(body, on), {.velocity = body.velocity(on)});
       },

@@ -13,6 +13,7 @@ int main() {
 
   stroke hand(0.006);
   const int untrue = hand.over(
+      {.error = 1, .step = 0.1},
       [&](const organ& body, const env::surface_point& on) {  // the slow thread
         touch.source().update(0, surface_at(body, on));
       },

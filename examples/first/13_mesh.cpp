@@ -19,6 +19,7 @@ int main() {
 
   stroke hand(0.006);
   const int untrue = hand.over(
+      {.error = 1, .step = 0.5, .above = ball.parameters().radius},
       [&](const organ& body, const env::surface_point&) { mesh.update(body.nodes()); },
       [&](const auto& sample) { return touch.tick(sample).force; },
       [&](const organ& now, const env::surface_point&, const vector& x) {

@@ -17,15 +17,15 @@ namespace ph = passive_haptics;
 namespace sim = ph::simulation;
 
 /// The device, the hand on it, a spring of `stiffness` N/m that pushes with `limit` N at most, and the judges.
-/// Friction is elastic over `presliding` m.
-template <class Space>
+/// Friction is elastic over `presliding` m; with sim::coulomb_friction as `Friction` it is what `device` says.
+template <class Space, class Friction = sim::slider_and_spring>
 class session {
  public:
   using vector = typename Space::vector;
   session(const sim::device_parameters<Space>& device, double limit, double friction = 0.0,
           double presliding = 1e-6, double stiffness = 300.0)
       : device_(device, {.stiffness = stiffness, .damping = stiffness / 300.0, .limit = limit},
-                {.level = {friction}, .presliding = {presliding}}) {}
+                elastic(friction, presliding)) {}
 
   /// The hand goes to `target`, unless it is there, and holds still; `force_of`(sample) is the controller, ticked once
   /// a millisecond.
@@ -63,7 +63,15 @@ class session {
   }
 
  private:
-  sim::device<Space, sim::impedance_hand<Space>, sim::slider_and_spring> device_;
+  [[nodiscard]] static Friction elastic(double friction, double presliding) {
+    if constexpr (requires(Friction f) { f.presliding; }) {
+      return {.level = {friction}, .presliding = {presliding}};
+    } else {
+      return {};
+    }
+  }
+
+  sim::device<Space, sim::impedance_hand<Space>, Friction> device_;
   ph::device_sample<Space> sample_ = device_.exchange(Space::zero());
   sim::quiet_judge<Space> judge_{};
   double least_ = 0.0;  ///< energy at the port, with what friction took [J]
