@@ -3,8 +3,8 @@
 #include "environment/shapes.hpp"
 #include "support/curved.hpp"
 #include <passive_haptics/environment/contact_surface.hpp>
-#include <passive_haptics/environment/deformable_body.hpp>
 #include <passive_haptics/environment/contact_tracker.hpp>
+#include <passive_haptics/environment/deformable_body.hpp>
 
 namespace {
 

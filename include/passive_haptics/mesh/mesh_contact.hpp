@@ -114,13 +114,26 @@ class mesh_contact::on {
   };
   template <bool Shortcut>
   [[nodiscard]] request ask(const auto& motion, const auto& port, event& what) noexcept {
+    return asked(motion, static_cast<double>(port.dt), what);
+  }
+  [[nodiscard]] constexpr result_type answered(const request& r,
+                                               const port_result<P>& port) const noexcept {
+    return {port.force, r.depth, port.energy, port.what, port.limited};
+  }
+  constexpr result_type refused(const port_result<P>& port, scalar /*dt*/) noexcept {
+    return {port.force, scalar(0), port.energy, port.what, false};
+  }
+
+ private:
+  /// Out of line, once for both kinds of tick that ask for it, so that a program compiles sooner; dt is in seconds.
+  [[gnu::noinline, nodiscard]] request asked(const auto& motion, double dt, event& what) noexcept {
     const request free{P::zero(), true, scalar(0)};
     if (!ball_.touching()) {
       what = detail::worse_yet(what, event::no_target);
       return free;
     }
     const vector x = motion.position;
-    ball_.step(to_triple(x), static_cast<double>(port.dt));
+    ball_.step(to_triple(x), dt);
     const mesh::support& pressed = ball_.pressed();
     if (!ball_.placed() || pressed.count == 0) {
       presses_ = false;
@@ -128,7 +141,6 @@ class mesh_contact::on {
     }
     const double depth = mesh::length(pressed.way);
     const mesh::triple v = to_triple(velocity(motion));
-    const double dt = static_cast<double>(port.dt);
     const mesh::material is = made_of(depth, mesh::length(v), dt);
     const auto felt =
         spring_.saturates(sampled_, depth) ? spring_.saturated(sampled_, depth) : sampled_;
@@ -164,15 +176,6 @@ class mesh_contact::on {
     if (!P::is_finite(wanted)) return free;
     return {wanted, false, static_cast<scalar>(depth)};
   }
-  [[nodiscard]] constexpr result_type answered(const request& r,
-                                               const port_result<P>& port) const noexcept {
-    return {port.force, r.depth, port.energy, port.what, port.limited};
-  }
-  constexpr result_type refused(const port_result<P>& port, scalar /*dt*/) noexcept {
-    return {port.force, scalar(0), port.energy, port.what, false};
-  }
-
- private:
   [[nodiscard]] static constexpr mesh::triple to_triple(const vector& v) noexcept {
     return {static_cast<double>(P::component(v, 0)), static_cast<double>(P::component(v, 1)),
             static_cast<double>(P::component(v, 2))};
