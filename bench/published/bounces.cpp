@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hannaford and Ryu, 2002: 90 kN/m on steps of 0.1 mm comes to rest after six bounces.
+#include "program.hpp"
+#include <passive_haptics/design.hpp>
+
+namespace papers {
+
+ex::failures run_bounces(const session& s) {
+  constexpr double K = 90e3;
+  s.out.section(
+      "Hannaford and Ryu, T-RA 2002: 90 kN/m",
+      "Says (secondary account): on a device of 200 N, 1 kHz and steps of 0.1 mm a wall of 90 "
+      "kN/m, met at about 200 mm/s, oscillates for ever, and with a passivity controller comes to "
+      "rest after about six bounces. Not given there: mass, damping, friction, and the hand. "
+      "Stated: 1 and 3 kg, 5 N·s/m, dry friction of 1 and 5 N, a hand that presses with 10 N, by "
+      "a grip of 300 N/m and 3 N·s/m, and no more than 60 N. A wall of 90 kN/m steps by 9 N an "
+      "encoder step, so K ≤ 2c/q asks for 4.5 N of dry friction. Their PO/PC: ours of "
+      "published.hpp, with 0.5 m/T at most.");
+  const press thrown{.push = 10.0, .stiffness = 300.0, .damping = 3.0, .away = 20e-3, .speed = 0.2};
+  facts light{.mass = 1.0,
+              .damping = 5.0,
+              .friction = 1.0,
+              .quantum = 0.1e-3,
+              .force_limit = 200.0,
+              .hand = 60.0};
+  facts heavy = light, exact = light;
+  heavy.mass = 3.0;
+  heavy.friction = 5.0;
+  exact.friction = exact.quantum = 0.0;
+  ex::failures found;
+  const std::string source = "Hannaford, Ryu 2002";
+  const auto stepped = all_on(s, source, "1 kg, 1 N of dry friction", light, K, thrown, found);
+  const auto rubbing = all_on(s, source, "3 kg, 5 N of dry friction", heavy, K, thrown, found);
+  const auto smooth =
+      all_on(s, source, "1 kg, exact positions, no dry friction", exact, K, thrown, found);
+  auto rows = stepped;
+  rows.insert(rows.end(), rubbing.begin(), rubbing.end());
+  rows.insert(rows.end(), smooth.begin(), smooth.end());
+  s.out.member("bounces", ex::json_of(rows));
+
+  for (const auto& [c, name] :
+       {std::pair{bare(), "bare"}, {passivity_controlled(), "popc"}, {contenders()[1], "touch"}}) {
+    ex::csv_file csv(s.out.path("bounces_" + std::string(name) + ".csv"),
+                     "time s,depth m,force N,port energy J");
+    auto shorter = thrown;
+    shorter.seconds = 1.5;
+    (void)under_a_hand(c, light, K, shorter, K, &csv);
+    csv.close();
+  }
+  const auto swing_late = [](const ex::recorded& r) {
+    return ex::swing(r.within("depth m", 1.0, 1.5));
+  };
+  s.out.plot(
+      "bounces",
+      {"90 kN/m on steps of 0.1 mm, 1 kg and 1 N of dry friction",
+       "Above 0 is inside the wall. The bare spring goes on bouncing by more than 1 mm. "
+       "Their controller comes to rest. So does make_touch, which never leaves the wall "
+       "again; it is softer, and gives nothing away.",
+       {{"The bare spring goes on bouncing by more than 1 mm", "bounces_bare.csv",
+         [=](const ex::recorded& r) { return swing_late(r) > 1e-3; }},
+        {"Their controller comes to rest", "bounces_popc.csv",
+         [=](const ex::recorded& r) { return swing_late(r) < 1e-4; }},
+        {"So does make_touch", "bounces_touch.csv",
+         [=](const ex::recorded& r) { return swing_late(r) < 1e-4; }},
+        {"which never leaves the wall again", "bounces_touch.csv",
+         [](const ex::recorded& r) { return ex::least(r.within("depth m", 0.15, 1.5)) > 0.0; }},
+        {"gives nothing away", "bounces_touch.csv",
+         [](const ex::recorded& r) { return ex::least(r["port energy J"]) >= -accepted_loss; }}}},
+      "set xlabel 'time [s]'\nset ylabel 'depth [mm]'\nset key right bottom\n"
+      "plot [0:1] 'bounces_bare.csv' using 1:($2*1e3) with lines title 'bare spring', "
+      "'bounces_popc.csv' using 1:($2*1e3) with lines title 'PO/PC', "
+      "'bounces_touch.csv' using 1:($2*1e3) with lines lw 2 title 'make\\_touch'");
+  const auto verdict = [&](const std::vector<outcome>& all, double friction, double step) {
+    const auto &best = best_of(all), &theirs = all.back();
+    std::string so = "their PO/PC " + std::to_string(theirs.pressed_by.bounces) + " bounces and " +
+                     ex::format("%.2g J", theirs.attacked) + " attacked, ours " +
+                     std::to_string(best.pressed_by.bounces) + " and 0";
+    if (best.shown >= 0.95 * K) return so + "; as stiff";
+    if (!(step > 0.0)) return so + "; softer: 0.1 m/T²";
+    return so + "; softer: " + ex::format("%g N pay for", friction) +
+           ex::format(" %.3g N/mm (2c/q), § 2(g) 3", 2e-3 * friction / step);
+  };
+  const std::string says = "90 N/mm at rest after six bounces";
+  s.figures.push_back(
+      figure_of(source + ", 1 kg, 1 N", says, stepped, verdict(stepped, 1.0, 1e-4)));
+  s.figures.push_back(
+      figure_of(source + ", 3 kg, 5 N", says, rubbing, verdict(rubbing, 5.0, 1e-4)));
+  s.figures.push_back(figure_of(source + ", 1 kg, exact", says, smooth, verdict(smooth, 0.0, 0.0)));
+  return found;
+}
+
+}  // namespace papers
