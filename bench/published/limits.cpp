@@ -117,12 +117,12 @@ std::vector<limit> limits() {
        {facts{.damping = 0.03}, facts{.damping = 0.1}, facts{.damping = 1.0, .period = 0.25e-3},
         facts{.damping = 0.1, .wall_damping = 0.05},
         facts{.damping = 1.0, .period = 4e-3, .wall_damping = 0.5}}) {
-    add("Colgate, Schenkel", f, passivity::colgate_schenkel(loop_of(f)));
+    add("Colgate and Schenkel", f, passivity::colgate_schenkel(loop_of(f)));
   }
   for (const facts& f : {facts{.friction = 0.04, .quantum = 30e-6},
                          facts{.damping = 20.0, .friction = 0.3, .quantum = 60e-6},
                          facts{.damping = 100.0, .friction = 1.0, .quantum = 100e-6}}) {
-    add("Abbott, Okamura", f, passivity::abbott_okamura(loop_of(f)));
+    add("Abbott and Okamura", f, passivity::abbott_okamura(loop_of(f)));
   }
   for (const facts& f : {facts{.latency = 1}, facts{.damping = 1.0, .latency = 2},
                          facts{.damping = 50.0, .friction = 0.3, .quantum = 60e-6, .latency = 1}}) {
@@ -131,7 +131,7 @@ std::vector<limit> limits() {
   for (const facts& f :
        {facts{}, facts{.damping = 0.3, .latency = 1}, facts{.latency = 2},
         facts{.damping = 0.1, .wall_damping = 0.2}, facts{.mass = 0.5, .latency = 2}}) {
-    add("Gil, Hulin: at rest", f, ph::design::stability::gil_hulin(loop_of(f)));
+    add("Gil and Hulin: at rest", f, ph::design::stability::gil_hulin(loop_of(f)));
   }
   const facts usual{}, steps{.damping = 20.0, .friction = 0.3, .quantum = 60e-6};
   all.push_back({"control: b > K T", usual, usual.damping / usual.period, 0.0, true});
@@ -204,24 +204,31 @@ ex::failures run_limits(const session& s) {
   // What ours shows where the formula ends.
   const facts exact{}, late{.latency = 1},
       stepped{.damping = 0.1, .friction = 0.3, .quantum = 60e-6};
-  const auto on = [&](const std::string& source, const std::string& says, const std::string& model,
-                      const facts& f, double says_N_m) {
-    const auto all = all_on(s, source, model, f, 10e3, {}, found);
-    const double times = best_of(all).shown / says_N_m;
-    s.figures.push_back(
-        figure_of(source, says + ex::format(": %.3g N/m", says_N_m), all,
-                  ex::format("%.2g times the limit", times) +
-                      ", to a hand of 5 N; for any hand 2b/T is the end, ours included (L4)"));
+  const auto line_of = [&](const std::string& source, const std::string& says,
+                           const std::vector<outcome>& all, double limit_there) {
+    double strict = 0.0;
+    for (const auto& o : all) {
+      if (o.to == promise::any_hand) strict = std::max(strict, o.shown);
+    }
+    s.figures.push_back(figure_of(
+        source, says + ex::format(": %.3g N/m", limit_there), all,
+        ex::format("%.2g times the limit, to a hand of 5 N; ", best_of(all).shown / limit_there) +
+            ex::format("%.2g times it, to any hand (strict)", strict / limit_there)));
+  };
+  const auto on = [&](const std::string& source, const std::string& model, const facts& f) {
+    return all_on(s, source, model, f, 10e3, {}, found);
   };
   namespace passivity = ph::design::passivity;
-  on("Colgate, Schenkel", "b > K T/2 + |B|", "0.1 kg, 0.1 N·s/m, 1 kHz, exact positions", exact,
-     passivity::colgate_schenkel(loop_of(exact)));
-  on("Abbott, Okamura", "K ≤ 2c/q, 2b/T", "0.1 kg, 0.1 N·s/m, 1 kHz, 0.3 N dry, steps of 60 µm",
-     stepped, passivity::abbott_okamura(loop_of(stepped)));
-  on("Diolaiti and others", "b ≥ K (T/2 + t_d)", "0.1 kg, 0.1 N·s/m, 1 kHz, a tick late", late,
-     passivity::diolaiti(loop_of(late)));
-  const double rests = ph::design::stability::gil_hulin(loop_of(late));
-  on("Gil, Hulin", "K < b/(T/2 + t_d)", "the same", late, rests);
+  line_of("Colgate, Schenkel", "b > K T/2 + |B|",
+          on("Colgate, Schenkel", "0.1 kg, 0.1 N·s/m, 1 kHz, exact positions", exact),
+          passivity::colgate_schenkel(loop_of(exact)));
+  line_of("Abbott, Okamura", "K ≤ 2c/q, 2b/T",
+          on("Abbott, Okamura", "0.1 kg, 0.1 N·s/m, 1 kHz, 0.3 N dry, steps of 60 µm", stepped),
+          passivity::abbott_okamura(loop_of(stepped)));
+  const auto all_late = on("Diolaiti, Gil, Hulin", "0.1 kg, 0.1 N·s/m, 1 kHz, a tick late", late);
+  line_of("Diolaiti and others", "b ≥ K (T/2 + t_d)", all_late, passivity::diolaiti(loop_of(late)));
+  line_of("Gil, Hulin", "K < b/(T/2 + t_d), at rest", all_late,
+          ph::design::stability::gil_hulin(loop_of(late)));
   return found;
 }
 

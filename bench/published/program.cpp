@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program.hpp"
 
+#include <passive_haptics/design/stiffness_budget.hpp>
+
 namespace papers {
 
 const std::vector<ex::section<session>>& sections() {
@@ -41,6 +43,20 @@ const outcome& best_of(const std::vector<outcome>& rows) {
     if (counts && (best == &rows.front() || o.shown > best->shown)) best = &o;
   }
   return *best;
+}
+
+std::string what_binds(const facts& f) {
+  namespace design = ph::design;
+  if (!(f.quantum > 0.0)) return "sampled mass";
+  const auto budget = design::stiffness_budget(ph::encoder_device{.mass = f.mass,
+                                                                  .damping = f.damping,
+                                                                  .friction = f.friction,
+                                                                  .presliding = 0.0,
+                                                                  .quantum = f.quantum,
+                                                                  .force_limit = f.force_limit,
+                                                                  .longest_tick = f.period});
+  return std::string(design::to_string(budget.binding)) +
+         ex::format(" allows %.3g N/mm", budget.stiffness * 1e-3);
 }
 
 figure figure_of(const std::string& source, const std::string& says,

@@ -32,6 +32,9 @@ struct session : ex::workshop {
 /// The stiffest of ours that lost nothing and came to rest; of the bare spring, the first.
 [[nodiscard]] const outcome& best_of(const std::vector<outcome>& rows);
 
+/// What keeps ours from being stiffer on these facts: the budget of friction, in words.
+[[nodiscard]] std::string what_binds(const facts& f);
+
 /// A line for the table, from the outcomes on a model.
 [[nodiscard]] figure figure_of(const std::string& source, const std::string& says,
                                const std::vector<outcome>& rows, const std::string& verdict);

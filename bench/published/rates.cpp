@@ -128,10 +128,10 @@ ex::failures run_rates(const session& s) {
        each(slow.bare_quiet, fast.bare_quiet) + ", " + ex::format("%.1g J", fast.bare_energy),
        each(slow.touch, fast.touch) + ", make_touch", ex::format("%.2f s", latest),
        slow.ours_energy >= -accepted_loss && fast.ours_energy >= -accepted_loss ? "0" : "lost",
-       slow.touch > theirs[0]
-           ? "more at both ends; another device, no texture, no listener"
-           : "less at 250 Hz: a mass sampled so slowly is held with no more than 0.1 m/T²; more "
-             "from 1 kHz on. Another device, no texture, no listener"});
+       (slow.touch > theirs[0] ? std::string("more at both ends")
+                               : "less at 250 Hz, where " + what_binds(phantom(250.0, 0.05)) +
+                                     " and the bare spring gives energy away; more from 1 kHz on") +
+           "; another device, no texture, no listener"});
   return found;
 }
 

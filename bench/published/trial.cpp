@@ -48,7 +48,7 @@ pressed under_a_hand(const contender& c, const facts& f, double K, const press& 
 }
 
 double shown_stiffness(const contender& c, const facts& f, double K) {
-  constexpr double speed = 1e-3, deepest = 20e-3;
+  constexpr double speed = 0.2e-3, deepest = 20e-3;
   auto parameters = f.device();
   parameters.start = -1e-3;
   sim::prescribed_motion<line> finger(parameters);

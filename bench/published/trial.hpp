@@ -34,7 +34,7 @@ struct pressed {
 [[nodiscard]] pressed under_a_hand(const contender& c, const facts& f, double K, const press& by,
                                    double shown, ex::csv_file* csv = nullptr);
 
-/// The stiffness [N/m] that a slow press finds from an empty ledger: the slope of force over depth, at 1 mm/s until the
+/// The stiffness [N/m] that a slow press finds from an empty ledger: the slope of force over depth, at 0.2 mm/s until the
 /// force is 0.9 of facts::hand, or for 20 mm. A staircase of N encoder steps looks softer by 1/N². Pressed for fewer
 /// than 20 ticks: none.
 [[nodiscard]] double shown_stiffness(const contender& c, const facts& f, double K);
