@@ -83,7 +83,7 @@ inline std::string markdown_cell(const std::string& text) {
 }
 
 /// The most columns of a terminal that programs use.
-inline constexpr std::size_t terminal_columns = 100;
+inline constexpr std::size_t terminal_columns = 80;
 
 /// The columns that `text` takes on a terminal, in characters and not in bytes.
 inline std::size_t columns_of(const std::string& text) {

@@ -14,16 +14,16 @@ ex::failures run_stiff(const session& s) {
       "Stated: 75 g, 0.04 N, steps of 30 µm, 8.5 N (not verified), 0.05 N·s/m, 1 kHz. A wall "
       "of 10 N/mm steps by 0.3 N there, and a hand draws (K q − 2c) a metre at an edge, so a "
       "guarantee needs 0.15 N of dry friction (§ 2(g) 3, necessary as measured above). The second "
-      "model is what a device needs for it: steps of 5 µm and 2 kHz.");
+      "model is what a device needs for it: steps of 3 µm and 2 kHz.");
   const facts premium{
       .mass = 0.075, .damping = 0.05, .friction = 0.04, .quantum = 30e-6, .force_limit = 8.5};
   facts finer = premium;
-  finer.quantum = 5e-6;
+  finer.quantum = 3e-6;
   finer.period = 0.5e-3;
   ex::failures found;
   const std::string source = "Singh, Jafari, Ryu 2019";
   const auto there = all_on(s, source, "Premium 1.5, 30 µm, 1 kHz", premium, K, {}, found);
-  const auto here = all_on(s, source, "the same with 5 µm and 2 kHz", finer, K, {}, found);
+  const auto here = all_on(s, source, "the same with 3 µm and 2 kHz", finer, K, {}, found);
   auto rows = there;
   rows.insert(rows.end(), here.begin(), here.end());
   s.out.member("stiff", ex::json_of(rows));

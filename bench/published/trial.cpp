@@ -48,27 +48,18 @@ pressed under_a_hand(const contender& c, const facts& f, double K, const press& 
 }
 
 double shown_stiffness(const contender& c, const facts& f, double K) {
-  constexpr double speed = 0.2e-3, deepest = 20e-3;
+  constexpr double speed = 1e-3, deepest = 20e-3;
   auto parameters = f.device();
   parameters.start = -1e-3;
   sim::prescribed_motion<line> finger(parameters);
   auto model = wall_of(c, f, K);
-  double n = 0.0, x1 = 0.0, f1 = 0.0, xx = 0.0, xf = 0.0;
   auto sample = finger.exchange(0.0);
-  while (finger.position() < deepest) {
+  for (;;) {
     const double force = -model.tick(sample).force, depth = finger.position();
-    if (force > 0.0) {
-      n += 1.0;
-      x1 += depth;
-      f1 += force;
-      xx += depth * depth;
-      xf += depth * force;
-    }
-    if (force > 0.9 * f.hand) break;
-    finger.move_to(finger.position() + speed * f.period);
+    if (force > 0.9 * f.hand || depth > deepest) return force / depth;
+    finger.move_to(depth + speed * f.period);
     sample = finger.exchange(-force);
   }
-  return n < 20.0 ? std::nan("") : (xf - x1 * f1 / n) / (xx - x1 * x1 / n);
 }
 
 double under_attack(const contender& c, const facts& f, double K, int runs) {

@@ -34,9 +34,8 @@ struct pressed {
 [[nodiscard]] pressed under_a_hand(const contender& c, const facts& f, double K, const press& by,
                                    double shown, ex::csv_file* csv = nullptr);
 
-/// The stiffness [N/m] that a slow press finds from an empty ledger: the slope of force over depth, at 0.2 mm/s until the
-/// force is 0.9 of facts::hand, or for 20 mm. A staircase of N encoder steps looks softer by 1/N². Pressed for fewer
-/// than 20 ticks: none.
+/// The stiffness [N/m] that a slow press finds from an empty ledger: force over depth, at 1 mm/s, where the force is 0.9
+/// of facts::hand, or at 20 mm. The hand is a velocity source.
 [[nodiscard]] double shown_stiffness(const contender& c, const facts& f, double K);
 
 /// The least energy [J] of `runs` runs each of the adversaries that the promise covers, and for a bare spring of those
