@@ -179,7 +179,7 @@ ex::failures run_modes(const session& s) {
   }));
   s.out.member("modes", ex::json_of(rows));
   ex::failures found;
-  double least = 1.0, lost = 0.0, softest = 1e9, stiffest = 0.0, latest = 0.0;
+  double least = 1.0, lost = 0.0, told = 0.0, softest = 1e9, stiffest = 0.0, latest = 0.0;
   bool rests = true;
   for (const auto& r : rows) {
     if (r.told < -1e-9) {
@@ -188,6 +188,7 @@ ex::failures run_modes(const session& s) {
     }
     least = std::min(least, r.giving / r.stiff);
     lost = std::min(lost, r.untold);
+    told = std::min(told, r.told);
     softest = std::min(softest, r.shown);
     stiffest = std::max(stiffest, r.shown);
     rests = rests && std::isfinite(r.quiet);
@@ -228,7 +229,8 @@ ex::failures run_modes(const session& s) {
        ex::format("%.2g of the rigid limit, at the worst mode", least),
        ex::format("%.3g to ", softest * 1e-3) +
            ex::format("%.3g N/mm, make_touch told the chain", stiffest * 1e-3),
-       rests ? ex::format("%.2f s", latest) : "not everywhere", "0",
+       rests ? ex::format("%.2f s", latest) : "not everywhere",
+       told >= -1e-9 ? "0" : ex::format("%.2g", told),
        ex::format("taken for rigid, ours loses %.2g J: state the transmission", -lost)});
   return found;
 }
