@@ -118,23 +118,25 @@ void show_strokes(report& out, const stroke_scene& scene, const strokes& runs) {
                                     {"median update ms", update_ms}}));
   out.member("notes", json_of(which.notes));
   out.member("strokes", json_of(rows));
-  const double off = rms_error(runs.passive, runs.reference) / rms_error(runs.bare, runs.reference);
-  const std::string how_far = format("%.2f", off) + " times as far off as the bare one";
-  out.plot("mesh_force",
-           {"The force along the stroke, its second half enlarged",
-            "Grey is what a surface that is solved in every tick feels like. At 30 Hz the bare "
-            "mesh leaves it in steps, "
-            "which are felt as a grating; the passive model goes the same way without a step, " +
-                how_far + ".",
-            {{"leaves it in steps", "mesh_bare.csv",
-              [](const recorded& r) { return largest_step(r.within("force N", 1.3, 2.2)) > 0.02; }},
-             {"without a step", "mesh_passive.csv",
-              [](const recorded& r) { return largest_step(r.within("force N", 1.3, 2.2)) < 0.02; }},
-             {how_far, "", [off](const recorded&) { return off < 2.0; }}}},
-           "set xlabel 'time [s]'\nset ylabel 'force [N]'\nset xrange [1.3:2.2]\nplot "
-           "'mesh_reference.csv' using 1:8 with lines lt 8 lw 4 title 'reference, 1 kHz', "
-           "'mesh_bare.csv' using 1:8 with lines lt 2 lw 1.2 title 'bare, 30 Hz', "
-           "'mesh_passive.csv' using 1:8 with lines lt 1 title 'passive, 30 Hz'");
+  // Of a mesh that nobody has seen yet this is a figure, as in the table, and no claim.
+  const std::string how_far = format("%.2f", rms_error(runs.passive, runs.reference) /
+                                                 rms_error(runs.bare, runs.reference)) +
+                              " times as far off as the bare one";
+  out.plot(
+      "mesh_force",
+      {"The force along the stroke, its second half enlarged",
+       "Grey is what a surface that is solved in every tick feels like. At 30 Hz the bare "
+       "mesh leaves it in steps, "
+       "which are felt as a grating; the passive model goes the same way without a step, " +
+           how_far + ".",
+       {{"leaves it in steps", "mesh_bare.csv",
+         [](const recorded& r) { return largest_step(r.within("force N", 1.3, 2.2)) > 0.02; }},
+        {"without a step", "mesh_passive.csv",
+         [](const recorded& r) { return largest_step(r.within("force N", 1.3, 2.2)) < 0.02; }}}},
+      "set xlabel 'time [s]'\nset ylabel 'force [N]'\nset xrange [1.3:2.2]\nplot "
+      "'mesh_reference.csv' using 1:8 with lines lt 8 lw 4 title 'reference, 1 kHz', "
+      "'mesh_bare.csv' using 1:8 with lines lt 2 lw 1.2 title 'bare, 30 Hz', "
+      "'mesh_passive.csv' using 1:8 with lines lt 1 title 'passive, 30 Hz'");
 }
 
 }  // namespace experiments
