@@ -96,8 +96,8 @@ for (const theme of themes) {
 const packedSize = file => zlib.gzipSync(fs.readFileSync(file), {level: 9}).length;
 expect(packedSize(html) <= 400e3, `the page is ${packedSize(html)} bytes, 400 kB gzip at most`);
 // 60 kB before it had a judge of quiet, the door's four compositions and whole programs to paste; 79 before it had an
-// article, the catalogue of devices, a tank and a glass.
-expect(packedSize(wallAlone) <= 85e3, `the wall alone is ${packedSize(wallAlone)} bytes, 85 kB gzip at most`);
+// article, the catalogue of devices, a tank and a glass; 85 before a surface could say how it moves.
+expect(packedSize(wallAlone) <= 88e3, `the wall alone is ${packedSize(wallAlone)} bytes, 88 kB gzip at most`);
 const text = fs.readFileSync(html, 'utf8');
 expect(
   !/(src|href)="(?!data:|#)/.test(text) &&
