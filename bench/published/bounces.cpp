@@ -65,10 +65,10 @@ ex::failures run_bounces(const session& s) {
          [](const ex::recorded& r) { return ex::least(r.within("depth m", 0.15, 1.5)) > 0.0; }},
         {"gives nothing away", "bounces_touch.csv",
          [](const ex::recorded& r) { return ex::least(r["port energy J"]) >= -accepted_loss; }}}},
-      "set xlabel 'time [s]'\nset ylabel 'depth [mm]'\nset key right bottom\n"
+      "set xlabel 'time [s]'\nset ylabel 'depth [mm]'\n"
       "plot [0:1] 'bounces_bare.csv' using 1:($2*1e3) with lines title 'bare spring', "
       "'bounces_popc.csv' using 1:($2*1e3) with lines title 'PO/PC', "
-      "'bounces_touch.csv' using 1:($2*1e3) with lines lw 2 title 'make\\_touch'");
+      "'bounces_touch.csv' using 1:($2*1e3) with lines lw 2 title 'make_touch'");
   const auto verdict = [&](const std::vector<outcome>& all, const facts& f) {
     const auto &best = best_of(all), &theirs = all.back();
     const std::string so = "PO/PC " + std::to_string(theirs.pressed_by.bounces) + " bounces, " +

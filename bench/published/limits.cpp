@@ -197,9 +197,9 @@ ex::failures run_limits(const session& s) {
            return true;
          }}}},
       "set logscale xy\nset xlabel 'the formula says [N/m]'\nset ylabel 'measured [N/m]'\n"
-      "set key left top\nplot [20:50000][20:50000] x with lines lt -1 title 'as it says', "
-      "'limits.csv' using (strcol(12) eq 'false' ? $9 : 1/0):10 with points pt 7 title 'papers', "
-      "'' using (strcol(12) eq 'true' ? $9 : 1/0):10 with points pt 5 title 'controls'");
+      "plot [20:50000][20:50000] x with lines lt -1 title 'as it says', "
+      "'limits.csv' using (strcol(12) eq 'no' ? $9 : 1/0):10 with points pt 7 title 'papers', "
+      "'' using (strcol(12) eq 'yes' ? $9 : 1/0):10 with points pt 5 title 'controls'");
 
   // What ours shows where the formula ends.
   const facts exact{}, late{.latency = 1},

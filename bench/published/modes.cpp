@@ -221,7 +221,7 @@ ex::failures run_modes(const session& s) {
                   return true;
                 }}}},
              "set logscale xy\nset xlabel 'mode [Hz]'\nset ylabel 'stiffness [N/m]'\n"
-             "set key left top\nplot 200 with lines lt -1 notitle, 2000 with lines lt -1 notitle, "
+             "plot 200 with lines lt -1 notitle, 2000 with lines lt -1 notitle, "
              "'modes.csv' using 1:($2 < 0.5 ? $4 : 1/0) with linespoints title 'b 0.1', "
              "'' using 1:($2 > 0.5 ? $4 : 1/0) with linespoints title 'b 1'");
   s.figures.push_back(

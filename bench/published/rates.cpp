@@ -112,10 +112,10 @@ ex::failures run_rates(const session& s) {
                   return true;
                 }}}},
              "set logscale xy\nset xlabel 'update rate [Hz]'\nset ylabel 'stiffness [N/m]'\n"
-             "set key left top\nplot 'rates.csv' using 1:($2 < 0.1 ? $4 : 1/0) with linespoints "
+             "plot 'rates.csv' using 1:($2 < 0.1 ? $4 : 1/0) with linespoints "
              "title 'bare, b 0.05', '' using 1:($2 > 0.1 ? $4 : 1/0) with linespoints title "
              "'bare, b 0.5', '' using 1:($2 < 0.1 ? $5 : 1/0) with linespoints title "
-             "'make\\_touch, b 0.05', '' using 1:3 with points pt 2 ps 2 lw 3 title 'the paper'");
+             "'make_touch, b 0.05', '' using 1:3 with points pt 2 ps 2 lw 3 title 'the paper'");
   const auto& slow = rows.front();
   const auto& fast = rows.back();
   const auto each = [](double a, double b) {
