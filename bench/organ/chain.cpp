@@ -270,10 +270,10 @@ void draw_course(ex::report& out, double longest_tick) {
             "be back.",
             {{"without a step while ticks are on time", "chain_course.csv",
               [](const ex::recorded& r) {  // 10 ms from one to the next
-                const auto &f = r["force N"], &on_time = r["on time"];
+                const auto &f = r["force N"], &fit = r["on time"];
                 double step = 0.0;
                 for (std::size_t i = 1; i < f.size(); ++i) {
-                  if (!(on_time[i] > 0.0 && f[i] > 0.0 && f[i - 1] > 0.0)) continue;
+                  if (!(fit[i] > 0.0 && f[i] > 0.0 && f[i - 1] > 0.0)) continue;
                   step = std::max(step, std::abs(f[i] - f[i - 1]));
                 }
                 return step < 0.2 * ex::most(f);
