@@ -264,10 +264,9 @@ void draw_course(ex::report& out, double longest_tick) {
   csv.close();
   out.plot("chain_force",
            {"The force on the device",
-            "It follows the strokes without a step while ticks are on time. A spike down to zero "
-            "is a tick "
-            "so late that the device's watchdog dropped the force; it takes a tenth of a second to "
-            "be back.",
+            "It follows the strokes without a step while ticks are on time, the tenth of a second "
+            "after a late one left out. A spike down to zero is a tick so late that the device's "
+            "watchdog dropped the force.",
             {{"without a step while ticks are on time", "chain_course.csv",
               [](const ex::recorded& r) {  // 10 ms from one to the next
                 const auto &f = r["force N"], &fit = r["on time"];
@@ -282,8 +281,7 @@ void draw_course(ex::report& out, double longest_tick) {
   out.plot("chain_energy",
            {"Energy that the hand has paid in: true, and in the ledger",
             "The ledger stays below the truth, as it must, and neither falls below zero: nothing "
-            "came out "
-            "that the hand had not put in.",
+            "came out that the hand had not put in.",
             {{"The ledger stays below the truth", "chain_course.csv",
               [](const ex::recorded& r) {
                 const auto &truth = r["port energy J"], &ledger = r["ledger J"];
