@@ -302,7 +302,7 @@ void draw(ex::report& out, std::vector<between_row>& rows) {
             "The rms error, the worst of three hands, over the CPU time of all updates of a "
             "second, told at once. What is made of its news steps by less than "
             "half of bare at 10 Hz.",
-            {{"half of what bare does at 10 Hz", "",
+            {{"half of bare at 10 Hz", "",
               [rows](const ex::recorded& /*none*/) {
                 double bare = 0.0, ours = 0.0;
                 for (const auto& r : rows) {
