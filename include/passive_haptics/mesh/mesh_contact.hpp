@@ -140,7 +140,7 @@ class mesh_contact::on {
       return free;
     }
     const double depth = mesh::length(pressed.way);
-    const mesh::triple v = to_triple(velocity(motion));
+    const mesh::triple v = to_triple(detail::velocity_of<P>(motion));
     const mesh::material is = made_of(depth, mesh::length(v), dt);
     const auto felt =
         spring_.saturates(sampled_, depth) ? spring_.saturated(sampled_, depth) : sampled_;
@@ -180,21 +180,6 @@ class mesh_contact::on {
     return {static_cast<double>(P::component(v, 0)), static_cast<double>(P::component(v, 1)),
             static_cast<double>(P::component(v, 2))};
   }
-  /// The velocity [m/s]: travel over time, or what the motion estimator says along each axis if it has no travel.
-  [[nodiscard]] static constexpr vector velocity(const auto& motion) noexcept {
-    if constexpr (requires { vector(motion.travel * (scalar(1) / motion.dt)); }) {
-      return motion.travel * (scalar(1) / motion.dt);
-    } else {
-      vector v = P::zero();
-      for (int i = 0; i < P::dof; ++i) {
-        vector axis = P::zero();
-        P::component(axis, i) = scalar(1);
-        P::component(v, i) = motion.along(axis);
-      }
-      return v;
-    }
-  }
-
   /// What presses is made of, or on its way to it, and sampled_ as stiff as that; the device goes by `speed` [m/s].
   [[nodiscard]] mesh::material made_of(double depth, double speed, double dt) noexcept {
     const mesh::material goal =
