@@ -199,15 +199,8 @@ TEST_CASE("no joule comes out of a rough mesh, however it moves, and what rests 
           sim::device<scene, sim::impedance_hand<scene>> dev(
               {.mass = mass, .damping = 0.1, .start = vector(0.003, 0.004, 0.1)}, hand);
           sim::quiet_judge<scene> judge;
-          const auto seen = sim::run(dev, port, 5500, sim::idle, sim::idle, [&](auto& now) {
-            std::array<vector, 3> pressing;
-            const auto& ball = port.source().ball();
-            const auto count = std::size_t(ball.pressed().count);
-            for (std::size_t i = 0; i < count; ++i) {
-              pressing[i] = of(ball.normal(ball.pressed().of[i]));
-            }
-            judge.add_at(now.force, now.sample.position, T, std::span(pressing.data(), count));
-          });
+          const auto seen = sim::run(dev, port, 5500, sim::idle, sim::idle,
+                                     [&](auto& now) { show(judge, port.source().ball(), now); });
           INFO(b.triangles.size() << " triangles, " << K << " N/m, " << mass << " kg, mu " << mu
                                   << ": " << judge.figures().force << " N, "
                                   << judge.figures().speed << " m/s, " << judge.figures().step

@@ -193,15 +193,8 @@ TEST_CASE("what rests on a facet, in a groove, in a pit, on an edge or at a tip 
           device dev({.mass = mass, .damping = 0.1, .start = here.start},
                      drawn(here.to, 8, stiff ? 400 : 100, stiff ? 6 : 1));
           sim::quiet_judge<scene> judge;
-          const auto seen = sim::run(dev, port, 5500, sim::idle, sim::idle, [&](auto& now) {
-            std::array<vector, 3> pressing;
-            const auto& ball = port.source().ball();
-            const auto count = std::size_t(ball.pressed().count);
-            for (std::size_t i = 0; i < count; ++i) {
-              pressing[i] = of(ball.normal(ball.pressed().of[i]));
-            }
-            judge.add_at(now.force, now.sample.position, T, std::span(pressing.data(), count));
-          });
+          const auto seen = sim::run(dev, port, 5500, sim::idle, sim::idle,
+                                     [&](auto& now) { show(judge, port.source().ball(), now); });
           INFO(here.name << ", " << K << " N/m, " << mass << " kg, stiff hand: " << stiff << ", "
                          << judge.figures().force << " N, " << judge.figures().speed << " m/s, "
                          << judge.figures().step << " N");

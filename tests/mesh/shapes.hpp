@@ -44,6 +44,14 @@ inline triple turned(const triple& p, double angle) {
   return {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
 }
 
+/// Shows a judge of quiet a tick: the force, the place, and what presses the ball.
+inline void show(sim::quiet_judge<scene>& judge, const ph::mesh::proxy& ball, const auto& now) {
+  std::array<vector, 3> pressing;
+  const auto count = std::size_t(ball.pressed().count);
+  for (std::size_t i = 0; i < count; ++i) pressing[i] = of(ball.normal(ball.pressed().of[i]));
+  judge.add_at(now.force, now.sample.position, T, std::span(pressing.data(), count));
+}
+
 /// A plate of 12 triangles, its upper side at z = 0.
 inline body plate(double half = 0.05, double thickness = 0.002) {
   body b;
