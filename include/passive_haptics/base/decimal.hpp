@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Decimal numbers of a text file, exact and in no locale: a point is a point wherever the program runs.
+// to_decimal reads a decimal number from text and rounds it to the nearest double. It ignores the locale, so
+// the decimal point is a point wherever the program runs.
 //
-// std::from_chars is the tool for it, but before version 20 libc++ has it for integers only; there a
-// stream in the "C" locale reads the same doubles, some ten times slower.
+// It uses std::from_chars. Before version 20 libc++ has that for integers only; there a stream in the "C" locale
+// reads the same doubles, some ten times slower.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -20,8 +21,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// True for [+-]digits[.digits][e[+-]digits] where one side of the point may be empty: neither nan, inf
-/// and hexadecimal numbers, nor anything around the number.
+/// True for [+-]digits[.digits][e[+-]digits], where one side of the point may be empty. False for nan, inf,
+/// hexadecimal numbers, and for a number with anything around it.
 [[nodiscard]] constexpr bool is_decimal(std::string_view text) noexcept {
   const auto take = [&text](std::string_view some) {
     if (text.empty() || some.find(text.front()) == std::string_view::npos) return false;
@@ -46,28 +47,28 @@ inline namespace v0 {
 
 namespace detail {
 
-/// The standard library's from_chars takes floating-point numbers.
+/// Satisfied if the standard library's from_chars reads a `Real`.
 template <class Real>
 concept read_by_charconv = requires(const char* text, Real& value) {
   { std::from_chars(text, text, value) } -> std::same_as<std::from_chars_result>;
 };
 
-/// The double nearest to a decimal number, by a stream: ±infinity beyond the largest.
+/// Reads a decimal number with a stream. A number beyond the largest double becomes ±infinity.
 [[nodiscard]] inline double decimal_by_stream(std::string_view decimal) {
   std::istringstream stream{std::string(decimal)};
   stream.imbue(std::locale::classic());
   double value = 0.0;
   stream >> value;
-  // A decimal number fails by its size alone: a large one as the largest double or infinity; a tiny one,
-  // which some libraries fail, too, as what it is rounded to.
+  // Reading a decimal number fails only because of its size. A number that is too large then leaves the largest
+  // double or infinity in `value`; one that is too small, which fails in some libraries, leaves its rounded value.
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double largest = kernels::largest<double>();
   if (!stream.fail() || (value < largest && value > -largest)) return value;
   return value > 0.0 ? infinity : -infinity;
 }
 
-/// The same by from_chars, which leaves what is beyond the largest double or below the smallest to the
-/// stream: it does not tell one from the other.
+/// Reads a decimal number with from_chars. A number out of range goes to the stream, because from_chars does not
+/// say whether it was too large or too small.
 template <read_by_charconv Real>
 [[nodiscard]] Real decimal_by_charconv(std::string_view decimal) {
   const std::string_view text = decimal.substr(decimal.front() == '+' ? 1 : 0);
@@ -78,8 +79,8 @@ template <read_by_charconv Real>
 
 }  // namespace detail
 
-/// The double nearest to the text, ±infinity if it is beyond the largest; none if it is no decimal
-/// number.
+/// The double nearest to the number in `text`, ±infinity if it is beyond the largest double; nullopt if `text`
+/// is no decimal number.
 template <class Real = double>
 [[nodiscard]] std::optional<Real> to_decimal(std::string_view text) {
   if (!is_decimal(text)) return std::nullopt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What one tick has to tell its caller, and how much a type promises.
+// `event` says what happened in a tick; `guarantee` says what passivity a type promises.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -9,26 +9,26 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What happened in a tick; a tick reports the worst, by worse(). The numbers rise with the severity, but for those that
-/// came later, and are stable from 1.0 on. What each means and what to do: docs/events.md.
+/// What happened in a tick. A tick reports its worst event, ordered by worse(). The numbers rise with the severity,
+/// except for three that were added later, and are stable from 1.0 on. Remedies: docs/events.md.
 enum class event : std::uint8_t {
-  nominal,            ///< all is well
-  debt,               ///< the ledger is negative: the hand has been fed more than it paid
+  nominal,            ///< nothing is wrong
+  debt,               ///< the ledger is negative: the device gave the hand more energy than it took
   late_tick,          ///< dt is longer than loop_limits::longest_tick, on which the bound relies
-  repeated_sample,    ///< the sensor is slower than the loop: its motions seem faster than they are
-  no_target,          ///< the environment has published nothing yet: force zero
+  repeated_sample,    ///< the sensor is slower than the loop, so velocities are overestimated
+  no_target,          ///< the environment has published no constraint yet: force zero
   rejected_target,    ///< the published constraint is unusable: the last good one stays
-  stale_target,       ///< no good constraint for too long: the contact is fading out
-  outside_workspace,  ///< beyond loop_limits::workspace, as of millimetres for metres: force zero
-  rejected_sample,  ///< NaN, infinity, dt ≤ 0, an impossible jump: force zero, its worst forfeited
-  rejected_parameters,  ///< check() names the fault: force zero until set() mends it
-  outside_force,   ///< it moves as what was stated of mass and hand cannot move it: strict bound
-  untold_latency,  ///< it holds a force later, or sooner, than was stated: force zero until reset()
-  wrong_sign,      ///< it does the opposite of what it is told: force zero until reset()
-  started_inside,  ///< it should push, and nothing has been paid in yet: force zero
-  forces_off,      ///< enable_forces(false): force zero, and the ledger waits
-  wall_lost,  ///< a fault has taken what the ledger had: less than is asked for, until amends are made
-  wall_back,  ///< amends are made: the first tick in which it is no longer lost
+  stale_target,       ///< no good constraint came within stale_after: the contact fades out
+  outside_workspace,  ///< farther from the origin than loop_limits::workspace: force zero
+  rejected_sample,  ///< NaN, infinity, dt ≤ 0, an impossible jump: force zero, worst outflow booked
+  rejected_parameters,  ///< check() names the parameter: force zero until set() mends it
+  outside_force,        ///< the stated mass and hand force cannot cause this motion: strict bound
+  untold_latency,       ///< the device holds forces later or sooner than stated: zero until reset()
+  wrong_sign,           ///< the device holds the opposite of the command: force zero until reset()
+  started_inside,       ///< in contact from the start, with no energy in the ledger: force zero
+  forces_off,           ///< enable_forces(false): force zero, and the ledger is not changed
+  wall_lost,  ///< a fault has emptied the ledger: the force is reduced until it is refilled (forgiving.hpp)
+  wall_back,  ///< the first tick after wall_lost in which the ledger is refilled
 };
 
 /// The text of an event, for logs.
@@ -46,8 +46,8 @@ enum class event : std::uint8_t {
   return e <= event::wall_back ? names[static_cast<int>(e)] : "unknown event";
 }
 
-/// That a wall is back, and a start inside, are no faults, so the least of what is not nominal; a lost wall says more
-/// than a debt.
+/// The more severe of two events. wall_back and started_inside are no faults, so they are the least severe after
+/// nominal; wall_lost stands just above debt, which it explains.
 [[nodiscard]] constexpr event worse(event a, event b) noexcept {
   const auto severity = [](event e) {
     if (e == event::wall_back) return 1;
@@ -58,7 +58,7 @@ enum class event : std::uint8_t {
 }
 
 namespace detail {
-/// The same within a tick, before its observer says of a wall that it is lost or back; as cheap as can be.
+/// worse() for events other than wall_lost and wall_back, which only the observer adds; it costs fewer instructions.
 [[nodiscard]] constexpr event worse_yet(event a, event b) noexcept {
   const auto severity = [](event e) {
     return e == event::started_inside ? 1 : 2 * static_cast<int>(e);

@@ -6,9 +6,9 @@
 //     inbox.publish(plane);                              // slow thread, 20-100 Hz
 //     if (const auto* plane = inbox.take()) touch.update(*plane);  // haptic thread, 1 kHz
 //
-// It is wait-free for one writer and one reader, threads or an interrupt and main(): neither waits, retries
-// or touches a slot that the other is using. It takes four slots and four words that are loaded and stored,
-// never swapped, so a core without atomic swaps (Cortex-M0, RISC-V without A) needs no library for it.
+// It is wait-free for one writer and one reader (two threads, or an interrupt and main()): neither waits, retries
+// or touches a slot that the other is using. Its four words are loaded and stored but never swapped, so a core
+// without atomic swaps (Cortex-M0, RISC-V without A) needs no library for it.
 // What happens when nothing new comes, port/freshness.hpp decides. The way back needs a second exchange.
 
 #include <passive_haptics/base/language.hpp>
@@ -22,11 +22,11 @@ inline namespace v0 {
 
 namespace detail {
 
-/// Who may touch which of four slots, two pairs of two: H. R. Simpson, Four-slot fully asynchronous
+/// Assigns four slots, two pairs of two, to the writer and the reader: H. R. Simpson, Four-slot fully asynchronous
 /// communication mechanism, IEE Proceedings E 137 (1990) 17-30. `Word` is an atomic word.
 ///
-/// The writer fills the pair that the reader has not announced, and of that pair the slot that is not its newest. It
-/// rests on the announcement being stored before the newest slot is looked up: all words are sequentially
+/// The writer takes the pair that the reader has not announced, and in that pair the slot that is not the newest.
+/// The reader must store its announcement before it looks up the newest slot: all words are sequentially
 /// consistent, so every run is an interleaving, and tests/base/exchange.cpp tries them all.
 template <class Word>
 class four_slots {
@@ -56,7 +56,7 @@ class four_slots {
 
 }  // namespace detail
 
-/// One writer thread, one reader thread. Payload: any trivially copyable value, copied once a side.
+/// One writer thread, one reader thread. Payload is any trivially copyable type; each side copies it once.
 template <class Payload>
 class exchange {
   static_assert(std::is_trivially_copyable_v<Payload>,
@@ -75,7 +75,7 @@ class exchange {
     order_.filled(slot);
   }
 
-  /// Reader only: the newest value if one came since the last take(), else null. It stays untouched
+  /// Reader only: the newest value if one came since the last take(), else null. The value stays unchanged
   /// until the next take().
   [[nodiscard]] const Payload* take() noexcept {
     const unsigned slot = order_.newest();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How stiff a surface is shown, why it is no stiffer, and what would raise it:
+// The stiffness that a contact displays, what limits it, and what would raise it:
 //
-//     const ph::explanation e = touch.explain();           // not in every tick: it looks anew
+//     const ph::explanation e = touch.explain();           // not in every tick: it computes anew
 //     std::printf("%.0f of %.0f N/m: %s\n", e.shown, e.asked, e.because());
-//     std::printf("steps by up to %.3f N at rest\n", e.floor);        // no law of a depth is quieter
+//     std::printf("steps by up to %.3f N at rest\n", e.floor);        // K q: no law of the depth steps by less
 //
-// Shown is K_s of the law (sampled_spring.hpp), the budget (design/stiffness_budget.hpp), or 2b/T (strict_bound).
+// `shown` is the least of K_s of the law (sampled_spring.hpp), the stiffness budget (design/stiffness_budget.hpp)
+// and 2b/((k + 1) T) of strict_bound, as far as the composition has them.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -19,19 +20,19 @@ inline namespace v0 {
 /// What keeps a stiffness, or a force, below what was asked for.
 enum class softened_by : std::uint8_t {
   nothing,
-  parameters,        ///< one of them is out of its range: force zero
-  refuted,           ///< the motion has refuted what was stated: force zero until reset()
-  no_surface,        ///< nothing has been told, or it is released
-  mass_and_tick,     ///< κ m/T², what a sampled mass can be held with
-  damping_and_tick,  ///< 2b/((k + 1) T), what a strict bound shows while the ledger is empty
-  encoder_steps,     ///< what dry friction and damping pay for on steps of that size
-  coupling,          ///< the law's own spring stands in series
-  news,     ///< the surface has moved, or appeared inside: it is made up for at a limited rate
-  silence,  ///< the world has said nothing for too long, or released it: it fades
-  motors,   ///< they hold no more
-  ledger,   ///< E1 covers no more
-  started_inside,  ///< nothing has been paid in yet
-  forces_off,      ///< enable_forces(false)
+  parameters,        ///< a parameter is out of its range: force zero
+  refuted,           ///< the motion has refuted a stated parameter: force zero until reset()
+  no_surface,        ///< no surface was set by update(), or release() ended it
+  mass_and_tick,     ///< κ m/T², the largest stiffness at which a sampled mass settles (§ 9)
+  damping_and_tick,  ///< 2b/((k + 1) T), what a strict bound shows of an empty ledger (L4)
+  encoder_steps,     ///< the stiffness whose encoder steps dry friction and damping pay for
+  coupling,          ///< the law's own spring stands in series with the surface
+  news,     ///< the surface moved, or appeared around the device: force follows at a limited rate
+  silence,  ///< no update within stale_after, or release(): the contact fades
+  motors,   ///< the force has reached the motors' limit
+  ledger,   ///< the energy E1 covers no larger force
+  started_inside,  ///< in contact from the start, with no energy in the ledger
+  forces_off,      ///< enable_forces(false) was called
 };
 
 [[nodiscard]] constexpr const char* to_string(softened_by why) noexcept {
@@ -43,27 +44,26 @@ enum class softened_by : std::uint8_t {
 }
 
 struct explanation {
-  double asked{};  ///< K of the world's surface [N/m]; ∞ of a force of your own: nobody knows it
-  double shown{};  ///< what is felt of it, at rest, as long as the motors hold it [N/m]
-  double floor{};  ///< K q [N]: the force at rest may step by it on encoders; 0 of exact positions
+  double asked{};  ///< K of the world's surface [N/m]; ∞ for a given force, whose K is unknown
+  double shown{};  ///< the stiffness displayed at rest, below the motors' limit [N/m]
+  double floor{};  ///< K q [N], the force step of one encoder step q at rest; 0 for exact positions
   softened_by stiffness = softened_by::nothing;  ///< why `shown` is less than `asked`
-  double
-      depth{};  ///< of the device in the world's surface, as the port takes it to be [m]; 0 outside
-  double force{};                          ///< commanded last [N]
+  double depth{};  ///< penetration into the world's surface at the last sample [m]; 0 outside
+  double force{};  ///< the last commanded force [N]
   softened_by now = softened_by::nothing;  ///< why `force` is less than `shown` times `depth`
 
-  /// The stiffness is no more than `most` [N/m], and why.
+  /// Lowers `shown` to `most` [N/m] if it is larger, and notes the reason.
   constexpr void soften(double most, softened_by why) noexcept {
     if (!(most < shown)) return;
     shown = most;
     stiffness = why;
   }
-  /// The motors hold no more than `most` [N]; `force` is known.
+  /// Notes the motors as the reason if `force`, set before, has reached 95 % of their limit `most` [N].
   constexpr void saturate(double most) noexcept {
     const bool asks = shown * depth > most || !(asked < std::numeric_limits<double>::infinity());
     if (asks && force > 0.95 * most) now = softened_by::motors;
   }
-  /// A sentence: what binds now, else what binds the stiffness, and what would raise it.
+  /// One sentence on what limits the force now, or else the stiffness, and what would raise it.
   [[nodiscard]] constexpr const char* because() const noexcept {
     switch (now != softened_by::nothing ? now : stiffness) {
       case softened_by::nothing:

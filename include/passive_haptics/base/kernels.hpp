@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The equations, one function each: plain scalars in, a plain scalar out, no state, no branch that
-// is not in the formula. Whoever writes a loop of their own needs this header only.
+// The equations, one function each. A kernel takes plain scalars and returns one, has no state, and no branch
+// that is not in its formula. If you write a loop of your own, this header is all you need.
 //
-//   damping_per_tick, worst_outflow, strict_force_bound, strict_scale, depth_bound    the strict law (2.5 to 2.27)
-//   outward_reach, reachable_force_bound, reachable_outflow     what the next tick can reach (L6, § 2(a′));
-//   reachable_share, reachable_work, later_reach                the same in joules, for any port
-//   longest_path, unseen_arc                                    what can have gone on unseen (§ 2(a″))
-//   coning, coning_share, unseen_turn                           what the end poses of a turn do not show (lemma C)
-//   sampled_stiffness, sampled_damping                          what a sampled mass can take (§ 9)
-//   spendable, sure_gain, sum_rounded_down                      rounding lowers the force, never breaks the promise
+//   damping_per_tick, worst_outflow, strict_force_bound, strict_scale, depth_bound    the strict force bound (2.5 to 2.27)
+//   outward_reach, reachable_force_bound, reachable_outflow     the travel of the next tick, bounded by the mass (L6, § 2(a′))
+//   reachable_share, reachable_work, later_reach                the same bound in joules, for any port
+//   longest_path, unseen_arc                                    the longest motion between two samples (§ 2(a″))
+//   coning, coning_share, unseen_turn                           the error of a turn known by its end poses (lemma C)
+//   sampled_stiffness, sampled_damping                          the largest that a sampled mass admits (§ 9)
+//   spendable, sure_gain, sum_rounded_down                      rounding that can only lower the force
 //   half_angle_turn                                             a small turn without cos and sin (2.30)
 //
 // Numbers with a dot are equations of McWilliam's 2017 thesis "Local Model Interpolation for Stable
-// Haptic Interaction" with the signs put right (docs/design/audit.md); L and § refer to
-// docs/design/mathematics.md.
+// Haptic Interaction" with the signs corrected; A and a number is a finding of docs/design/audit.md; L and §
+// refer to docs/design/mathematics.md.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -89,13 +89,13 @@ template <real S>
   return (std::numeric_limits<S>::min)();
 }
 
-/// Neither NaN nor an infinity.
+/// True unless x is NaN or an infinity.
 template <real S>
 [[nodiscard]] constexpr bool is_finite(S x) noexcept {
   return magnitude(x) <= largest<S>();
 }
 
-/// √x for x ≥ 0. In a constant expression Newton's iteration descends until it stalls.
+/// √x for x ≥ 0. In a constant expression it is computed by Newton's iteration, until that descends no more.
 template <real S>
 [[nodiscard]] constexpr S square_root(S x) noexcept {
   if (std::is_constant_evaluated()) {
@@ -119,26 +119,26 @@ template <real S>
   return sqrt(x);
 }
 
-/// B = b/T [N/m]: damping b [N·s/m] seen over one tick of length T [s]. (2.5)
+/// B = b/T [N/m], which makes BΔx² the least energy that damping b [N·s/m] takes in a tick of length T [s]. (2.5)
 template <real S>
 [[nodiscard]] constexpr S damping_per_tick(S b, S T) noexcept {
   return b / T;
 }
 
-/// f²/(4B) [J]: the most energy that force f [N], held for the next tick, can hand to the user
-/// whatever the motion: min over Δx of BΔx² − fΔx, reached at Δx = f/(2B). (2.14, lemma L3)
+/// f²/(4B) [J], the worst outflow: the most energy that a force f [N] held for one tick can give to the hand,
+/// beyond what the damper takes. It is max over Δx of fΔx − BΔx², reached at Δx = f/(2B). (2.14, lemma L3)
 template <real S>
 [[nodiscard]] constexpr S worst_outflow(S f, S B) noexcept {
   return f * f / (S(4) * B);
 }
 
-/// 16ε, a relative margin that covers a dozen roundings in any direction.
+/// 16ε with the machine epsilon ε: a relative margin that covers a dozen roundings in any direction.
 template <real S>
 [[nodiscard]] constexpr S rounding() noexcept {
   return S(16) * std::numeric_limits<S>::epsilon();
 }
 
-/// The part of a credit E1 [J] that may be spent although every step rounds, whichever way:
+/// The part of a credit E1 [J] that may be spent even if every following step rounds in the wrong direction:
 ///     E1 (1 − 64ε) − min/ε,   ε and min the machine epsilon and the smallest normal number
 /// The proof counts roundings and holds for b ≥ 1e-13 N·s/m (docs/design/stability.md).
 template <real S>
@@ -147,8 +147,8 @@ template <real S>
   return E1 * (S(1) - S(4) * rounding<S>()) - smallest<S>() / limits::epsilon();
 }
 
-/// f_max = √(4 B E1) [N], rounded towards zero; zero for a ledger in debt, because E1 is clamped inside the
-/// root (A6). (2.17)
+/// f_max = √(4 B E1) [N], rounded towards zero. It is zero for E1 < 0, because E1 is clamped inside the root (A6).
+/// (2.17)
 template <real S>
 [[nodiscard]] constexpr S strict_force_bound(S E1, S B) noexcept {
   const S credit = spendable(E1);
@@ -156,8 +156,8 @@ template <real S>
   return square_root(smaller(S(4) * B * credit, largest<S>()));
 }
 
-/// The factor that brings a force whose worst outflow is `outflow` [J] down to what E1 [J] covers:
-/// √(E1/outflow), rounded towards zero; 1 when it is covered already. (2.17 for any direction)
+/// √(E1/outflow), rounded towards zero: the factor by which a force of worst outflow `outflow` [J] has to shrink
+/// until E1 [J] covers it. It is 1 if E1 covers the force already. (2.17 for any direction)
 template <real S>
 [[nodiscard]] constexpr S strict_scale(S E1, S outflow) noexcept {
   const S credit = spendable(E1);
@@ -170,15 +170,15 @@ template <real S>
   return scale;
 }
 
-/// dissipated − work [J], less the largest rounding error of both, so it is never more than in exact
-/// arithmetic. `passed` is Σ |fᵢ Δxᵢ| [J], which is at least |work|.
+/// dissipated − work [J], less the largest rounding error of both, so the result never exceeds that of exact
+/// arithmetic. `passed` is Σ |fᵢ Δxᵢ| [J], which bounds the rounding error of `work`.
 template <real S>
 [[nodiscard]] constexpr S sure_gain(S dissipated, S work, S passed) noexcept {
   return dissipated - work - rounding<S>() * (dissipated + passed);
 }
 
-/// E + gain [J], rounded down by an ulp at most, so that a ledger never grows by rounding: a float of 1 J would not
-/// notice 1e-8 J going out, tick after tick.
+/// E + gain [J], rounded down by one ulp at most. Otherwise a ledger could gain by rounding: in float, 1 J − 1e-8 J
+/// is 1 J again, in every tick.
 template <real S>
 [[nodiscard]] constexpr S sum_rounded_down(S E, S gain) noexcept {
   const S sum = E + gain;
@@ -186,17 +186,17 @@ template <real S>
   return sum - (sum - E > gain ? ulp : S(0));
 }
 
-/// d_max = f/K [m], the depth at which K displays f; 0 without stiffness. (2.27, A10)
+/// d_max = f/K [m], the depth at which a spring K [N/m] has the force f [N]; 0 for K ≤ 0. (2.27, A10)
 template <real S>
 [[nodiscard]] constexpr S depth_bound(S f, S K) noexcept {
   return K > S(0) ? f / K : S(0);
 }
 
-/// δ [m]: the farthest that a mass m [kg] can travel outwards in the next tick, of length ≤ T [s].
-///     x(n+1) − x(n) = Δx·T/T₀ + double integral of a(t),   |a| ≤ (|f| + F_other)/m
+/// δ [m]: the farthest that a mass m [kg] can travel along the force in the next tick, which lasts T [s] at most:
+///     δ = outward T/T₀ + (held + other) T₀T/(2m) + (next + other) T²/(2m)
 /// `outward` is the travel along the force in the last tick [m], which lasted T₀ [s]; `held` and `next`
-/// are the sizes of the force over the last and the next tick [N]; `other` bounds all else that pushes [N].
-/// Exact for the double integrator; the terms beside `outward` are rounded up. (L6)
+/// are the sizes of the force over the last and the next tick [N]; `other` bounds all other forces [N].
+/// A free mass reaches it; the terms beside `outward` are rounded up. (L6)
 template <real S>
 [[nodiscard]] constexpr S outward_reach(S outward, S held, S next, S other, S m, S T0,
                                         S T) noexcept {
@@ -218,7 +218,8 @@ template <real S>
   return strict_force_bound(E1, B);
 }
 
-/// max of f s − B s² over 0 ≤ s ≤ δ [J]: the most that f [N] can hand to the user over δ [m]. (L3 with a reach)
+/// max of f s − B s² over 0 ≤ s ≤ δ [J]: the most energy that f [N] can give to the hand within a reach of δ [m].
+/// (L3 with a reach)
 template <real S>
 [[nodiscard]] constexpr S reachable_outflow(S f, S B, S reach) noexcept {
   if (!(reach > S(0)) || !(f > S(0))) return S(0);
@@ -226,7 +227,8 @@ template <real S>
   return f * reach - B * reach * reach;
 }
 
-/// max of η' − η'²/(4W) over 0 ≤ η' ≤ η [J], of an effort of worst outflow W [J]. (reachable_outflow in joules)
+/// max of η' − η'²/(4W) over 0 ≤ η' ≤ η [J]: the most energy that an effort of worst outflow W [J] can give to the
+/// hand if its work is at most η = `reach` [J]. (§ 2(a′), in joules)
 template <real S>
 [[nodiscard]] constexpr S reachable_work(S W, S reach) noexcept {
   if (!(reach > S(0)) || !(W > S(0))) return S(0);
@@ -234,8 +236,8 @@ template <real S>
   return reach - reach * reach / (S(4) * W);
 }
 
-/// The largest share s of an effort with s η' − η'²/(4W) ≤ E1 for every 0 ≤ η' ≤ η:
-///     η ≤ 0: all of it      η² < 4 W E1: E1/η + η/(4W)      else: √(E1/W)
+/// The largest share s of such an effort with s η' − η'²/(4W) ≤ E1 for every 0 ≤ η' ≤ η:
+///     η ≤ 0: s = 1      η² < 4 W E1: E1/η + η/(4W)      else: √(E1/W)
 /// rounded towards zero, at most 1. (reachable_force_bound in joules)
 template <real S>
 [[nodiscard]] constexpr S reachable_share(S E1, S W, S reach) noexcept {
@@ -247,15 +249,14 @@ template <real S>
   return strict_scale(E1, W);
 }
 
-/// dt|θ × τ|²/(36 b_ω) [J], rounded up: the most by which the gain of a turn can fall short of
-/// b_ω|θ|²/dt − τ·θ, which its end poses show, if |θ| ≤ 1 rad and |τ| ≤ 4b_ω/dt. `across` is |θ × τ|².
-/// (lemma C, docs/design/six_dof.md)
+/// dt|θ × τ|²/(36 b_ω) [J], rounded up: the most by which the true gain of a turn can fall short of the
+/// b_ω|θ|²/dt − τ·θ that its end poses show, if |θ| ≤ 1 rad and |τ| ≤ 4b_ω/dt. `across` is |θ × τ|² [N²·m²],
+/// `b` is b_ω [N·m·s/rad]. (lemma C, docs/design/six_dof.md)
 template <real S>
 [[nodiscard]] constexpr S coning(S across, S b, S dt) noexcept {
   return dt * across / (S(36) * b) * (S(1) + rounding<S>());
 }
-/// The share of an effort, lowered so far that its torque is at most 4b_ω/T, rounded towards zero.
-/// `squared` is |τ|². (lemma C)
+/// `share`, lowered until share |τ| ≤ 4b_ω/T, and rounded towards zero. `squared` is |τ|² [N²·m²]. (lemma C)
 template <real S>
 [[nodiscard]] constexpr S coning_share(S share, S squared, S b, S T) noexcept {
   const S most = S(4) * b / T * (S(1) - rounding<S>());
@@ -263,18 +264,18 @@ template <real S>
   return most / square_root(squared) * (S(1) - rounding<S>());
 }
 
-/// |Ω − θ| [rad], at most, of a tick of length dt whose rate of turn changes by at most α [rad/s²]: θ is the
-/// turn that its end poses show and Ω the integral of the rate. To first order it is |Ω| α dt²/12, and |Ω| is
-/// at most θ + α dt². (docs/design/six_dof.md)
+/// (θ + α dt²) α dt²/12 [rad], an upper bound of |Ω − θ| in a tick of length dt [s] whose angular velocity changes
+/// by at most α [rad/s²]. θ is the turn between the end poses and Ω the integral of the angular velocity; to first
+/// order |Ω − θ| is |Ω| α dt²/12, and |Ω| ≤ θ + α dt². (docs/design/six_dof.md)
 template <real S>
 [[nodiscard]] constexpr S unseen_turn(S theta, S alpha, S dt) noexcept {
   const S gained = alpha * dt * dt;
   return (theta + gained) * gained / S(12);
 }
-/// The longest path [m] of a time t [s] that nobody saw, after a tick of T₀ whose mean speed was v [m/s]:
+/// The longest path [m] in a time t [s] without samples, after a tick of T₀ [s] whose mean speed was v [m/s]:
 ///     t (v + A (T₀ + t)/2),   A = a + r V,   V = (v + a (T₀/2 + t))/(1 − r (T₀/2 + t))
-/// a [m/s²] is the most that all but the damper accelerate, r = b/m [1/s] of the damper at most; any path where
-/// that would brake within it. (§ 2(a″))
+/// a [m/s²] is the largest acceleration by all forces but the damper's, and r = b/m [1/s] of the largest b. The
+/// bound holds for r (T₀/2 + t) ≤ ½; beyond, the result is the largest number. (§ 2(a″))
 template <real S>
 [[nodiscard]] constexpr S longest_path(S v, S a, S r, S T0, S t) noexcept {
   const S since = T0 / S(2) + t;
@@ -282,46 +283,46 @@ template <real S>
   const S fastest = (v + a * since) / (S(1) - r * since);
   return t * (v + (a + r * fastest) * (T0 + t) / S(2)) * (S(1) + rounding<S>());
 }
-/// |Ω − θ| [rad], at most, of a path of length L [rad] from one orientation to another: L²/4 + L³/29, and L + π
-/// where L > π. (§ 2(a″))
+/// An upper bound of |Ω − θ| [rad] if the orientation has moved along a path of length L [rad] from θ = 0 to θ:
+/// L²/4 + L³/29 for L ≤ π, and L + π beyond. (§ 2(a″))
 template <real S>
 [[nodiscard]] constexpr S unseen_arc(S L) noexcept {
   return L <= S(3.125) ? L * L * (S(0.25) + L / S(29)) : L + S(3.1875);
 }
-/// η(j + 1) − η(j) of § 2(a′) [J]: `before` and `last` are the norms of what is held in the two ticks, `pushed` that of
-/// all else that pushes.
+/// η(j+1) − η(j) = ‖f‖ (‖h(j)‖ + ‖h(j+1)‖ + 2F) T²/2 [J]. `norm` is ‖f‖, `before` and `last` are the norms of the
+/// efforts held in ticks j and j + 1, and `pushed` is the norm F of all others [√J/s]. (§ 2(a′))
 template <real S>
 [[nodiscard]] constexpr S later_reach(S norm, S before, S last, S pushed, S T) noexcept {
   return norm * (before + last + S(2) * pushed) * T * T / S(2) * (S(1) + rounding<S>());
 }
 
-/// K_s = min(K, κ m/T²) [N/m]: the stiffness that a mass sampled every T can be held with. (§ 9)
+/// K_s = min(K, κ m/T²) [N/m]: a stiffness at which a mass m [kg] sampled every T [s] settles; κ is `fraction`. (§ 9)
 template <real S>
 [[nodiscard]] constexpr S sampled_stiffness(S K, S fraction, S m, S T) noexcept {
   return smaller(K, fraction * m / (T * T));
 }
 
-/// D_s = min(2 ζ √(K_s m), β m/T) [N·s/m]: damping ratio ζ, kept below what sampling allows. (§ 9)
+/// D_s = min(2ζ√(K_s m), β m/T) [N·s/m]: damping of ratio ζ, kept below the limit of sampling; β is `fraction`. (§ 9)
 template <real S>
 [[nodiscard]] constexpr S sampled_damping(S K, S ratio, S fraction, S m, S T) noexcept {
   return smaller(S(2) * ratio * square_root(K * m), fraction * m / T);
 }
 
-/// F²/(4B) [J]: the least cap on the ledger with which a wall can still push back with F [N]. (A9)
+/// F²/(4B) [J]: the smallest cap on the ledger under which the strict bound still grants a force F [N]. (A9)
 template <real S>
 [[nodiscard]] constexpr S bank_for_hold(S F, S b, S T) noexcept {
   return worst_outflow(F, damping_per_tick(b, T));
 }
 
-/// Of a turn, and of the chord that it spans on the unit circle.
+/// Cosine and sine of a turn, and the square of the chord that it spans on the unit circle, 2 − 2cos.
 template <real S>
 struct turn {
   S cosine, sine, chord_squared;
 };
 
-/// The turn by 2 atan(φ/2), from tan(turn/2) = φ/2: never more than φ [rad], short of it by φ³/12.
-/// cos² + sin² = 1 to rounding, for any φ ≥ 0; beyond 2²¹ it is half a turn to within 2 µrad, so that no
-/// square is beyond all numbers. (2.30-2.31 without cos and sin, A20)
+/// The turn by 2 atan(φ/2) [rad], from tan(turn/2) = φ/2. It is smaller than φ [rad], by about φ³/12.
+/// cos² + sin² = 1 to rounding, for any φ ≥ 0. φ is clamped at 2²¹, where the turn is π to within 2 µrad, so
+/// that t² does not overflow. (2.30-2.31 without cos and sin, A20)
 template <real S>
 [[nodiscard]] constexpr turn<S> half_angle_turn(S angle) noexcept {
   const S t = smaller(angle / S(2), S(1 << 20));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How a ledger is kept: no entry, and no sum, is ever rounded up (docs/design/stability.md).
+// Arithmetic of an energy ledger: no entry and no sum is ever rounded up (docs/design/stability.md).
 //
-//   sure_gain         what a tick has brought        less its largest rounding error
-//   book              E += gain                      rounded down
-//   written_off       the least that is left         if a force has done its worst
-//   compensated_sum   a number to keep a ledger in   that does not lose small entries
+//   sure_gain         dissipated − f_held·Δx [J] of one tick, less its largest rounding error
+//   book              E += gain, rounded down
+//   written_off       E − worst outflow, for a tick whose motion is unknown
+//   compensated_sum   a sum that does not lose small entries
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -15,8 +15,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A sum that adds the rounding error of each addition to the next term (Kahan's, with Knuth's exact error
-/// of a sum): in float, 1e-9 J still counts against 1 J.
+/// A sum that adds the rounding error of each addition to the next term (Kahan's summation, with Knuth's exact
+/// error of a sum), so that in float entries of 1e-9 J still add up beside 1 J.
 template <real Scalar>
 class compensated_sum {
  public:
@@ -45,7 +45,7 @@ namespace detail {
 template <class Scalar, ledger_sum Sum>
 using ledger_number = std::conditional_t<Sum == ledger_sum::plain, Scalar, compensated_sum<Scalar>>;
 
-/// `dissipated` − held·Δx [J], what a tick has brought, and never more than in exact arithmetic.
+/// `dissipated` − held·Δx [J], the energy gained in a tick, which never exceeds that of exact arithmetic.
 template <class Port>
 [[nodiscard, gnu::always_inline]] constexpr typename Port::scalar sure_gain(
     typename Port::scalar dissipated, const typename Port::effort& held,
@@ -60,12 +60,12 @@ template <class Ledger, class Scalar>
   if constexpr (std::is_same_v<Ledger, Scalar>) {
     energy = kernels::sum_rounded_down(energy, gain);
   } else {
-    energy += gain;  // the compensated sum keeps what rounding cuts off
+    energy += gain;  // the compensated sum keeps the rounding error itself
   }
 }
 
-/// The least [J] that is left of `energy` if a force has cost its `worst`. It is never below `floor`, an empty
-/// ledger, unless the ledger was below it already.
+/// `energy` − `worst` [J], rounded down: the least that a ledger has left after the `worst` outflow of a force. The
+/// result does not fall below `floor`, the value of an empty ledger, unless `energy` was below it before.
 template <class Scalar>
 [[nodiscard]] constexpr Scalar written_off(Scalar energy, Scalar worst,
                                            Scalar floor = Scalar(0)) noexcept {

@@ -2,9 +2,9 @@
 #pragma once
 // PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS in front of a member lets an empty type take no bytes.
 //
-// It is a macro, the library's only one, because an attribute cannot be named otherwise. Under Microsoft's ABI
-// the standard spelling has no effect, and an empty part would cost four bytes or eight; there the compiler
-// has a spelling of its own. No result depends on it, only sizeof does.
+// It is the library's only macro, because an attribute cannot be named otherwise. Under Microsoft's ABI the
+// standard attribute has no effect, and an empty member would cost four or eight bytes; there the compiler has
+// an attribute of its own. No result depends on it, only sizeof does.
 
 #include <passive_haptics/base/language.hpp>
 

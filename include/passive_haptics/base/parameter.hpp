@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Parameters: a user states them in double, check() refuses them with a sentence, and a port computes with
-// them in its scalar.
+// Parameters. A user states them in double, check() names one that is out of range, and a port computes with them
+// in its scalar.
 //
-// A part of a composition is a plain struct of numbers, its parameters, which knows no scene:
+// A part of a composition is a plain struct of its parameters, which does not depend on the port's type:
 //     ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}
-// Its `on<Port>` is what computes at a port: the same numbers in the port's scalar, and its state.
+// Its nested `on<Port>` computes: it has the same numbers in the port's scalar, and the part's state.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -15,21 +15,21 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Why a parameter is refused. Converts to true when there IS a fault:
+/// The first parameter that is out of its range, if any. It converts to true when there IS a fault:
 ///
 ///     static_assert(!ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}.check());
 ///     if (const auto fault = touch.check()) complain(fault.parameter, fault.value, fault.remedy);
 struct parameter_fault {
-  const char* parameter = nullptr;  ///< its name, null when all is well
-  double value = 0.0;               ///< the value refused
-  const char* remedy = "";          ///< the range allowed
+  const char* parameter = nullptr;  ///< the name of the parameter; null if there is no fault
+  double value = 0.0;               ///< the refused value, in the parameter's unit
+  const char* remedy = "";          ///< the allowed range, with its unit
 
   constexpr explicit operator bool() const noexcept { return parameter != nullptr; }
 };
 
 namespace detail {
 
-/// The default of a parameter that limits nothing unless it is stated.
+/// The default of a limit that does not apply unless it is stated.
 inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 [[nodiscard]] constexpr bool positive(double x) noexcept {
@@ -39,8 +39,8 @@ inline constexpr double no_limit = std::numeric_limits<double>::infinity();
   return x >= 0.0 && kernels::is_finite(x);
 }
 
-/// A parameter in the scalar that computes with it. A finite number stays finite and one that is not zero
-/// does not become zero, so a value that check() has passed is still in its range.
+/// Converts a parameter to the scalar S. A finite number stays finite and a nonzero one does not become zero, so
+/// a value that check() has passed is still in its range.
 template <real S>
 [[nodiscard]] constexpr S number(double x) noexcept {
   if constexpr (std::same_as<S, float>) {
@@ -53,7 +53,7 @@ template <real S>
   return static_cast<S>(x);
 }
 
-/// The same of an array of them; of doubles, back to what a user states.
+/// Converts every number of an array, from double to a port's scalar or back.
 template <real To, real From, std::size_t N>
 [[nodiscard]] constexpr std::array<To, N> numbers(const std::array<From, N>& all) noexcept {
   std::array<To, N> same{};
@@ -61,7 +61,7 @@ template <real To, real From, std::size_t N>
   return same;
 }
 
-/// The type that computes at a port: Part::on<Port>, or the part itself where it is written for one port.
+/// The type that computes at a port: Part::on<Port>, or `Part` itself if it has none.
 template <class Part, class Port>
 struct at_port {
   using type = Part;
@@ -74,7 +74,7 @@ struct at_port<Part, Port> {
   using type = typename Part::template on<Port>;
 };
 
-/// The first parameter of a part at its port that is out of its range, if any.
+/// The first parameter of a part that is out of its range, if any.
 template <class Part>
 [[nodiscard]] constexpr parameter_fault fault_in(const Part& part) noexcept {
   if constexpr (requires { part.parameters().check(); }) {
@@ -86,7 +86,7 @@ template <class Part>
   }
 }
 
-/// Puts a part's state back to where it began; its parameters stay.
+/// Resets a part's state, if it has one, and keeps its parameters.
 template <class Part>
 constexpr void restart(Part& part) noexcept {
   if constexpr (requires { part.reset(); }) part.reset();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The repeatable random numbers that laws and simulations draw their samples from.
+// Repeatable pseudo-random numbers, from which laws and simulations draw their samples.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -11,8 +11,8 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace laws {
 
-/// A repeatable source of numbers in [−1, 1), also at compile time (SplitMix64 of Steele,
-/// Lea and Flood, 2014; not for cryptography).
+/// A repeatable source of numbers in [−1, 1), also at compile time: SplitMix64 of Steele, Lea and Flood (2014).
+/// It is not for cryptography.
 class samples {
  public:
   constexpr explicit samples(std::uint64_t seed) noexcept : state_(seed) {}
@@ -28,7 +28,7 @@ class samples {
   [[nodiscard]] constexpr Scalar number() noexcept {
     return Scalar(static_cast<std::int32_t>(bits() >> 32U)) / Scalar(2147483648.0);
   }
-  /// Components in [−1, 1), of a pose, a motion or an effort of a port.
+  /// A pose, a motion or an effort of a port, with every component in [−1, 1).
   template <class Port>
   [[nodiscard]] constexpr typename Port::vector vector() noexcept {
     using scalar = typename Port::scalar;
@@ -40,7 +40,7 @@ class samples {
       return v;
     }
   }
-  /// Length one, any direction.
+  /// A unit vector in any direction, uniformly distributed.
   template <class Space>
   [[nodiscard]] constexpr typename Space::vector direction() noexcept {
     using scalar = typename Space::scalar;
@@ -55,12 +55,12 @@ class samples {
   std::uint64_t state_;
 };
 
-/// How many samples to draw: an eighth in a constant expression, which a compiler evaluates slowly.
+/// The number of samples to draw: an eighth in a constant expression, which a compiler evaluates slowly.
 [[nodiscard]] constexpr int enough(int samples_at_run_time) noexcept {
   return std::is_constant_evaluated() ? samples_at_run_time / 8 + 1 : samples_at_run_time;
 }
 
-/// Converts to true if a policy obeys the laws that it was tried by; else it names the first one broken.
+/// Converts to true if a policy obeys every law that was tried; otherwise `broken` says which law it broke first.
 struct verdict {
   const char* broken = nullptr;
   constexpr explicit operator bool() const noexcept { return broken == nullptr; }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A length of time that says so: it cannot stand where a position or a force is meant.
+// seconds<Scalar> is a length of time as a type of its own, so it cannot stand in the place of a position or force.
 //
 //     touch.tick(x, now - before);            // two time points: any std::chrono::duration converts
 //     touch.tick(x, ph::seconds{dt});         // a number of your own [s]
 //     port.tick(x, ph::seconds{dt}, wanted);
 //
-// In one degree of freedom position, time and force are numbers alike: were dt one, too, then a slip,
-// tick(x, wanted, dt), would compile and take a force of 2 N for a tick of 2 s. <chrono> is not included:
-// a duration is known by its members, and a microcontroller without clocks does not pay for them.
+// In one degree of freedom a position and a force are plain numbers. If dt were a plain number too, the slip
+// tick(x, wanted, dt) would compile and take a force of 2 N for a tick of 2 s. <chrono> is not included: a
+// duration is recognised by its members, so a microcontroller without clocks does not pay for them.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -30,8 +30,8 @@ concept duration = requires(const D& d) {
 
 }  // namespace detail
 
-/// A number of seconds, in the scalar of the port that takes it; other scalars and other units convert.
-/// It never turns into a number by itself: ask count() [s].
+/// A number of seconds in the port's scalar. It converts from other scalars and from std::chrono durations, but
+/// never implicitly to a number: count() returns that [s].
 template <class Scalar>
 class seconds {
  public:
@@ -54,7 +54,7 @@ seconds(const D&) -> seconds<double>;
 
 namespace detail {
 
-/// What a function that takes `seconds` says to a number in their place. It does not compile.
+/// The compile-time error of a function that takes `seconds` and is given a plain number.
 template <class Number>
 constexpr void refuse_bare_time() noexcept {
   static_assert(!std::same_as<Number, Number>,

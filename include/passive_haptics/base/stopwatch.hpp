@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How long was the tick? For a device or a driver of your own, whose samples have to say so.
+// stopwatch measures the length dt [s] of each tick, which a sample of your own device or driver has to state.
 //
 //     ph::stopwatch watch;  …  return {.position = read(), .held = f, .dt = watch.lap(), .valid = true};
-//     port.tick(x, ph::seconds{watch.lap(1e-3)});        // the first tick has held nothing: 1 ms of it
+//     port.tick(x, ph::seconds{watch.lap(1e-3)});        // the first tick counts as 1 ms
 
 #include <passive_haptics/base/language.hpp>
 
@@ -14,14 +14,14 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A clock that is never set.
+/// A monotonic clock, which is never set back or forth.
 template <class C>
 concept measuring_clock = requires(C c) {
   { c.now() } -> std::same_as<std::chrono::nanoseconds>;
   requires noexcept(c.now());
 };
 
-/// That of the computer.
+/// The computer's std::chrono::steady_clock.
 struct steady_time {
   [[nodiscard]] static std::chrono::nanoseconds now() noexcept {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -35,19 +35,19 @@ class basic_stopwatch {
   constexpr explicit basic_stopwatch(Clock clock = {}) noexcept
       : clock_(clock), last_(clock_.now()) {}
 
-  /// Since the last lap, or since the beginning [s].
+  /// The time since the last lap, or since the beginning [s].
   [[nodiscard]] constexpr double lap() noexcept {
     lapped_ = true;
     const std::chrono::nanoseconds now = clock_.now();
     return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
   }
-  /// The same, but `first` [s] in the first lap, when nothing has been held yet, however long ago it began.
+  /// The same, except that the first lap returns `first` [s], because no force has been held before it.
   [[nodiscard]] constexpr double lap(double first) noexcept {
     const bool measured = lapped_;
     const double dt = lap();
     return measured ? dt : first;
   }
-  /// Begins now.
+  /// Begins again, now.
   constexpr void reset() noexcept {
     last_ = clock_.now();
     lapped_ = false;
