@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The physical damping of the device, which pays for every guarantee, counted in joules.
+// The device's own viscous damping: the energy that it dissipates in a tick pays for every guarantee.
 //
 //   isotropic_damping      one b for all directions                       the usual case
 //   diagonal_damping       b per axis, in the frame it was identified in  unequal axes, joints
-//   damping_and_friction   b and a dry friction that is always there      dry_friction.hpp
+//   damping_and_friction   b and a least dry friction c                   dry_friction.hpp
 //
-// Where axes differ, what E1 covers is an ellipsoid, and a bound may take the effort in it that is nearest (covered()).
+// Where axes differ, the efforts that E1 covers form an ellipsoid, and a bound takes the nearest one in it (§ 2).
 //
-// Not offered: a full matrix (rotate into its principal axes), a pose-dependent one (use its lower
+// There is no full matrix (rotate into its principal axes) and no pose-dependent damping (state its lower
 // bound). All guarantees scale with b, so state a LOWER bound of it, say half the identified value.
 
 #include <passive_haptics/base/parameter.hpp>
@@ -21,7 +21,7 @@ namespace passive_haptics {
 inline namespace v0 {
 
 namespace detail {
-/// b of the axis of a port that damps least, and of the one that damps most [N·s/m].
+/// The smallest and the largest b over the axes of a port [N·s/m]; joints: [N·m·s/rad].
 template <class P>
 [[nodiscard]] constexpr typename P::scalar least_damping(const auto& damping) noexcept {
   typename P::scalar b = damping.along_axis(0);
@@ -35,16 +35,15 @@ template <class P>
   return b;
 }
 
-/// A damping with a number for each axis: where E covers a part of f only, each axis gives way by its own share.
+/// Satisfied by a damping with a b for each axis, under which each axis of an effort is shortened by its own share.
 template <class D, class P>
 concept differs_by_axis = (P::dof > 1) && requires(const D d, const typename P::effort f) {
   { d.yielding(f, typename P::scalar{}) } -> std::same_as<typename P::effort>;
 };
 
-/// The λ [N·s/m] of the effort nearest to f that E [J] covers for T [s],
-///     |fᵢ| ← cᵢ + (|fᵢ| − cᵢ)₊ bᵢ/(bᵢ + λ)     with    Σ T (|fᵢ| − cᵢ)₊²/(4bᵢ) = E  after it
-/// from below: two or three of Newton's steps on 1/√Σ, which is concave, and never more than eight (§ 2, nearest). 0
-/// where E covers nothing.
+/// A lower bound of λ [N·s/m], the multiplier of the effort nearest to f that E [J] covers for T [s] (§ 2, nearest):
+///     |fᵢ| ← cᵢ + (|fᵢ| − cᵢ)₊ bᵢ/(bᵢ + λ),  where the new |fᵢ| have  Σ T (|fᵢ| − cᵢ)₊²/(4bᵢ) = E
+/// Newton's steps on the concave 1/√Σ rise towards it, two or three of them, at most eight. λ is 0 if E ≤ 0.
 template <class P>
 [[nodiscard]] constexpr typename P::scalar yield(const auto& damping, const typename P::effort& f,
                                                  typename P::scalar E,
@@ -53,13 +52,12 @@ template <class P>
   const scalar credit = kernels::spendable(E);
   if (!(credit > scalar(0))) return scalar(0);
   const scalar most = kernels::square_root(scalar(4) * credit / T);
-  typename P::effort need = damping.beyond(f);  // |fᵢ|√bᵢ over the root of 4E/T
+  typename P::effort need = damping.beyond(f);  // becomes nᵢ = (|fᵢ| − cᵢ)₊ √(bᵢT/(4E))
   for (int i = 0; i < P::dof; ++i) {
     P::component(need, i) *= kernels::square_root(damping.along_axis(i)) / most;
   }
   scalar lambda(0);
-  for (int i = 0; i < P::dof;
-       ++i) {  // it is no less than what the axes up to the i-th damping need
+  for (int i = 0; i < P::dof; ++i) {  // λ ≥ √(Σ nⱼ² over bⱼ ≤ bᵢ) − bᵢ for every i
     scalar square(0);
     for (int j = 0; j < P::dof; ++j) {
       const bool counts = damping.along_axis(j) <= damping.along_axis(i);
@@ -81,7 +79,7 @@ template <class P>
   }
   return lambda;
 }
-/// The effort nearest to f, in newtons or in newton metres axis by axis, that E [J] covers for T [s].
+/// The effort that E [J] covers for T [s] and that is nearest to f in newtons (joints: newton metres).
 template <class P>
 [[nodiscard]] constexpr typename P::effort nearest_covered(const auto& damping,
                                                            const typename P::effort& f,
@@ -90,10 +88,10 @@ template <class P>
   const typename P::scalar share = damping.affordable(f, E, T);
   if (share == typename P::scalar(1)) return f;
   const typename P::effort left = damping.yielding(f, yield<P>(damping, f, E, T));
-  return left * damping.affordable(left, E, T);  // what Newton has left, and rounding
+  return left * damping.affordable(left, E, T);  // for the rest of Newton's error, and rounding
 }
-/// Of the efforts that yield(λ) on the way to the nearest that is covered for any motion, each brought down by what
-/// share_of() leaves of it, the one nearest to f: λ by halving, four times. One share for all is λ = 0 of them.
+/// The effort share_of(g) g nearest to f, where g = yielding(f, λ) and 0 ≤ λ ≤ `most`. λ is searched by halving, four
+/// times, from 0 (one share for all axes) and `most` (the nearest effort under the strict bound).
 template <class P>
 [[nodiscard]] constexpr typename P::effort nearest_of(const auto& damping,
                                                       const typename P::effort& f,
@@ -127,7 +125,7 @@ template <class P>
 }
 }  // namespace detail
 
-/// b·I. Converts from the plain number, so `.damping = 0.03` reads as it should.
+/// b·I, one damping for all directions. It converts from a number, as in `.damping = 0.03`.
 struct isotropic_damping {
   double coefficient{};  ///< b [N·s/m], > 0
 
@@ -157,11 +155,11 @@ struct isotropic_damping {
       return static_cast<double>(b_);
     }
 
-    /// Δxᵀ (b/dt) Δx [J], never more than the damper took in a tick of length dt. (2.4, lemma L1)
+    /// Δxᵀ (b/dt) Δx [J], the least that the damper takes in a tick of length dt [s]. (2.4, lemma L1)
     [[nodiscard]] constexpr scalar dissipated(const motion& dx, scalar dt) const noexcept {
       return b_ * Space::dot(dx, dx) / dt;
     }
-    /// ¼ fᵀ (b/T)⁻¹ f [J], the most energy f can hand out in a tick of length T. (2.14, lemma L3)
+    /// ¼ fᵀ (b/T)⁻¹ f [J], the most energy that f can give to the hand in a tick of length T [s]. (2.14, lemma L3)
     [[nodiscard]] constexpr scalar worst_outflow(const effort& f, scalar T) const noexcept {
       return T * Space::dot(f, f) / (scalar(4) * b_);
     }
@@ -186,10 +184,11 @@ struct isotropic_damping {
   };
 };
 
-/// diag(b₁ … b_Dof), in the frame of a space or joint by joint.
+/// diag(b₁ … b_Dof), along the axes of a space or joint by joint.
 template <int Dof>
 struct diagonal_damping {
-  std::array<double, static_cast<std::size_t>(Dof)> coefficients{};  ///< b per axis [N·s/m], > 0
+  std::array<double, static_cast<std::size_t>(Dof)>
+      coefficients{};  ///< bᵢ [N·s/m], > 0; joints: [N·m·s/rad]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     for (const double b : coefficients) {
@@ -237,9 +236,9 @@ struct diagonal_damping {
     [[nodiscard]] constexpr scalar affordable(const effort& f, scalar E, scalar T) const noexcept {
       return kernels::strict_scale(E, worst_outflow(f, T));
     }
-    /// What of f costs the ledger anything: all of it.
+    /// The part of f that has to be paid for: without dry friction, all of it.
     [[nodiscard]] constexpr const effort& beyond(const effort& f) const noexcept { return f; }
-    /// fᵢ bᵢ/(bᵢ + λ), for the nearest effort that is covered.
+    /// fᵢ bᵢ/(bᵢ + λ), the nearest covered effort for its λ [N·s/m]. (§ 2, nearest)
     [[nodiscard]] constexpr effort yielding(const effort& f, scalar lambda) const noexcept {
       effort left = f;
       for (int i = 0; i < Dof; ++i) {

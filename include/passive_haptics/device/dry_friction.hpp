@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Dampings with a dry friction that is always there. The dual_ledger credits it.
+// Dampings with a dry (Coulomb) friction that is never below c. The dual_ledger credits its work.
 //
 //   damping_and_friction                b, c, p           the same in all directions of a space
 //   diagonal_damping_and_friction<Dof>  b, c, p per axis  joints, or sliders along the axes
 //
-// Dry friction gives way like a spring over its first micrometres, the presliding displacement p, and
-// hands back what that spring has stored, so a motion smaller than p pays next to nothing. That is why p must
-// be stated along with c. A device is covered if its friction takes at least c joules per metre of slip, and
-// if slip and motion never differ by more than a deflection of p: sliders behind springs (Maxwell, Iwan),
-// elasto-plastic and Stribeck friction are, Dahl's and LuGre's are not (docs/design/mathematics.md § 6).
+// Over its first micrometres, the presliding displacement p, dry friction is a spring and returns the energy that
+// it stored, so a motion smaller than p dissipates almost nothing. That is why p must be stated along with c. A
+// device is covered if its friction takes at least c joules per metre of slip, and if slip and motion never
+// differ by more than p: sliders behind springs (Maxwell, Iwan), elasto-plastic and Stribeck friction qualify,
+// Dahl's and LuGre's models do not (docs/design/mathematics.md § 6).
 //
-// State the least c, when warm and worn, and the largest p. Measure p as half the way from sliding in one
+// State the least c, of the warm and worn device, and the largest p. Measure p as half the way from sliding in one
 // direction to sliding in the other. Where each of n axes has a friction of its own, damping_and_friction
 // takes p √n, because n springs give way together. A p of zero claims that the friction is rigid.
 
@@ -28,16 +28,16 @@ namespace detail {
   if (not_negative(p)) return {};
   return {"presliding", p, "finite and ≥ 0 m, stated: over how far the friction is elastic"};
 }
-/// The default of a presliding displacement, which check() refuses: it has to be stated.
+/// The default presliding displacement, NaN, which check() refuses, so that p has to be stated.
 inline constexpr double not_stated = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace detail
 
-/// b·I and dry friction of at least c in every direction of motion, elastic over at most p in any:
-/// credits the work c|Δx| too, and lets out c + √(4BE) instead of √(4BE). Idea of the enhanced force
-/// bounding approach (Baek, Park, Ryu; docs/design/mathematics.md § 2(a)); formula and proof there:
+/// b·I and a dry friction of at least c in every direction of motion, elastic over at most p. The ledger is also
+/// credited with the work c|Δx|, and the strict bound is c + √(4BE) instead of √(4BE), because
 ///     min over s ≥ 0 of B s² − (F − c) s = −(F − c)₊²/(4B)
-/// A ledger in debt lets out nothing. What elastic friction changes: § 6 there.
+/// The idea is that of the enhanced force bounding approach (Baek, Park, Ryu); formula and proof are in
+/// docs/design/mathematics.md § 2, Friction credit. A ledger in debt allows no force. § 6 has elastic friction.
 struct damping_and_friction {
   double coefficient{};                    ///< b [N·s/m], > 0, a lower bound
   double coulomb{};                        ///< c [N], ≥ 0, a lower bound
@@ -69,11 +69,11 @@ struct damping_and_friction {
               .presliding = static_cast<double>(p_)};
     }
 
-    /// Δxᵀ (b/dt) Δx + c|Δx| [J], with the friction taken as rigid; its conjugate is worst_outflow().
+    /// Δxᵀ (b/dt) Δx + c|Δx| [J], the energy taken if the friction is rigid; worst_outflow() is its convex conjugate.
     [[nodiscard]] constexpr scalar dissipated(const motion& dx, scalar dt) const noexcept {
       return viscous(dx, dt) + c_ * Space::norm(dx);
     }
-    /// T (|f| − c)₊²/(4b) [J].
+    /// T (|f| − c)₊²/(4b) [J], the most energy that f can give to the hand in a tick of length T [s].
     [[nodiscard]] constexpr scalar worst_outflow(const effort& f, scalar T) const noexcept {
       const scalar beyond = kernels::larger(Space::norm(f) - c_, scalar(0));
       return T * beyond * beyond / (scalar(4) * this->along_axis(0));
@@ -91,9 +91,9 @@ struct damping_and_friction {
     [[nodiscard]] constexpr scalar viscous(const motion& dx, scalar dt) const noexcept {
       return damper::dissipated(dx, dt);
     }
-    /// c [N], the part of a force along any direction that costs the ledger nothing.
+    /// c [N], the part of a force along any direction that friction pays for.
     [[nodiscard]] constexpr scalar friction(const effort& /*along*/) const noexcept { return c_; }
-    /// The friction force u nearest to f, |u| ≤ c [N]. Given such a u, it returns it unchanged.
+    /// The friction force u with |u| ≤ c [N] that is nearest to f; f itself if |f| ≤ c.
     [[nodiscard]] constexpr effort friction_near(const effort& f) const noexcept {
       const scalar square = Space::dot(f, f);
       if (square <= c_ * c_ * (scalar(1) - kernels::rounding<scalar>())) return f;
@@ -107,13 +107,13 @@ struct damping_and_friction {
       }
       return dx * (sure() / kernels::square_root(square));
     }
-    /// The largest |u| [N].
+    /// c [N], the largest |u|.
     [[nodiscard]] constexpr scalar most_friction() const noexcept { return c_; }
-    /// p|Δu| [J], rounded up: what a certificate pays for a change of the friction force it counts on.
+    /// p|Δu| [J], rounded up: the charge for a change Δu of the friction force that a certificate counts on (§ 6).
     [[nodiscard]] constexpr scalar hysteresis(const effort& change) const noexcept {
       return p_ * Space::norm(change) * (scalar(1) + kernels::rounding<scalar>());
     }
-    /// |u|² p/(2c) [J], rounded up: the energy stored in the springs of the friction that push with u.
+    /// |u|² p/(2c) [J], rounded up: the energy stored in the friction's springs at the friction force u.
     [[nodiscard]] constexpr scalar stored(const effort& u) const noexcept {
       return Space::dot(u, u) * compliance_ * (scalar(1) + kernels::rounding<scalar>());
     }
@@ -129,8 +129,8 @@ struct damping_and_friction {
   };
 };
 
-/// diag(b₁ … b_Dof), and on each axis or joint a dry friction cᵢ that is elastic over pᵢ:
-/// Σ cᵢ|Δxᵢ| is credited, and worst_outflow is Σ T(|fᵢ| − cᵢ)₊²/(4bᵢ). The share of a force that E covers is
+/// diag(b₁ … b_Dof), and on each axis or joint a dry friction cᵢ that is elastic over pᵢ. The ledger is credited
+/// with Σ cᵢ|Δxᵢ|, and worst_outflow is Σ T(|fᵢ| − cᵢ)₊²/(4bᵢ). The share of a force that E covers is
 ///     s = s₀ + (1 − s₀) √(E/W),    s₀ = the least cᵢ/|fᵢ|, at most 1,    W = worst_outflow of the whole force
 /// since W(s f) ≤ ((s − s₀)/(1 − s₀))² W axis by axis (ours).
 template <int Dof>
@@ -186,7 +186,7 @@ class diagonal_damping_and_friction<Dof>::on : public diagonal_damping<Dof>::tem
   [[nodiscard]] constexpr scalar worst_outflow(const effort& f, scalar T) const noexcept {
     return dampers::worst_outflow(beyond(f), T);
   }
-  /// (|fᵢ| − cᵢ)₊, what of f costs the ledger anything.
+  /// (|fᵢ| − cᵢ)₊, the part of f that friction does not pay for [N].
   [[nodiscard]] constexpr effort beyond(const effort& f) const noexcept {
     effort costs = f;
     for (int i = 0; i < Dof; ++i) {
@@ -195,7 +195,7 @@ class diagonal_damping_and_friction<Dof>::on : public diagonal_damping<Dof>::tem
     }
     return costs;
   }
-  /// fᵢ up to cᵢ, and what is beyond it times bᵢ/(bᵢ + λ).
+  /// cᵢ + (|fᵢ| − cᵢ) bᵢ/(bᵢ + λ) with the sign of fᵢ where |fᵢ| > cᵢ, else fᵢ. (§ 2, nearest)
   [[nodiscard]] constexpr effort yielding(const effort& f, scalar lambda) const noexcept {
     const effort free = friction_near(f);
     return free + dampers::yielding(effort(f - free), lambda);
@@ -217,7 +217,7 @@ class diagonal_damping_and_friction<Dof>::on : public diagonal_damping<Dof>::tem
   [[nodiscard]] constexpr scalar viscous(const motion& dx, scalar dt) const noexcept {
     return dampers::dissipated(dx, dt);
   }
-  /// The least Σ cᵢ|Δxᵢ| per metre of motion along f, whatever the motion across f [N].
+  /// The least Σ cᵢ|Δxᵢ| per metre of motion along f, for any motion across f [N].
   [[nodiscard]] constexpr scalar friction(const effort& along) const noexcept {
     const scalar length = Port::norm(along);
     scalar least = kernels::largest<scalar>();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Vectors of two and more components, on Eigen: what space<Scalar, 2>, space<Scalar, 3> and every
-// joint_space compute with. The only core header that names Eigen.
+// Eigen vectors of two and more components, for space<Scalar, 2>, space<Scalar, 3> and every joint_space. No
+// other core header names Eigen.
 
 #include <passive_haptics/device/space.hpp>
 
@@ -57,7 +57,7 @@ requires(Dof >= 2) struct vectors<Scalar, Dof> {
     for (int i = 0; i < Dof; ++i) all(i) = Scalar(0);
     return all;
   }
-  /// Summed from the first to the last: Eigen's own order depends on the scalar and on the target.
+  /// a·b, summed from the first component to the last, because Eigen's order depends on scalar and target.
   [[nodiscard, gnu::always_inline]] static Scalar dot(const vector& a, const vector& b) noexcept {
     Scalar sum = a(0) * b(0);
     for (int i = 1; i < Dof; ++i) sum += a(i) * b(i);

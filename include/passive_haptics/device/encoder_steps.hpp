@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How well a position is known: each component shown is off by at most half a step q. That describes the
-// steps of encoders, but for a constant shift, and any noise of at most ±q/2.
+// The error of a measured position: each component is off by at most half a step, |x̂ᵢ − xᵢ| ≤ qᵢ/2. This describes
+// encoder steps, apart from a constant shift, and any noise of at most ±q/2.
 //
-//   encoder_step         one q for every axis                    converts from the number
+//   encoder_step         one q for every axis                    converts from a number
 //   encoder_steps<Dof>   a q for each axis, or for each joint
 
 #include <passive_haptics/base/parameter.hpp>
@@ -17,13 +17,13 @@ namespace detail {
   return {"quantum", width, "finite and ≥ 0 m"};
 }
 
-/// What a ledger has to know of the steps. `Self::along_axis(i)` is the step qᵢ of axis i.
+/// The bounds that a ledger derives from the steps. `Self::along_axis(i)` is the step qᵢ of axis i.
 template <class Self, class P>
 class known_to_a_step {
  public:
   using scalar = typename P::scalar;
 
-  /// ½ Σ qᵢ|fᵢ| [J], rounded up: each end of a motion adds at most that to the error of the work of f.
+  /// ½ Σ qᵢ|fᵢ| [J], rounded up: the largest error of the work of f that one end of a motion can cause.
   [[nodiscard]] constexpr scalar doubt(const typename P::effort& f) const noexcept {
     const scalar up = (scalar(1) + kernels::rounding<scalar>()) / scalar(2);
     if constexpr (Self::alike) {
@@ -38,7 +38,7 @@ class known_to_a_step {
       return up * sum;
     }
   }
-  /// The motion shown, shortened by qᵢ on each axis i: the device has moved at least so far [m].
+  /// The measured motion Δx̂, shortened by qᵢ on each axis i: the least true motion [m].
   [[nodiscard]] constexpr typename P::motion surely(
       const typename P::motion& shown) const noexcept {
     typename P::motion least = shown;
@@ -50,7 +50,7 @@ class known_to_a_step {
     }
     return least;
   }
-  /// How far the true Δx may be from the one shown [m].
+  /// √(Σ qᵢ²), the largest distance between the true Δx and the measured Δx̂ [m].
   [[nodiscard]] constexpr scalar travel_error() const noexcept {
     if constexpr (Self::alike) return self().along_axis(0) * kernels::square_root(scalar(P::dof));
     scalar sum(0);
@@ -66,7 +66,7 @@ class known_to_a_step {
 
 }  // namespace detail
 
-/// One q for every axis. Converts from the plain number: `.quantum = 55e-6`.
+/// One step q for every axis. It converts from a number, as in `.quantum = 55e-6`.
 struct encoder_step {
   double width{};  ///< q [m], an upper bound of one step; joints: [rad]
 
@@ -95,10 +95,11 @@ struct encoder_step {
   };
 };
 
-/// A q for each axis of a space, in its frame, or for each joint.
+/// A step qᵢ for each axis of a space, or for each joint.
 template <int Dof>
 struct encoder_steps {
-  std::array<double, static_cast<std::size_t>(Dof)> widths{};  ///< qᵢ [m], upper bounds
+  std::array<double, static_cast<std::size_t>(Dof)>
+      widths{};  ///< qᵢ [m], upper bounds; joints: [rad]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     for (const double q : widths) {

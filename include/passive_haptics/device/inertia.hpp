@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The inertia of the device, from below: it limits how far a device can move within a tick. The norm of an
-// effort measures how much that effort can accelerate the device.
+// A lower bound M of the device's inertia, which limits how far the device can move within a tick. The norm
+// ‖f‖ = √(fᵀM⁻¹f) [√J/s] measures how much an effort f can accelerate the device.
 //
 //   isotropic_inertia   one mass for all directions
-//   diagonal_inertia    one per axis or joint, the diagonal of a matrix that is nowhere above the device's own
+//   diagonal_inertia    one per axis or joint: a diagonal matrix that is nowhere above the device's own
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -13,7 +13,7 @@ inline namespace v0 {
 
 /// m·I: ‖f‖ = |f|/√m.
 struct isotropic_inertia {
-  double mass{};  ///< m [kg], > 0: the smallest of all directions and poses
+  double mass{};  ///< m [kg], > 0: the smallest over all directions and poses
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (detail::positive(mass)) return {};
@@ -39,8 +39,8 @@ struct isotropic_inertia {
   };
 };
 
-/// diag(m₁ … m_Dof) with xᵀ diag(m) x ≤ xᵀ M x for every x and in every pose: not the diagonal of M,
-/// which is larger than that where axes are coupled. For two axes, mᵢ = Mᵢᵢ − |M₁₂| will do.
+/// diag(m₁ … m_Dof) with xᵀ diag(m) x ≤ xᵀ M x for every x and in every pose, M the device's inertia. The diagonal
+/// of M is too large where axes are coupled. For two axes, mᵢ = Mᵢᵢ − |M₁₂| is small enough.
 template <int Dof>
 struct diagonal_inertia {
   std::array<double, static_cast<std::size_t>(Dof)> masses{};  ///< [kg]; joints: [kg·m²]; > 0

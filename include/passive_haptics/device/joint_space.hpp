@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// joint_space<Scalar, Joints>: the port of a device that is told by its joints, a gripper's included.
+// joint_space<Scalar, Joints>: the port of a device whose samples are joint positions, a gripper's included.
 //
-// Angles and torques, or travels and forces, joint by joint. Between two samples the motors hold their
+// A pose holds angles [rad] or travels [m], an effort torques [N·m] or forces [N], joint by joint. Between two samples the motors hold their
 // torques, so τ·Δq is their work exactly, whatever the mechanism (lemma J, docs/design/mathematics.md).
 // A joint_space has neither geometry nor length of a vector, because a radian and a metre do not add up:
-// constraints, directions and whatever measures a force in newtons need a space. Take diagonal_damping,
-// which has a damping for each joint.
+// constraints, directions and limits of a force in newtons need a space. Its damping is diagonal_damping,
+// with a number for each joint.
 
 #include <passive_haptics/device/eigen_space.hpp>
 
@@ -45,11 +45,11 @@ struct joint_space {
   [[nodiscard]] static constexpr motion between(const pose& from, const pose& to) noexcept {
     return to - from;
   }
-  /// τ·Δq [J].
+  /// τ·Δq [J], and the sum Σ |τᵢ Δqᵢ| beside it.
   [[nodiscard]] static constexpr auto work(const effort& torque, const motion& turned) noexcept {
     return detail::work<algebra>(torque, turned);
   }
-  /// The square of the joint that moved most: loop_limits::top_speed is that of the fastest joint.
+  /// max Δqᵢ² [rad²]: loop_limits::top_speed limits the fastest joint.
   [[nodiscard]] static constexpr Scalar squared(const motion& turned) noexcept {
     Scalar most(0);
     for (int i = 0; i < dof; ++i) {

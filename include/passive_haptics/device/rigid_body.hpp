@@ -6,12 +6,12 @@
 //     motion   (Δp, θ) [m], [rad]   θ = Log(R₁R₀ᵀ), the shortest turn, in the WORLD frame
 //     effort   (f, τ) [N], [N·m]    at the handle point, in the world frame, held there over the tick
 //
-// The work of a wrench is counted with (Δp, θ), and where the path of a tick is not straight, f·Δp + τ·θ may differ
-// from the true work: rigid_damping knows by how much, so this port needs it (lemma C, docs/design/six_dof.md).
-// Where a driver reports what its motors did, use reported_work.hpp.
+// The work of a wrench is computed as f·Δp + τ·θ. If the path of a tick is not straight, the true work differs;
+// rigid_damping bounds the difference, so this port needs it (lemma C, docs/design/six_dof.md).
+// If a driver reports the work of its motors, use reported_work.hpp.
 //
-// Metres and radians do not add up: a motion or an effort has no length here, and what would measure one
-// refuses this port. loop_limits::top_speed counts a radian as 0.1 m, so 5 m/s is 50 rad/s, too.
+// Metres and radians do not add up, so a motion or an effort has no length here, and parts that need a length
+// refuse this port. loop_limits::top_speed counts a radian as 0.1 m, so 5 m/s is 50 rad/s, too.
 
 #include <passive_haptics/device/rotation.hpp>
 
@@ -20,7 +20,7 @@ inline namespace v0 {
 
 struct rigid_damping;
 
-/// Where a handle is and how it is turned. One plain value serves to store and to compute.
+/// Position and orientation of a handle. The same plain struct is stored, sent and computed with.
 template <real Scalar>
 struct rigid_pose {
   stored_vector<Scalar, 3> position{};  ///< p of the handle point [m]
@@ -29,7 +29,7 @@ struct rigid_pose {
 
 namespace detail {
 
-/// What ports of a rigid_pose have in common.
+/// The common part of the ports whose pose is a rigid_pose.
 template <real Scalar>
 struct rigid_poses {
   using scalar = Scalar;
@@ -37,7 +37,7 @@ struct rigid_poses {
   using stored_pose = rigid_pose<Scalar>;
   using body_space = space<Scalar, 3>;  ///< where the handle point moves
 
-  /// Where the handle point is [m]; loop_limits::workspace is asked of it.
+  /// Position of the handle point [m], to which loop_limits::workspace applies.
   [[nodiscard]] static typename body_space::vector place(const pose& x) noexcept {
     return x.position;
   }
@@ -58,8 +58,8 @@ struct rigid_body : detail::rigid_poses<Scalar> {
 
  public:
   static constexpr int dof = 6;
-  static constexpr bool turns = true;      ///< the ends of a tick do not tell its path
-  using damping_of_turns = rigid_damping;  ///< it bounds the work that the ends do not show
+  static constexpr bool turns = true;      ///< the end poses of a tick do not determine its path
+  using damping_of_turns = rigid_damping;  ///< it bounds the resulting error of the work
   using vector = typename algebra::vector;
   using coordinates = typename algebra::coordinates;
   using triple = typename poses::body_space::vector;
@@ -76,9 +76,9 @@ struct rigid_body : detail::rigid_poses<Scalar> {
   [[nodiscard]] static decltype(auto) component(Vector& a, int i) noexcept {
     return algebra::component(a, i);
   }
-  /// Δp or f of a motion or an effort.
+  /// Δp [m] of a motion, f [N] of an effort.
   [[nodiscard]] static triple linear(const vector& a) noexcept { return {a(0), a(1), a(2)}; }
-  /// θ or τ.
+  /// θ [rad] of a motion, τ [N·m] of an effort.
   [[nodiscard]] static triple angular(const vector& a) noexcept { return {a(3), a(4), a(5)}; }
   [[nodiscard]] static vector join(const triple& linear, const triple& angular) noexcept {
     vector all;
@@ -89,7 +89,7 @@ struct rigid_body : detail::rigid_poses<Scalar> {
     return all;
   }
 
-  /// (Δp, θ). Where a quaternion is no rotation, θ is NaN, so that no ledger books the motion.
+  /// (Δp, θ). If a quaternion is not of norm one, θ is NaN, so that no ledger books the motion.
   [[nodiscard]] static motion between(const pose& from, const pose& to) noexcept {
     const triple travel = triple(to.position) - triple(from.position);
     if (!rotation::is_unit(from.orientation) || !rotation::is_unit(to.orientation)) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The damping of a handle that moves and turns, from below, and by how much the work of a turn may differ from
-// what its end poses show.
+// A lower bound of the damping of a handle that moves and turns, and a bound on the error of the work of a turn
+// that is computed from its end poses.
 //
 //   rigid_damping   b [N·s/m] for travel, b_ω [N·m·s/rad] for turns
 //
-// Both are the smallest over all directions and poses, seen at the handle point: in no pose may the device's
-// damping matrix there be below diag(b I, b_ω I).
+// In no pose may the device's damping matrix at the handle point be below diag(b I, b_ω I), so b and b_ω are the
+// smallest over all directions and poses.
 
 #include <passive_haptics/device/damping.hpp>
 #include <passive_haptics/device/rigid_body.hpp>
@@ -49,7 +49,7 @@ class rigid_damping::on {
   [[nodiscard]] constexpr scalar dissipated(const motion& m, scalar dt) const noexcept {
     return (linear_ * squared<0>(m) + angular_ * squared<3>(m)) / dt;
   }
-  /// T|f|²/(4b) + T|τ|²/(4b_ω) [J], whatever the path.
+  /// T|f|²/(4b) + T|τ|²/(4b_ω) [J], the most energy that w can give to the hand on any path of a tick of T [s].
   [[nodiscard]] constexpr scalar worst_outflow(const effort& w, scalar T) const noexcept {
     return T * (squared<0>(w) / linear_ + squared<3>(w) / angular_) / scalar(4);
   }
@@ -58,14 +58,14 @@ class rigid_damping::on {
     for (int i = 0; i < 6; ++i) Port::component(w, i) *= along_axis(i) / T;
     return w;
   }
-  /// The share of w that E [J] covers for T [s], and no torque beyond most_torque(T).
+  /// The share of w that E [J] covers for T [s], at most so large that |τ| ≤ 4b_ω/T (lemma C).
   [[nodiscard]] constexpr scalar affordable(const effort& w, scalar E, scalar T) const noexcept {
     const scalar share = kernels::strict_scale(E, worst_outflow(w, T));
     return kernels::coning_share(share, squared<3>(w), angular_, T);
   }
-  /// By how much the gain of a turn may fall short of b_ω|θ|²/dt − τ·θ [J], because its path need not be
-  /// straight: dt|θ × τ|²/(36 b_ω) while |θ| ≤ 1 rad and |τ| ≤ 4b_ω/dt (lemma C, docs/design/six_dof.md).
-  /// Beyond these limits the path may be any, and the turn counts as the worst one, −dt|τ|²/(4b_ω).
+  /// The most by which the true gain of a turn may fall short of b_ω|θ|²/dt − τ·θ [J], because its path need not
+  /// be straight: dt|θ × τ|²/(36 b_ω) if |θ| ≤ 1 rad and |τ| ≤ 4b_ω/dt (lemma C, docs/design/six_dof.md).
+  /// Beyond these limits the worst path is assumed, so that the gain becomes −dt|τ|²/(4b_ω).
   [[nodiscard]] constexpr scalar unsure(const motion& m, const effort& held,
                                         scalar dt) const noexcept {
     const scalar turn = squared<3>(m);
@@ -82,7 +82,7 @@ class rigid_damping::on {
     return booked - work.joules + worst +
            kernels::rounding<scalar>() * (booked + work.passed + worst);
   }
-  /// 1/(uᵀ(b/T)⁻¹u) for the direction u of `along`, made a unit vector by its numbers in N and N·m.
+  /// 1/(uᵀ(b/T)⁻¹u), u the direction of `along`, normalised as a vector of six numbers in N and N·m.
   [[nodiscard]] constexpr scalar per_tick(const effort& along, scalar T) const noexcept {
     return (squared<0>(along) + squared<3>(along)) / (scalar(4) * worst_outflow(along, T));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The inertia of a handle that moves and turns, from below: it limits how far the handle gets within a tick.
+// A lower bound of the inertia of a handle that moves and turns, which limits its motion within a tick.
 //
 //   rigid_inertia   mass, least moment of inertia, spread of the moments, offset of the centre of mass
 
@@ -12,8 +12,8 @@ inline namespace v0 {
 
 /// A body of mass m whose centre of mass lies off the handle point by c. The norm of a wrench there is
 ///     ‖w‖² = |f|²/m + (|τ| + |c||f|)²/I ≥ wᵀM⁻¹w
-/// As the body turns at ω, the centrifugal force m ω × (ω × c) and the gyroscopic torque ω × Iω act on it,
-/// too; together they have a norm of at most |ω|² √(m|c|² + (I_max − I_min)²/(4I)).
+/// As the body turns at ω, the centrifugal force m ω × (ω × c) and the gyroscopic torque ω × Iω also act on it.
+/// Together they have a norm of at most |ω|² √(m|c|² + (I_max − I_min)²/(4I)).
 ///
 /// In no pose may the device's own inertia matrix at the handle be below that of this body. If the `mass`
 /// stated is below the true one, raise `offset` by the square root of their ratio, or more.
@@ -31,8 +31,8 @@ struct rigid_inertia {
     if (!detail::not_negative(offset)) return {"offset", offset, "finite and ≥ 0 m"};
     return {};
   }
-  /// The share of m and of I that the handle has of both at once, if the centre of mass is off it: its inertia
-  /// matrix is at least that of so much mass and so much moment, each by itself.
+  /// The largest r with M ⪰ r diag(m, I), M the inertia matrix at the handle. With the centre of mass off the handle
+  /// by |c| it is r = 1/(1 + q/2 + √(q + q²/4)), q = m|c|²/I. (mathematics.md, Theorem 4)
   [[nodiscard]] constexpr double at_handle() const noexcept {
     const double q = mass * offset * offset / least;
     return 1.0 / (1.0 + q / 2.0 + kernels::square_root(q + q * q / 4.0));
@@ -65,13 +65,13 @@ class rigid_inertia::on {
             .offset = static_cast<double>(offset_)};
   }
 
-  /// ‖w‖ of a force and a torque of these lengths [N], [N·m], in whatever directions [√J/s].
+  /// The largest ‖w‖ [√J/s] over all directions of a force and a torque of these lengths [N], [N·m].
   [[nodiscard]] constexpr scalar norm(scalar force, scalar torque) const noexcept {
     const scalar about_centre = torque + offset_ * force;
     return kernels::square_root(
         scalar(force * force * per_mass_ + about_centre * about_centre * per_least_));
   }
-  /// ‖w‖ [√J/s].
+  /// ‖w‖ [√J/s] of a wrench.
   [[nodiscard]] constexpr scalar norm(const typename Port::effort& w) const noexcept {
     const scalar force = squared<0>(w), torque = squared<3>(w);
     if (!(offset_ > scalar(0))) {
@@ -79,15 +79,15 @@ class rigid_inertia::on {
     }
     return norm(kernels::square_root(force), kernels::square_root(torque));
   }
-  /// The norm [√J/s] of centrifugal force and gyroscopic torque at a rate of turn up to `rate` [rad/s].
+  /// The norm [√J/s] of centrifugal force and gyroscopic torque at an angular velocity of up to `rate` [rad/s].
   [[nodiscard]] constexpr scalar of_turning(scalar rate) const noexcept {
     return rate * rate * turning_;
   }
   /// The largest angular acceleration that a wrench of this norm can cause [rad/s²].
   [[nodiscard]] constexpr scalar turning_by(scalar norm) const noexcept { return norm * rate_; }
-  /// The same of the handle point [m/s²].
+  /// The largest acceleration of the handle point that a wrench of this norm can cause [m/s²].
   [[nodiscard]] constexpr scalar moving_by(scalar norm) const noexcept { return norm * pace_; }
-  /// |c| [m], and √(1 + (I_max − I_min)/I): by how much a free body may turn faster than it did.
+  /// |c| [m]; and √(1 + (I_max − I_min)/I), the largest factor by which a free body's angular velocity can grow.
   [[nodiscard]] constexpr scalar offset() const noexcept { return offset_; }
   [[nodiscard]] constexpr scalar swing() const noexcept { return swing_; }
   /// The length of the three components from `First` on: |f| or |Δp| from 0, |τ| or |θ| from 3.
@@ -95,7 +95,7 @@ class rigid_inertia::on {
   [[nodiscard]] static constexpr scalar length(const typename Port::effort& w) noexcept {
     return kernels::square_root(squared<First>(w));
   }
-  /// Their square.
+  /// The square of that length.
   template <int First>
   [[nodiscard]] static constexpr scalar squared(const typename Port::effort& w) noexcept {
     return detail::squared_from<Port, First>(w);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The rotations that a port needs: unit quaternions and rotation vectors, all in the WORLD frame.
+// Rotations as unit quaternions and rotation vectors, all in the WORLD frame.
 //
-//   quaternion   w + xi + yj + zk; takes a vector of the handle to the world; q and −q are the same
+//   quaternion   w + xi + yj + zk, rotates a vector from handle to world frame; q and −q are the same rotation
 //   exp, log     rotation vector [rad] to quaternion and back, |log(q)| ≤ π
-//   turned       Log(R₁R₀ᵀ): the shortest turn from one orientation to another
-//   rotate       R v
+//   turned       Log(R₁R₀ᵀ) [rad]: the shortest rotation from one orientation to another
+//   rotate       R v, a vector rotated by q
 
 #include <passive_haptics/device/eigen_space.hpp>
 
@@ -15,7 +15,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A rotation, if its norm is one. The default is no turn.
+/// A quaternion, which is a rotation if its norm is one. The default is the identity.
 template <real Scalar>
 struct quaternion {
   Scalar w{1}, x{}, y{}, z{};
@@ -36,7 +36,7 @@ template <real S>
 [[nodiscard]] constexpr S squared_norm(const quaternion<S>& q) noexcept {
   return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
 }
-/// True if the norm is within 1e-3 of 1, as of a rotation that was rounded or has drifted; false for NaN.
+/// True if the norm is within 1e-3 of 1, which admits rotations that were rounded or have drifted; false for NaN.
 template <real S>
 [[nodiscard]] constexpr bool is_unit(const quaternion<S>& q) noexcept {
   return kernels::magnitude(S(squared_norm(q) - S(1))) <= S(2e-3);
@@ -59,7 +59,7 @@ template <real S>
 [[nodiscard]] constexpr quaternion<S> conjugate(const quaternion<S>& q) noexcept {
   return {q.w, -q.x, -q.y, -q.z};
 }
-/// The turn by b and then by a.
+/// The product ab: first the rotation b, then a.
 template <real S>
 [[nodiscard]] constexpr quaternion<S> product(const quaternion<S>& a,
                                               const quaternion<S>& b) noexcept {
@@ -67,7 +67,7 @@ template <real S>
       a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
       a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z, a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x};
 }
-/// R v.
+/// R v, the vector v rotated by q.
 template <real S>
 [[nodiscard]] vector<S> rotate(const quaternion<S>& q, const vector<S>& v) noexcept {
   using algebra = detail::vectors<S, 3>;

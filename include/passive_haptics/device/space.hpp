@@ -15,8 +15,8 @@
 // Pressing in gives Δx·n < 0, so −f·Δx > 0: the ledger grows. Leaving, it falls. (The thesis mixes
 // two conventions; docs/design/audit.md, A1-A3.)
 //
-// A space is also the port of a device that moves such a point (`translation`). A device that is told by its joints
-// is a joint_space. space<Scalar, 1> computes with plain numbers, in constant expressions too, and includes no
+// A space is also the port of a device that moves such a point (`translation`). A device whose samples are joint
+// positions has a joint_space. space<Scalar, 1> computes with plain numbers, in constant expressions too, and includes no
 // Eigen; two and three dimensions are in eigen_space.hpp.
 
 #include <passive_haptics/base/kernels.hpp>
@@ -33,12 +33,12 @@ struct work_done {
 
 namespace detail {
 
-/// Is a port a point that moves in a space, where a vector has a length and a direction?
+/// Satisfied by the port of a point in a space, where vectors have a length and a direction.
 template <class P>
 concept has_geometry = requires {
   typename P::geometry;
 };
-/// Does it move and turn, so that an effort is a force and a torque?
+/// Satisfied by the port of a handle that moves and turns, whose efforts are a force and a torque.
 template <class P>
 concept moves_and_turns = requires(typename P::motion m) {
   P::angular(m);
@@ -53,7 +53,7 @@ template <class P, int First>
   return x * x + y * y + z * z;
 }
 
-/// The algebra of `Dof` numbers. Specialised here for one, in eigen_space.hpp for more.
+/// The algebra of vectors of `Dof` components, specialised here for Dof = 1 and in eigen_space.hpp for more.
 ///   scalar        a number
 ///   vector        what is computed with: Scalar for Dof 1, Eigen::Matrix<Scalar, Dof, 1> above
 ///   coordinates   what is stored and sent: trivially copyable, converts to and from vector
@@ -82,7 +82,7 @@ struct vectors<Scalar, 1> {
   [[nodiscard]] static constexpr Scalar& component(Scalar& a, int /*i*/) noexcept { return a; }
 };
 
-/// Work, component by component, from the first to the last.
+/// f·Δx [J] and Σ |fᵢ Δxᵢ| [J], summed from the first component to the last.
 template <class Vectors>
 [[nodiscard, gnu::always_inline]] constexpr auto work(
     const typename Vectors::vector& effort, const typename Vectors::vector& motion) noexcept {
@@ -108,7 +108,7 @@ struct space : detail::vectors<Scalar, Dof> {
   using vector = typename detail::vectors<Scalar, Dof>::vector;
   using coordinates = typename detail::vectors<Scalar, Dof>::coordinates;
 
-  using geometry = space;           ///< where constraints live
+  using geometry = space;           ///< the space of constraints
   using pose = vector;              ///< [m]
   using motion = vector;            ///< from one pose to another [m]
   using effort = vector;            ///< [N]

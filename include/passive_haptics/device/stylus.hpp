@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// stylus<Scalar>: the port of a device that senses six and actuates three, as a Touch and its kin do.
+// stylus<Scalar>: the port of a device that senses six degrees of freedom and actuates three, such as a Touch.
 //
-// The motors push at the centre of the gimbal, so that is where energy is counted: a force (3) times its
-// travel (3), as in space<Scalar, 3>, with the same damping and the same bounds. The orientation is part of
+// The motors push at the centre of the gimbal, so energy is f·Δp [J] of that point, as in space<Scalar, 3>, with
+// the same damping and the same bounds. The orientation is part of
 // the pose, because it decides what the tip touches, but the motors do no work on it. Turning the tip into a
-// wall therefore pays nothing for the push that follows, and an empty ledger does not allow that push: see
-// docs/design/six_dof.md for what to do then.
+// wall therefore adds no energy to the ledger, and an empty ledger allows no force that pushes the tip out:
+// docs/design/six_dof.md has the remedies.
 
 #include <passive_haptics/device/rigid_body.hpp>
 
@@ -31,7 +31,7 @@ struct stylus : detail::vectors<Scalar, 3>, private detail::rigid_poses<Scalar> 
 
   using poses::is_finite, poses::place;
   [[nodiscard]] static bool is_finite(const vector& a) noexcept { return geometry::is_finite(a); }
-  /// Δp; NaN where a quaternion is no rotation, because then nobody knows what the tip touches.
+  /// Δp [m]; NaN if a quaternion is not of norm one, because the tip's position is then unknown.
   [[nodiscard]] static motion between(const pose& from, const pose& to) noexcept {
     if (!rotation::is_unit(from.orientation) || !rotation::is_unit(to.orientation)) {
       const Scalar nan = std::numeric_limits<Scalar>::quiet_NaN();
