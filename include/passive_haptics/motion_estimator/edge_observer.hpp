@@ -7,26 +7,26 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Encoders show only the step [x̂, x̂ + q] that an axis is in. In the tick in which it crosses an edge its
-/// position is known, half a tick's motion beyond the edge on average, and the travel Δx̂ and the time t since
-/// the last edge tell its speed:
-///     an edge again     x = the edge + v dt/2    v ← v + g (Δx̂/t − v),   g = max(t/dt, |v| t/q)/4, at most 1
-///     an edge back      x = the edge + v dt/2    v ← −4/5 min(|v|, 4q/t), v at the last edge: it turned round
-///     between edges     x ← x + v dt             up to 2/3 q past the edge, with |v| ≤ q/t
-///     none for 100 ms   x → the middle of the step, with a time constant of 200 ms: it rests
+/// Estimates x [m] and v [m/s] of each axis from encoders that show only the step [x̂, x̂ + q] it is in. In the tick
+/// of an edge the position is known: it is v dt/2 beyond the edge on average. The speed follows from the travel
+/// Δx̂ [m] and the time t [s] since the last edge (ours; measured in docs/design/encoders.md):
+///     next edge         x = edge + v dt/2    v ← v + g (Δx̂/t − v),   g = max(t/dt, |v| t/q)/4, at most 1
+///     same edge back    x = edge + v dt/2    v ← −4/5 min(|v|, 4q/t), v at the last edge: the device turned
+///     between edges     x ← x + v dt         up to 2/3 q past the edge, with |v| ≤ q/t
+///     none for 100 ms   x → the middle of the step, with a time constant of 200 ms: the device is at rest
 ///
-/// So a device that chatters at one edge soon causes no change of force, one that rests costs nothing, and one
-/// that moves meets each edge with nearly the force that belongs there: that costs a sure ledger least (§ 6).
-/// Speeds below q/(8 dt) do not count, because a damper on them would change the force with every edge.
+/// A device that chatters at one edge soon causes no change of force, one at rest costs no energy, and one that
+/// moves is given nearly the true force at each edge, which costs the dual ledger least (§ 6). A damper reads |v|
+/// less q/(8 dt), and 0 below that, because otherwise its force would change with every edge.
 ///
-/// It settles where dry friction holds the device within a step, K q ≤ 2c. Without friction the wall hunts:
-/// take mass_observer there. Measured: docs/design/encoders.md. With q = 0 it is last_difference.
+/// The contact settles if dry friction c holds the device within a step, K q ≤ 2c. Without friction it hunts
+/// between two steps: use mass_observer there. With q = 0 the estimate is that of last_difference.
 ///
-/// Friction that is elastic over p takes nothing from a swing over q + 2p, which may therefore last for ever;
-/// but where its spring c/p is stiffer than the wall, friction alone holds the device. So, for 2p > q:
-///     it turned twice within q + 2p     x → the middle of where it turned last, time constant 50 ms
-///     a step beyond that, or no edge for 100 ms     as above
-/// Under a tremor the force then stays even: the tremor drains nothing and is not fed.
+/// A friction that is elastic over p takes no energy from a swing of q + 2p, which may therefore last for ever;
+/// but if its spring c/p is stiffer than the wall, friction alone holds the device. So, for 2p > q:
+///     two turns within q + 2p     x → the middle of the last two turning points, time constant 50 ms
+///     a step beyond them, or no edge for 100 ms     as above
+/// The force is then constant under a tremor, which gains no energy from it and drains none from the ledger.
 struct edge_observer {
   double quantum{};     ///< q, one step of the position shown [m]
   double presliding{};  ///< p of a friction that is stiffer than the wall, c > K p, else 0 [m]
@@ -50,7 +50,7 @@ class edge_observer::on {
   struct seen {
     vector position;  ///< [m]
     vector velocity;  ///< [m/s]
-    scalar slowest;   ///< speeds below this count as zero [m/s]
+    scalar slowest;   ///< taken off every speed, down to zero [m/s]
     [[nodiscard]] constexpr scalar along(const vector& n) const noexcept {
       const scalar v = P::dot(velocity, n);
       const scalar beyond = kernels::larger(kernels::magnitude(v) - slowest, scalar(0));
@@ -90,10 +90,10 @@ class edge_observer::on {
 
  private:
   using coordinates = typename P::coordinates;
-  /// A device that crosses no edge for so long is at rest [s].
+  /// A device that crosses no edge for this time [s] is taken to be at rest.
   static constexpr scalar still = scalar(0.1);
 
-  /// Starts anew: at rest in the middle of the step.
+  /// Starts again, at rest in the middle of the step.
   constexpr void start(int i, scalar step) noexcept {
     for (coordinates* zero : {&velocity_, &at_edge_, &travel_, &since_, &direction_, &turns_}) {
       P::component(*zero, i) = scalar(0);
@@ -138,15 +138,14 @@ class edge_observer::on {
     return kernels::clamped(x, step, step + quantum_);
   }
 
-  /// True while the device swings within q + 2p. low_ and high_ are the steps at which it turned last.
+  /// True while the device swings within q + 2p, after two turns. low_ and high_ are the steps of the last turns [m].
   [[nodiscard]] constexpr bool is_held_by_friction(int i, scalar step, bool crossed) noexcept {
     if (!(scalar(2) * presliding_ > quantum_)) return false;
     scalar& low = P::component(low_, i);
     scalar& high = P::component(high_, i);
     scalar& turns = P::component(turns_, i);
     const scalar enough = scalar(2);
-    const scalar a_little_more =
-        scalar(1.01);  // than a step, for what rounding does to sums of steps
+    const scalar a_little_more = scalar(1.01);  // than one step, because sums of steps are rounded
     const scalar most = scalar(2) * presliding_ + quantum_ * a_little_more;
     if (!crossed) {
       if (turns < enough) return false;
@@ -166,7 +165,7 @@ class edge_observer::on {
     return turns >= enough;
   }
 
-  /// The speed that follows from crossing an edge.
+  /// Updates v [m/s] in the tick in which the axis crosses an edge.
   constexpr void cross(int i, scalar dt) noexcept {
     scalar& v = P::component(velocity_, i);
     scalar& before = P::component(at_edge_, i);
@@ -175,7 +174,8 @@ class edge_observer::on {
     scalar& d = P::component(direction_, i);
     const scalar way = kernels::magnitude(travel);
     const scalar now = travel < scalar(0) ? scalar(-1) : scalar(1);
-    const scalar many = scalar(4);  // steps, or ticks, of which an error of one is small
+    const scalar many =
+        scalar(4);  // steps or ticks since the last edge: an error of one is then small
     if (d != now && way <= quantum_ * scalar(1.5)) {
       v = now * scalar(0.8) * kernels::smaller(kernels::magnitude(before), many * quantum_ / t);
     } else if (d != now || v == scalar(0) || way >= many * quantum_ || t >= many * dt ||
@@ -188,17 +188,17 @@ class edge_observer::on {
     travel = t = scalar(0);
     d = now;
   }
-  /// The edge by which a device moving in that direction came into the step [m].
+  /// The edge [m] by which an axis that moves in that direction has entered the step.
   [[nodiscard]] constexpr scalar edge(scalar step, scalar direction) const noexcept {
     return direction < scalar(0) ? step + quantum_ : step;
   }
 
   scalar quantum_{}, presliding_{};
   coordinates position_{}, velocity_{};         ///< x [m], v [m/s]
-  coordinates at_edge_{}, travel_{}, since_{};  ///< v at the last edge, Δx̂ [m] and t [s] since
+  coordinates at_edge_{}, travel_{}, since_{};  ///< v at the last edge, Δx̂ [m] and t [s] since it
   coordinates direction_{};                     ///< d, ±1; 0 before the first edge
-  coordinates low_{}, high_{};                  ///< steps at which it turned last [m]
-  coordinates turns_{};                         ///< how often it turned within q + 2p, up to 2
+  coordinates low_{}, high_{};                  ///< steps of the last turns [m]
+  coordinates turns_{};                         ///< turns within q + 2p so far, at most 2
 };
 
 static_assert(motion_estimator_for<edge_observer, space<float, 1>>);

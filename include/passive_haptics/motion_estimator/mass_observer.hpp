@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A motion estimator for encoders whose steps are felt (the menu is in last_difference.hpp).
+// A motion estimator for encoders with coarse steps, with a model of the mass (the menu is in last_difference.hpp).
 
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A state observer per axis for encoders that show only the step [x̂, x̂ + q] the device is in:
+/// A state observer per axis, of x [m] and v [m/s], for encoders that show only the step [x̂, x̂ + q] (ours):
 ///     predict   x⁻ = x + v dt + a dt²/2,   v⁻ = v + a dt,   a = f_held/m + w
 ///     correct   x = x⁻ clamped to [x̂, x̂ + q],   c = x − x⁻
 ///               v = v⁻ + c/(64 dt),   w += c/(8 · 64² dt²)
-///     believe   when the c of one direction add up to S, |S| > 4/3 q, in t seconds:
+///     follow    when corrections c of one sign sum to S, |S| > 4/3 q, within t seconds:
 ///               v += S/t,   w += S/(2 t²)
-/// w [m/s²] is what all else than the motors adds to the acceleration: hand, weight, friction. Inside a
-/// step the model runs free, so at rest the contact force does not hunt between two steps; a motion that
-/// quantisation cannot explain is taken over at once. With q = 0 every correction is believed.
+/// w [m/s²] is the acceleration by all forces but the motors': hand, weight, friction. Inside a step the model is
+/// not corrected, so at rest the contact force does not hunt between two steps; a motion that quantisation cannot
+/// explain is followed at once. With q = 0 every correction is followed.
 ///
-/// Why these numbers, and what else was tried: docs/design/settling.md. An encoder that rounds
-/// instead of cutting off moves every surface by q/2 and changes nothing else.
+/// docs/design/settling.md has the reasons for 64 and 4/3, and what else was tried. An encoder that rounds to the
+/// nearest step instead of truncating moves every surface by q/2 and has no other effect.
 struct mass_observer {
-  double mass{};     ///< m, apparent mass of the device [kg]; it settles with an error of 30 %, too
-  double quantum{};  ///< q, one step of the position shown [m]
+  double mass{};     ///< m, apparent mass of the device [kg]; an error of 30 % still settles
+  double quantum{};  ///< q, one step of the measured position [m]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
@@ -110,7 +110,7 @@ class mass_observer::on {
       S = t = scalar(0);
     }
     if (!kernels::is_finite(x + v + w))
-      start(i, step + quantum_ / scalar(2));  // after an absurd force
+      start(i, step + quantum_ / scalar(2));  // after a force that overflows
   }
 
   scalar mass_{}, quantum_{};
