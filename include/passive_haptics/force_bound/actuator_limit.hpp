@@ -4,15 +4,15 @@
 //
 //   actuator_limit    |f| ≤ what the motors give        every device with motors needs one
 //   motor_limits      |fᵢ| ≤ what motor i gives         for joints, or motors along the axes
-//   thermal_limit     |f| ≤ less for ever than at once  thermal_limit.hpp
-//   no_bound          f = f*                            for comparison, and for worlds proved otherwise
+//   thermal_limit     |f| ≤ peak, RMS ≤ continuous      thermal_limit.hpp
+//   no_bound          f = f*                            for comparison, and for worlds passive by another proof
 
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// f = f*. In contact with a spring K > 2b/T each tick loses K Δx²/2 − b Δx²/T [J] (lemma L2).
+/// f = f*, the desired force. A sampled spring of K > 2b/T then creates K Δx²/2 − b Δx²/T [J] in each tick (L2).
 struct no_bound {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
@@ -29,9 +29,9 @@ struct no_bound {
   };
 };
 
-/// |f| ≤ `most` [N], the direction kept: what the motors can hold. Without this limit, or a device that reports
-/// the force it held, the ledger books a force that the motors never held (A28). A sample that reports a force
-/// of more than 2 `most` is refused, because the motors cannot have held that either.
+/// |f| ≤ `most` [N], the largest force that the motors can hold; the direction is kept. Without this limit, or a
+/// device that reports the held force, the ledger books a force that the motors never held (A28). A sample that
+/// reports more than 2 `most` is rejected, because the motors cannot have held that.
 struct actuator_limit {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
@@ -77,7 +77,7 @@ struct actuator_limit {
   };
 };
 
-/// |fᵢ| ≤ mostᵢ for every axis or joint, the direction kept: the motor that is exceeded most sets the share.
+/// |fᵢ| ≤ mostᵢ for every axis or joint. One share min(1, mostᵢ/|fᵢ|) scales all of f, so the direction is kept.
 template <int Dof>
 struct motor_limits {
   static constexpr guarantee passivity = guarantee::none;

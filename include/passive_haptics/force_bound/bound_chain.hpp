@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A chain of bounds: each is shown the effort that those before it have left.
+// A chain of bounds, applied in order: each one bounds the effort that the one before it returned.
 //
 //   ph::bound_chain{ph::reachable_bound{…}, ph::actuator_limit{…}}
 
@@ -9,12 +9,12 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Applies `First`, then the rest. The chain promises the best promise among its bounds that no bound behind it
-/// can break. One that only reduces breaks none, because a force that a bound allows may be shortened; one that
-/// turns or lengthens the force breaks all before it. (§ 2, Shares and chains)
+/// Applies `First`, then the rest. The chain's guarantee is the best among its bounds that no later bound can
+/// break. A bound that only reduces the force breaks none, because every bound here allows any shorter force of the
+/// same direction; one that turns or lengthens it breaks all before it. (§ 2, Shares and chains)
 ///
-/// A part that may raise a force because of the contact, such as force_rate_limit, is a shaper and no bound; it
-/// stands before the whole chain.
+/// A part that may raise the force because of the contact, such as force_rate_limit, is a shaper and not a bound;
+/// it acts before the whole chain.
 template <class First, class... Rest>
 struct bound_chain : detail::sequence<First, Rest...> {
   static_assert(detail::are_bounds<First, Rest...>());
@@ -36,7 +36,7 @@ template <class First, class... Rest>
 bound_chain(First, Rest...) -> bound_chain<First, Rest...>;
 
 namespace detail {
-/// The best promise that no later bound can break, and whether all bounds only reduce.
+/// The best guarantee that no later bound can break, and whether all bounds only reduce the force.
 struct chained {
   guarantee promise = guarantee::none;
   bool reduce = true;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The bound that knows the device's mass: only what the coming ticks can reach must be covered.
+// The force bound for a device of known mass: it covers only the travel that the mass admits in the coming ticks.
 //
 //   reachable_bound        in newtons and metres, one mass for all directions      a space
 //   reachable_work_bound   in joules, any inertia                                  any port
 //
-// In a loop that is k ticks late, the k commands on their way are covered first, each over what its
-// own tick can reach.
+// In a loop that is k ticks late, the k forces commanded but not yet held are covered first, each over the travel
+// that is possible in its own tick.
 
 #include <passive_haptics/device/inertia.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -14,13 +14,13 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// F s − B s² ≤ E1 for every outward travel s ≤ δ that the next tick can reach (§ 2(a′)). A device
-/// of mass m that is moving in cannot turn round within a tick, so pressing is hardly bounded; a
-/// device moving out is bounded as strictly as it must be.
-///     δ₁ = outward_reach                              of the tick that begins now (L6)
-///     δ(j+1) = δ(j) + T²/2 (a(j) + a(j+1))            of the one after it, a = (force + F_other)/m
-/// A command of this tick is held in tick k + 1 of a loop that is k ticks late; those on their way,
-/// h(1) … h(k), have been promised already:
+/// F s − B s² ≤ E1 [J] for every travel 0 ≤ s ≤ δ [m] along the force that the next tick can reach (ours, § 2(a′)).
+/// A device of mass m that moves in cannot turn round within a tick, so a pressing force is hardly bounded; one
+/// that moves out is bounded as far as the energy requires.
+///     δ(1)   = outward_reach                          in the tick that begins now (L6)
+///     δ(j+1) = δ(j) + (a(j) + a(j+1)) T²/2            in tick j + 1, a(j) = (|h(j)| + F_other)/m
+/// In a loop that is k ticks late the new force f is held in tick k + 1. The forces held before it, h(1) … h(k),
+/// were commanded earlier and are covered first:
 ///     Σ W(h(j), δ(j)) + W(f, δ(k+1)) ≤ E1,     W(f, δ) = max of f s − B s² over 0 ≤ s ≤ δ
 ///
 /// Passive (E1 ≥ 0) under ALL of these:
@@ -31,14 +31,14 @@ inline namespace v0 {
 ///     damps most, for k + 1 ticks (so b T/m ≤ 0.1; § 2(a′));
 ///   - strict_bound's own: b a lower bound, ticks ≤ longest_tick, exact positions (or a ledger that
 ///     knows how far they are off), held force known.
-/// Outside them (a velocity source as hand, a lighter device) it can lose energy, and tests show it.
+/// Otherwise (a velocity source as hand, a lighter device) it can create energy, and tests show it.
 struct reachable_bound {
   static constexpr guarantee passivity = guarantee::conditional;
   static constexpr bound_traits traits{
       .needs_ledger = true, .exact_travel = false, .latency = any_latency};
 
-  double mass{};        ///< smallest of all directions, of what moves rigidly with the encoder [kg]
-  double hand_force{};  ///< largest force of all but motors and damper, a cable's included [N]
+  double mass{};        ///< m [kg] that moves rigidly with the encoder, least over directions
+  double hand_force{};  ///< largest force of all but motors and damper, with the cable's [N]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
@@ -65,7 +65,7 @@ class reachable_bound::on {
   }
 
   template <class...>
-  static constexpr bool only_reduces = true;  ///< on every axis, where they differ
+  static constexpr bool only_reduces = true;  ///< on every axis, even if their dampings differ
   template <class State>
   [[nodiscard]] constexpr detail::what_is_left<State, Space> limit(
       const effort& desired, const State& state) const noexcept {
@@ -80,7 +80,7 @@ class reachable_bound::on {
     }
   }
 
-  /// What a force can have done in `dt` [s] after a tick that was seen [J] (§ 2(a″)).
+  /// The most work [J] that a force f can have done in a time `dt` [s] without samples. (§ 2(a″))
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr detail::unseen_work<scalar> unseen(
       const detail::seen_tick<Space>& seen, const auto& damping, const effort& f,
       scalar dt) const noexcept {
@@ -98,20 +98,21 @@ class reachable_bound::on {
   [[nodiscard]] constexpr scalar share_of(const effort& desired, scalar credit,
                                           const State& state) const noexcept {
     const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
-    if (outflow <= kernels::spendable(credit)) return scalar(1);  // by the worst motion of all
+    if (outflow <= kernels::spendable(credit))
+      return scalar(1);  // even the worst motion is covered
     const scalar force = Space::norm(desired);
     if (!(force > scalar(0))) return scalar(1);
     const scalar B = state.damping.per_tick(desired, state.longest_tick);
     scalar most = kernels::reachable_force_bound(
         credit, B, reach<State::latency + 1>(desired, force, force, state));
     if constexpr (State::damping_type::rubs) {
-      if (credit < scalar(0)) return scalar(0);  // friction is no licence to go on spending
+      if (credit < scalar(0)) return scalar(0);  // a ledger in debt allows no force, not even c
       most = (state.damping.friction(desired) + most) *
              (scalar(1) - scalar(4) * kernels::rounding<scalar>());
     }
     return most < force ? most / force : scalar(1);
   }
-  /// E1 less the worst of what is on its way to the motors [J].
+  /// E1 − Σ W(h(j), δ(j)) [J], the energy left for the new force.
   template <class State>
   [[nodiscard]] constexpr scalar left_for_it(const State& state) const noexcept {
     scalar credit = state.energy;
@@ -135,7 +136,7 @@ class reachable_bound::on {
     if constexpr (J < State::latency) promise<J + 1>(credit, state);
   }
 
-  /// δ(J) along `direction`, of length `length` [m]; `last` is the force in tick J [N].
+  /// δ(J) [m] along `direction`, a vector of length `length`; `last` is the force held in tick J [N].
   template <int J, class State>
   [[nodiscard]] constexpr scalar reach(const effort& direction, scalar length, scalar last,
                                        const State& state) const noexcept {
@@ -145,7 +146,7 @@ class reachable_bound::on {
     const scalar other =
         hand_force_ + scalar(2) * (detail::most_damping<Space>(state.damping) / T) * moved;
     if constexpr (J == 1) {
-      if (!state.motion_known) return kernels::largest<scalar>();  // at any speed
+      if (!state.motion_known) return kernels::largest<scalar>();  // the speed is unknown
       scalar outward = Space::dot(state.travel, direction) / length +
                        kernels::rounding<scalar>() * Space::norm(state.travel);
       if constexpr (!State::exact) outward += state.travel_error;
@@ -161,25 +162,23 @@ class reachable_bound::on {
   scalar mass_, hand_force_;
 };
 
-/// The same law in joules, for any port and any inertia: a wrench, a gripper, joints. With
-/// ‖f‖ = √(fᵀM⁻¹f) and W = ¼fᵀB⁻¹f, the most work that f can do in the tick that begins now is
-///     η₁ = f·Δx T/T₀ + ‖f‖ ((‖held‖ + F) T₀T + (‖h(1)‖ + F) T²)/2,     F = hand + 2‖(b/T)Δx‖
+/// The same law in joules, for any port and any inertia M: a wrench, a gripper, joints. With the norm
+/// ‖f‖ = √(fᵀM⁻¹f) [√J/s] and W = ¼fᵀB⁻¹f [J], the most work η(j) [J] that f can do in tick j is
+///     η(1)   = f·Δx T/T₀ + ‖f‖ ((‖held‖ + F) T₀T + (‖h(1)‖ + F) T²)/2,   F = hand + 2‖(b/T)Δx‖
 ///     η(j+1) = η(j) + ‖f‖ ((‖h(j)‖ + F) + (‖h(j+1)‖ + F)) T²/2
-/// and the share s of f that is left hands out no more than E1 over it, s η' − η'²/(4W) ≤ E1 for
-/// every 0 ≤ η' ≤ η:
+/// and f is scaled by the largest share s ≤ 1 with s η' − η'²/(4W) ≤ E1 for every 0 ≤ η' ≤ η:
 ///     s = E1/η + η/(4W) where η² < 4 W E1,  √(E1/W) elsewhere                 (§ 2(a′), in joules)
-/// One degree of freedom with one mass gives reachable_bound's numbers.
+/// In one degree of freedom it is the same bound as reachable_bound.
 ///
-/// Passive under its assumptions, put so: M is a lower bound of the inertia in every pose, in the
-/// sense of xᵀMx; hand, load, friction and, of a mechanism, Coriolis forces have a norm of at most
-/// `hand`.
+/// Passive under the assumptions of reachable_bound, where xᵀMx is at most that of the device's inertia in every
+/// pose, and hand, load, dry friction and, of a mechanism, Coriolis forces have a norm of at most `hand`.
 template <class Inertia>
 struct basic_reachable_work_bound {
   static constexpr guarantee passivity = guarantee::conditional;
   static constexpr bound_traits traits{
       .needs_ledger = true, .exact_travel = true, .latency = any_latency};
 
-  Inertia inertia{};  ///< a lower bound
+  Inertia inertia{};  ///< M, a lower bound
   double hand{};      ///< largest norm of everything but motors and damper [√J/s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -247,7 +246,7 @@ class basic_reachable_work_bound<Inertia>::on {
     if constexpr (J < State::latency) promise<J + 1>(credit, state);
   }
 
-  /// η(J) of an effort of that norm [J]; `last` is the norm of what is held in tick J.
+  /// η(J) [J] of an effort f of norm `norm`; `last` is the norm of the effort held in tick J [√J/s].
   template <int J, class State>
   [[nodiscard]] constexpr scalar reach(const effort& f, scalar norm, scalar last,
                                        const State& state) const noexcept {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Bounds of a wrench, for a port that turns.
+// Bounds of a wrench, for a handle that moves and turns (rigid_body).
 //
-//   rigid_reachable_bound   what a handle of known inertia can reach must be covered, in joules
-//   rigid_actuator_limit    |f| and |τ| that the motors give, one common share
+//   rigid_reachable_bound   covers the motion that the handle's inertia admits in the next tick
+//   rigid_actuator_limit    |f| and |τ| at most those of the motors
 //
-// One share counts for the whole wrench, because a force and a torque bounded apart would spend the ledger twice.
+// One share scales the whole wrench, because a force and a torque bounded apart would spend the ledger twice.
 
 #include <passive_haptics/device/rigid_damping.hpp>
 #include <passive_haptics/device/rigid_inertia.hpp>
@@ -17,30 +17,30 @@ inline namespace v0 {
 /// reachable_work_bound for a rigid_body. With ‖w‖ of rigid_inertia and W = ¼wᵀB⁻¹w, the most work that w can
 /// do in the tick that begins now is
 ///     η = w·Δξ T/T₀ + ‖w‖ ((‖held‖ + F) T₀T + (‖w‖ + F) T²)/2 + |τ|(|θ| + α T₀²)α T₀T/12
-/// where F [√J/s] is the norm of all that pushes besides the motors:
+/// where F [√J/s] is a bound on the norm of all forces but the motors', the sum of
 ///     hand_force + 2 b_max|Δp|/T₀, hand_torque + 2 b_ω,max|θ|/T₀      the hand, and the damper at most
-///     |ω|² √(m|c|² + (I_max − I_min)²/(4I)), |ω| = 2|θ|/T₀            the body as it turns
-/// and the last term covers the turn of the last tick that its end poses do not show (docs/design/six_dof.md), as
-/// the rate of turn changed by α = (‖held‖ + F)/√I [rad/s²] at most. Over η the share s hands out at most E1:
+///     |ω|² √(m|c|² + (I_max − I_min)²/(4I)), |ω| = 2|θ|/T₀            centrifugal and gyroscopic forces
+/// The last term bounds the error of the turn that the end poses of the last tick show (docs/design/six_dof.md),
+/// with α = (‖held‖ + F)/√I [rad/s²] the largest angular acceleration. The wrench is scaled by the share s ≤ 1:
 ///     s = E1/η + η/(4W) where η² < 4 W E1,  √(E1/W) elsewhere
-/// In a loop that is one tick late the wrench on its way is covered first, and w over the tick after it, as
-/// reachable_work_bound covers them.
+/// In a loop that is one tick late, the wrench commanded before is covered first, and w in the tick after it, as in
+/// reachable_work_bound.
 ///
-/// Passive (the true E ≥ 0; the ledger, which knows less, may show a debt) under ALL of these:
+/// Passive (the true E ≥ 0; the ledger is a lower bound of E and may show a debt) under ALL of these:
 ///   - the inertia is nowhere below that of rigid_inertia, in any pose; the hand's wrench at the handle point
 ///     has at most hand_force and hand_torque;
-///   - the damping at the handle lies between the ledger's b and the two upper bounds here, in any direction;
-///   - in the coming ticks the handle is at most twice as fast as it was on average in the last one, or so slow
-///     that its damper and its gyroscopic forces are small beside the hand's;
-///   - ticks are ≤ longest_tick, poses exact, and the wrench is held in the world frame and known.
-/// The share also keeps |τ| ≤ 4b_ω/T (lemma C). For motors with joint torques take strict_bound on reported_work.
+///   - in any direction the damping at the handle lies between the ledger's b and the two upper bounds here;
+///   - in the coming ticks the handle is at most twice as fast as its mean in the last one, or so slow that its
+///     damper and its gyroscopic forces are small compared with the hand's;
+///   - ticks are ≤ longest_tick, poses are exact, and the held wrench is known and constant in the world frame.
+/// The share also keeps |τ| ≤ 4b_ω/T (lemma C). For motors that hold joint torques use strict_bound and reported_work.
 struct rigid_reachable_bound {
   static constexpr guarantee passivity = guarantee::conditional;
   static constexpr bound_traits traits{.needs_ledger = true, .latency = 1, .turns = true};
 
   rigid_inertia inertia{};        ///< a lower bound of the device's inertia
-  double hand_force{};            ///< largest force of everything but motors and damper [N]
-  double hand_torque{};           ///< largest torque of the same about the handle point [N·m]
+  double hand_force{};            ///< largest force of all but motors and damper [N]
+  double hand_torque{};           ///< largest torque of these about the handle point [N·m]
   double linear_damping_most{};   ///< b_max, an upper bound in any direction [N·s/m]
   double angular_damping_most{};  ///< b_ω,max, an upper bound about any axis [N·m·s/rad]
 
@@ -95,7 +95,8 @@ class rigid_reachable_bound::on {
     const effort wrench = desired * known;
     const scalar W = state.damping.worst_outflow(wrench, T);
     if constexpr (State::latency == 0) {
-      if (W <= kernels::spendable(state.energy)) return share{known};  // by the worst motion of all
+      if (W <= kernels::spendable(state.energy))
+        return share{known};  // the worst motion is covered
     }
     const surroundings all = around(state);
     const scalar norm = inertia_.norm(wrench);
@@ -117,8 +118,8 @@ class rigid_reachable_bound::on {
     return share{known * kernels::reachable_share(credit, W, most)};
   }
 
-  /// What w can have done [J], and what of it a turn hides, in `dt` [s] after a tick that was seen (mathematics.md
-  /// § 2(a″)).
+  /// The most work [J] that w can have done in a time `dt` [s] without samples, and the part of it that the end poses
+  /// of a turn may hide. (mathematics.md § 2(a″))
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr detail::unseen_work<scalar> unseen(
       const detail::seen_tick<P>& seen, const auto& /*damping*/, const effort& w,
       scalar dt) const noexcept {
@@ -151,10 +152,10 @@ class rigid_reachable_bound::on {
   }
 
  private:
-  /// What pushed the handle over the last tick and is assumed to go on.
+  /// The forces on the handle and its motion in the last tick, taken as bounds for the coming ones.
   struct surroundings {
     scalar held;     ///< ‖held‖ [√J/s]
-    scalar pushed;   ///< F, all else [√J/s]
+    scalar pushed;   ///< F, the norm of all other forces [√J/s]
     scalar turn;     ///< |θ| [rad]
     scalar turning;  ///< α [rad/s²]
   };
@@ -173,7 +174,7 @@ class rigid_reachable_bound::on {
     return {held, pushed, turn, inertia_.turning_by(held + pushed)};
   }
 
-  /// η [J] of the wrench w of norm `norm` in the tick that begins now, in which a wrench of norm `next` is held.
+  /// η [J] of a wrench w of norm `norm` in the tick that begins now, during which a wrench of norm `next` is held.
   [[nodiscard]] constexpr scalar reach(const effort& w, scalar norm, scalar next,
                                        const surroundings& all, const auto& state) const noexcept {
     if (!state.motion_known || !(all.turn <= scalar(1))) return kernels::largest<scalar>();
@@ -191,7 +192,7 @@ class rigid_reachable_bound::on {
   scalar hand_force_, hand_torque_, linear_most_, angular_most_;
 };
 
-/// |f| ≤ `force` and |τ| ≤ `torque`, what the motors can hold: one share shortens the wrench as a whole.
+/// |f| ≤ `force` and |τ| ≤ `torque`, the limits of the motors. One share scales the whole wrench.
 struct rigid_actuator_limit {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};

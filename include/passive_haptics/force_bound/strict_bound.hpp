@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The force bounding approach (FBA): a force is commanded only if its worst next tick, ¼ fᵀB⁻¹f [J], is paid.
-// The three bounds differ in what pays for it:
+// The force bounding approach (FBA): a force is commanded only if an energy budget [J] covers its worst outflow in
+// the next tick, ¼ fᵀB⁻¹f [J]. The three bounds differ in that budget:
 //
-//   strict_bound      |f| ≤ √(4 B E1)         all that was ever saved: fewest cuts, late bursts
+//   strict_bound      |f| ≤ √(4 B E1)         the whole ledger E1: fewest cuts; stored energy may come out late
 //                     |f| ≤ c + √(4 B E1)     on a dual_ledger that credits dry friction c, for E1 ≥ 0
 //                     the nearest f           where axes are damped unequally
-//   memoryless_bound  |f| ≤ |f_held − 2B Δx|  the last force and the last tick only: nothing is saved,
-//                                             so no bursts and no drift; feels like a spring of 2b/T
-//   per_axis_bound    |fᵢ| ≤ √(4 Bᵢ Eᵢ)       one ledger per axis: no axis can spend what another has
-//                                             saved, and the force may turn
+//   memoryless_bound  |f| ≤ |f_held − 2B Δx|  the last force and the last tick only: nothing is stored, so there
+//                                             are no bursts and no drift; a wall feels like a spring of 2b/T
+//   per_axis_bound    |fᵢ| ≤ √(4 Bᵢ Eᵢ)       one ledger Eᵢ per axis: no axis can spend the energy of another,
+//                                             and the force may turn
 //
-// B = b/T [N/m]. T is always the LONGEST tick that the loop can produce, while the credit uses the measured
-// length dt of the tick: so ticks that vary are covered (docs/design/mathematics.md § 3).
+// B = b/T [N/m]. T is always the LONGEST tick that the loop can produce, while the ledger is credited with the
+// measured length dt, so ticks of varying length are covered (docs/design/mathematics.md § 3).
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -20,8 +20,8 @@ namespace passive_haptics {
 inline namespace v0 {
 
 namespace detail {
-/// What is shown of a surface that is pressed slowly while the ledger is empty (lemma L4): f²/(2K) has been paid in,
-/// and k + 1 commands of f are covered, so K ≤ 2b/((k + 1) T), b of the axis that damps least.
+/// Notes K ≤ 2b/((k + 1) T), the stiffness that a slow press shows from an empty ledger (L4): the hand has paid in
+/// f²/(2K), which covers the worst outflow of k + 1 commands of f. b is that of the least damped axis.
 template <class P>
 constexpr void soften_by_damping(explanation& e, const auto& damping, typename P::scalar T,
                                  int late) noexcept {
@@ -30,18 +30,18 @@ constexpr void soften_by_damping(explanation& e, const auto& damping, typename P
 }
 }  // namespace detail
 
-/// ¼ fᵀB⁻¹f ≤ E1 at every tick (2.15-2.17): the worst motion of the next tick cannot overdraw the
-/// ledger, so E1 ≥ 0 for ever, by induction, whatever the environment does.
+/// ¼ fᵀB⁻¹f ≤ E1 at every tick (2.15-2.17). The worst motion of the next tick cannot overdraw the ledger, so by
+/// induction E1 ≥ 0 for ever, whatever the environment does (§ 2(a)).
 ///
-/// In a loop that is k ticks late the force commanded at n is held during [n+k, n+k+1), and the k commands
-/// on their way have been promised already: ¼ fᵀB⁻¹f ≤ E1 − ¼ Σ_{j=1..k} f(n−j)ᵀB⁻¹f(n−j). (§ 3)
+/// In a loop that is k ticks late the force commanded at n is held during [n+k, n+k+1), and the k commands before
+/// it have to be covered, too: ¼ fᵀB⁻¹f ≤ E1 − ¼ Σ_{j=1..k} f(n−j)ᵀB⁻¹f(n−j). (§ 3)
 ///
-/// Where axes are damped unequally, the force is the nearest that is covered: an axis that damps little gives way
-/// first, and the force turns. |fᵢ| never grows. In one share for all, one weak joint would take the others along.
+/// If axes are damped unequally, the force is the covered one that is nearest to f*: a weakly damped axis is
+/// reduced most, and the force turns. |fᵢ| never grows. One share for all would let one weak joint reduce the others.
 ///
-/// It assumes that b is a lower bound, every tick ≤ longest_tick, positions exact (or the ledger a
-/// quantised_energy or a dual_ledger), and the held force known. The price (lemma L4): pressed slowly from
-/// an empty ledger it shows at most 2b/T N/m.
+/// It assumes that b is a lower bound, every tick is ≤ longest_tick, positions are exact (or the ledger is a
+/// quantised_energy or a dual_ledger), and the held force is known. Its cost (L4): a wall pressed slowly from an
+/// empty ledger has a stiffness of 2b/T [N/m] at most.
 struct strict_bound {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true,
@@ -55,7 +55,7 @@ struct strict_bound {
   template <port P>
   struct on {
     template <class... States>
-    static constexpr bool only_reduces = true;  ///< on every axis, where they differ
+    static constexpr bool only_reduces = true;  ///< on every axis, even if their dampings differ
     constexpr explicit on(const strict_bound& /*p*/) noexcept {}
     template <class State>
     [[nodiscard]] constexpr detail::what_is_left<State, P> limit(
@@ -74,17 +74,17 @@ struct strict_bound {
   };
 };
 
-/// ¼ fᵀB⁻¹f ≤ ¼ hᵀB⁻¹h + Δxᵀ(b/dt)Δx − h·Δx, with h the force held over the last tick: the energy that was
-/// set aside for h, plus what the tick brought. For ticks of one length the right side is a square, and
+/// ¼ fᵀB⁻¹f ≤ ¼ hᵀB⁻¹h + Δxᵀ(b/dt)Δx − h·Δx, with h the force held over the last tick: the budget is the worst
+/// outflow that was reserved for h, plus the energy gained in the tick. For equal ticks the right side is a square, and
 ///     fᵀB⁻¹f ≤ wᵀB⁻¹w,   w = h − 2B Δx                                  (§ 2, memoryless_bound)
-/// The conservative of the two variants that the thesis mentions without a formula is this one or
-/// per_axis_bound; the form and the proof are ours. It reads no ledger, only the damping.
+/// The thesis mentions two variants without a formula, of which the conservative one is this or per_axis_bound; form
+/// and proof are ours. It reads the damping, but no ledger.
 ///
-/// It assumes what strict_bound does, and exact positions, because it reads Δx itself. The force really held
+/// It makes the assumptions of strict_bound, and needs exact positions, because it reads Δx itself. The held force
 /// may be shorter than the command in the same direction or, with isotropic damping, in any direction. A held
-/// force that is LARGER than the command costs more than was promised and, as there is no ledger, is not
-/// remembered as a debt. The price: nothing is saved, so it shows 2b/T N/m at any speed and 2b/T/(k + 1) with
-/// latency, and after a lost sample or a late tick the force starts again from zero.
+/// force LARGER than the command gives out more than was reserved and, as there is no ledger, leaves no debt. Its
+/// cost: a wall has a stiffness of 2b/((k + 1) T) [N/m] at any speed, and after a lost sample or a late tick the
+/// force starts again from zero.
 struct memoryless_bound {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true, .latency = any_latency, .turns = true};
@@ -112,13 +112,13 @@ struct memoryless_bound {
 
 /// |fᵢ| ≤ √(4 Bᵢ Eᵢ) for each axis i of the frame that the damping is given in, each with a ledger
 /// of its own:  Eᵢ += (bᵢ/dt) Δxᵢ² − hᵢ Δxᵢ.  This is strict_bound on every axis (§ 2, per_axis_bound; form
-/// and proof are ours). The direction of the force is not kept, so in a chain it voids the promises of the bounds
-/// in front of it.
+/// and proof are ours). The direction of the force is not kept, so in a chain it voids the guarantees of the
+/// bounds before it.
 ///
-/// It assumes what memoryless_bound does and no latency, and that no component of the force really held is
+/// It makes the assumptions of memoryless_bound, and assumes no latency and that no component of the held force is
 /// larger than commanded; one that is puts its axis into a debt, which is kept and repaid. Dry friction is
-/// not credited, because a bound on its total says nothing about one axis. The price: what one axis has
-/// saved is of no use to another, a lost sample voids all credit, and there is no loan to start with.
+/// not credited, because a bound on its total says nothing about one axis. Its cost: the energy of one axis is of
+/// no use to another, a lost sample voids all credit, and there is no loan to start with.
 struct per_axis_bound {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true};
@@ -163,8 +163,8 @@ class per_axis_bound::on {
   }
 
  private:
-  /// Eᵢ [J] after the last tick. For a late tick the smaller counts of two stories: the force was held to its
-  /// end, or was dropped at the worst moment. A lost tick leaves nothing but debts.
+  /// Eᵢ [J] after the last tick. For a late tick it is the smaller value of two cases: the force was held to its end,
+  /// or the driver dropped it at the worst moment. After a lost tick credit is zero and a debt stays.
   [[nodiscard]] constexpr scalar booked(scalar before, int i, const auto& state) const noexcept {
     if (!state.motion_known) return kernels::smaller(before, scalar(0));
     const scalar b = state.damping.along_axis(i);

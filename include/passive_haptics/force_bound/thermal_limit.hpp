@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The limit of motors that hold a larger force for a while than for ever (the menu is in actuator_limit.hpp).
+// The limit of motors that hold a peak force for a short time only (the menu is in actuator_limit.hpp).
 //
 //     ph::thermal_limit motors{.peak = 3.3, .continuous = 0.88, .time_constant = 20.0};  // a Touch, say
 
@@ -13,18 +13,18 @@ inline namespace v0 {
 /// constant τ, never exceeds c², c = `continuous` (a winding warms with the square of its current, I²t):
 ///     m ← m + (f² − m) dt/(τ + dt),      f² ≤ m + (c² − m)/ε,     ε = 1/32, or T/(τ + T) where that is more
 /// m stays ≤ c², because in a tick of dt ≤ T it goes at most the share ε of the way to f². The force does not
-/// drop all at once but is eased down to c as the winding nears its limit. If set() lowers c² below m, f is at
-/// most c until m has fallen to c². The bound counts what it lets through itself, so put it last in a chain; a
-/// tick that is refused counts as held. After reset() the winding counts as cold: let it cool before.
+/// drop all at once but falls smoothly to c as m nears c². If set() lowers c² below m, |f| is at most c until m has
+/// fallen to c². m is computed from the force that this bound returns, so put it last in a chain; a rejected tick
+/// counts as held. reset() sets m = 0, a cold winding, so let the motors cool before.
 ///
-/// The limit only reduces, so it takes nothing from any promise before it (bound_chain.hpp). It does not know
-/// where the motors really saturate: unless the device reports the force it held, `peak` must be right.
+/// The limit only reduces the force, so it breaks no guarantee of a bound before it (bound_chain.hpp). Unless the
+/// device reports the force it held, `peak` must be no larger than the force at which the motors saturate.
 struct thermal_limit {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bound_traits traits{.exact_travel = false, .latency = any_latency};
 
-  double peak{};           ///< largest force at any time [N]
-  double continuous{};     ///< c, the force that can be held for ever [N]; ∞: as much as `peak`
+  double peak{};        ///< largest force at any time [N]
+  double continuous{};  ///< c, the force that can be held for ever [N]; ≥ peak: no thermal limit
   double time_constant{};  ///< τ of the winding [s]; not used if continuous ≥ peak
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {

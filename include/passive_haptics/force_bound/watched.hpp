@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Holds what was stated of a device against its motion. Where the motion refutes it, the bound stops relying on it.
+// Tests the stated mass and hand force against the measured motion, and stops relying on them once it refutes them.
 //
-//   watched{reachable_bound{…}}   is the bound itself as long as nothing contradicts what was stated
+//   watched{reachable_bound{…}}   the same bound, as long as the motion is consistent with mass and hand_force
 
 #include <passive_haptics/port/composing.hpp>
 
@@ -13,25 +13,25 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A mass of at least m that the motors' f and at most F besides push accelerates no more than both allow. For two
-/// windows A, B of two ticks each (of four where the sensor's steps e are large) with mean velocities V it follows that
+/// A mass of at least m [kg] under the motors' force f [N] and others of at most F [N] has a bounded acceleration. So
+/// for two windows A, B of two ticks each (four if m e > F dt², with e the sensor's step [m]) and mean velocities V
 ///     |J| ≤ ε     or     |J| ≤ ε + u·L + A_w (9/8 F + 2b(|V_A| + |V_B|))      [N·s]                   (§ 12)
 ///     J = m (V_B − V_A),   L = ∫ w f dt, w the hat over both, of area A_w = (T_A + T_B)/2,   ε = m e (1/T_A + 1/T_B)
-/// with some unit vector u no farther than ε/|J| from J, if everything holds that reachable_bound assumes. The test is
-/// made from the beginning of a contact on, then ever more rarely, at last every 96 ticks, and without a pause while
-/// J takes up more than half of what is allowed.
+/// with some unit vector u at an angle to J whose sine is at most ε/|J|, under the assumptions of reachable_bound. The
+/// test begins with a contact. Its pauses grow up to 124 ticks while |J| − ε − u·L is below 1/8 of the last term, and
+/// there is none while it is above half of it.
 ///
 /// A window that fails the test (by an outlier, by a blow on the handle) is an event::outside_force, and for 0.1 s of
-/// contact the bound is the strict one, ¼fᵀB⁻¹f ≤ E1. Four such windows, each within 0.25 s of contact after the one
-/// before, are not forgiven until reset(). As long as one of these causes explains all of them, the force is zero for
-/// 25 ms instead of bounded strictly, and after three windows it is zero until reset():
+/// contact the bound is the strict one, ¼fᵀB⁻¹f ≤ E1. After four such windows, each within 0.25 s of contact after the
+/// one before, it is the strict one until reset(). As long as one of the following causes explains all failed windows,
+/// the force is zero for 25 ms instead of strictly bounded, and after three windows it is zero until reset():
 ///     wrong_sign       the device holds −f; it is found at once if the device reports −f for three ticks
 ///     untold_latency   f is held one to three ticks later than stated, or one sooner; reports of held forces count
 /// Every other cause (a lighter or compliant device, a stronger hand, another port) stays an outside_force.
 ///
-/// The test promises nothing beyond the bound: it does not see what stays within 9/8 F and the slack. It is mistaken
-/// about a hand that pushes harder than F where nothing resists, about end stops, about jumps of the sensor, and about
-/// time stamps that are off by more than about A_w F/(m |V|) of a window.
+/// The test adds nothing to the bound's guarantee: it does not detect forces within 9/8 F and the margins. It fails
+/// falsely for a hand that accelerates the device with more than F, for end stops, for jumps of the sensor, and for
+/// time stamps whose relative error in a window exceeds about A_w F/(m |V|). (ours, § 12)
 template <class Bound>
 requires requires(const Bound b) {
   b.mass, b.hand_force;
@@ -78,9 +78,9 @@ class watched<Bound>::on : public part_at<Bound, P> {
   constexpr void reset() noexcept { *this = on(stated_); }
 
   [[nodiscard]] constexpr on& watching() noexcept { return *this; }
-  /// True if this tick is looked at: from the second tick of a contact on, and not during a pause.
+  /// True if this tick is tested: from the second tick of a contact on, and not during a pause.
   [[nodiscard]] constexpr bool looks() const noexcept { return rest_ < 0; }
-  /// Takes the tick that is over: its motion [m], if known, the force told and held [N], its length [s], the ledger.
+  /// Takes the last tick: its motion [m], if known, the force commanded and held [N], its length [s], the ledger.
   template <bool Exact>
   constexpr void look(bool known, const stored& travel, const stored& told, const stored& held,
                       scalar dt, const auto& ledger) noexcept {
@@ -94,8 +94,8 @@ class watched<Bound>::on : public part_at<Bound, P> {
     }
     watch(known, {travel, told, held, dt}, error, detail::most_damping<P>(ledger.damping()));
   }
-  /// The farthest [m] that a device may be from x + V t at a time t after a tick of T₀ with velocity V (§ 13); v is the
-  /// sum of both speeds, `most` what its motors hold [N]. It is 0.12 mm at least, which is too little to do harm.
+  /// The largest possible distance [m] from x + V t at a time t [s] after a tick of T₀ [s] with mean velocity V (§ 13).
+  /// v is the sum of both speeds [m/s], `most` the motors' limit [N]. It is 0.12 mm at least: under 9 N that is 1 mJ.
   template <bool Exact>
   [[nodiscard]] constexpr scalar far_off(scalar T0, scalar t, scalar v, scalar most,
                                          const auto& ledger) const noexcept {
@@ -106,27 +106,26 @@ class watched<Bound>::on : public part_at<Bound, P> {
     const scalar reach = t * (T0 + t) / scalar(2) * pushed / mass();
     return kernels::larger(reach + error * (scalar(1) + t / T0), scalar(2) * unsaid);
   }
-  /// Says whether this tick asks for a force. If it asks for none, the next contact is looked at from its beginning.
+  /// `asked` is true if a force is desired in this tick. If none is, the next contact is tested from its beginning.
   constexpr void look_on(bool asked) noexcept {
     if (!asked) at_ = rest_ = pause_ = 0;
     if (asked) --rest_;
   }
-  /// The verdict so far; one that is worse than outside_force stops the port.
+  /// The result so far; wrong_sign and untold_latency stop the port.
   [[nodiscard]] constexpr event seen() const noexcept { return what_; }
-  /// True while the force must be zero: whether the motion changes then tells such a cause from a strong hand.
+  /// True while the force must be zero: whether the motion then changes tells these causes from a strong hand.
   [[nodiscard]] constexpr bool lets_go() const noexcept { return lets_go_; }
-  /// True if only one window has failed, and what was stated is relied upon again.
+  /// True if only one window has failed, and mass and hand force are relied upon again.
   [[nodiscard]] constexpr bool forgives() const noexcept {
     return what_ == event::nominal && doubts_ == 1;
   }
 
  private:
   static constexpr int N = 4;    ///< ticks of half a window
-  static constexpr int lag = 3;  ///< ticks of latency that are looked for
-  static constexpr int longest_pause =
-      96;                            ///< between two looks at what is far from refuted [ticks]
-  static constexpr int enough = 4;   ///< so many windows are not forgiven any more
-  static constexpr int says_no = 3;  ///< so many reports in a row of the opposite force decide
+  static constexpr int lag = 3;  ///< the most ticks of unstated latency that are looked for
+  static constexpr int longest_pause = 96;  ///< pauses of this many ticks or more do not grow
+  static constexpr int enough = 4;          ///< failed windows after which the strict bound stays
+  static constexpr int says_no = 3;         ///< reports of the opposite force in a row that decide
   static constexpr std::uint8_t sign = 1, late = 2 + 8 + 16 + 32, all_causes = sign + late;
   static constexpr scalar mistrust = scalar(0.1), letting_go = scalar(0.025),
                           memory = scalar(0.25);  // [s]
@@ -138,7 +137,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
     scalar dt;
   };
 
-  /// With a hand of any force the bound that remains is the strict one.
+  /// After an event the hand force counts as 1e30 N, under which the bound is the strict one.
   constexpr void rely(event what) noexcept {
     what_ = what;
     Bound p = stated_.bound;
@@ -188,7 +187,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
     }
   }
 
-  /// Judges a window of 2N ticks; the `lag` ticks before it and the one after it tell of latencies.
+  /// Tests a window of 2 half_ ticks; the `lag` ticks before it and the one after it show latencies.
   constexpr void judge(scalar error, scalar b) noexcept {
     const auto at = [this](int i) -> const tick_seen& {
       return seen_[static_cast<std::size_t>(lag + i)];
@@ -273,7 +272,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
     if (doubts_ < enough && quiet_ > (lets_go_ ? letting_go : mistrust)) trust_again();
   }
 
-  /// Σ |held − told|² [N²] over the window, where what was told k ticks before counts.
+  /// Σ |held − told|² [N²] over the window, `told` being the command of k ticks before.
   [[nodiscard]] constexpr scalar off_by(int k) const noexcept {
     scalar sum(0);
     for (int i = lag; i < lag + 2 * half_; ++i) {
@@ -283,7 +282,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
     }
     return sum;
   }
-  /// True if the device reports forces that are off by more than 3 % from those that it was told.
+  /// True if the device reports held forces that differ from the commanded ones by more than 3 %.
   [[nodiscard]] constexpr bool reports_others() const noexcept {
     scalar told(0);
     for (int i = lag; i < lag + 2 * half_; ++i) {
@@ -292,7 +291,7 @@ class watched<Bound>::on : public part_at<Bound, P> {
     }
     return off_by(0) * scalar(1024) > told;
   }
-  /// The bits of the latencies that explain these reports.
+  /// The bits of the latencies k that explain the reported forces.
   [[nodiscard]] constexpr std::uint8_t misreported() const noexcept {
     std::uint8_t found = 0;
     for (int k = -1; k <= lag; ++k) {
@@ -308,14 +307,14 @@ class watched<Bound>::on : public part_at<Bound, P> {
   watched stated_;
   scalar step_ = unsaid;  ///< the least motion that the sensor has shown [m]
   scalar quiet_{};        ///< contact since the last window that failed [s]
-  int rest_ = 0;          ///< ticks until the next look; below 0 a tick is looked at
-  int half_ = N;          ///< ticks of half a window
-  int pause_ = 0;         ///< length of the next rest [ticks]
-  int at_ = 0;            ///< ticks seen in a row
+  int rest_ = 0;          ///< ticks until the next test; below 0 a tick is tested
+  int half_ = N;          ///< ticks in half a window
+  int pause_ = 0;         ///< length of the next pause [ticks]
+  int at_ = 0;            ///< ticks kept in a row
   int doubts_ = 0;        ///< windows that have failed the test
   int opposed_ = 0;
   std::uint8_t could_be_ = 0;  ///< causes that explain every window since the first doubt
-  bool alert_ = false;         ///< the ticks around a window are kept as well
+  bool alert_ = false;         ///< the ticks around a window are kept, too
   bool lets_go_ = false;
   event what_ = event::nominal;
   std::array<tick_seen, lag + 2 * N + 1> seen_{};
