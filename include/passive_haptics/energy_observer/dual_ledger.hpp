@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The ledger for positions of which only the step is known, with dry friction or without.
+// The ledger for positions that are known to an encoder step only, with or without dry friction.
 //
 //   dual_ledger         credits dry friction: stiff on real encoders     b, c, p and q are stated
 //   basic_dual_ledger   any damping, several sliders (identification/sliders.hpp), a step for each axis, a compensated sum
@@ -9,8 +9,8 @@
 //     ph::dual_ledger{.damping = {.coefficient = 0.05, .coulomb = 0.13, .presliding = 15e-6},
 //                     .quantum = 55e-6}
 //
-// On encoders it is dry friction that pays. How stiff a wall may be for that to last is said by
-// design/stiffness_budget.hpp.
+// On encoders dry friction pays for the steps. design/stiffness_budget.hpp computes the stiffest wall for which it
+// pays without end.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/device/dry_friction.hpp>
@@ -23,19 +23,19 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The least energy [J] that can have flowed in, over all true positions x = x̂ + e with |eᵢ| ≤ qᵢ/2 (the
-/// steps of encoders, but for a constant shift, or noise) and over all that an elastic friction can hold
-/// back. For any friction u, |u| ≤ c, chosen anew in each tick, and f the force held during the tick, keep
+/// A lower bound of the energy E [J] that has flowed in, over all true positions x = x̂ + e with |eᵢ| ≤ qᵢ/2 (encoder
+/// steps, apart from a constant shift, or noise) and over all energy that elastic friction can store. With any
+/// friction force u, |u| ≤ c, chosen in each tick, and f the force held during the tick,
 ///     A ← A + (u − f)·Δx̂ − ½ Σ qᵢ|σᵢ + fᵢ − uᵢ| − p|u − u_last|,     σ ← u − f
-/// Then A − ½ Σ qᵢ|σᵢ| − |u|²p/(2c) is a lower bound of it, and value() is the best of several that are
-/// kept at once (friction_certificates.hpp). Without friction u = 0, and this is summation by parts.
-/// Theorem and proof: docs/design/mathematics.md § 6.
+/// Then E ≥ A − ½ Σ qᵢ|σᵢ| − |u|²p/(2c) − loan, and value() is the best of several such bounds that are kept at once
+/// (friction_certificates.hpp). Without friction u = 0, and this is summation by parts.
+/// Theorem and proof are ours: docs/design/mathematics.md § 6.
 ///
-/// The damper is credited besides, window by window: Δᵀ(b/dt)Δ, with Δ the motion shown less qᵢ on each axis, of its
-/// ticks or of the whole window (lemma L1), whichever is more. The latter alone counts slow motions.
+/// The damper is credited in windows: Δᵀ(b/dt)Δ, with Δ the measured motion less qᵢ on each axis, summed over its
+/// ticks or taken over the whole window (L1), whichever is larger. Only the latter credits slow motions.
 ///
-/// Where friction is elastic the ledger begins 5/2 c p below its loan and books that back as the device
-/// slips. Then E ≥ −½ c p − loan for ever; ½ c p is what the springs of the friction may hold at the start.
+/// If friction is elastic, the ledger begins 5/2 c p below its loan and regains that as the device slips. Then
+/// E ≥ −½ c p − loan for ever; ½ c p is the most that the friction's springs can store at the start.
 template <class Damping = isotropic_damping, class Steps = encoder_step,
           ledger_sum Sum = ledger_sum::plain>
 struct basic_dual_ledger {
@@ -144,17 +144,16 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     return true;
   }
 
-  /// A tick passed and nobody saw the motion: the worst that `held` can have done is written off, and what the
-  /// friction counted on may hold back, down to what a ledger without a loan starts with. forfeit(0, T) writes off the
-  /// friction only.
-  /// One that can have done no more than `most` [J] costs no more than that.
+  /// Books a tick of length ≤ T whose motion is unknown: subtracts the worst outflow of `held`, or `most` [J] if that
+  /// is less, and the energy that friction may store, but only down to the start value of a ledger without a
+  /// loan. forfeit(0, T) subtracts the friction's part only.
   constexpr void forfeit(const effort& held, scalar T) noexcept {
     lose(held, damping_.worst_outflow(held, T));
   }
   constexpr void forfeit(const effort& held, scalar T, scalar most) noexcept {
     lose(held, kernels::smaller(damping_.worst_outflow(held, T), most));
   }
-  /// `joules` ≥ 0 that nobody has paid in.
+  /// Adds `joules` ≥ 0 [J] of credit that the hand has not paid in.
   constexpr void lend(scalar joules) noexcept {
     detail::book(energy_, joules);
     take_stock();
@@ -170,11 +169,11 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   }
 
   [[nodiscard]] constexpr scalar value() const noexcept { return value_; }
-  /// Below what it begins with: more was handed out than came in.
+  /// True if the value is below its start value without a loan, so that more energy was given out than came in.
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool overdrawn() const noexcept {
     return value_ < -reserve() * (scalar(1) + scalar(16) * kernels::rounding<scalar>());
   }
-  /// How far the true Δx may be from the one shown [m].
+  /// The largest distance between the true Δx and the measured one [m].
   [[nodiscard]] constexpr scalar travel_error() const noexcept { return steps_.travel_error(); }
   [[nodiscard]] constexpr const damping_type& damping() const noexcept { return damping_; }
 
@@ -210,12 +209,12 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     scalar booked{};                     ///< credit of the window that is booked already [J]
   };
 
-  /// 5/2 c p [J], the most that elastic friction may hold back for a while.
+  /// 5/2 c p [J], reserved because elastic friction may return energy (§ 6).
   [[nodiscard]] constexpr scalar reserve() const noexcept {
     if constexpr (rubs) return kernels::smaller(scalar(5) * damping_.most_stored(), most_kept());
     return scalar(0);
   }
-  /// Adds a tick to the window; returns what the damper has surely taken beyond what is booked [J].
+  /// Adds a tick to the window; returns the least energy that the damper took and that is not yet booked [J].
   [[nodiscard]] constexpr scalar damped(credit_window& now, const motion& shown,
                                         scalar dt) const noexcept {
     const motion travel = motion(now.travel) + shown;
@@ -250,12 +249,13 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS damping_type damping_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS steps_type steps_;
   scalar loan_{}, cap_{}, window_{};
-  detail::ledger_number<scalar, Sum> energy_{};      ///< A of the choice u = 0 [J]
-  scalar value_{};                                   ///< the best lower bound of the energy [J]
-  typename P::stored_effort last_held_ = P::zero();  ///< −σ of the choice u = 0 [N]
+  detail::ledger_number<scalar, Sum> energy_{};  ///< A of the choice u = 0 [J]
+  scalar value_{};                               ///< the best lower bound of the energy [J]
+  typename P::stored_effort last_held_ =
+      P::zero();  ///< the force held last, −σ of the choice u = 0 [N]
   credit_window window_now_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS certificates_type certificates_{};  ///< the other choices
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sliders_type sliders_{};  ///< and what single sliders earn
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sliders_type sliders_{};            ///< the single sliders' own
 };
 
 static_assert(energy_observer_for<dual_ledger, space<float, 1>>);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A way back from what a fault has done to a ledger.
+// A ledger that recovers from faults (an outlier, a late tick), at the cost of a bounded amount of energy.
 //
-//   forgiving{ledger, amends}   a while after a fault E1 rises to A again
+//   forgiving{ledger, amends}   within 0.6 s of a fault E1 is raised to A = `amends` [J] again
 
 #include <passive_haptics/base/event.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
@@ -13,16 +13,15 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A ledger that is kept to the letter trusts nobody again after one false sample. When a pause θ has gone by without
-/// a fault, this one writes a debt off, once, and lends for τ = ½ s
-///     E1 += min(A dt/τ, A − E1)  where E1 < A;
-/// a refused sample or a late tick that is the first fault in 10 s it forgives at once, E1 = max(E1, A), and only so.
-/// A fault is a sample that is refused, a late tick, or a debt, of A/64 where positions are known to a step only: the
-/// bounds here leave none unless something that was stated is not so. θ is 0.1 s, twice as long each time that there
-/// is a fault after amends, and 0.1 s again when there was none for 10 s. So with D, what the faults themselves have
-/// done, after t seconds of whatever faults
-///     E ≥ −D − A (8 + t/2.5 s),
-/// and without a fault it is all that the ledger itself promises (docs/design/mathematics.md § 11).
+/// One false sample can put a ledger into a debt that it never repays. After a time θ without a fault, this one sets
+/// a debt to zero, once, and then adds credit for τ = ½ s (ours, docs/design/mathematics.md § 11):
+///     E1 += min(A dt/τ, A − E1)  where E1 < A
+/// If the first fault in 10 s is a rejected sample or a late tick, E1 = max(E1, A) at once instead. A fault is a
+/// rejected sample, a late tick, or a debt (of A/64 where positions are known to a step only), because the bounds
+/// cause no debt unless a stated parameter is wrong. θ is 0.1 s, doubles with each fault after amends have begun, and
+/// is 0.1 s again after 10 s without a fault. With D [J] the debts that are set to zero, after t seconds of any faults
+///     E ≥ −D − A (8 + t/2.5 s)
+/// and without a fault the ledger's own guarantee holds.
 template <class Ledger = reduced_energy>
 struct forgiving {
   static constexpr guarantee passivity = (std::min)(Ledger::passivity, guarantee::conditional);
@@ -31,7 +30,7 @@ struct forgiving {
   static constexpr bool turns = detail::books_turns<Ledger>();
 
   Ledger ledger{};
-  double amends{};  ///< A [J], of the order of ½F²/K of a contact; 0: nothing is forgiven
+  double amends{};  ///< A [J], of the order of ½F²/K of a contact; 0: no amends
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::not_negative(amends)) return {"amends", amends, "finite and ≥ 0 J"};
@@ -43,7 +42,8 @@ struct forgiving {
 template <class Ledger>
 forgiving(Ledger, double) -> forgiving<Ledger>;
 
-/// A [J] of motors that hold `force_limit` F [N]: ½F²/K of a contact that F presses 5 mm deep; 0 if F is no limit.
+/// A = ½F · 5 mm [J], the energy ½F²/K of a contact that motors of limit F = `force_limit` [N] press 5 mm deep;
+/// 0 if F is not finite and > 0.
 [[nodiscard]] constexpr double amends_for(double force_limit) noexcept {
   return detail::positive(force_limit) ? 2.5e-3 * force_limit : 0.0;
 }
@@ -83,7 +83,7 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
       make_amends(dt);
     return true;
   }
-  /// There was a fault: the port says so.
+  /// The port calls this after a rejected sample, a late tick, or a failed window that `watched` has forgiven.
   constexpr void disturbed() noexcept {
     const bool first = !shaken_ || (quiet_ <= scalar(0) && pause_ <= first_pause && !paid_);
     fault();
@@ -97,9 +97,9 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
     shaken_ = lacks_ = missed_ = false;
   }
 
-  /// Has there been a fault in the last 10 s? Only then has tells() something to say, a debt included.
+  /// True if there has been a fault in the last 10 s or longer; only then does the port ask tells().
   [[nodiscard]] constexpr bool remembers() const noexcept { return shaken_; }
-  /// What a tick is to be called that was called `so_far`, and whose force was cut, or not.
+  /// The event of a tick, the worse of `so_far` and the ledger's own. `cut` is true if the bound reduced the force.
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr event tells(event so_far, bool cut) noexcept {
     if (lacks_ && cut) {
       missed_ = true;
@@ -132,7 +132,7 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
     return owed ? event::debt : event::nominal;
   }
   [[gnu::cold, gnu::noinline]] constexpr void make_amends(scalar dt) noexcept {
-    if (!lacks_) missed_ = false;  // that it is back has been told
+    if (!lacks_) missed_ = false;  // wall_back has been reported
     const bool waits = shaken_ && quiet_ <= pause_;
     if (!waits && in_debt()) {
       fault();
@@ -151,11 +151,11 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
 
   scalar amends_;
   scalar pause_{};       ///< θ [s]
-  scalar quiet_{};       ///< since the last fault [s]
+  scalar quiet_{};       ///< time since the last fault [s]
   bool shaken_ = false;  ///< there was a fault in the last 10 s
-  bool paid_ = false;    ///< its amends have been made at once
-  bool lacks_ = false;   ///< E1 < A, and amends are to come
-  bool missed_ = false;  ///< meanwhile a force was cut
+  bool paid_ = false;    ///< E1 was raised to A at once
+  bool lacks_ = false;   ///< E1 < A, and credit is still to be added
+  bool missed_ = false;  ///< a force was reduced while lacks_
 };
 
 static_assert(energy_observer_for<forgiving<>, space<float, 1>>);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What dry friction is worth to a ledger of positions that are known to a step only: dual_ledger's own.
+// The credit of dry friction in a ledger of positions that are known to a step only; a part of dual_ledger.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -10,7 +10,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// What a ledger asks of a friction that is elastic: device/dry_friction.hpp.
+/// The functions that a ledger needs of an elastic friction; device/dry_friction.hpp has them.
 template <class D, class P>
 concept friction_for = requires(const D d, const typename P::motion m, const typename P::effort f,
                                 typename P::scalar s) {
@@ -23,16 +23,16 @@ concept friction_for = requires(const D d, const typename P::motion m, const typ
   { d.most_stored() } -> std::same_as<typename P::scalar>;
 };
 
-/// Every choice u(1), u(2), … of the friction counted on gives a lower bound of the energy, a certificate
-/// (A, u). Which is best shows afterwards only, so three are kept beside the ledger's own, u = 0:
+/// Every sequence u(1), u(2), … [N] of assumed friction forces gives a lower bound of the energy, a certificate
+/// (A, u) of § 6. Which one is best is known only later, so three are kept beside the ledger's own, u = 0:
 ///
-///   following    u follows the force, as far as friction reaches: costs least while the device
-///                holds still and the force hunts                               (a play operator)
-///   slipped[2]   u opposes a recent motion: earns most while it goes on
+///   following    u follows the force within |u| ≤ c (a play operator): it loses least while the
+///                device holds still and the force hunts
+///   slipped[2]   u opposes a recent motion: it earns most while that motion continues
 ///
-/// A change of u by d costs ½ Σ qᵢ|dᵢ| and p|d| at any time, so one that has fallen behind another by more
-/// than that is replaced by it. Whatever is dropped, the rest stays true. A `lead` is how far A − |u|²p/(2c)
-/// is ahead of the ledger's own A [J]; sums are rounded down, costs up.
+/// A change of u by d costs ½ Σ qᵢ|dᵢ| + p|d| [J] at any time, so a certificate that is behind another by more than
+/// that is replaced by it. Each one is valid by itself, so any may be dropped. A `lead` is A − |u|²p/(2c) less the
+/// ledger's own A [J]; sums are rounded down, costs up.
 template <class P>
 class friction_certificates {
  public:
@@ -40,14 +40,14 @@ class friction_certificates {
   using motion = typename P::motion;
   using effort = typename P::effort;
 
-  /// Starts anew: no certificate counts on any friction.
+  /// Starts again with u = 0 in every certificate.
   constexpr void reset() noexcept {
     following_ = slipped_[0] = slipped_[1] = {P::zero(), scalar(0), scalar(0)};
     directions_ = 0;
     missed_ = scalar(0);
   }
 
-  /// After new parameters: no certificate counts on more friction than there is.
+  /// Takes new parameters, and brings every u within the new friction.
   constexpr void set(const auto& damping, const auto& steps) noexcept {
     const scalar up = scalar(1) + kernels::rounding<scalar>();
     const scalar doubt = damping.most_friction() * steps.travel_error() / scalar(2);
@@ -58,8 +58,8 @@ class friction_certificates {
     }
   }
 
-  /// The held force changed by `change`, and the ledger has charged `doubt` [J] for it to all alike. The certificate
-  /// that follows owes less and gets the difference back.
+  /// Books a change of the held force by `change` [N], for which the ledger has charged `doubt` [J] to every
+  /// certificate. The following one owes less and gets the difference back.
   constexpr void follow(const effort& change, scalar doubt, const auto& damping,
                         const auto& steps) noexcept {
     if (!(doubt > scalar(0))) return;
@@ -74,7 +74,8 @@ class friction_certificates {
     following_.stored = stored;
   }
 
-  /// The device is seen to have moved. Returns what the ledger itself may book [J].
+  /// Books a measured motion. Returns the energy by which the best lead exceeds what it may cost to drop friction,
+  /// which the ledger books as its own [J].
   [[nodiscard]] constexpr scalar slip(const motion& shown, const auto& damping,
                                       const auto& steps) noexcept {
     const effort along = damping.friction_along(shown);
@@ -83,7 +84,7 @@ class friction_certificates {
     std::array<scalar, 2> gain{earned(slipped_[0], shown), earned(slipped_[1], shown)};
 
     const std::size_t i = gain[1] > gain[0] ? 1 : 0;
-    if (gain[i] > most * scalar(0.99)) {  // one of them points that way
+    if (gain[i] > most * scalar(0.99)) {  // one certificate opposes this motion already
       missed_ = scalar(0);
       if (following_.lead > slipped_[i].lead) {
         const certificate there = moved(following_, effort(slipped_[i].friction), damping, steps);
@@ -120,12 +121,12 @@ class friction_certificates {
     return spare;
   }
 
-  /// The ledger itself has booked that from elsewhere [J].
+  /// Lowers every lead by `booked` [J], which the ledger has booked from another source.
   constexpr void fall_behind(scalar booked) noexcept {
     for (certificate* one : {&following_, &slipped_[0], &slipped_[1]}) one->lead -= booked;
   }
 
-  /// By how much the best certificate is worth more than the ledger's own A while `held` is held [J].
+  /// The value of the best certificate less the ledger's own A, under the force `held` [J].
   [[nodiscard]] constexpr scalar lead(const effort& held, const auto& steps) const noexcept {
     const scalar own = -steps.doubt(held);
     const scalar slipped =
@@ -133,8 +134,8 @@ class friction_certificates {
     return kernels::larger(own, kernels::larger(worth(following_, held, steps), slipped));
   }
 
-  /// What the best certificate loses by friction [J] over a tick that nobody sees, in which `next` is held after
-  /// `held`: its u goes to where friction would be under `next`, then to zero.
+  /// The friction's part of the loss of the best certificate [J] over a tick of unknown motion, in which `next` is
+  /// held after `held`: its u changes to the friction force nearest to `next`, then to zero.
   [[nodiscard]] constexpr scalar given_up(const effort& next, const effort& held,
                                           const auto& damping, const auto& steps) const noexcept {
     const certificate own{P::zero(), scalar(0), scalar(0)};
@@ -154,12 +155,12 @@ class friction_certificates {
  private:
   struct certificate {
     typename P::stored_effort friction;  ///< u [N]
-    scalar lead;                         ///< of A − stored [J]
+    scalar lead;                         ///< A − stored less the ledger's own A [J]
     scalar stored;                       ///< |u|²p/(2c) [J]
   };
 
-  /// Adds energy to a lead. A certificate could start again from u = 0 at a cost of at most dearest_, so no
-  /// lead is kept below −dearest_.
+  /// Adds energy to a lead. A new certificate costs dearest_ [J] at most, starting from the ledger's own u = 0, so a
+  /// lead below −dearest_ is raised to that first.
   constexpr void earn(certificate& one, scalar energy) const noexcept {
     one.lead = kernels::larger(one.lead, -dearest_) + energy;
   }
@@ -171,7 +172,7 @@ class friction_certificates {
                                               const auto& steps) noexcept {
     return one.lead - steps.doubt(effort(effort(one.friction) - held));
   }
-  /// The certificate after u has changed to `to`, with the cost of the change.
+  /// The certificate after a change of u to `to`, with the change paid.
   [[nodiscard]] static constexpr certificate moved(const certificate& from, const effort& to,
                                                    const auto& damping,
                                                    const auto& steps) noexcept {
@@ -184,10 +185,10 @@ class friction_certificates {
 
   certificate following_{P::zero(), scalar(0), scalar(0)};
   std::array<certificate, 2> slipped_{following_, following_};
-  std::size_t directions_ = 0;  ///< how many of slipped_ count on friction
-  scalar missed_{};  ///< what a certificate against the present motion would have earned by now [J]
-  scalar leaving_{};  ///< most that a lead falls by when a certificate drops all its friction [J]
-  scalar dearest_{};  ///< most that a lead falls by when a certificate takes up some friction [J]
+  std::size_t directions_ = 0;  ///< how many of slipped_ are in use
+  scalar missed_{};   ///< what a new certificate would have earned more, in this direction [J]
+  scalar leaving_{};  ///< most that a change to u = 0 can cost [J]
+  scalar dearest_{};  ///< most that a change from u = 0 can cost [J]
 };
 
 }  // namespace detail

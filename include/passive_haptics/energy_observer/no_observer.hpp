@@ -2,7 +2,7 @@
 #pragma once
 // No ledger.
 //
-//   no_observer   counts nothing   for no_bound, or for a bound that needs no ledger
+//   no_observer   E1 is always 0   for no_bound, or for a bound that needs no ledger
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -10,7 +10,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// It counts nothing and promises nothing: for comparison, and for worlds proved passive otherwise.
+/// A ledger that books nothing and guarantees nothing, for comparison and for worlds that are passive by another proof.
 struct no_observer {
   static constexpr guarantee passivity = guarantee::none;
   static constexpr bool counts = false;
@@ -26,7 +26,7 @@ struct no_observer {
     using motion = typename P::motion;
     using effort = typename P::effort;
 
-    /// Stands for the damping, of which nothing is stated here.
+    /// A damping without a number, because none is stated here.
     struct unknown_damping {
       static constexpr bool rubs = false;
       [[nodiscard]] constexpr scalar worst_outflow(const effort& /*f*/,

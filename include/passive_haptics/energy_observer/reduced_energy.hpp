@@ -3,10 +3,10 @@
 // The ledger of the thesis, for positions that are exact.
 //
 //   reduced_energy   E1 += Δxᵀ(b/dt)Δx − f_held·Δx     (2.9, 2.16)
-//   capped_energy    the same, and never more credit than it is told to keep
+//   capped_energy    the same, with E1 ≤ `cap`
 //
-// Not offered: pairing the NEW force with the last displacement. It flips the sign of the energy
-// that the zero-order hold leaks and makes the observer blind (lemma L2).
+// Pairing the NEW force with the last displacement is not offered: it flips the sign of the energy that the
+// zero-order hold leaks, so the observer does not see that energy (lemma L2).
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -18,10 +18,10 @@ inline namespace v0 {
 
 /// The reduced energy E1 [J] that has flowed from the hand into the device and is not yet spent:
 ///     E1(n) = E1(n−1) + Δxᵀ(b/dt)Δx − f_held·Δx                                    (2.9, 2.16)
-/// with dt the measured length of the tick. It is exact for a zero-order hold but for the damping, which it
-/// never overstates (lemma L1), for rounding, which only lowers it (docs/design/stability.md), and for turns,
-/// of which it books what is sure (rigid_damping). A negative E1 is a debt: it is kept and shown until it is
-/// repaid. With a loan the guarantee becomes E ≥ −loan (A8).
+/// with dt [s] the measured length of the tick. For a zero-order hold −f_held·Δx is exact. The damping's part is a
+/// lower bound (L1), rounding only lowers E1 (docs/design/stability.md), and of a turn it books the least gain
+/// (rigid_damping). A negative E1 is a debt, which is kept and shown until it is repaid. With a loan the guarantee
+/// becomes E ≥ −loan (A8).
 template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
 struct basic_reduced_energy {
   static constexpr guarantee passivity = guarantee::strict;
@@ -77,13 +77,13 @@ class basic_reduced_energy<Damping, Sum>::on {
     if constexpr (detail::turns<P>()) gain -= damping_.unsure(dx, held, dt);
     return add(gain);
   }
-  /// The same of a turn that hides no more than `hidden` [J].
+  /// The same for a turn whose end poses hide at most `hidden` [J] of work.
   constexpr bool update(const motion& dx, const effort& held, scalar dt, scalar hidden) noexcept
       requires(detail::turns<P>()) {
     return add(detail::sure_gain<P>(damping_.dissipated(dx, dt), held, dx) -
                kernels::smaller(damping_.unsure(dx, held, dt), hidden));
   }
-  /// The same where the device reports what its motors did: E1 += Δxᵀ(b/dt)Δx − work (lemma J).
+  /// The same with the work [J] that the device reports of its motors: E1 += Δxᵀ(b/dt)Δx − work (lemma J).
   [[gnu::always_inline]] constexpr bool update(const motion& dx,
                                                const detail::reported_effort<P>& held,
                                                scalar dt) noexcept {
@@ -94,8 +94,8 @@ class basic_reduced_energy<Damping, Sum>::on {
     return true;
   }
 
-  /// A tick passed and nobody saw the motion: the worst that `held` can have done, or `most` [J] if that is less, is
-  /// written off, down to an empty ledger. A bound that kept its promise has covered exactly that.
+  /// Books a tick of length ≤ T whose motion is unknown: subtracts the worst outflow of `held`, or `most` [J] if that
+  /// is less, but leaves no new debt, because the bound has covered that outflow before.
   constexpr void forfeit(const effort& held, scalar T) noexcept {
     energy_ = detail::written_off(value(), damping_.worst_outflow(held, T));
   }
@@ -103,7 +103,7 @@ class basic_reduced_energy<Damping, Sum>::on {
     energy_ = detail::written_off(value(), kernels::smaller(damping_.worst_outflow(held, T), most));
   }
 
-  /// `joules` ≥ 0 that nobody has paid in.
+  /// Adds `joules` ≥ 0 [J] of credit that the hand has not paid in.
   constexpr void lend(scalar joules) noexcept { detail::book(energy_, joules); }
   /// Sets E1 to the loan, as at the start.
   constexpr void reset() noexcept { energy_ = loan_; }
@@ -117,7 +117,7 @@ class basic_reduced_energy<Damping, Sum>::on {
   }
 
  private:
-  /// False if E1 would be no finite number; then nothing is booked.
+  /// Books `gain` [J]. If E1 would not be finite, it books nothing and returns false.
   [[gnu::always_inline]] constexpr bool add(scalar gain) noexcept {
     if (!kernels::is_finite(value() + gain)) [[unlikely]] {
       return false;
@@ -131,8 +131,8 @@ class basic_reduced_energy<Damping, Sum>::on {
   detail::ledger_number<scalar, Sum> energy_;  ///< E1 [J]
 };
 
-/// reduced_energy that forgets credit in two ways, which leave every proof valid (L7): it keeps at most
-/// `cap`, and nothing once no force has been held for `reset_after`.
+/// reduced_energy with E1 ≤ `cap` [J], and E1 ≤ 0 once no force has been held for `reset_after` [s]. Discarding
+/// credit leaves every proof valid (L7).
 template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
 struct basic_capped_energy {
   static constexpr guarantee passivity = guarantee::strict;
@@ -143,7 +143,7 @@ struct basic_capped_energy {
   Damping damping{};                      ///< b [N·s/m], a lower bound
   double loan{};                          ///< E1 at the start [J]
   double cap = detail::no_limit;          ///< most credit to keep [J] (A9)
-  double reset_after = detail::no_limit;  ///< force-free time that voids it [s]
+  double reset_after = detail::no_limit;  ///< force-free time after which E1 is set to 0 [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(cap >= 0.0)) return {"cap", cap, "≥ 0 J"};
@@ -190,7 +190,7 @@ class basic_capped_energy<Damping, Sum>::on
     this->keep_at_most(idle_ >= reset_after_ ? scalar(0) : cap_);
     return true;
   }
-  /// The same where the device reports the work. The second update books no motion and only forgets credit.
+  /// The same with reported work. The second update books no motion and only applies cap and reset.
   [[gnu::always_inline]] constexpr bool update(const motion& dx,
                                                const detail::reported_effort<P>& held,
                                                scalar dt) noexcept {
