@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Carries a vector of a surface along when the normal of the surface turns.
+// Rotates a vector of a surface with the surface's normal.
 
 #include <passive_haptics/device/space.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// a, turned by the least rotation that takes the unit normal `from` to the unit normal `to`:
+/// The vector a, rotated by the smallest rotation that takes the unit normal `from` to the unit normal `to`:
 ///     a − s (s·a)/(1 + from·to) + 2 to (from·a),   s = from + to
-/// (parallel transport along the shorter great circle). It keeps lengths, and a vector across `from` becomes
-/// one across `to`. Opposite normals have no such rotation: then a is returned as it is.
+/// (parallel transport along the shorter great circle). It keeps |a|, and a vector orthogonal to `from` becomes
+/// orthogonal to `to`. For opposite normals this rotation is not unique, and a is returned unchanged.
 template <class Space>
 [[nodiscard]] constexpr typename Space::vector carry(const typename Space::vector& a,
                                                      const typename Space::vector& from,

@@ -4,16 +4,16 @@
 // environment's.
 //
 //   turn_at_once     n ← n_VE                     flat walls, one degree of freedom, comparison
-//   turn_limited     at most `rate` rad/s         everything that deforms or has edges
+//   turn_limited     by at most `rate` [rad/s]    surfaces that deform or have edges
 //
-// Not offered: a blend over one update period. It needs to know when the next update comes.
+// A blend over one update period is not offered, because it has to know when the next update comes.
 
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// n ← n_VE.
+/// n ← n_VE: the contact normal is the environment's at once.
 struct turn_at_once {
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
 

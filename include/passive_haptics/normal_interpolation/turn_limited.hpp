@@ -12,9 +12,9 @@ inline namespace v0 {
 ///     otherwise:                  n ← n cos φ + t sin φ,   t ∝ (n_VE − n_LM) − ((n_VE − n_LM)·n) n
 /// This is Rodrigues' rotation about µ = n_LM × n_VE, without the cross product, so it holds in two
 /// dimensions as well; for small angles a chord keeps digits that acos loses. Opposite normals have no
-/// common plane: they turn towards a fixed direction. The turn is φ − φ³/12, never above φ.
+/// common plane, so n then turns towards a fixed direction. The angle is 2 atan(φ/2) ≈ φ − φ³/12 ≤ φ [rad].
 struct turn_limited {
-  double rate{};  ///< [rad/s]
+  double rate{};  ///< fastest turn of the normal [rad/s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (detail::positive(rate)) return {};
@@ -37,7 +37,7 @@ struct turn_limited {
       return step_by(from, to, rate_ * dt);
     }
     [[nodiscard]] constexpr scalar rate() const noexcept { return rate_; }  ///< [rad/s]
-    /// The same by at most φ = `angle` [rad].
+    /// The same with φ = `angle` [rad].
     [[nodiscard, gnu::always_inline]] constexpr vector step_by(
         const vector& from, const vector& to, [[maybe_unused]] scalar angle) const noexcept {
       if constexpr (Space::dof == 1) {
@@ -50,7 +50,7 @@ struct turn_limited {
         const vector across = chord - from * Space::dot(chord, from);
         const scalar length = Space::norm(across);
         const bool opposite =
-            length < scalar(1) / scalar(1024);  // within 1 mrad rounding decides the plane
+            length < scalar(1) / scalar(1024);  // within 1 mrad of π the plane is rounding only
         const vector tangent = opposite ? Space::orthogonal(from) : vector(across / length);
         const vector turned = from * turn.cosine + tangent * turn.sine;
         return turned / Space::norm(turned);

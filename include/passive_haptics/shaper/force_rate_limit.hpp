@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A limit on the jumps that the environment causes.
+// A rate limit on the force changes that the environment causes.
 //
-//   force_rate_limit  f within f_LM ± rate·dt         an update causes no jump
+//   force_rate_limit  |f − f_LM| ≤ rate·dt         an update causes no jump of the force
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -10,14 +10,14 @@ namespace passive_haptics {
 inline namespace v0 {
 
 /// Keeps the force along the normal within f_LM ± rate·dt and ≥ 0, where f_LM [N] is the force at the depth in
-/// the local model. A change that the hand's own motion makes passes at once, one that the environment makes
-/// (an update, a lost contact) at `rate`, so the local surface moves at rate/K [m/s] at most (A23). While the
-/// surface retreats the force may exceed the desired one: this stands before the energy bound, as any shaper.
+/// the local model. A change by the hand's own motion passes at once. A change by the environment (an update, a
+/// lost contact) is limited to `rate`, so the local surface moves at rate/K [m/s] at most (A23). While the surface
+/// retreats the force may exceed the desired one, so the energy bound acts after this shaper, as after any.
 struct force_rate_limit {
   static constexpr bool needs_local_model = true;
   static constexpr bool needs_ledger = false;
 
-  double rate{};  ///< fastest change that the environment makes [N/s]
+  double rate{};  ///< fastest change of the force by the environment [N/s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (detail::positive(rate)) return {};

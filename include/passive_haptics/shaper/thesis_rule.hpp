@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The rule of the thesis: it bounds the force when the device leaves and when the environment moves.
+// The rule of the thesis, which bounds the force when the device leaves and when the environment moves.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -10,14 +10,14 @@ inline namespace v0 {
 /// The rule of the thesis (2.24-2.27, Fig. 3.2), in force form. With f_max = √(4 B E1):
 ///     leaving (Δx·n > 0):   |f| ≤ f_max
 ///     otherwise:            |f| ≤ max(f_LM, f_max)
-/// where f_LM [N] is the force at the depth in the local model. On the way in that force is kept, and an update
-/// raises it up to f_max only. The rule looks at the contact, so it is a shaper:
+/// where f_LM [N] is the force at the depth in the local model. While the device moves in, f_LM is allowed, and an
+/// update may raise the force to f_max only. The rule reads the contact, so it is a shaper:
 ///     ph::shaped{ph::spring{}, ph::thesis_rule{}}
 ///
-/// NOT passive: the force on the way in is fixed before the motion is known. Enter a wall by δ in
-/// one tick and leave in the next: E1 falls by (K − 2B)δ² each time (A5; a test shows it). The rule settles a
-/// contact by hysteresis, and works well in practice. For a promise take reachable_bound or strict_bound, with
-/// this rule or without.
+/// It is NOT passive, because the force of the way in is fixed before the motion is known. A device that enters a
+/// wall by δ [m] in one tick and leaves in the next lowers E1 by (K − 2B)δ² [J] each time (A5; a test shows it). The
+/// rule settles a contact by hysteresis, and works well in practice. A guarantee needs reachable_bound or strict_bound,
+/// with or without this rule.
 struct thesis_rule {
   static constexpr bool needs_local_model = true;
   static constexpr bool needs_ledger = true;
