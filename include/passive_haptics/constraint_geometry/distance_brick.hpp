@@ -13,10 +13,10 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// φ(x) = Σ cᵢⱼₖ B(ξ − i) B(η − j) B(ζ − k), ξ, η, ζ the coordinates of x − origin in spacings, B the
-/// quadratic B-spline. d = −φ, and push() = ∇φ is continuous and exactly the gradient of φ, so the force
-/// K d push() is conservative whatever the coefficients. It covers 0.5 to 2.5 spacings along each axis, a cube
-/// of two spacings. φ may have any slope: prepare() scales it to that of a distance.
+/// φ(x) = Σ cᵢⱼₖ B(ξ − i) B(η − j) B(ζ − k) [m], with ξ, η, ζ the coordinates of x − origin in units of `spacing` and
+/// B the quadratic B-spline. Depth is d = −φ, and push() = ∇φ is continuous and the exact gradient of φ, so the force
+/// K d push() is conservative for any coefficients. It covers a cube of two spacings, from 0.5 to 2.5 spacings along
+/// each axis. φ may have any slope, because prepare() scales it to that of a distance.
 template <class Space>
 requires(Space::dof == 3) struct distance_brick {
   using space_type = Space;
@@ -26,15 +26,15 @@ requires(Space::dof == 3) struct distance_brick {
   static constexpr std::size_t side = 4;
 
   std::array<scalar, side * side * side> coefficients{};  ///< c [m]; the last axis runs fastest
-  typename Space::coordinates origin{};  ///< of the first node [m]; the axes are those of the space
+  typename Space::coordinates origin{};  ///< of the first node [m]; its axes are those of the space
   scalar spacing{};                      ///< from node to node [m], > 0
   scalar stiffness{};                    ///< K [N/m], > 0
   scalar thickness = kernels::largest<scalar>();  ///< deepest contact [m], > 0
 
-  /// The brick of a distance phi(x) [m] that is known everywhere near the grid of spacing h. Samples taken as
-  /// coefficients would smooth: a ball of r = 50 mm on h = 5 mm shrinks by h²/(4r) = 0.125 mm. So
+  /// The brick of a distance function phi(x) [m], sampled on a grid of spacing h [m] and one node beyond. With plain
+  /// samples as coefficients φ would be smoothed: a ball of r = 50 mm on h = 5 mm shrinks by h²/(4r) = 0.125 mm. So
   ///     c = φ − (h²/8) ∇²φ      by second differences
-  /// which returns every quadratic φ as it is (quasi-interpolation: de Boor and Fix, "Spline
+  /// which reproduces every quadratic φ exactly (quasi-interpolation: de Boor and Fix, "Spline
   /// approximation by quasiinterpolants", J. Approx. Theory 8, 1973).
   template <class Distance>
   [[nodiscard]] static constexpr distance_brick sampled(const Distance& phi, const vector& origin,
@@ -61,10 +61,10 @@ requires(Space::dof == 3) struct distance_brick {
     return brick;
   }
 
-  /// Divides φ by its slope s₀ where the surface is nearest to the middle of the cube, because a spring of K is
-  /// felt as K|∇φ|²; a distance, s₀ within 1/16 of 1, stays as it is. Where φ is more than √2 times steeper in a
-  /// corner, s₀ is that over √2: nowhere is more than about 2K felt. False for coefficients or an origin that
-  /// are not finite, a spacing, a stiffness or a thickness ≤ 0, and a slope beyond all numbers.
+  /// Divides φ by its slope s₀ at the surface, near the middle of the cube, because the stiffness felt is K|∇φ|². If
+  /// s₀ is within 1/16 of 1, φ is a distance and stays unchanged. If φ is more than √2 times steeper in a corner, s₀ is
+  /// that slope over √2, so the stiffness felt is about 2K at most. False for coefficients or an origin that are not
+  /// finite, for a spacing, a stiffness or a thickness ≤ 0, and for a slope that overflows.
   [[nodiscard]] constexpr bool prepare() noexcept {
     for (const scalar& c : coefficients) {
       if (!kernels::is_finite(c)) return false;
@@ -105,18 +105,18 @@ requires(Space::dof == 3) struct distance_brick {
             first.within && second.within && third.within && -value <= thickness};
   }
 
-  /// The ball around the cube that is covered.
+  /// The ball around the covered cube.
   [[nodiscard]] constexpr neighbourhood<Space> around() const noexcept {
     const scalar middle = spacing * scalar(1.5);
     return {vector(vector(origin) + vector(middle, middle, middle)), scalar(1.8) * spacing};
   }
 
  private:
-  /// s₀; 1 where φ has no slope.
+  /// s₀; 1 if φ has no slope there.
   [[nodiscard]] constexpr scalar slope_at_the_surface() const noexcept {
     const vector least = vector(origin) + vector(spacing, spacing, spacing) * scalar(0.5);
     vector x = least + vector(spacing, spacing, spacing);
-    for (int step = 0; step < 4; ++step) {  // Newton's, kept in the cube
+    for (int step = 0; step < 4; ++step) {  // Newton's method, kept in the cube
       const probe here = at(x);
       const scalar squared = Space::dot(here.pushing, here.pushing);
       if (!(squared > scalar(0))) break;
@@ -142,7 +142,7 @@ requires(Space::dof == 3) struct distance_brick {
     std::size_t node;             ///< the first of the three
     bool within;
 
-    /// `at` counts spacings from the first node. Beyond the cube the outermost polynomial goes on.
+    /// `at` is in spacings from the first node. Beyond the cube the outermost polynomial is extended.
     constexpr explicit basis(scalar at) noexcept
         : node(at < scalar(1.5) ? 0 : 1), within(at >= scalar(0.5) && at <= scalar(2.5)) {
       const scalar t = at - scalar(static_cast<int>(node + 1));  // from the middle one of the three

@@ -14,29 +14,29 @@ inline namespace v0 {
 template <class Space>
 struct distance_and_gradient {
   typename Space::scalar distance;  ///< φ [m]
-  typename Space::vector gradient;  ///< ∇φ; of length one where φ is a true distance, but not zero
+  typename Space::vector gradient;  ///< ∇φ; not zero, and of length one if φ is a true distance
 };
 
-/// The answer of a surface that knows the gradient of its depth and no distance.
+/// What at(x) returns for a surface whose depth is not a distance and that has its gradient.
 template <class Space>
 struct gradient_probe {
   typename Space::scalar depth;    ///< d [m], > 0 inside
   typename Space::vector pushing;  ///< −∇d
-  bool within;                     ///< the surface has an answer here
+  bool within;                     ///< x is in the region where the surface is defined
   [[nodiscard]] constexpr const typename Space::vector& push() const noexcept { return pushing; }
-  /// push() by its direction; the last axis where it has none.
+  /// The direction of push(); the last axis if push() is zero.
   [[nodiscard]] constexpr typename Space::vector outward() const noexcept {
     return detail::polar_form<Space>(pushing, detail::some_direction<Space>()).direction;
   }
   [[nodiscard]] constexpr bool covered() const noexcept { return within; }
 };
 
-/// A function of your own, whatever its slope: `field` is a plain value, and field(x) returns a
-/// distance_and_gradient and does not throw. Depth is the distance to first order, so the stiffness is K,
+/// A function of your own, of any slope. `field` is a plain value, and field(x) returns a distance_and_gradient and
+/// does not throw. Depth is the distance to first order, so the stiffness felt is K:
 ///     d = −φ/s,   s = |∇φ|,   push() = −∇d = (∇φ + d ∇s)/s,   ∇s = ∇²φ ∇φ/s
-/// with ∇s by a central difference along ∇φ: two more calls of the field, which are not made where φ is a true
-/// distance, s = 1. If the gradient is that of φ (laws.hpp tries it), the force K d push() is conservative. Deeper
-/// than a metre, as beside a place without a slope, there is no contact. A prepare() of the field is asked, too.
+/// ∇s is a central difference along ∇φ, which calls the field twice more unless s = 1. If the gradient is that of φ
+/// (laws.hpp tests it), the force K d push() is conservative. At d > 1 m (or > thickness), which happens near a point
+/// of zero slope, there is no contact. A prepare() of the field is called, too.
 ///     struct wave {
 ///       ph::distance_and_gradient<scene> operator()(const scene::vector& x) const noexcept;
 ///     };
@@ -49,9 +49,9 @@ struct distance_field {
   static constexpr surface_kind kind = surface_kind::smooth;
 
   Field field{};
-  scalar stiffness{};                             ///< K [N/m], > 0
-  typename Space::coordinates centre{};           ///< of the ball where the field is valid [m]
-  scalar radius = kernels::largest<scalar>();     ///< of that ball [m], > 0
+  scalar stiffness{};                          ///< K [N/m], > 0
+  typename Space::coordinates centre{};        ///< centre of the ball where the field is valid [m]
+  scalar radius = kernels::largest<scalar>();  ///< of that ball [m], > 0
   scalar thickness = kernels::largest<scalar>();  ///< deepest contact [m], > 0
 
   /// False if the field's own prepare() is, for a centre or a distance there that is not finite, and for a
@@ -94,7 +94,7 @@ struct distance_field {
   }
 
  private:
-  /// Over which a slope is compared [m]: rounding and curvature count alike at 1 cm times ∛ε.
+  /// The step of that difference [m], 1 cm · ∛ε, at which rounding and curvature cause equal errors.
   [[nodiscard]] static constexpr scalar difference() noexcept {
     return scalar(std::numeric_limits<scalar>::digits > 30 ? 6e-8 : 5e-5);
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Supplies: who owns the constraint and who moves it.
+// Supplies, which own the constraint of a contact.
 //
-//   fixed      one constraint, known from the start, that never moves: no second copy, no age
+//   fixed      one constraint that is known from the start and never moves
 //   followed   the environment publishes targets, and the local model follows as fast as the bound allows
 
 #include <passive_haptics/port/concepts.hpp>
@@ -11,7 +11,7 @@ namespace passive_haptics {
 inline namespace v0 {
 
 namespace detail {
-/// The fault for which prepare() refuses a constraint, in words.
+/// The fault for which prepare() refuses a constraint.
 template <class Constraint>
 [[nodiscard]] constexpr parameter_fault constraint_fault(Constraint c) noexcept {
   if (!(c.stiffness > 0) || !kernels::is_finite(c.stiffness)) {
@@ -22,7 +22,7 @@ template <class Constraint>
 }
 }  // namespace detail
 
-/// One constraint for good: ph::fixed{ph::half_space<scene>{…}}.
+/// One constraint that never changes: ph::fixed{ph::half_space<scene>{…}}.
 template <class Constraint>
 class fixed {
  public:

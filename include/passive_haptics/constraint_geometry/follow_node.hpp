@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How the nodes of a constraint follow the environment's: along the lines of Fig. 2.5, clamped to their ends
-// and projected (A22). Without the clamp half of random cases leave their segment, and some triangles flip.
+// Moves the nodes of a constraint towards those of the environment along the lines of Fig. 2.5, clamped to the ends
+// of the lines and projected (A22). Without the clamp half of random cases leave their line, and some triangles flip.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -9,12 +9,12 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// True where pointers have 32 bits and code size matters more than the cost of a call: there a body that is
-/// needed several times is called and not inlined.
+/// True on 32-bit targets, where code size matters more than the cost of a call, so a function that is used several
+/// times is not inlined.
 inline constexpr bool saves_bytes = sizeof(void*) <= 4;
 
-/// Where a node goes when its constraint's plane is to pass through p with unit normal n: to where the line
-/// from→to meets the plane, but not past its ends, and from there straight onto the plane. (Fig. 2.5)
+/// The new position of a node [m] when its constraint's plane is to pass through p with unit normal n: the point of
+/// the line from→to nearest to its intersection with the plane, projected onto the plane. (Fig. 2.5)
 template <class Space>
 [[nodiscard, gnu::always_inline]] constexpr typename Space::coordinates node_on_plane(
     const typename Space::coordinates& from, const typename Space::coordinates& to,
@@ -32,7 +32,7 @@ template <class Space>
   const vector node = vector(from) + line * t;
   return vector(node + vector(n) * Space::dot(Space::difference(p, node), n));
 }
-/// The same as a call, with coordinates in place of vectors, because those are handed over in registers.
+/// The same, not inlined; coordinates are passed instead of vectors, because they fit into registers.
 template <class Space>
 [[nodiscard, gnu::noinline]] constexpr typename Space::coordinates call_node_on_plane(
     typename Space::coordinates from, typename Space::coordinates to,

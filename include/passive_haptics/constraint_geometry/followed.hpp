@@ -9,7 +9,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Keeps two constraints: the newest target of the environment and the one that the local model is at.
+/// Keeps two constraints: the newest target of the environment and the present one of the local model.
 ///     ph::followed<ph::triangle<scene>>{{.stale_after = 0.2}}
 ///     ph::followed{ph::half_space<scene>{…}}          with a first target to start from
 template <class Constraint>
@@ -30,7 +30,7 @@ class followed {
 
   [[nodiscard]] constexpr const Constraint& local() const noexcept { return own_; }
   [[nodiscard]] constexpr const Constraint& target() const noexcept { return newest_; }
-  /// published(): there has been a target. changed(), refused(): since the last tick one came, was refused.
+  /// published(): a target has come. changed(), refused(): one has come, or was refused, since the last tick.
   [[nodiscard]] constexpr bool published() const noexcept { return news_.heard(); }
   [[nodiscard]] constexpr bool changed() const noexcept { return changed_; }
   [[nodiscard]] constexpr bool refused() const noexcept { return refused_; }
@@ -39,7 +39,7 @@ class followed {
   [[nodiscard]] constexpr bool stale() const noexcept { return news_.stale(); }
   /// True if the local model has reached the target.
   [[nodiscard]] constexpr bool together() const noexcept { return together_; }
-  /// How far, in [0, 1], the contact counts now and did in the last tick; 0 before the first target.
+  /// The factor of the force, in [0, 1], now and in the last tick; 0 before the first target.
   [[nodiscard]] constexpr scalar weight() const noexcept { return news_.weight(); }
   [[nodiscard]] constexpr scalar last_weight() const noexcept { return last_weight_; }
 
@@ -47,10 +47,10 @@ class followed {
     return news_.parameters().check();
   }
   constexpr void set(const freshness& rule) noexcept { news_.set(rule); }
-  /// Starts anew, as if nothing had ever been published: a first target is forgotten, too.
+  /// Returns to the state before any target, also before a first target of the constructor.
   constexpr void reset() noexcept { *this = followed(news_.parameters()); }
 
-  /// Takes a new constraint, or refuses it and keeps the last good one.
+  /// Takes a new constraint as the target. If prepare() refuses it, keeps the last good one and returns false.
   constexpr bool update(Constraint next) noexcept {
     if (!next.prepare()) {
       refused_ = true;
@@ -63,11 +63,11 @@ class followed {
     news_.hear();
     return true;
   }
-  /// What has come is unusable.
+  /// Notes that an unusable target has come.
   constexpr void refuse() noexcept { refused_ = true; }
-  /// Says that nothing is there any more: the contact fades, as it does when data are stale, and ends.
+  /// Removes the surface: the contact fades as with stale data, and ends.
   constexpr void release() noexcept { news_.release(); }
-  /// It has not been felt: the newest target is news again.
+  /// For a tick without contact: the next one treats the newest target as new.
   constexpr void vanish() noexcept {
     changed_ = published();
     last_weight_ = scalar(0);
@@ -81,14 +81,14 @@ class followed {
     own_ = newest_;
     together_ = true;
   }
-  /// Moves the local model towards the target so that x lies d [m] deep under the normal n. Its nodes start
-  /// where they are if it was in contact (Fig. 2.5), else from those of the target (2.33).
+  /// Moves the local model towards the target so that x lies d [m] deep under the normal n. Its nodes start from
+  /// their own positions if it was in contact (Fig. 2.5), else from those of the target (2.33).
   [[gnu::always_inline]] constexpr void approach(bool from_own, const vector& x, const vector& n,
                                                  scalar d) noexcept {
     own_ = (from_own ? own_ : newest_).toward(newest_, x, n, d);
     together_ = false;
   }
-  /// The tick has dealt with what was new, and the contact counted by `weight` in it.
+  /// Ends a tick, in which the force had the factor `weight`.
   constexpr void seen(scalar weight) noexcept {
     changed_ = refused_ = false;
     last_weight_ = weight;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Constraint geometry: the piece of the world that the environment publishes and the local model
-// keeps. Plain values, trivially copyable, so they cross threads as they are.
+// Constraint geometry: the piece of a surface that the environment publishes and the local model
+// keeps. Constraints are plain, trivially copyable values, so they can be passed between threads.
 //
-//   half_space   a plane and what lies behind it         any Dof; walls, tangent planes of meshes
+//   half_space   a plane and the half-space behind it    any Dof; walls, tangent planes of meshes
 //   segment      two nodes                               Dof 2
 //   triangle     three nodes, with edge tests            Dof 3; the local model of the thesis
 //   sphere       a centre and a radius, solid or hollow  any Dof
@@ -13,10 +13,10 @@
 //   distance_brick, distance_field     a signed distance, sampled (Dof 3) or a function (any Dof)
 //
 // The first three are pieces of planes, which the local model of the thesis can follow. Formulas,
-// proofs and figures of the others are in docs/design/curved.md.
+// proofs and measurements of the others are in docs/design/curved.md.
 //
-// Each one carries its stiffness, because the environment knows it. Who owns a constraint and who
-// moves it is said by a supply: fixed.hpp, followed.hpp.
+// Each one carries its stiffness K [N/m], because it is a property of the environment. A supply owns a
+// constraint and moves it: fixed.hpp, followed.hpp.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -30,7 +30,7 @@ template <class Scalar>
 }
 }  // namespace detail
 
-/// All x with (p − x)·n ≥ 0. (2.18-2.19, A1-A3)
+/// All x with depth d = (p − x)·n ≥ 0. (2.18-2.19, A1-A3)
 template <class Space>
 struct half_space {
   using space_type = Space;
@@ -51,7 +51,7 @@ struct half_space {
            detail::usable_stiffness(stiffness);
   }
 
-  /// The plane as seen from x. It holds a reference to the constraint.
+  /// Depth and normal at a point x. It holds a reference to the constraint.
   struct probe {
     scalar depth;  ///< (p − x)·n [m]
     const half_space& plane;

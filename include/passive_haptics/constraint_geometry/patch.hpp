@@ -25,13 +25,13 @@ template <class Space>
 }
 }  // namespace detail
 
-/// Triangles that hang together by whole edges, each counter-clockwise seen from outside. Depth is the
-/// distance from x to their closest point c, positive inside, and outward() there is along c − x. Which
-/// side x is on is told by the pseudo-normal at c: the normal of its face, the mean of the two at its edge,
-/// or the mean of all at its node weighted by their angles (Bærentzen and Aanæs, IEEE TVCG 11(3), 2005). A
-/// point whose c is on the rim of the patch is not covered, because the patch does not know what lies
-/// beyond. No point is covered twice and, unlike under a `triangle`, none between two triangles is lost.
-/// Deeper inside, the force turns in one step where another feature becomes the closest.
+/// Triangles that share whole edges, each counter-clockwise seen from outside. Depth is the distance from x
+/// to their closest point c [m], positive inside, and outward() there is along c − x. The sign follows from the
+/// pseudo-normal at c: the normal of the face, the mean of both normals at an edge, or the mean of all normals
+/// at a node, weighted by their angles (Bærentzen and Aanæs, IEEE TVCG 11(3), 2005). If c is on the rim of
+/// the patch, x is not covered, because the surface beyond is unknown. No point is covered twice and, unlike
+/// with single `triangle`s, none between two triangles is missed. Inside, the force direction jumps where
+/// another face, edge or node becomes the closest.
 template <class Space, std::size_t M = 16>
 requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
   using space_type = Space;
@@ -94,7 +94,7 @@ requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
     detail::triangle_point<Space> on{Space::zero(), {}};
     for (std::size_t i = 0; i < triangle_count; ++i) {
       const scalar height = Space::dot(Space::difference(x, nodes[triangles[i][0]]), normals[i]);
-      if (!(height * height < closest)) continue;  // even its plane is farther
+      if (!(height * height < closest)) continue;  // even the triangle's plane is farther away
       const auto candidate =
           detail::closest_on_triangle<Space>(corner(i, 0), corner(i, 1), corner(i, 2), x);
       const vector way = x - candidate.point;
@@ -108,7 +108,7 @@ requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
     return seen_from(x, triangle, on);
   }
 
-  /// The ball about the middle of its nodes that holds them all.
+  /// The smallest ball about the mean of the nodes that contains them all.
   [[nodiscard]] neighbourhood<Space> around() const noexcept {
     vector middle = Space::zero();
     for (std::size_t i = 0; i < node_count; ++i) middle += vector(nodes[i]);
@@ -145,7 +145,7 @@ requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
     const vector way = x - on.point;
     const bool has_first = on.weights[0] > scalar(0), has_second = on.weights[1] > scalar(0),
                has_third = on.weights[2] > scalar(0);
-    if (has_first && has_second && has_third) {  // the direction of `way` may be rounding only
+    if (has_first && has_second && has_third) {  // on a face `way` may be rounding only
       const vector n = normals[triangle];
       const scalar depth = -Space::dot(way, n);
       return {depth, n, depth <= thickness};

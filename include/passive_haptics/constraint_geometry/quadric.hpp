@@ -9,12 +9,12 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The paraboloid that osculates a surface at p. With u, v and ζ the coordinates of x − p along t, n × t
-/// and n, it is ζ = h = −½(κ₁u² + κ₂v²); a curvature is positive where the solid bulges, 1/r on a ball.
+/// The osculating paraboloid of a surface at p. With u, v, ζ [m] the coordinates of x − p along t, n × t and n, its
+/// equation is ζ = h = −½(κ₁u² + κ₂v²). A curvature is positive if the solid is convex, 1/r for a ball.
 ///     g = n + κ₁u t + κ₂v (n × t)        the gradient of ζ − h
-///     d = (h − ζ)/|g|                    the distance to first order, exact in u = v = 0
+///     d = (h − ζ)/|g|                    the depth to first order, exact at u = v = 0
 ///     push() = −∇d = g/|g| + d ∇|g|/|g|
-/// A force K d push() is conservative, which K d outward() is not. |push()| < 1 + |κ| thickness/2.
+/// The force K d push() is conservative; K d outward() would not be. |push()| < 1 + |κ| thickness/2.
 template <class Space>
 requires(Space::dof == 3) struct quadric {
   using space_type = Space;
@@ -37,7 +37,7 @@ requires(Space::dof == 3) struct quadric {
   [[nodiscard]] constexpr bool prepare() noexcept {
     if (!detail::make_unit<Space>(normal)) return false;
     if (curvature == cross_curvature && Space::is_finite(tangent)) {
-      tangent = Space::orthogonal(normal);  // any tangent will do
+      tangent = Space::orthogonal(normal);  // every tangent is equivalent
     } else {
       if (!detail::make_unit<Space>(tangent)) return false;
       const vector t = tangent, n = normal;
@@ -53,7 +53,7 @@ requires(Space::dof == 3) struct quadric {
            kernels::magnitude(cross_curvature) * thickness < scalar(1);
   }
 
-  /// The quadric as seen from x.
+  /// Depth, normal and −∇d at a point x.
   struct probe {
     scalar depth;    ///< d [m]
     vector normal;   ///< g/|g|
@@ -77,7 +77,7 @@ requires(Space::dof == 3) struct quadric {
             depth <= thickness && u * u + v * v <= reach * reach};
   }
 
-  /// The target's shape with x over its point, d [m] deep under the normal n: a local model may follow a quadric.
+  /// The target's shape, placed so that x lies d [m] deep under its point, with normal n.
   [[nodiscard]] constexpr quadric toward(const quadric& target, const vector& x, const vector& n,
                                          scalar d) const noexcept {
     quadric own = target;

@@ -9,8 +9,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The segment a, b; walking from a to b the outward normal is on the right, so a boundary runs
-/// counter-clockwise round its body. It is to two dimensions what the triangle is to three.
+/// The segment from a to b. Its outward normal is on the right of that direction, so a boundary runs
+/// counter-clockwise round its body. It is the two-dimensional counterpart of `triangle`.
 template <class Space>
 requires(Space::dof == 2) struct segment {
   using space_type = Space;
@@ -32,7 +32,7 @@ requires(Space::dof == 2) struct segment {
     return Space::is_finite(normal) && thickness > scalar(0) && detail::usable_stiffness(stiffness);
   }
 
-  /// The segment as seen from x. It holds references to both.
+  /// Depth and normal at a point x. It holds references to both.
   struct probe {
     scalar depth;  ///< (a − x)·n [m]
     const segment& piece;

@@ -7,12 +7,12 @@
 //   shell<box_core>        a box with rounded edges         Dof 3
 //   shell<triangle_core>   a triangular plate, 2r thick     Dof 3
 //
-// The closest point of a convex core is unique, so in the shell the force is continuous and
-// conservative, edges and corners included; a bare box turns it by 90° in one step. At depth d the slope of
-// the force is K along the normal and at most K d/(r − d) across it. With
-//     r ≥ 2 F_max/K        F_max the force of the motors: 1.8 mm for 9 N on 10 kN/m
-// the motors reach F_max at d ≤ r/2, and up to there the slope across is at most K, too. In the core the nearest
-// face pushes, so the normal jumps where another becomes the nearest.
+// The closest point of a convex core is unique, so in the shell the force is continuous and conservative, also
+// at edges and corners, where the force of a bare box would turn by 90° at once. At depth d [m] the stiffness is K
+// [N/m] along the normal and at most K d/(r − d) across it. With
+//     r ≥ 2 F_max/K        F_max the limit of the motors: 1.8 mm for 9 N on 10 kN/m
+// the motors reach F_max at d ≤ r/2, up to which the stiffness across is at most K, too. In the core the force is
+// along the normal of the nearest face, so it jumps where another face becomes the nearest.
 
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/surface_probe.hpp>
@@ -22,11 +22,11 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Where a core is with respect to a point x.
+/// The point of a core's boundary that is closest to x.
 template <class Space>
 struct core_point {
-  typename Space::vector point;   ///< of the core's boundary, the closest to x [m]
-  typename Space::vector normal;  ///< unit; the outward direction for an x in the core or on it
+  typename Space::vector point;   ///< the closest point of the boundary [m]
+  typename Space::vector normal;  ///< unit; outward if x is in the core or on it
   bool inside;                    ///< x is in the core or on it
 };
 
@@ -64,7 +64,7 @@ struct shell {
   }
 };
 
-/// One point: its shell is a ball.
+/// A point, whose shell is a ball.
 template <class Space>
 struct point_core {
   using space_type = Space;
@@ -79,7 +79,7 @@ struct point_core {
   [[nodiscard]] constexpr neighbourhood<Space> around() const noexcept { return {point, {}}; }
 };
 
-/// The line from a to b: its shell is a capsule. In one dimension it would have an inside: take a sphere.
+/// The line from a to b, whose shell is a capsule. In one dimension it would have an inside: use a sphere there.
 template <class Space>
 requires(Space::dof >= 2) struct segment_core {
   using space_type = Space;
@@ -114,7 +114,7 @@ requires(Space::dof >= 2) struct segment_core {
   }
 };
 
-/// A box of any orientation: its shell is a box with rounded edges.
+/// A box of any orientation, whose shell is a box with rounded edges.
 template <class Space>
 requires(Space::dof == 3) struct box_core {
   using space_type = Space;
@@ -122,7 +122,7 @@ requires(Space::dof == 3) struct box_core {
   using vector = typename Space::vector;
 
   typename Space::coordinates centre{};  ///< [m]
-  typename Space::coordinates half{};    ///< half its edges along its own axes [m], ≥ 0
+  typename Space::coordinates half{};    ///< half the edge lengths, along its own axes [m], ≥ 0
   typename Space::coordinates first{scalar(1), scalar(0),
                                     scalar(0)};  ///< its first axis, any length
   typename Space::coordinates second{scalar(0), scalar(1),
@@ -168,7 +168,7 @@ requires(Space::dof == 3) struct box_core {
   }
 };
 
-/// A triangle: its shell is a plate with round edges that is felt from both sides.
+/// A triangle, whose shell is a plate with round edges that is felt from both sides.
 template <class Space>
 requires(Space::dof == 3) struct triangle_core {
   using space_type = Space;

@@ -8,9 +8,9 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// |x − c| = r. A solid ball has depth r − |x − c| and pushes away from its centre; a cavity has depth
-/// |x − c| − r and pushes towards it. At the centre itself, where neither has a normal, the last axis stands
-/// in for the direction of x − c. In two dimensions this is a circle, in one an interval.
+/// The sphere |x − c| = r. A solid ball has depth r − |x − c| and pushes away from its centre; a cavity has depth
+/// |x − c| − r and pushes towards it. At the centre, where the normal is not defined, the direction of x − c is taken
+/// to be the last axis. In two dimensions this is a circle, in one an interval.
 template <class Space>
 struct sphere {
   using space_type = Space;
@@ -39,7 +39,7 @@ struct sphere {
     return {-depth, vector(-from_centre.direction), true};
   }
 
-  /// A sphere of the target's size and side with x d [m] deep in it, under the normal n.
+  /// A sphere of the target's size and side, placed so that x lies d [m] deep in it, under the normal n.
   [[nodiscard]] constexpr sphere toward(const sphere& target, const vector& x, const vector& n,
                                         scalar d) const noexcept {
     const scalar way = target.felt == felt_from::outside ? d - target.radius : d + target.radius;

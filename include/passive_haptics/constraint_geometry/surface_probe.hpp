@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What curved surfaces have in common: what at(x) answers, where they lie, and along which direction they push
-// (the menu is in half_space.hpp, the proofs are in docs/design/curved.md).
+// The common part of the curved surfaces: the result of at(x), the region of a surface, and the direction of its
+// force (the menu is in half_space.hpp, the proofs are in docs/design/curved.md).
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -13,33 +13,33 @@ inline namespace v0 {
 /// The side from which a closed surface is touched: from outside it is a solid, from inside a cavity.
 enum class felt_from : std::uint8_t { outside, inside };
 
-/// A ball around the region that a surface is meant for. laws.hpp looks for faults there.
+/// A ball around the region that a surface is meant for, in which laws.hpp tests it.
 template <class Space>
 struct neighbourhood {
   typename Space::coordinates centre{};  ///< [m]
   typename Space::scalar radius{};       ///< [m]
 };
 
-/// The answer of a surface whose depth is the distance to it: the gradient of depth is −outward().
+/// What at(x) returns for a surface whose depth is the distance to it, so that ∇d = −outward().
 template <class Space>
 struct distance_probe {
   typename Space::scalar depth;   ///< [m], > 0 inside
   typename Space::vector normal;  ///< unit
-  bool within;                    ///< the surface has an answer here
+  bool within;                    ///< x is in the region where the surface is defined
   [[nodiscard]] constexpr const typename Space::vector& outward() const noexcept { return normal; }
   [[nodiscard]] constexpr bool covered() const noexcept { return within; }
 };
 
 namespace detail {
 
-/// −∇depth as the probe tells it, along which a spring must push.
+/// −∇d, the direction in which the force of a spring is conservative: push(), or outward() if there is none.
 template <class Space>
 [[nodiscard]] constexpr typename Space::vector steepest_push(const auto& probe) noexcept {
   if constexpr (says_push<decltype(probe)>) return probe.push();
   return probe.outward();
 }
 
-/// The last axis, for where no direction is better than another.
+/// The last axis, for points at which the direction is not defined.
 template <class Space>
 [[nodiscard]] constexpr typename Space::vector some_direction() noexcept {
   using scalar = typename Space::scalar;
@@ -48,7 +48,7 @@ template <class Space>
   return up;
 }
 
-/// A vector by its length and its direction.
+/// The length and the direction of a vector.
 template <class Space>
 struct polar {
   typename Space::scalar length;

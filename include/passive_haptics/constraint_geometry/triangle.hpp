@@ -10,8 +10,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The triangle a, b, c with outward normal ∝ (b − a) × (c − a), and what lies within `thickness`
-/// behind it. A point is covered when it is on the inner side of all three edges. (2.20-2.23)
+/// The triangle a, b, c with outward normal ∝ (b − a) × (c − a), and the solid up to `thickness` [m] behind
+/// it. A point is covered if it is on the inner side of all three edges. (2.20-2.23)
 template <class Space>
 requires(Space::dof == 3) struct triangle {
   using space_type = Space;
@@ -32,7 +32,7 @@ requires(Space::dof == 3) struct triangle {
     return thickness > scalar(0) && detail::usable_stiffness(stiffness);
   }
 
-  /// The triangle as seen from x. It holds references to both.
+  /// Depth and normal at a point x. It holds references to both.
   struct probe {
     scalar depth;  ///< (a − x)·n [m]
     const triangle& piece;

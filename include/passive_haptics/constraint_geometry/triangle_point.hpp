@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The point of a triangle that is closest to another one, for surfaces that are made of triangles.
+// The point of a triangle that is closest to a given point, for surfaces that are made of triangles.
 
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -11,11 +11,11 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// The direction that a triangle faces.
+/// The outward normal of a triangle.
 template <class Space>
 struct facing {
   typename Space::vector normal;  ///< unit
-  bool usable;                    ///< false where the triangle's height is lost in rounding (A17)
+  bool usable;                    ///< false if the triangle's height is lost in rounding (A17)
 };
 
 /// The normal of a, b, c, counter-clockwise seen from outside.
@@ -36,16 +36,17 @@ template <class Space>
   return {normal, Space::is_finite(normal)};
 }
 
-/// A point of a triangle, and how it is made of the corners.
+/// A point of a triangle and its barycentric coordinates.
 template <class Space>
 struct triangle_point {
-  typename Space::vector point;                   ///< [m]
-  std::array<typename Space::scalar, 3> weights;  ///< exactly zero for corners with no part in it
+  typename Space::vector point;  ///< [m]
+  std::array<typename Space::scalar, 3>
+      weights;  ///< barycentric; exactly zero for a corner that has no part
 };
 
-/// The point of the triangle a, b, c closest to x: the foot of x on its plane if that lies within the edges,
-/// else the closest point of those edges that x is beyond. Rounding may take face, edge and corner for each
-/// other only where they meet. The triangle must have an area.
+/// The point of the triangle a, b, c closest to x: the projection of x on its plane if that lies within the edges,
+/// else the closest point of the edges that x is beyond. Rounding can confuse a face, an edge and a corner only
+/// where they meet. The triangle must have an area.
 template <class Space>
 [[nodiscard]] constexpr triangle_point<Space> closest_on_triangle(
     const typename Space::vector& a, const typename Space::vector& b,
