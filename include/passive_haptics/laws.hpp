@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The laws of each role: what a policy must obey and a concept cannot say. Each is a predicate over
-// a policy of YOURS, fed with repeatable random samples; constexpr, so in one dimension
+// The laws of each role: properties of a policy that a concept cannot check. Each law is a predicate over a policy
+// of YOURS, which is tried with repeatable random samples. Laws are constexpr, so in one dimension
 //     static_assert(ph::laws::all<my_bound, scene>());
-// and in any dimension CHECK(...) it at run time. all<Policy, Port>() tries the laws of the roles that the
-// policy models, but for those marked *, and names the first that it breaks. A surface is tried in the
-// neighbourhood that its around() tells, else within a metre of the origin. The laws themselves:
+// compiles, and in any dimension CHECK(...) tries them at run time. all<Policy, Port>() tries the laws of the roles
+// that the policy models, except those marked *, and names the first that it breaks. A surface is tried in the
+// neighbourhood that its around() returns, else within a metre of the origin. The laws:
 //
-//   any          models_a_role: it has the shape of one of the roles below
+//   any          models_a_role: it models one of the concepts of the roles below
 //   damping      covers_the_worst_motion, affords_what_is_there
 //   inertia      is_a_norm
 //   observer     never_overstates, forfeit_never_credits, books_numbers_only, reset_forgets
@@ -26,7 +26,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace laws {
 
-/// Does `policy` obey the laws of every role that it models at `Port`? One that models none breaks the first.
+/// Tries the laws of every role that `policy` models at `Port`. A policy that models none breaks models_a_role.
 template <class Policy, class Port>
 [[nodiscard]] constexpr verdict all(const Policy& policy = {}) noexcept {
   constexpr bool of_a_port = damping_for<Policy, Port> || inertia_for<Policy, Port> ||

@@ -11,7 +11,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// The largest power of two whose cube is at most ε: with such a step a central difference is best.
+/// The largest power of two whose cube is at most ε, about the best relative step of a central difference.
 template <class Scalar>
 [[nodiscard]] constexpr Scalar difference_step() noexcept {
   Scalar step(1);
@@ -19,13 +19,13 @@ template <class Scalar>
   return step;
 }
 
-/// 1 + |centre|/radius: how much rounding of coordinates counts in a neighbourhood away from the origin.
+/// 1 + |centre|/radius, the factor of rounding errors of coordinates in a neighbourhood away from the origin.
 template <class Space>
 [[nodiscard]] constexpr typename Space::scalar off_centre(const neighbourhood<Space>& of) noexcept {
   return typename Space::scalar(1) + Space::norm(of.centre) / of.radius;
 }
 
-/// Is the depth of that surface its distance, so that it pushes along its normal?
+/// Satisfied by a surface whose depth is a distance, so that its force is along its normal: it has no push().
 template <class Surface, class Space>
 concept measures_distance = requires(const Surface s, const typename Space::vector x) {
   s.at(x);
@@ -36,7 +36,7 @@ concept measures_distance = requires(const Surface s, const typename Space::vect
 
 namespace laws {
 
-/// Steps from any unit normal to any other keep unit length, turn by at most `rate`·dt each, and arrive.
+/// Steps from any unit normal to any other keep |n| = 1, turn by at most `rate`·dt [rad] each, and reach it.
 template <class Space, class Normals>
 [[nodiscard]] constexpr bool turns_at_most(const Normals& parameters, typename Space::scalar rate,
                                            int pairs = 20) noexcept {
@@ -82,8 +82,8 @@ template <class Space, class Normals>
   return true;
 }
 
-/// f* ≥ 0, it is zero outside, never falls with depth and never rises with outward speed; depth() inverts
-/// every force that is not zero.
+/// f* ≥ 0. It is zero outside, does not fall with depth and does not rise with outward speed; depth() is the inverse
+/// of every force that is not zero.
 template <class Space, class Law>
 [[nodiscard]] constexpr bool presses_outwards(const Law& parameters, int ticks = 200) noexcept {
   using scalar = typename Space::scalar;
@@ -140,14 +140,14 @@ template <class Space, class Constraint>
   return true;
 }
 
-/// Where the laws look for faults of a surface: in its around(), else within 1 m of the origin.
+/// The region in which the laws try a surface: its around(), else the ball of 1 m around the origin.
 template <class Space, class Surface>
 [[nodiscard]] constexpr neighbourhood<Space> where_to_look(const Surface& surface) noexcept {
   if constexpr (requires { surface.around(); }) return surface.around();
   return {Space::zero(), typename Space::scalar(1)};
 }
 
-/// prepare() takes the surface, and refuses a stiffness that is zero, negative or no finite number.
+/// prepare() accepts the surface, and refuses it with a stiffness that is zero, negative or not finite.
 template <class Space, class Surface>
 [[nodiscard]] constexpr bool refuses_no_stiffness(Surface surface) noexcept {
   using scalar = typename Space::scalar;
@@ -179,9 +179,9 @@ template <class Space, class Surface>
   return true;
 }
 
-/// After prepare() the surface pushes along −∇depth, by central differences: along push() where it has
-/// one, else along outward(). Points where it turns too fast for a difference, as at an edge, are passed over;
-/// they may be a quarter of the covered points, and some point must be covered.
+/// After prepare() push(), or outward() if there is none, equals −∇depth by central differences. Points at which it
+/// turns too fast for a difference, as at an edge, are left out; they may be a quarter of the covered points, and
+/// at least one point must be covered.
 template <class Space, class Surface>
 [[nodiscard]] constexpr bool pushes_along_its_gradient(Surface surface, int points = 400) noexcept {
   using scalar = typename Space::scalar;
@@ -217,9 +217,9 @@ template <class Space, class Surface>
   return tried > 0 && 4 * told >= 3 * tried;
 }
 
-/// After prepare() depth does not jump: between covered points not far apart it changes by no more than
-/// their distance times the largest push on the way, which is one where depth is the distance. The points of a
-/// pair are up to a tenth of the neighbourhood apart: a jump that is small beside that is not found.
+/// After prepare() depth does not jump: between two covered points it changes by no more than their distance times the
+/// largest |push()| between them, which is 1 if depth is the distance. On each axis the points are up to 1/16 of the
+/// neighbourhood's radius apart, so a jump that is small compared with that is not found.
 template <class Space, class Surface>
 [[nodiscard]] constexpr bool changes_depth_steadily(Surface surface, int pairs = 400) noexcept {
   using scalar = typename Space::scalar;
@@ -252,8 +252,8 @@ template <class Space, class Surface>
   return true;
 }
 
-/// A constraint that is published is the target. One that is unusable is refused and changes nothing. After
-/// release() the contact fades to nothing, and it comes back with the next update.
+/// A published constraint becomes the target. An unusable one is refused and changes nothing. After release() the
+/// weight of the contact falls to 0, and it is 1 again with the next update.
 template <class Space, class Supply>
 [[nodiscard]] constexpr bool keeps_the_newest(Supply supply,
                                               typename Supply::constraint_type good) noexcept {

@@ -33,7 +33,7 @@ template <class P, class Damping>
   return true;
 }
 
-/// What affordable() leaves of a force costs at most the energy it was given.
+/// The force that affordable(f, E, T) leaves has a worst outflow of at most max(E, 0) [J].
 template <class P, class Damping>
 [[nodiscard]] constexpr bool affords_what_is_there(const Damping& parameters,
                                                    int ticks = 400) noexcept {
@@ -72,8 +72,8 @@ template <class P, class Inertia>
   return true;
 }
 
-/// In a run of random motions and forces no tick raises E1 by more than b|Δx|²/dt − f·Δx, and a tick that
-/// loses lowers it by the loss at least: a cap, a reset or a dead band may only take away.
+/// In a run of random motions and forces no tick leaves E1 above its value before plus b|Δx|²/dt − f·Δx [J], be that
+/// a gain or a loss: a cap, a reset or a dead band may only lower E1.
 template <class P, class Observer>
 [[nodiscard]] constexpr bool never_overstates(const Observer& parameters,
                                               int ticks = 200) noexcept {
@@ -97,8 +97,8 @@ template <class P, class Observer>
   return true;
 }
 
-/// forfeit() never raises the ledger, takes the worst outflow off a ledger that has so much, and never deepens
-/// a debt, except by what elastic friction may hold back.
+/// forfeit() never raises the ledger, subtracts the worst outflow from a ledger that has as much, and never deepens
+/// a debt, except by the energy that elastic friction may store.
 template <class P, class Observer>
 [[nodiscard]] constexpr bool forfeit_never_credits(const Observer& parameters,
                                                    int ticks = 200) noexcept {
@@ -137,7 +137,7 @@ template <class P, class Observer>
   return !observer.update(beyond, P::zero(), scalar(0.001)) && observer.value() == before;
 }
 
-/// reset() leads back to the first value.
+/// reset() restores the initial value.
 template <class P, class Observer>
 [[nodiscard]] constexpr bool reset_forgets(const Observer& parameters) noexcept {
   using scalar = typename P::scalar;
@@ -164,7 +164,7 @@ template <class P>
   }
 }
 
-/// Random states of a port, as a bound may find it.
+/// Random states of a port, such as a bound may be given.
 template <class P>
 class random_port {
  public:
@@ -175,7 +175,7 @@ class random_port {
   constexpr explicit random_port(std::uint64_t seed) noexcept
       : random_(seed), damping_(a_damping<P>()) {}
 
-  /// A state in which all is finite and the ledger anywhere from −0.1 to 0.1 J.
+  /// A state of finite numbers, with a ledger between −0.1 and 0.1 J.
   [[nodiscard]] constexpr state_type next() noexcept {
     const scalar exponent = random_.number<scalar>();
     commanded_[0] = typename P::effort(random_.vector<P>() * scalar(5));
@@ -198,7 +198,7 @@ class random_port {
   typename state_type::commands commanded_{};
 };
 
-/// The force that a bound answers with. Its factor is taken as it is, while a tick clamps it to [0, 1].
+/// The force that a bound returns. A share is taken unclamped here, while a tick clamps it to [0, 1].
 template <class P>
 [[nodiscard]] constexpr typename P::effort meant(auto& bound, const typename P::effort& desired,
                                                  const auto& state) noexcept {
@@ -226,14 +226,14 @@ template <class P, class Bound>
   return true;
 }
 
-/// The bound answers with a finite force, in debt and in plenty.
+/// The bound returns a finite force, for positive and negative ledgers.
 template <class P, class Bound>
 [[nodiscard]] constexpr bool answers_with_a_number(const Bound& bound, int ticks = 200) noexcept {
   return holds_in_random_states<P>(
       bound, [](const auto&, const auto&, const auto&) { return true; }, ticks);
 }
 
-/// The result is s·f* with 0 ≤ s ≤ 1: same direction, no longer. For bounds that only reduce.
+/// Every component of the result has the sign of that of f* and is no larger. For bounds that only reduce.
 template <class P, class Bound>
 [[nodiscard]] constexpr bool scales_down(const Bound& bound, int ticks = 200) noexcept {
   static_assert(detail::reduces<Bound, P, typename random_port<P>::state_type>(),
@@ -254,7 +254,7 @@ template <class P, class Bound>
       ticks);
 }
 
-/// ¼ fᵀB⁻¹f ≤ E1, and f = 0 in debt: the whole of the proof of strict_bound and its like.
+/// ¼ fᵀB⁻¹f ≤ max(E1, 0), which is all that the proof of strict_bound uses. (§ 2(a))
 template <class P, class Bound>
 [[nodiscard]] constexpr bool spends_at_most_the_ledger(const Bound& bound,
                                                        int ticks = 1000) noexcept {
@@ -268,7 +268,7 @@ template <class P, class Bound>
       ticks);
 }
 
-/// After reset() the bound answers as a new one does.
+/// After reset() the bound returns the same forces as a new one.
 template <class P, class Bound>
 [[nodiscard]] constexpr bool reset_starts_anew(const Bound& parameters, int ticks = 50) noexcept {
   part_at<Bound, P> used(parameters);
@@ -290,7 +290,7 @@ template <class P, class Bound>
   return true;
 }
 
-/// The pose that a motion leads to.
+/// The pose x + Δx.
 template <class P>
 [[nodiscard]] constexpr typename P::pose after(const typename P::pose& x,
                                                const typename P::motion& dx) noexcept {
@@ -301,8 +301,8 @@ template <class P>
   }
 }
 
-/// The least energy [J] of one run of random forces wanted and random motions, half of them the worst of L3,
-/// through a port that is `Latency` ticks late. It is booked here, from the forces that were held.
+/// The least port energy [J] in one run of random desired forces and random motions, half of them the worst of L3,
+/// with a port that is `Latency` ticks late. It is computed here from the held forces.
 template <int Latency, class P, class Bound>
 [[nodiscard]] constexpr typename P::scalar least_energy(const Bound& bound, std::uint64_t seed,
                                                         int ticks) noexcept {
@@ -337,7 +337,7 @@ template <int Latency, class P, class Bound>
     commanded[0] = next;
     acting = commanded.back();  // until the next tick
     motion dx = random.vector<P>() * scalar(2e-4);
-    if (random.number<scalar>() > scalar(0)) {  // every other time the worst motion of L3
+    if (random.number<scalar>() > scalar(0)) {  // half of the ticks have the worst motion of L3
       for (int k = 0; k < P::dof; ++k) {
         P::component(dx, k) = P::component(acting, k) * T / (scalar(2) * damping.along_axis(k));
       }
@@ -355,8 +355,8 @@ template <int Latency, class P, class Bound>
   return least;
 }
 
-/// No motion draws energy out of a port under the bound, on time or, if it holds there, two ticks late. For
-/// bounds that promise `strict`.
+/// No motion draws energy out of a port with this bound, on time or, if the bound allows it, two ticks late. For
+/// bounds whose guarantee is `strict`.
 template <class P, class Bound>
 [[nodiscard]] constexpr bool loses_to_no_motion(const Bound& bound, int runs = 5,
                                                 int ticks = 200) noexcept {
