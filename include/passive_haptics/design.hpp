@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Static conditions: what a loop WITHOUT an energy bound can be given, from its constants alone.
-// All of it is constexpr, in double, and no part of a tick.
+// Static conditions: the largest stiffness of a loop WITHOUT an energy bound, from its constants alone.
+// Everything here is constexpr, in double, and not used in a tick.
 //
 //   passivity::     no passive hand can ever draw energy from the device
 //     colgate_schenkel   K < 2 (b − |D|)/T           a fixed virtual wall; any H(z); delay
@@ -11,13 +11,13 @@
 //     abbott_okamura     K ≤ min(2b/T, 2f_c/Δ)       encoder steps, paid for by dry friction
 //     diolaiti           β ≥ ½ + k, σ ≥ ½            the same with delay
 //   stability::     the device alone comes to rest; a hand may still draw energy
-//     gil_hulin          K < (b + D)/(T/2 + t_d)     virtual damping helps here, and hurts above
+//     gil_hulin          K < (b + D)/(T/2 + t_d)     virtual damping D raises K here, and lowers it above
 //
-// Never mix the two kinds. All of them take the world as fixed: a surface that moves or a stiffness that
-// changes breaks every one of them, and needs a bound.
+// Never mix the two kinds. All of them assume a fixed surface of constant stiffness; one that moves or changes
+// voids them, and needs an energy bound.
 //
-// How stiff a wall behind a bound may be before its ledger runs dry: design/stiffness_budget.hpp. What is
-// known of devices: identification/device_facts.hpp.
+// With an energy bound, design/stiffness_budget.hpp has the largest stiffness that the ledger sustains.
+// identification/device_facts.hpp has published data of devices.
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/design/frequency.hpp>
@@ -28,9 +28,9 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace design {
 
-/// The constants of a loop: a device of damping b, sampled every T, its force held. A condition that does
-/// not cover sensor steps, delay or virtual damping answers that nothing is safe where there are some. Dry
-/// friction only helps; most conditions do not count it.
+/// The constants of a loop: a device of damping b that is sampled every T and whose force is held between samples. A
+/// condition that does not cover sensor steps, delay or virtual damping returns 0 or −∞ if there are any. Dry
+/// friction only helps; most conditions do not use it.
 struct loop {
   double damping = 0.0;          ///< b of the device [N·s/m], a lower bound
   double period = 1e-3;          ///< T [s], the longest
@@ -70,25 +70,25 @@ inline constexpr double nothing_is_safe = -std::numeric_limits<double>::infinity
 }
 }  // namespace detail
 
-/// A largest stiffness [N/m] is the supremum of those that are passive; 0 says that none is, or that a
-/// constant is out of its range. A margin [N·s/m] is the damping that is left over: > 0 is passive, −∞ says
-/// that a constant is out of its range or not covered, or that the transfer function gave NaN.
+/// A largest stiffness [N/m] is the supremum of the passive ones; it is 0 if none is passive, or if a constant is out
+/// of its range. A margin [N·s/m] is the damping b less the least that is needed: > 0 is passive, and −∞ means
+/// that a constant is out of its range or not covered, or that the transfer function returned NaN.
 namespace passivity {
 
 /// Largest K of a fixed wall H(z) = z⁻ᵏ (K + D (1 − z⁻¹)/T):   b > K (T/2 + t_d) + |D|
 /// Colgate and Schenkel (1994, 1997), confirmed in two secondary sources and derived in § 2(g).
-/// Exact for k = 0 or D = 0, sufficient otherwise. Assumes exact positions and ticks of one length;
-/// of the hand only that it is passive. A wall that only pushes is no worse (§ 2(g) 1, for k = 0 and D ≥ 0).
+/// It is exact for k = 0 or D = 0, and sufficient otherwise. It assumes exact positions, equal ticks and a passive
+/// hand. A unilateral wall needs no more damping (§ 2(g) 1, for k = 0 and D ≥ 0).
 [[nodiscard]] constexpr double colgate_schenkel(const loop& l) noexcept {
   if (l.check() || l.quantum > 0.0) return 0.0;
   const double left = l.damping - kernels::magnitude(l.virtual_damping);
   return kernels::larger(left, 0.0) / l.half_period_and_delay();
 }
 
-/// Margin of any stable H(z) from position [m] to reaction [N], given as H(frequency). H contains its own
-/// damping, and not the delay of the loop, which is added here:
+/// Margin [N·s/m] of any stable H(z) from position [m] to reaction [N], given as H(frequency). H includes its own
+/// damping, but not the delay of the loop, which is added here:
 ///     b > T/2 · Re{(1 − e⁻ʲᶿ) H}/(1 − cos θ) = T/2 · (Re H − cot(θ/2) Im H)      0 < θ ≤ π
-/// Same source and assumptions; necessary and sufficient for a linear H, at the frequencies of the grid.
+/// Source and assumptions are the same; it is necessary and sufficient for a linear H, at the frequencies of the grid.
 template <class H>
 [[nodiscard]] constexpr double colgate_schenkel(const loop& l, H transfer,
                                                 frequency_grid grid = {}) noexcept {
@@ -110,28 +110,28 @@ template <class H>
          l.virtual_damping * cos_sin((l.delay + 1) * w.angle).re;
 }
 
-/// Margin of a fixed wall of stiffness K [N/m] by needed_damping, which is exact: never less than what
-/// colgate_schenkel(loop) leaves, and more where delay and virtual damping act together.
+/// Margin [N·s/m] of a fixed wall of stiffness K [N/m] by the exact needed_damping. It is never less than the margin
+/// of colgate_schenkel(loop), and larger if there are both delay and virtual damping.
 [[nodiscard]] constexpr double delayed_wall(const loop& l, double stiffness,
                                             frequency_grid grid = {}) noexcept {
   if (l.quantum > 0.0 || !(stiffness >= 0.0)) return detail::nothing_is_safe;
   return detail::margin(l, grid, [&](frequency w) { return needed_damping(l, stiffness, w); });
 }
 
-/// Largest K_c of a virtual coupling K_c, D_c to a fixed wall of any stiffness:
-/// K_c < 2(b − |D_c|)/T, and with delay as above. It is felt as 1/(1/K_c + 1/K) ≤ K_c. (§ 2(g) 1)
+/// Largest K_c [N/m] of a virtual coupling K_c, D_c to a fixed wall of any stiffness K: K_c < 2(b − |D_c|)/T, and
+/// with delay as in colgate_schenkel. The stiffness felt is 1/(1/K_c + 1/K) ≤ K_c. (§ 2(g) 1)
 [[nodiscard]] constexpr double coupling(const loop& l) noexcept {
   return colgate_schenkel(l);
 }
 
-/// Margin of a virtual coupling Z_c(z), from velocity Δx/T [m/s] to force [N], to EVERY world that
+/// Margin [N·s/m] of a virtual coupling Z_c(z), from velocity Δx/T [m/s] to force [N], to EVERY world that
 /// is passive in discrete time, Σ F v T ≥ 0 with v the backward difference: spring, mass, damper.
 ///     b > sin²((k + 1)θ/2)/Re(1/Z_c),   Re(1/Z_c) > 0                            0 < θ ≤ π
-/// e.g. [=](frequency w) { return D_c + K_c * T / w.difference(); }, which for D_c ≥ 0 and k = 0
+/// For example [=](frequency w) { return D_c + K_c * T / w.difference(); } with D_c ≥ 0 and k = 0
 /// gives K_c < 2(b − D_c)/T.
 ///
-/// This is Llewellyn's criterion of Adams and Hannaford (1999) for an impedance display, with the exact hold in
-/// place of (1 + z⁻¹)/2, which lets a pure spring pass up to 8b/T. Proof (ours): § 2(g) 5.
+/// This is Llewellyn's criterion of Adams and Hannaford (1999) for an impedance display, with the exact hold instead
+/// of (1 + z⁻¹)/2, which would accept a pure spring of up to 8b/T. The proof is ours: § 2(g) 5.
 template <class Z>
 [[nodiscard]] constexpr double adams_hannaford(const loop& l, Z coupling_impedance,
                                                frequency_grid grid = {}) noexcept {
@@ -143,11 +143,11 @@ template <class Z>
   });
 }
 
-/// Largest K of a fixed wall seen through sensor steps Δ, on one axis, by β = b/(KT), σ = f_c/(KΔ):
+/// Largest K [N/m] of a fixed wall on one axis with sensor steps Δ, in terms of β = b/(KT) and σ = f_c/(KΔ):
 ///     β ≥ ½ + t_d/T and σ ≥ ½,   K ≤ min(b/(T/2 + t_d), 2 f_c/Δ)
-/// Diolaiti and others (2006), confirmed in one secondary source; proof (ours): § 2(g) 3. Not offered:
-/// the borders of their other regions (limit cycles, local stability), which are not confirmed. No
-/// virtual damping: quantised speed is another matter.
+/// Diolaiti and others (2006), confirmed in one secondary source; the proof is ours: § 2(g) 3. The borders of their
+/// other regions (limit cycles, local stability) are not confirmed and not offered. With virtual damping it
+/// returns 0, because quantised velocity is not covered.
 [[nodiscard]] constexpr double diolaiti(const loop& l) noexcept {
   if (l.check() || l.virtual_damping != 0.0) return 0.0;
   const double sampled = l.damping / l.half_period_and_delay();
@@ -162,13 +162,13 @@ template <class Z>
 
 }  // namespace passivity
 
-/// Whether the device, left alone, comes to rest. That says nothing about the energy that a hand can draw.
+/// Conditions under which the device without a hand comes to rest. They do not limit the energy that a hand can draw.
 namespace stability {
 
 /// Largest K of a linear spring and damper against a free mass: K < (b + D)/(T/2 + t_d)
-/// Gil and others, Hulin and others (form from memory). No guarantee: measured on the exact device, m = 0.05 to
-/// 0.5 kg, k = 0 to 5, b ≤ 0.3 N·s/m, the true limit is less than 1 % above it for D = 0, but with virtual damping
-/// BELOW it: by up to 5 % at D = 1 and 27 % at D = 5 N·s/m.
+/// Gil and others, Hulin and others (form from memory). It is no guarantee: in exact simulation with m = 0.05 to
+/// 0.5 kg, k = 0 to 5 and b ≤ 0.3 N·s/m the true limit is less than 1 % above it for D = 0, but with virtual damping
+/// BELOW it, by up to 5 % at D = 1 and 27 % at D = 5 N·s/m.
 [[nodiscard]] constexpr double gil_hulin(const loop& l) noexcept {
   if (l.check() || l.quantum > 0.0) return 0.0;
   return kernels::larger(l.damping + l.virtual_damping, 0.0) / l.half_period_and_delay();

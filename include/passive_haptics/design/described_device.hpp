@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A device as a promise may state it: mass, damping and friction as lower bounds, the rest as upper bounds, in SI
-// units. identify finds them: bounds at three deviations, less a drift of 30 %.
+// The numbers of a device on which a guarantee rests: mass, damping and friction are lower bounds, the rest are upper
+// bounds, in SI units. identification.hpp measures them, at three standard deviations and less a drift of 30 %.
 //
-//   exact_device     its steps are not felt: positions are taken for exact
-//   encoder_device   the steps of its encoders are felt, and dry friction is known
+//   exact_device     for position steps too small to be felt: positions count as exact
+//   encoder_device   for encoder steps that can be felt, with known dry friction
 //
-// A device that turns says `rotary`, and has rad for m, N·m for N and kg·m² for kg. check() names what cannot be,
-// doubt() what can be and is surely a slip, as milliseconds where seconds belong.
+// For a device that turns, `rotary` is true, and rad stands for m, N·m for N and kg·m² for kg. check() refuses an
+// impossible value; doubt() names a possible one that is almost surely a slip, such as milliseconds for seconds.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -21,9 +21,9 @@ struct exact_device {
   double damping{};            ///< b [N·s/m]
   double force_limit{};        ///< F, the most that the motors hold [N]
   double longest_tick = 1e-3;  ///< T, the worst tick of YOUR loop [s]
-  int latency = 0;       ///< k, ticks by which the force is late: late_loop_limits<k> has it, too
-  bool rotary = false;   ///< it turns: rad, N·m, kg·m²
-  double top_speed = 0;  ///< faster is a sensor fault [m/s]; 0: 5 m/s, or 500 rad/s
+  int latency = 0;             ///< k, ticks by which the force is late, as in late_loop_limits<k>
+  bool rotary = false;         ///< true if it turns: rad, N·m, kg·m²
+  double top_speed = 0;        ///< a faster sample is rejected [m/s]; 0: 5 m/s, or 500 rad/s
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept;
   [[nodiscard]] constexpr parameter_fault doubt() const noexcept;
@@ -32,17 +32,17 @@ struct exact_device {
 struct encoder_device {
   double mass{};               ///< m, smallest apparent mass, over all directions and poses [kg]
   double damping{};            ///< b [N·s/m]
-  double friction{};           ///< c, dry friction; its least level where it varies [N]
-  double presliding = none;    ///< p, over which friction is elastic [m]; stated where c > 0
-  double quantum{};            ///< q, step of the position and noise from peak to peak, added [m]
+  double friction{};           ///< c, dry friction [N], its least level
+  double presliding = none;    ///< p [m], over which friction is elastic; needed for c > 0
+  double quantum{};            ///< q [m], position step plus peak-to-peak noise
   double force_limit{};        ///< F, the most that the motors hold [N]
   double longest_tick = 1e-3;  ///< T, the worst tick of YOUR loop [s]
-  int latency = 0;  ///< k, ticks by which the force is late: late_loop_limits<k> has it, too
+  int latency = 0;             ///< k, ticks by which the force is late, as in late_loop_limits<k>
 
-  double continuous_force = detail::no_limit;  ///< what they hold without time limit [N]
-  double winding_time = 0.0;  ///< time constant of their warming, if that is less [s]
-  bool rotary = false;        ///< it turns: rad, N·m, kg·m²
-  double top_speed = 0;  ///< faster is a sensor fault [m/s]; 0: 5 m/s, or 500 rad/s, or 8 q a tick
+  double continuous_force = detail::no_limit;  ///< force that they hold without time limit [N]
+  double winding_time = 0.0;  ///< thermal time constant [s]; needed if that is less than F
+  bool rotary = false;        ///< true if it turns: rad, N·m, kg·m²
+  double top_speed = 0;       ///< a faster sample is rejected [m/s]; 0: 5 m/s, 500 rad/s, or 8 q/T
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept;
   [[nodiscard]] constexpr parameter_fault doubt() const noexcept;
@@ -78,7 +78,7 @@ template <class Device>
   if (d.latency > 100) return {"latency", static_cast<double>(d.latency), "in ticks, not in µs"};
   return {};
 }
-/// Faster is a sensor fault: what the device says, or what no hand does, and no less than 8 steps a tick.
+/// The top speed [m/s]: the stated one, or else the larger of 5 m/s (500 rad/s) and 8 steps q per tick T.
 [[nodiscard]] constexpr double top_speed_of(double said, bool rotary, double q, double T) noexcept {
   if (said > 0.0) return said;
   return kernels::larger(rotary ? 500.0 : 5.0, 8.0 * q / T);

@@ -69,7 +69,7 @@ inline constexpr double pi = 3.141592653589793;
   }
 }
 
-/// One frequency. A transfer function H(z) is given as a callable of it:
+/// One frequency. A transfer function H(z) is given as a function of it:
 ///     [](design::frequency w) { return K + D * w.difference() / T; }
 struct frequency {
   double angle = pi;  ///< θ = ωT [rad], in (0, π]; π is the Nyquist frequency
@@ -84,9 +84,9 @@ struct frequency {
   }
 };
 
-/// θ = π i/points for i = 1 … points, and `octaves` more below them, each at half the one before, because
-/// conditions are at their worst near 0 or π, or are smooth. A peak narrower than π/points can slip through.
-/// The least θ is 2.4e-5 by default, where a limit at θ = 0 is met to a relative error of 3e-10.
+/// θ = π i/points [rad] for i = 1 … points, and `octaves` more below them, each half the one before, because the
+/// conditions are worst near 0 or π, or are smooth. A peak narrower than π/points may be missed. The least θ is
+/// 2.4e-5 by default, which meets a limit at θ = 0 to a relative error of 3e-10.
 struct frequency_grid {
   int points = 512;
   int octaves = 8;

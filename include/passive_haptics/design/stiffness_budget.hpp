@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How stiff a guaranteed wall may be on a device as it is stated, so that its ledger does not run dry.
+// The largest stiffness of a wall with a passivity guarantee for which the ledger of a stated device is not used up.
 //
 //     constexpr design::stated_device grip{.mass = 0.045, .damping = 0.05, .friction = 0.13,
 //                                          .presliding = 15e-6, .quantum = 55e-6, .force_limit = 3.3};
@@ -8,22 +8,23 @@
 //     std::puts(budget.because());                                // what binds, and what raises it
 //     ph::capped law{ph::damped_spring{.mass = grip.mass}, budget.stiffness};
 //
-// A bound that spends only what a sure ledger holds is passive with any stiffness. If the wall is too stiff it
-// does not last: each step of a swing drains the ledger, and when it is empty the hand sinks in. A swing of S
-// newtons at the speed v is paid for, in joules per metre of motion, if
+// A bound that spends only what the ledger holds is passive with any stiffness. But if the wall is too stiff, each
+// encoder step of a swing drains the ledger, and when it is empty the hand sinks in. A swing of S [N] at the speed
+// v [m/s] is paid for, in joules per metre of motion, if
 //
 //     K (q/2 + max(r, v T/2) + k v T) ≤ c + b v − 2 c p/D,     D = S/K the depth of the swing
 //
-// Left is what positions known to a step cost: changes of the force, q/2 a newton, and the lag of the force held,
-// r = q/3 + q/6 min(1, 4 q/D) of an edge_observer, v T/2 of motion between two samples, k v T of latency. Right is
-// what dry friction and damping take, less what the presliding p gives back at every reversal. Two more limits:
-// K ≤ 2 c/q, for the chatter of a hand that holds still at the edge of a step (Abbott and Okamura, 2005), and
-// K ≤ κ m/((2k + 1) T)², which a sampled mass can be held with. (Ours; docs/design/mathematics.md § 6 and § 9)
+// The left side is the cost of positions known to a step: q/2 for each newton of change of the force, and the lag of
+// the held force, which is r = q/3 + q/6 min(1, 4 q/D) with an edge_observer, v T/2 by motion between two samples and
+// k v T by latency. The right side is the energy that dry friction and damping take, less the energy that presliding
+// p returns at every reversal. There are two more limits: K ≤ 2 c/q, for the chatter of a hand that holds still at
+// the edge of a step (Abbott and Okamura, 2005), and K ≤ κ m/((2k + 1) T)², at which a sampled mass settles.
+// (Ours; docs/design/mathematics.md § 6 and § 9)
 //
-// A hand that kneads f times a second with a force F is no faster than v = π f F/K; of a swing H of it the friction
-// leaves the wall S = H − 2 c, or H − 4 c where the device has twice the friction stated. A swing within the
-// presliding pays nothing: where c > K p, edge_observer rests during it, and with another estimator each step of it
-// drains `crossing` (docs/design/encoders.md). Without dry friction nothing stiff is guaranteed: the budget is 0.
+// A hand that kneads f times a second with a force F is no faster than v = π f F/K. Of its swing H [N] the wall gets
+// S = H − 2 c, or H − 4 c if the device has twice the stated friction. A swing within the presliding earns nothing:
+// for c > K p, edge_observer rests during it, and with another estimator each step of it costs `crossing`
+// (docs/design/encoders.md). Without dry friction no stiff wall is guaranteed, and the budget is 0.
 
 #include <passive_haptics/design/described_device.hpp>
 
@@ -38,15 +39,15 @@ namespace design {
 
 using stated_device = encoder_device;
 
-/// What the wall is to be sustained for.
+/// The motions of the hand under which the wall has to last.
 struct intended_use {
   double slowest = 5e-3;            ///< speed of the slowest kneading [m/s]
   double fastest = 12e-3;           ///< speed of the fastest kneading [m/s]
   double frequency = 2.0;           ///< f of the fastest kneading: v ≤ π f `force`/K [Hz]
-  double swing = 0.4;               ///< S, least swing of the wall's force, friction overcome [N]
-  double hand_swing = 0.9;          ///< H, least swing of the hand's force: S ≥ H − 4 c [N]
-  double force = 3.0;               ///< F, held; the motors' limit if that is less [N]
-  double hand_force = 5.0;          ///< the most the hand pushes with [N]
+  double swing = 0.4;               ///< S, least swing of the wall's force [N]
+  double hand_swing = 0.9;          ///< H, least swing of the hand's force [N]; S ≥ H − 4 c
+  double force = 3.0;               ///< F, the wall's force [N], at most the motors' limit
+  double hand_force = 5.0;          ///< largest force of the hand [N]
   double stiffness_fraction = 0.1;  ///< κ, as in damped_spring
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -68,9 +69,9 @@ struct intended_use {
 
 enum class stiffness_limit : std::uint8_t {
   sampled_mass,   ///< κ m/((2k + 1) T)²: the force lags by (k + 1/2) T
-  slow_kneading,  ///< what friction and damping pay for at the slowest speed
-  fast_kneading,  ///< the same at the fastest, where sampling costs more than the steps
-  holding,        ///< 2 c/q
+  slow_kneading,  ///< the inequality above at the slowest speed
+  fast_kneading,  ///< the same at the fastest speed, where sampling costs more than the steps
+  holding,        ///< 2 c/q, for chatter at the edge of a step
   not_stated,     ///< a parameter is out of its range
 };
 
@@ -83,16 +84,16 @@ enum class stiffness_limit : std::uint8_t {
 struct budget {
   double stiffness = 0.0;  ///< K [N/m], the least of the limits
   stiffness_limit binding = stiffness_limit::not_stated;
-  std::array<double, 4> limits{};  ///< each of them, in the order of stiffness_limit [N/m]
-  double working_capital = 0.0;  ///< F (q/2 + reach of the next k + 1 ticks): the force in use [J]
-  double loan = 0.0;  ///< F_max q: what lets a first touch from rest be stiff; E ≥ −loan then [J]
-  double crossing = 0.0;  ///< what crossing an edge costs the ledger at K, within presliding [J]
+  std::array<double, 4> limits{};  ///< each limit, in the order of stiffness_limit [N/m]
+  double working_capital = 0.0;    ///< F (q/2 + reach of the next k + 1 ticks) [J], for the force F
+  double loan = 0.0;      ///< F_max q [J], a loan for a stiff first touch; E ≥ −loan then
+  double crossing = 0.0;  ///< cost of crossing an edge at K, within presliding [J]
 
   [[nodiscard]] constexpr double limit(stiffness_limit which) const noexcept {
     const auto i = static_cast<std::size_t>(which);
     return i < limits.size() ? limits[i] : 0.0;
   }
-  /// The limit that binds, and what would raise it.
+  /// One sentence on the limit that binds, and what would raise it.
   [[nodiscard]] constexpr const char* because() const noexcept {
     switch (binding) {
       case stiffness_limit::sampled_mass:
@@ -147,17 +148,17 @@ namespace detail {
   return low;
 }
 
-/// What the ledger pays at each edge of a swing over one edge, to and fro [J]: q/2 for each newton that the force
-/// changes by, and as much again because the force held is that of the sample before; or p for each newton where
-/// friction takes the change.
+/// K q min(q, p) [J], the cost of each crossing in a swing to and fro over one edge (§ 6): q/2 for each newton of
+/// change of the force, and as much again because the held force is that of the sample before; or p for each newton
+/// if the friction force follows the change. Without friction it is K q².
 [[nodiscard]] constexpr double crossing(const stated_device& d, double K) noexcept {
   return K * d.quantum * (d.friction > 0.0 ? kernels::smaller(d.presliding, d.quantum) : d.quantum);
 }
 
 }  // namespace detail
 
-/// The largest stiffness that the ledger of this device sustains in that use. The surplus is concave in v,
-/// so the slowest and the fastest speed are the worst.
+/// The largest stiffness that the ledger of this device sustains in that use. The surplus is concave in v, so it is
+/// least at the slowest or the fastest speed.
 [[nodiscard]] constexpr budget stiffness_budget(const stated_device& device,
                                                 const intended_use& use = {}) noexcept {
   if (device.check() || use.check()) return {};
