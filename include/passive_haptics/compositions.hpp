@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// From the facts of a device, and of the hand on it, to the best that we know:
+// The recommended composition for a device and a hand, from their stated numbers:
 //
-//   make_touch<Space>(device, hand)               a surface that the environment publishes
-//   make_contacts<Space>(device, hand, slots…)    several: a corner, a groove, surfaces that come and go
-//   make_guard<Space>(device, hand)               your own force, or a renderer's: it settles, and stays stiff
+//   make_touch<Space>(device, hand)               one surface that the environment publishes
+//   make_contacts<Space>(device, hand, slots…)    several surfaces: a corner, a groove, surfaces that come and go
+//   make_guard<Space>(device, hand)               a force of your own or of a renderer, bounded and made to settle
 //   make_tool(device, hand, slots…)               six degrees of freedom: six_dof.hpp
 //   make_detents<Space>(device, hand, {…})        detents and end stops: knob.hpp, a companion
 //
-// `device` is an exact_device, whose positions are taken for exact, or an encoder_device, whose steps are felt
-// and whose dry friction pays for them (design/described_device.hpp). `hand` is a known_hand, for conditional
-// and stiff, or any_hand, for strict, and soft while the ledger is empty. All of them keep to the motors' limit,
-// get over faults where they are conditional, and explain() themselves.
+// `device` is an exact_device, whose positions count as exact, or an encoder_device, whose steps can be felt and are
+// paid for by its dry friction (design/described_device.hpp). With a known_hand the guarantee is conditional and
+// walls are stiff; with any_hand it is strict, and walls are soft while the ledger is empty. All of them respect the
+// motors' limit, recover from faults if they are conditional, and have explain().
 //
 //     class hand_loop {
 //       ph::touch<scene> touch_ = ph::make_touch<scene>(
@@ -42,21 +42,21 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Hand, load and dry friction push with no more than `force`. Where the motion refutes that, or what was stated of
-/// the device, the composition says so and falls back (force_bound/watched.hpp).
+/// A hand that, with load and dry friction, pushes with at most `force` [N]. If the motion refutes that, or the stated
+/// mass, the composition reports an event and falls back to the strict bound (force_bound/watched.hpp).
 struct known_hand {
-  double force{};              ///< [N], > 0
-  design::intended_use use{};  ///< what a wall on encoders is to last for
+  double force{};              ///< largest force of hand, load and dry friction [N], > 0
+  design::intended_use use{};  ///< motions under which a wall on encoders has to last
 
-  /// What can be, and is surely a slip, on a device whose motors hold `force_limit` [N].
+  /// A possible force that is almost surely a slip, on a device whose motors hold `force_limit` [N].
   [[nodiscard]] constexpr parameter_fault doubt(double force_limit) const noexcept {
     if (force > 0.02 * force_limit && force < 300.0) return {};
     return {"force", force, "above 2 % of what the motors hold, and below 300 N"};
   }
 };
-/// The same, and nobody looks: 7 kB of a Cortex-M4 less (docs/firmware.md).
+/// The same without the test against the motion, which saves 7 kB on a Cortex-M4 (docs/firmware.md).
 struct trusted_hand : known_hand {};
-/// Nothing is known of the hand.
+/// A hand of which nothing is assumed.
 struct any_hand_t {};
 inline constexpr any_hand_t any_hand{};
 
@@ -64,12 +64,12 @@ namespace detail {
 /// A device of design/described_device.hpp.
 template <class Device>
 concept described = std::same_as<Device, exact_device> || std::same_as<Device, encoder_device>;
-/// A hand of this page.
+/// A hand type of this header.
 template <class Hand>
 concept stated_hand = std::derived_from<Hand, known_hand> || std::same_as<Hand, any_hand_t>;
 inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
 
-// What pays, what holds, and what sees, of either device.
+// The ledger, the motors' limit and the motion estimator of each kind of device.
 [[nodiscard]] constexpr reduced_energy ledger_of(const exact_device& d) noexcept {
   return {.damping = d.damping};
 }
@@ -88,7 +88,7 @@ inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
 [[nodiscard]] constexpr last_difference eyes_of(const exact_device& /*d*/) noexcept {
   return {};
 }
-/// Within its presliding friction holds the device whatever presses: the observer rests there, too.
+/// Within the presliding, friction may hold the device against several contacts, so the observer rests there, too.
 [[nodiscard]] constexpr edge_observer eyes_of(const encoder_device& d) noexcept {
   return {.quantum = d.quantum, .presliding = d.friction > 0.0 ? d.presliding : 0.0};
 }
@@ -96,13 +96,13 @@ inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
                                                       double /*most*/) noexcept {
   return {};
 }
-/// Where friction's spring is stiffer than the wall it holds the device alone, and the observer rests.
+/// If friction's spring c/p is stiffer than the wall, it holds the device alone, and the observer rests within p.
 [[nodiscard]] constexpr edge_observer eyes_of_touch(const encoder_device& d, double most) noexcept {
   return {.quantum = d.quantum,
           .presliding = d.friction > most * d.presliding ? d.presliding : 0.0};
 }
 
-/// What the dry friction of a device pays for [N/m], as late as the loop is. The mass is the law's to see to.
+/// The stiffness [N/m] that the dry friction pays for in a loop `late` ticks late. The law adds the limit by the mass.
 [[nodiscard]] constexpr double budget_of(const exact_device& /*d*/, const auto& /*hand*/,
                                          int /*late*/) noexcept {
   return std::numeric_limits<double>::infinity();
@@ -115,7 +115,7 @@ inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
   return kernels::smaller(holding, kernels::smaller(slow, fast));
 }
 
-// What is conditional gets over faults; what is strict forgives none.
+// A conditional composition recovers from faults (forgiving); a strict one does not.
 [[nodiscard]] constexpr auto sums_of(const auto& d, const known_hand& /*hand*/) noexcept {
   return forgiving{ledger_of(d), amends_for(d.force_limit)};
 }
@@ -135,7 +135,7 @@ inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
   return bound_chain{strict_bound{}, motors_of(d)};
 }
 
-/// A device that states another latency than the type of the limits is not theirs.
+/// If the device states another latency than the type Limits, longest_tick is NaN, which check() refuses.
 template <class Limits>
 [[nodiscard]] constexpr Limits limits_of(const auto& d) noexcept {
   Limits limits{.longest_tick = d.latency == Limits::latency ? d.longest_tick : unstated};
@@ -148,7 +148,7 @@ template <class Limits>
   return limits;
 }
 
-/// f* of one surface, and at what pace news are made up for: 50 N/s, or of what turns as much of its torque.
+/// The law of one surface. Updates change its force by at most 50 N/s, or by 5.5 times the torque limit per second.
 [[nodiscard]] constexpr eased<damped_spring> settling(const auto& d) noexcept {
   const damped_spring law{.mass = d.mass, .force_limit = d.force_limit};
   if (!d.rotary) return eased{law};
@@ -166,8 +166,8 @@ template <class Limits>
   if constexpr (requires { hand.use; }) use = hand.use;
   return capped{settling(d), most, design::stiffness_budget(d, use).working_capital};
 }
-/// β of a force on this device that is no steeper than `most` [N/m], and usually as steep as `usual`: what brings the
-/// first to rest, or is critical for the second. More would be mud: at 5 mm/s 250 N·s/m hold 1 kg with 1.3 N.
+/// β of settled_force: the larger of the damping that settles a stiffness `most` [N/m] and the critical damping of the
+/// stiffness `usual` [N/m], at most ¼. More would feel viscous: ¼ m/T = 250 N·s/m of 1 kg drag with 1.3 N at 5 mm/s.
 [[nodiscard]] constexpr double braking(const auto& d, double most, double usual) noexcept {
   const double T = d.longest_tick, late = d.latency;
   const double steep = (1.0 + late) * (late + 1.5) * most * T * T / d.mass;
@@ -176,7 +176,7 @@ template <class Limits>
                usually = settled_force{}.damping_fraction;
   return enough > 0.0 && enough < usually ? enough : usually;
 }
-/// A spring of this device, no stiffer than `most` [N/m].
+/// Fits a spring to this device, with a stiffness of at most `most` [N/m].
 constexpr void fit(proxy_spring& spring, const auto& d, double most) noexcept {
   spring.mass = d.mass;
   spring.force_limit = d.force_limit;
@@ -184,11 +184,11 @@ constexpr void fit(proxy_spring& spring, const auto& d, double most) noexcept {
 }
 }  // namespace detail
 
-/// One surface: touch.update(plane), touch.tick(sample). Its normal turns as news go on turning it, and makes up for
-/// the rest by at most `turn_rate` [rad/s] or, where little is pressed, by what turns the force at half of
-/// usual_force_rate. On encoders it is no stiffer than what dry friction pays for, so that it
-/// lasts; without dry friction nothing does, and check() refuses `most`. E ≥ 0 as long as the device and the hand are
-/// as they were stated and there is no fault, on encoders E ≥ −½ c p.
+/// One surface: touch.update(plane), touch.tick(sample). Its normal turns with the rate of the updates, and catches
+/// up with the rest by at most `turn_rate` [rad/s] or, under a small force, by as much as turns the force at half of
+/// usual_force_rate. On encoders its stiffness is limited to the budget that dry friction pays for; without dry
+/// friction that is 0, and check() refuses `most`. E ≥ 0, on encoders E ≥ −½ c p, as long as device and hand are as
+/// stated and there is no fault.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
           detail::described Device = exact_device, detail::stated_hand Hand = known_hand>
 [[nodiscard]] constexpr auto make_touch(const Device& device, const Hand& hand,
@@ -204,8 +204,8 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
                      detail::eyes_of_touch(device, most)};
 }
 
-/// Several surfaces, that rub or not, in slots: port.source().update(i, plane), release(i); contact/manifold.hpp
-/// fills them from whatever a collision search finds.
+/// Several surfaces in slots, with or without friction: port.source().update(i, plane), release(i);
+/// contact/manifold.hpp fills the slots from the result of a collision search.
 ///     auto corner = ph::make_contacts<scene>(device, hand, ph::slots<ph::half_space<scene>, 3>{});
 ///     auto rough = ph::make_contacts<scene>(device, hand, ph::stick_slip{}, ph::slots<plane, 3>{});
 template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
@@ -224,9 +224,9 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
                       detail::eyes_of(device)};
 }
 
-/// For a force that you compute yourself, or that a renderer, a simulator, an SDK does: port.tick(sample, wanted).
-/// It rests when the hand does, of a renderer up to port.explain().shown. After any_hand it promises that for any
-/// hand, and is soft: 2b/T, pressed slowly from an empty ledger.
+/// For a force that you, a renderer, a simulator or an SDK compute: port.tick(sample, wanted). The contact comes to
+/// rest when the hand does, for a renderer's stiffness of up to port.explain().shown [N/m]. With any_hand the
+/// guarantee holds for any hand, and a wall is soft: 2b/T [N/m], pressed slowly from an empty ledger.
 template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
           detail::stated_hand Hand = known_hand>
 [[nodiscard]] constexpr auto make_guard(const Device& device, const Hand& hand) noexcept {
@@ -244,7 +244,7 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
                       detail::eyes_of(device)};
 }
 
-// What they return, for members of a class.
+// The types that they return, for members of a class.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
           class Device = exact_device, class Hand = known_hand>
 using touch = decltype(make_touch<Space, Constraint, Limits>(Device{}, Hand{}));
@@ -255,8 +255,8 @@ template <class Space, class Limits = loop_limits, class Device = exact_device,
           class Hand = known_hand>
 using force_guard = decltype(make_guard<Space, Limits>(Device{}, Hand{}));
 
-/// The one for a port of any kind, joints among them, of which only the damping and the motors are known
-/// (actuator_limit, motor_limits): strict, so it is soft while the ledger is empty, 2b/T pressed slowly.
+/// The guard for any port, also joints, of which only the damping and the motors' limit are known (actuator_limit,
+/// motor_limits). It is strict, so a wall is soft while the ledger is empty: 2b/T [N/m], pressed slowly.
 template <port P, class Motors, class Damping = isotropic_damping, class Limits = loop_limits>
 using strict_guard = passive_port<P, given_force, basic_reduced_energy<Damping>,
                                   bound_chain<strict_bound, Motors>, Limits>;
@@ -268,7 +268,7 @@ template <port P, class Damping = isotropic_damping, class Motors = actuator_lim
           bound_chain{strict_bound{}, motors}, loop_limits{.longest_tick = longest_tick}};
 }
 
-// The names before, for one version more.
+// The former names, deprecated, for one more version.
 
 struct known_device {
   double mass{};         ///< [kg]

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// For firmware: the core without Eigen in one include, make_touch and make_guard among it, and a space that
-// insists on its FPU. Detents: knob.hpp beside it.
+// For firmware: the core without Eigen in one include, with make_touch and make_guard, and a space that compiles
+// only if the FPU computes its scalar. knob.hpp adds detents.
 //
-//   hardware_space<float, 1>   space<float, 1>, if the FPU computes floats
-//   space<float, 1>            the same without that question: for cores that compute in software
+//   hardware_space<float, 1>   space<float, 1>; an error if the FPU does not compute floats
+//   space<float, 1>            the same without that check, for cores that compute in software
 //
-// Two and three degrees of freedom need vectors: include device/eigen_space.hpp, too. The flags to use,
-// how to tick from an interrupt, PlatformIO, Arduino, Zephyr and FreeRTOS: docs/firmware.md.
+// Two and three degrees of freedom need vectors: include device/eigen_space.hpp, too. docs/firmware.md has the
+// flags, how to tick from an interrupt, and PlatformIO, Arduino, Zephyr and FreeRTOS.
 
 #include <passive_haptics/base/exchange.hpp>
 #include <passive_haptics/compositions.hpp>
@@ -25,9 +25,9 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What the compiler tells of the FPU of its target: bit 2 is set for single and bit 3 for double
-/// precision, so the mask of a scalar is its size in bytes. 32-bit ARM tells it (ACLE, __ARM_FP), and so
-/// does RISC-V (__riscv_flen); every other target is taken to have an FPU for every scalar.
+/// The FPU of the compiler's target: bit 2 is set for single and bit 3 for double precision, so the mask of a
+/// scalar is its size in bytes. Compilers define it for 32-bit ARM (ACLE, __ARM_FP) and RISC-V (__riscv_flen);
+/// every other target is assumed to have an FPU for every scalar.
 namespace target {
 
 #if defined(__ARM_FP)
@@ -40,7 +40,7 @@ inline constexpr unsigned fpu = 0;
 inline constexpr unsigned fpu = ~0U;
 #endif
 
-/// Its sentences are asserted only where `type` is asked for, so other builds may be without an FPU.
+/// The assertions apply only where `type` is used, so other builds need no FPU.
 template <real Scalar, int Dof, unsigned Fpu = fpu>
 struct checked {
   static_assert(Fpu != 0,
@@ -54,7 +54,7 @@ struct checked {
 
 }  // namespace target
 
-/// space<Scalar, Dof>, computed in hardware or not at all.
+/// space<Scalar, Dof>, which compiles only if the FPU computes Scalar.
 template <real Scalar, int Dof>
 using hardware_space = typename target::checked<Scalar, Dof>::type;
 

@@ -8,11 +8,11 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What has come of news. It is true if they were taken; a surface that is refused leaves the last good one.
+/// The result of update(). It converts to true if the surface was accepted; otherwise the last good one stays.
 template <class Scalar>
 struct news_taken {
   bool taken = false;
-  Scalar stiffness{};  ///< what is shown of the surface's, at rest [N/m]; explain() says why
+  Scalar stiffness{};  ///< the stiffness displayed at rest [N/m]; explain() says why
 
   constexpr operator bool() const noexcept { return taken; }  // NOLINT(google-explicit-constructor)
 };
@@ -47,15 +47,15 @@ class local_model : public passive_port<Space, local_contact<Space, Supply, Norm
                         const Limits& limits, const Motion& estimator = {}) noexcept
       : base(Space{}, contact_type{supply, normals, law}, observer, bound, limits, estimator) {}
 
-  /// The environment's newest constraint, and the end of it: see local_contact.
+  /// Takes the environment's newest constraint; release() ends it. See local_contact.
   template <class Owner = Supply>
   requires(Owner::moves) constexpr news_taken<scalar> update(const constraint_type& next) noexcept {
     [[maybe_unused]] const auto alone = this->one_call();
     if (!this->source().update(next)) return {};
     return {true, shown_stiffness(this->target().stiffness)};
   }
-  /// The same, and how the surface moves by itself and how old that is: {.velocity = v, .age = 0.02}. What is felt is
-  /// where it is by now (contact/lag.hpp). For laws that are `eased`.
+  /// The same, with the velocity [m/s] and the age [s] of the surface: {.velocity = v, .age = 0.02}. The contact uses
+  /// its present position, extrapolated by contact/lag.hpp. For laws that are `eased`.
   template <class Owner = Supply>
   requires(Owner::moves&& detail::eases_news<part_at<Law, Space>>) constexpr news_taken<
       scalar> update(const constraint_type& next, const surface_motion<Space>& how) noexcept {
@@ -77,9 +77,9 @@ class local_model : public passive_port<Space, local_contact<Space, Supply, Norm
   }
   [[nodiscard]] constexpr const auto& law() const noexcept { return this->source().law(); }
 
-  /// By what the force steps [N] where a surface of K [N/m] is pressed on the encoders that the ledger knows of: K_s q
-  /// for a step q of one axis, K_s the stiffness shown; √dof of that where all axes step at once, which this is. At rest,
-  /// too: no law of a depth is quieter (docs/design/settling.md). 0 where the ledger takes positions as exact.
+  /// The largest step of the force [N] when a surface of K [N/m] is pressed, also at rest: K_s √(Σ qᵢ²), K_s [N/m] the
+  /// stiffness displayed and qᵢ the encoder steps of the ledger, if all axes step at once (K_s q for one axis). No law
+  /// of the depth steps by less (docs/design/settling.md). It is 0 if the ledger takes positions as exact.
   [[nodiscard]] constexpr scalar force_step(scalar K) const noexcept {
     if constexpr (Observer::exact) {
       return 0;
@@ -94,7 +94,7 @@ class local_model : public passive_port<Space, local_contact<Space, Supply, Norm
   }
 };
 
-/// One that lacks its limits or its law, so that the compiler says which.
+/// Deduction guides for a local_model that lacks its limits or its law, so that the compiler names what is missing.
 template <class Space, class Supply, class Normals, class Law, class Observer, class Bound>
 requires contact_law_for<Law, Space> local_model(Space, Supply, Normals, Law, Observer, Bound)
 ->local_model<Space, Supply, Normals, Law, Observer, Bound, detail::left_out>;

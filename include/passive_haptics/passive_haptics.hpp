@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The core, whole: everything a haptic loop needs, nothing of devices, environments or simulation. A
-// loop with one degree of freedom that wants no Eigen includes local_model.hpp and its parts instead.
+// The whole core: everything that a haptic loop needs, without device drivers, environments or simulation. A
+// loop with one degree of freedom and without Eigen includes firmware.hpp instead.
 //
 //   compositions.hpp        start here: touch, encoder_touch, force_guard, strict_guard
 //   local_model.hpp         one contact on one device
-//   port/passive_port.hpp   one device, whatever pushes on it
+//   port/passive_port.hpp   one device, with any contacts and forces
 //   energy_observer/        counts the energy that the hand and the device exchange
 //   force_bound/            limits the force by that energy
 //   normal_interpolation/   limits how fast the contact normal turns
-//   constraint_geometry/    pieces of the world, and who moves them
+//   constraint_geometry/    the surfaces, and the supplies that own and move them
 //   contact/                depth to force; several contacts; a force of your own
-//   shaper/                 shapes the wanted force by the contact, before the bound
+//   shaper/                 changes the desired force by the state of the contact, before the bound
 //   base/exchange.hpp       the newest value from another thread
-//   firmware.hpp            what of all this needs no Eigen
-//   published.hpp           controllers that others have published; not in here
-//   laws.hpp                what a part of your own must obey; not in here
-//   six_dof.hpp             devices that turn, or sense that they do; not in here
+//   firmware.hpp            the part of the core that needs no Eigen
+//   published.hpp           controllers of other authors; not included here
+//   laws.hpp                the laws that a part of your own must obey; not included here
+//   six_dof.hpp             devices that turn, or sense their orientation; not included here
 
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/constraint_geometry/distance_brick.hpp>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Devices that turn, or sense that they do: everything of passive_haptics.hpp, and
+// Devices that turn, or sense their orientation: everything of passive_haptics.hpp, and
 //
 //   device/rigid_body.hpp                      pose (p, q), motion (Δp, θ), wrench (f, τ)
-//   device/stylus.hpp                          senses six degrees of freedom, pushes in three
-//   port/reported_work.hpp                     the driver tells the work of its motors in joints
-//   device/rigid_damping.hpp                   b, b_ω, and the work that the ends of a turn do not show
+//   device/stylus.hpp                          senses six degrees of freedom, actuates three
+//   port/reported_work.hpp                     the driver reports the work of its motors in joints
+//   device/rigid_damping.hpp                   b, b_ω, and the error of the work of a turn
 //   device/rigid_inertia.hpp                   mass, moments, offset of the centre of mass
 //   force_bound/rigid_reachable_bound.hpp      in joules, on time or a tick late; rigid_actuator_limit
-//   contact/rigid_tool.hpp                     a tool that touches at several points
-//   contact/at_tip.hpp                         what a stylus touches with its tip
+//   contact/rigid_tool.hpp                     a tool with contacts at several points
+//   contact/at_tip.hpp                         contacts of the tip of a stylus
 //
 //     auto peg = ph::make_tool({.inertia = {.mass = 0.15, .least = 1e-4, .spread = 2e-4},
 //                               .damping = {.linear = 0.03, .angular = 1e-4},
@@ -19,7 +19,7 @@
 //     peg.source().update(slot, point_of_the_tool, surface);
 //     motors.command(peg.tick({p, {w, x, y, z}}, ph::seconds{dt}).force);
 //
-// docs/design/six_dof.md says what is promised, and why.
+// docs/design/six_dof.md has the guarantees and their proofs.
 
 #include <passive_haptics/contact/at_tip.hpp>
 #include <passive_haptics/contact/rigid_tool.hpp>
@@ -34,23 +34,24 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A handle that moves and turns, as a promise may state it.
+/// The numbers of a handle that moves and turns, on which the guarantee rests.
 struct rigid_device {
   rigid_inertia inertia{};       ///< a lower bound
   rigid_damping damping{};       ///< a lower bound
   rigid_damping damping_most{};  ///< an upper bound
-  double force_limit{};          ///< the most that the motors hold [N]
-  double torque_limit{};         ///< [N·m]
+  double force_limit{};          ///< the largest force that the motors hold [N]
+  double torque_limit{};         ///< the largest torque [N·m]
   double lever = 0.03;           ///< ℓ, a length of the tool [m]
   double longest_tick = 1e-3;    ///< T, the worst tick of YOUR loop [s]
 };
-/// Hand and load push with no more, about the handle point.
+/// The largest force and torque of hand and load, about the handle point.
 struct rigid_hand {
-  double force{};   ///< [N]
-  double torque{};  ///< [N·m]
+  double force{};   ///< largest force [N]
+  double torque{};  ///< largest torque [N·m]
 };
 
-/// A tool whose points touch surfaces, each in a slot: conditional, gets over faults, within the motors' limit.
+/// A tool with points that touch surfaces, each in a slot. Its guarantee is conditional; it recovers from faults and
+/// respects the motors' limits.
 template <class Body = rigid_body<double>, class Limits = loop_limits, class... Room>
 [[nodiscard]] constexpr auto make_tool(const rigid_device& d, const rigid_hand& hand,
                                        const Room&... room) noexcept {
