@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A knob or a slider, from the facts of its device: detents and end stops, which come to rest. No Eigen, and as fit
-// for firmware as firmware.hpp is.
+// A knob or a slider with detents and end stops that come to rest, from the stated numbers of its device. It needs no
+// Eigen and is fit for firmware.
 //
 //     constexpr ph::exact_device motor{.mass = 5e-5, .damping = 1e-3, .force_limit = 0.2,   // kg·m², N·m·s/rad, N·m
 //                                      .longest_tick = 1e-3, .rotary = true};
@@ -13,15 +13,15 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// port.tick(sample). A stiffness is shown as far as it comes to rest and, on encoders, as dry friction pays for:
-/// port.explain() says how far. E ≥ 0 as of make_guard.
+/// A port with detents: port.tick(sample). Their stiffness is limited to one that comes to rest and, on encoders, to
+/// the one that dry friction pays for; port.explain() says which. The guarantee is that of make_guard.
 template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
           detail::stated_hand Hand = known_hand>
 [[nodiscard]] constexpr auto make_detents(const Device& device, const Hand& hand,
                                           detents shape) noexcept {
   shape.rest.mass = device.mass;
   shape.rest.force_limit = device.force_limit;
-  shape.rest.softens = false;  // what is shown is known
+  shape.rest.softens = false;  // because the stiffness is known
   shape.most = kernels::smaller(shape.most, detail::budget_of(device, hand, Limits::latency));
   const double steepest = kernels::larger(shape.stiffness, shape.stop_stiffness);
   const double shown = kernels::smaller(shape.most, steepest);
@@ -34,7 +34,7 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
                       detail::eyes_of(device)};
 }
 
-/// What it returns, for members of a class.
+/// The type that make_detents returns, for members of a class.
 template <class Space, class Limits = loop_limits, class Device = exact_device,
           class Hand = known_hand>
 using knob = decltype(make_detents<Space, Limits>(Device{}, Hand{}, detents{}));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Controllers that others have published, to be compared with and composed like any part of the core. No Eigen.
+// Controllers of other authors, for comparison. They compose like any part of the core and need no Eigen.
 //
 //   force bounds: energy_bounding, tight_energy_bounding, sector_bound, energy_tank, predicting_tank,
 //                 two_layer_tank, series_passivity_controller, series_controller_with_damping
@@ -8,7 +8,7 @@
 //                 published_set_position_modulation, reference_energy, reference_energy_with_damping
 //   admittance:   parallel_passivity_controller, beside a port
 //
-// What each promises is in its type; what each shows and costs, side by side: cmake --workflow --preset controllers.
+// The guarantee of each is in its type. `cmake --workflow --preset controllers` compares their stiffness and cost.
 
 #include <passive_haptics/published/energy_bounding.hpp>
 #include <passive_haptics/published/energy_tank.hpp>

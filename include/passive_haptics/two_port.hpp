@@ -20,8 +20,8 @@
 //      │ impedance side │                                │ admittance side │
 //      └───────────────┘   ◀── channel  ◀── {E_in, f}    └─────────────────┘
 //
-// Each side keeps one ledger, E1 ≥ 0 at all times, and one sum S of what it has promised to the
-// other. With R the largest promise that has arrived and L the loan it started with:
+// Each side keeps one ledger, E1 ≥ 0 at all times, and the sum S [J] of all energy that it has
+// promised to the other. With R the largest promise that has arrived and L its initial loan:
 //     device:       ∫ b v² dt − Σ f_held·Δx  ≥  E1 + S_d − R_d − L_d
 //     environment:             Σ f·Δp'       ≥  E1 + S_e − R_e − L_e
 // A promise that arrives was made before and S never falls: R_e ≤ S_d and R_d ≤ S_e whatever the
@@ -31,9 +31,9 @@
 // Published form: Ryu, Artigas, Preusche (2010) and Artigas, Ryu, Preusche, Hirzinger (IROS 2011),
 // from memory. The ledgers, the bound before the hold and the share are derived here.
 //
-// It assumes what the bound of the device assumes (b is a lower bound, positions are exact, ticks last up to
-// longest_tick or a watchdog drops the force then) and what admittance_side names. Both sides start together:
-// one that restarts alone could spend again what it has spent before.
+// The assumptions are those of the device's bound (b is a lower bound, positions are exact, ticks last up to
+// longest_tick or a watchdog drops the force then) and of admittance_side. Both sides have to start together,
+// because one that restarts alone could spend the same energy again.
 
 #include <passive_haptics/two_port/admittance_side.hpp>
 #include <passive_haptics/two_port/energy.hpp>

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Detents and end stops of a knob or a slider, which come to rest as a settled_force does: make_detents has them.
+// Detents and end stops of a knob or a slider, damped as a settled_force. make_detents composes them.
 
 #include <passive_haptics/contact/settled_force.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// With x between the stops, u from the nearest multiple of the pitch p, and K what is shown of the stiffness,
-///     f = −K u (1 − 2|u|/p),
-/// a sine to within 6 % of its top, K p/8, without a library; past a stop a spring besides. It is the slope of a
-/// potential, so a way there and back costs nothing.
+/// Between the stops, with u [m] the distance of x from the nearest multiple of the pitch p and K [N/m] the stiffness
+/// displayed (joints: rad, N·m/rad),
+///     f = −K u (1 − 2|u|/p)
+/// which is a sine to within 6 % of its maximum K p/8, without a call of sin. Beyond a stop a spring is added. The
+/// force is the gradient of a potential, so a closed path takes and gives no energy (ours).
 struct detents {
-  double pitch{};      ///< p, from one to the next [m], [rad]
-  double stiffness{};  ///< at the bottom of each [N/m], [N·m/rad]; 0: there are none
-  double first = -std::numeric_limits<double>::infinity();  ///< an end stop [m]
-  double last = std::numeric_limits<double>::infinity();    ///< the other one [m]
-  double stop_stiffness{};                                  ///< of both [N/m]
+  double pitch{};      ///< p, the distance of neighbours [m], [rad]
+  double stiffness{};  ///< K at the bottom of each [N/m], [N·m/rad]; 0: no detents
+  double first = -std::numeric_limits<double>::infinity();  ///< the lower end stop [m]
+  double last = std::numeric_limits<double>::infinity();    ///< the upper end stop [m]
+  double stop_stiffness{};                                  ///< stiffness of both stops [N/m]
   double most =
-      std::numeric_limits<double>::infinity();  ///< no stiffness is shown above that [N/m]
-  settled_force rest{};                         ///< how they come to rest; mass is stated
+      std::numeric_limits<double>::infinity();  ///< the largest stiffness that is displayed [N/m]
+  settled_force rest{};                         ///< their damping; its mass has to be stated
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::not_negative(stiffness)) return {"stiffness", stiffness, "finite and ≥ 0 N/m"};
@@ -68,7 +69,7 @@ class detents::on : private part_at<settled_force, P> {
     settles_ =
         static_cast<scalar>(damped::parameters().most_stiffness(static_cast<double>(T), 0, late));
   }
-  /// Of the detent, or of the stop, at x; `depth` is that of a spring of that stiffness with the same force.
+  /// Explains the detent, or the stop, at x. `depth` is that of a spring of that stiffness with the same force.
   constexpr void explain(explanation& e, scalar x, scalar /*T*/, int /*late*/) const noexcept {
     const scalar asked = within(x) == x ? stiffness_ : stop_;
     e.asked = e.shown = static_cast<double>(asked);
@@ -90,20 +91,21 @@ class detents::on : private part_at<settled_force, P> {
   [[nodiscard]] constexpr scalar shown(scalar K) const noexcept {
     return kernels::smaller(K, kernels::smaller(most_, settles_));
   }
-  /// f at x [N].
+  /// The force f at x [N].
   [[nodiscard]] constexpr scalar at(scalar x) const noexcept {
     const scalar inside = within(x);
     const scalar stop = shown(stop_) * (inside - x);
     if (!(stiffness_ > scalar(0))) return stop;
     const scalar n = inside / pitch_;
-    if (!(kernels::magnitude(n) < scalar(4e6))) return stop;  // a float knows of no place between
+    if (!(kernels::magnitude(n) < scalar(4e6)))
+      return stop;  // beyond that a float cannot resolve a pitch
     const scalar half = n < scalar(0) ? scalar(-0.5) : scalar(0.5);
     const scalar u = inside - pitch_ * static_cast<scalar>(static_cast<std::int32_t>(n + half));
     return stop - shown(stiffness_) * u * (scalar(1) - scalar(2) * kernels::magnitude(u) / pitch_);
   }
 
   scalar pitch_{}, stiffness_{}, first_{}, last_{}, stop_{}, most_{};
-  scalar settles_ = kernels::largest<scalar>();  ///< the stiffest that comes to rest [N/m]
+  scalar settles_ = kernels::largest<scalar>();  ///< the largest stiffness that comes to rest [N/m]
 };
 
 static_assert(source_for<detents, space<float, 1>>);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // The energy bounding algorithm (EBA): the force changes by no more than the damper pays for.
-// The energy that the force could give out later is put aside as that of a spring, f²/(2 c2). The bound
-// keeps no ledger and looks at the last force and the last displacement only.
+// The energy that the force could give out later is reserved as that of a spring, f²/(2 c2) [J]. The bound
+// keeps no ledger and uses the last force and the last displacement only.
 //
-//   energy_bounding        f − f_held bounded, |f|² bounded   the published window: it shows at most b/T
-//                                                             N/m, and the force falls no faster, either
+//   energy_bounding        f − f_held bounded, |f|² bounded   the published window: a wall has at most b/T
+//                                                             [N/m], and the force falls no faster, either
 //   tight_energy_bounding  the two bounds as one              twice as stiff, and the force falls at once;
 //                                                             with c2 = 2b/T it is memoryless_bound
 //
-// Both are here for comparison with the literature: memoryless_bound is simpler and strict_bound shows
-// more stiffness. Neither is offered with latency.
+// Both are here for comparison with the literature: memoryless_bound is simpler and strict_bound gives
+// stiffer walls. Neither allows latency.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -20,7 +20,7 @@ inline namespace v0 {
 namespace detail {
 /// The largest share of `force` [N] whose energy f²/(2 c2) the last tick has paid for, c2 in [N/m]:
 ///     f²/(2 c2) ≤ h²/(2 c2) + Δxᵀ(b/dt)Δx − h·Δx
-/// where h² counts up to `promised` [N²] only; energy_bounding gives the square of its last command there.
+/// where h² counts up to `promised` [N²] only, for which energy_bounding passes the square of its last command.
 template <class Space>
 [[nodiscard]] constexpr share<typename Space::scalar> put_aside(const typename Space::vector& force,
                                                                 typename Space::scalar c2,
@@ -44,14 +44,14 @@ template <class Space>
 /// At Δx = 0 the published law freezes the force; here the limit of the window holds, |f| ≤ |h|, with
 /// the same proof. The published algorithm bounds each axis by itself; the vector form is ours.
 ///
-/// E ≥ ‖f‖²/(2 c2), and with c2 ≤ b/T that is twice what f can cost in the next tick. So zero force is always
-/// safe, too, and a tick of up to 2 longest_tick, or a held force of up to √2 times the command, costs nothing.
+/// E ≥ ‖f‖²/(2 c2), which for c2 ≤ b/T is twice the worst outflow of f in the next tick. So zero force is always
+/// safe, too, and a tick of up to 2 longest_tick, or a held force of up to √2 times the command, breaks nothing.
 /// A force held beyond the command is given no credit, so a motor that is a little too strong cannot wind the
-/// force up. Apart from those two allowances it assumes what memoryless_bound does; the direction of the held force
-/// is free. The price: it shows at most b/T N/m, half of what the others show, and it does NOT only reduce.
-/// While the device moves out, the force falls by at most c1 per metre, so it goes on pushing its way after
-/// the contact is lost. It starts no force of its own, and a force that is no longer desired ends at once
-/// where the device stops or turns back, after a lost sample and after a late tick.
+/// force up. Otherwise it makes the assumptions of memoryless_bound; the direction of the held force is free. Its
+/// cost: a wall has a stiffness of b/T [N/m] at most, half that of the others, and the bound does NOT only reduce.
+/// While the device moves out, the force falls by at most c1 per metre, so it persists for some way after
+/// the contact is lost. The bound starts no force of its own, and a force that is no longer desired ends at once
+/// if the device stops or turns back, after a lost sample and after a late tick.
 struct energy_bounding {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true};
@@ -101,7 +101,7 @@ class energy_bounding::on {
   }
 
  private:
-  /// Projects `desired` on the ball; where that leaves the half-space, on the disc in which the two meet.
+  /// Projects `desired` on the ball; if that is outside the half-space, on the disc in which the two meet.
   [[nodiscard]] constexpr vector nearest(const vector& desired, scalar c2,
                                          const auto& state) const noexcept {
     const vector held = state.held;
@@ -138,10 +138,10 @@ class energy_bounding::on {
 };
 
 /// ‖f‖² ≤ ‖h‖² + 2 c2 (Δxᵀ(b/dt)Δx − h·Δx), the direction kept: the sum of the two inequalities of
-/// energy_bounding, so no surplus of the one is lost to the other (§ 2(b), ours). With c2 = 2b/T and
-/// isotropic damping it is memoryless_bound; a smaller c2 shows a softer wall, a spring of c2 N/m. E ≥ ‖f‖²/(2 c2).
+/// energy_bounding, so that the surplus of one counts for the other (§ 2(b), ours). With c2 = 2b/T and
+/// isotropic damping it is memoryless_bound; a smaller c2 gives a softer wall, of c2 [N/m]. E ≥ ‖f‖²/(2 c2).
 ///
-/// It assumes what memoryless_bound does; the direction of the held force is free.
+/// It makes the assumptions of memoryless_bound; the direction of the held force is free.
 struct tight_energy_bounding {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true};

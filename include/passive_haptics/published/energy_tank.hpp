@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Energy tanks: an action passes while the tank holds what it will let out.
+// Energy tanks: a force is allowed while the tank holds the energy that it gives out in the next tick.
 //
-//   energy_tank       ¼ fᵀB⁻¹f ≤ E1 − ε         strict_bound by another name, passive
-//   predicting_tank   T f·v ≤ E1 − ε            assumes that the motion goes on; NOT passive
-//   two_layer_tank    T f·v ≤ H, f_TLC = −d v   any force from above, a level kept by damping below;
+//   energy_tank       ¼ fᵀB⁻¹f ≤ E1 − ε         equal to strict_bound on E1 − ε, passive
+//   predicting_tank   T f·v ≤ E1 − ε            assumes that the motion continues; NOT passive
+//   two_layer_tank    T f·v ≤ H, f_TLC = −d v   any desired force, with a damper that refills the tank;
 //                                               NOT passive
 //
 // Energy quanta from another port are not offered, because a port has one tank.
@@ -21,14 +21,14 @@ inline namespace v0 {
 /// The energy [J] that the tank assumes it lets out in the next tick.
 enum class tank_outflow : std::uint8_t {
   worst_case,  ///< ¼ fᵀB⁻¹f, whatever the motion
-  predicted,   ///< T max(0, f·v), if the motion goes on as it did
+  predicted,   ///< T max(0, f·v), which assumes that the velocity stays the same
 };
 
 /// The force is scaled down until its outflow is at most E1 − ε. The tank is the observer's ledger, the observer's
 /// `cap` its size. Source: Ferraguti et al. 2015, in the discrete form of docs/design/mathematics.md § 2(h).
 ///
-/// Worst case: this is strict_bound on a ledger smaller by ε. Predicted: the tank lets all of f* pass until it has
-/// seen the device turn round, so it is NOT passive.
+/// With worst_case this is strict_bound on a ledger smaller by ε. With predicted the tank lets all of f* pass until
+/// a sample shows that the device has turned round, so it is NOT passive.
 template <tank_outflow Outflow = tank_outflow::worst_case>
 struct basic_energy_tank {
   static constexpr guarantee passivity =
@@ -78,16 +78,16 @@ class basic_energy_tank<Outflow>::on {
   scalar reserve_;
 };
 
-/// An upper layer asks for any force, and a tank of energy H [J] lets out at most what it holds:
+/// An upper layer desires any force f*, and a tank of energy H [J] gives out at most its content:
 ///     H ← min(H + Δxᵀ(b/dt)Δx − f_held·Δx, cap)
 ///     f = s f* − d v,   T s f*·v ≤ H and s ‖f*‖ ≤ g H on the way out,
 ///     d = min(max_damping, a max(0, H_d − H)),   v = Δx/dt
-/// The tank level controller −d v refills the tank at the cost of drag, in free space too. The way in is
-/// never blocked, because it fills the tank. Source: Franken et al. 2011, form from memory, for a single
+/// The tank level controller −d v refills the tank at the cost of drag, in free space too. A force against the
+/// motion is never reduced, because it fills the tank. Source: Franken et al. 2011, form from memory, for a single
 /// port and without quanta (docs/design/mathematics.md § 2(h)); their H has no damping credit.
 ///
 /// NOT passive: the outflow is predicted from the last displacement, and −d v pushes the wrong way
-/// for the first tick after the motion turns. For a promise put strict_bound behind it. Keep
+/// for the first tick after the motion turns. With strict_bound behind it, it is passive. Keep
 /// max_damping ≤ 0.35 to 0.5 m/T, or the refill itself rings (series_passivity_controller).
 struct two_layer_tank {
   static constexpr guarantee passivity = guarantee::none;
@@ -155,7 +155,7 @@ class two_layer_tank::on {
   }
 
  private:
-  /// s, the share of f* that passes: 1 on the way in, and on the way out what the tank covers.
+  /// s, the share of f* that passes: 1 if f* is against the motion, else the share that the tank covers.
   [[nodiscard]] constexpr scalar left(const vector& desired, const auto& state) const noexcept {
     const scalar outflow = Space::dot(desired, state.travel) * (state.longest_tick / state.dt);
     if (!(outflow > scalar(0))) return scalar(1);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The energy [J] that a force bound counts for itself, beside the observer's ledger:
+// The energy E [J] that a force bound books for itself, beside the observer's ledger:
 //
-//     E ← min(E + ΔE, most)     after a tick on time, ΔE [J] being what the tick brought
+//     E ← min(E + ΔE, most)     after a tick on time, with ΔE [J] the energy gained in it
 //     E ← min(E + ΔE, E, 0)     after a late tick, whose force may not have been held to its end
-//     E ← min(E, 0)             after a lost tick, of which nobody knows what it brought
+//     E ← min(E, 0)             after a lost tick, whose ΔE is unknown
 //
-// So a late or a lost tick leaves no credit and forgives no debt. The sums are not rounded down, because no
-// bound promises passivity by such a ledger.
+// So after a late or a lost tick there is no credit, and a debt stays. The sums are not rounded down, because no
+// guarantee rests on such a ledger.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -18,7 +18,7 @@ namespace detail {
 template <class Scalar>
 class own_ledger {
  public:
-  /// Begins anew with a loan [J].
+  /// Starts again with a loan [J].
   constexpr void reset(Scalar loan) noexcept {
     energy_ = loan;
     started_ = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Time-domain passivity for a device that is told a velocity and tells the force of the hand on it.
+// Time-domain passivity for an admittance-type device, which takes a velocity and measures the hand's force.
 //
 //   parallel_passivity_controller   v = v* + β f   force in, velocity out       NOT passive
 
@@ -25,16 +25,16 @@ struct parallel_controller_parameters {
   }
 };
 
-/// Adds a velocity that repays what the port has lost (parallel form, admittance causality), for a device
-/// that is told a velocity and tells the force of the hand on it. It is no force bound and no part of a
-/// port; call it once per tick, as the last step before the velocity goes out.
+/// Adds a velocity that dissipates the energy E < E_thr that the port has generated (parallel form, admittance
+/// causality), for a device that takes a velocity and measures the force of the hand. It is no force bound and no
+/// part of a port; call it once per tick, as the last step before the velocity is sent.
 ///     E(n) = E(n−1) + dt v_held·f̄(n)
 ///     v = v* + β f̄,   β = (E_thr − E − dt v*·f̄) / (dt ‖f̄‖²)  in [0, max_mobility]
 /// f̄(n) [N] is the MEAN force of the hand over the tick that has just ended, the one over which v_held was held: with
 /// it E is the energy at the port exactly. Sources: Hannaford and Ryu 2002 (β); for the pairing § 2(c).
 ///
-/// NOT passive: a constant force cannot draw energy, and one that turns round within a tick can. The controller
-/// assumes that the robot holds the velocity it was told, or that the velocity it held is given.
+/// It is NOT passive: a constant force cannot draw energy, but one that turns round within a tick can. The controller
+/// assumes that the robot holds the commanded velocity, or that the held velocity is passed.
 template <class Space>
 class parallel_passivity_controller {
  public:
@@ -62,7 +62,7 @@ class parallel_passivity_controller {
                                           scalar dt) noexcept {
     return velocity(desired, force, dt, held_);
   }
-  /// The same for a robot that tells the velocity it really held [m/s]. If a value is not finite or dt ≤ 0,
+  /// The same for a robot that reports the velocity it really held [m/s]. If a value is not finite or dt ≤ 0,
   /// the velocity is zero and all credit is written off.
   [[nodiscard]] constexpr vector velocity(const vector& desired, const vector& force, scalar dt,
                                           const vector& held) noexcept {

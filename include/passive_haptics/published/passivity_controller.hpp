@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Time-domain passivity: count the energy, and damp when it has turned negative (PO/PC).
+// Time-domain passivity control (PO/PC): an observer sums the energy, and a damper acts when it is negative.
 //
 //   series_passivity_controller     f = f* − α v   position in, force out       NOT passive
 //
-// With a reference energy, which looks at the contact, the controller is a shaper: published/reference_energy.hpp.
-// Its dual, for devices that are told a velocity, is parallel_passivity_controller.hpp.
+// With a reference energy, which depends on the contact, the controller is a shaper: published/reference_energy.hpp.
+// Its dual, for devices that take a velocity, is parallel_passivity_controller.hpp.
 //
-// Both repay a deficit that has already happened, and only if the motion (of the dual: the force) goes on as
-// it did. With a hand that damps they are hardly felt.
+// Both repay a deficit after it has occurred, and only if the motion (for the dual: the force) stays the same in
+// the next tick. With a hand that damps they are hardly felt.
 //
 // The published pairing of the NEW force with the last displacement is not offered: on a sampled wall it never acts
 // (lemma L2; a test shows it).
@@ -23,19 +23,19 @@ inline namespace v0 {
 
 /// Whether the controller credits the damping of the device to the environment.
 enum class damping_credit : std::uint8_t {
-  none,     ///< E counts the environment alone and needs no observer
-  counted,  ///< E also counts the damper, so it acts only when both together have lost
+  none,     ///< E is that of the environment alone and needs no observer
+  counted,  ///< E includes the damper's, so the controller acts only if both together are negative
 };
 
-/// A damper that repays what the port has lost (series form, impedance causality):
+/// A damper α that dissipates the energy that the port has generated (series form, impedance causality):
 ///     E(n) = E(n−1) − f_held·Δx [+ Δxᵀ(b/dt)Δx]
 ///     f = f* − α v,   α = (E_thr − E) dt/‖Δx‖²  in [0, max_damping],   v = Δx/dt
-/// What max_damping does not allow in one tick stays in E for the next. The controller keeps its own E, so
-/// no_observer is enough unless the damping is counted. f may push inwards. Sources: Hannaford and Ryu 2002
-/// (the idea and α); for the pairing with the held force docs/design/mathematics.md § 2(c).
+/// A deficit beyond max_damping stays in E for the next tick. The controller keeps its own E, so no_observer is
+/// enough unless the damping is counted. f may point inwards. Sources: Hannaford and Ryu 2002 (the idea and α); the
+/// pairing with the held force is in docs/design/mathematics.md § 2(c).
 ///
-/// NOT passive: the deficit is repaid if the motion goes on and DOUBLES if it turns round. A damper of α on a free
-/// mass m is stable for α < 2 m/T and overshoots above 0.343 m/T: take max_damping ≤ 0.35 to 0.5 m/T.
+/// It is NOT passive: the deficit is repaid if the motion continues and DOUBLES if it turns round. A damper α on a
+/// free mass m is stable for α < 2 m/T and overshoots above 0.343 m/T, so use max_damping ≤ 0.35 to 0.5 m/T.
 template <damping_credit Credit = damping_credit::none>
 struct basic_series_controller {
   static constexpr guarantee passivity = guarantee::none;
@@ -45,7 +45,7 @@ struct basic_series_controller {
   double threshold{};     ///< E_thr [J]; below zero it is a loan
   double least_speed{};   ///< no action for ‖v‖ below this [m/s]
   double least_travel{};  ///< no action for ‖Δx‖ below this [m], one quantum of the encoder
-  double reset_after = detail::no_limit;  ///< force-free time that voids E > 0 [s]
+  double reset_after = detail::no_limit;  ///< force-free time after which E ≤ 0 [s]
   double loan{};                          ///< E at the start [J]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -104,7 +104,7 @@ class basic_series_controller<Credit>::on {
     return repaid(desired, state, scalar(0));
   }
 
-  /// The force [N] that repays until E is `kept` [J] above E_thr.
+  /// The force [N] that raises E to E_thr + `kept` [J].
   [[nodiscard]] constexpr vector repaid(const vector& desired, const auto& state,
                                         scalar kept) noexcept {
     book(state);

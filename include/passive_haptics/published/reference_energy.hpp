@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A passivity controller (PO/PC) that takes energy out during the whole release, not in one late burst.
+// A passivity controller (PO/PC) that dissipates during the whole release instead of in one late burst.
 //
 //   reference_energy                α = (E_thr + r K d²/2 − E) dt/‖Δx‖²     NOT passive
 //   reference_energy_with_damping   the same, the device's damping credited
@@ -11,8 +11,9 @@ namespace passive_haptics {
 inline namespace v0 {
 
 /// A series_passivity_controller that acts as soon as E < E_thr + r K d²/2, the last term being the share r of
-/// the energy of the contact spring at the target's depth d. So it repays during the release what the release
-/// loses. Inspired by the reference energy of Ryu, Preusche, Hannaford and Hirzinger 2005. NOT passive.
+/// the energy [J] of the contact spring at the target's depth d. So it dissipates during the release the energy that
+/// the release generates. Inspired by the reference energy of Ryu, Preusche, Hannaford and Hirzinger 2005. It is NOT
+/// passive.
 template <damping_credit Credit = damping_credit::none>
 struct basic_reference_energy {
   static constexpr bool needs_local_model = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A bound on the slope: the force changes only as the hand moves, and falls steeper than it rose.
+// A bound on the slope df/dx: the force changes only with the motion, and falls more steeply than it rises.
 //
 //   sector_bound   0 ≤ df/dx ≤ β pressing, β ≤ df/dx ≤ 2b/T releasing   for one degree of freedom: the
 //                                                                       force never jumps, but is soft
@@ -17,13 +17,13 @@ inline namespace v0 {
 /// the environment never makes the force jump. Inspired by the input-to-state-stable approach
 /// (Jafari, Ryu), whose own law is not confirmed; law and proof are ours (§ 2(f)).
 ///
-/// E ≥ F²/(2β). A force below the window, down to zero, is safe as well; the lower edges are for the feel alone.
+/// E ≥ F²/(2β). A force below the window, down to zero, is passive as well; the lower edges only make it continuous.
 ///
-/// It assumes what memoryless_bound does. A force held beyond the last command is given no credit, so a
-/// motor that is a little too strong cannot wind the force up. It is not offered with latency. The price:
-/// it shows at most 2b/T N/m, and it does NOT only reduce: when a contact is lost, or fades because the
-/// environment is silent, the force goes on until the hand yields; a lost sample or a late tick ends it at
-/// once. It needs one degree of freedom, because in the proof the motion is along the force.
+/// It makes the assumptions of memoryless_bound. A force held beyond the last command is given no credit, so a
+/// motor that is a little too strong cannot wind the force up. It does not allow latency. Its cost: a wall has a
+/// stiffness of 2b/T [N/m] at most, and the bound does NOT only reduce: when a contact is lost, or fades without
+/// updates, the force stays until the hand yields; a lost sample or a late tick ends it at once. It needs one
+/// degree of freedom, because in the proof the motion is along the force.
 struct sector_bound {
   static constexpr guarantee passivity = guarantee::strict;
   static constexpr bound_traits traits{.needs_ledger = true};

@@ -3,8 +3,8 @@
 // Passive set-position modulation (PSPM) limits the energy that an update puts into the contact spring.
 // It limits nothing else.
 //
-//   set_position_modulation   ½ K d_new² ≤ ½ K d_old² + E      bounds what jumps of the environment bring,
-//                                                              and does not see the leak of the hold
+//   set_position_modulation   ½ K d_new² ≤ ½ K d_old² + E      bounds the energy of jumps of the surface,
+//                                                              but not the leak of the hold
 //
 // For walls stiffer than 2b/T put strict_bound behind it.
 
@@ -16,27 +16,27 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Who pays for the leak of the zero-order hold, K Δx²/2 per tick (lemma L2).
+/// How the leak of the zero-order hold, K Δx²/2 [J] per tick (lemma L2), is accounted for.
 enum class hold_leak : std::uint8_t {
-  paid,     ///< the damping pays for the leak first: passive for K ≤ 2b/T
-  ignored,  ///< nobody pays: the spring is taken for one in continuous time, as published
+  paid,     ///< it is subtracted from the damping: passive for K ≤ 2b/T
+  ignored,  ///< it is not accounted for, as published, as if the spring were in continuous time
 };
 
-/// An update makes the contact spring deeper no farther than a tank of energy E [J] covers. Between updates
-/// the spring is left alone. At an update, d* being the depth that the environment asks for:
+/// An update deepens the contact spring only as far as a tank of energy E [J] covers. Between updates the spring is
+/// not changed. At an update, with d* the depth [m] in the environment's surface:
 ///     E ← min(E + D_min + ½ K d_old² − ½ K d_new², cap),     d_new the deepest ≤ d* with E ≥ 0
-///     D_min = (b − K T/2) (max x − min x)²/(t_k − t_{k−1})      with b alone where the leak is ignored
+///     D_min = (b − K T/2) (max x − min x)²/(t_k − t_{k−1})      with b alone if the leak is ignored
 /// x [m] is the travel along the normal since the last update. The gap d* − d_new stays until the next update,
-/// or until the device leaves: then the surface follows it out, which costs nothing. If the motors held less
-/// than the spring asked for, the tank books the difference, too.
+/// or until the device leaves: then the surface follows it out, which costs nothing. If the motors held a smaller
+/// force than the spring's, the tank books the difference, too.
 ///
 /// Source: Lee and Huang 2010, form from memory. With the leak paid E1 ≥ ½ K d² + E ≥ 0 throughout
 /// (docs/design/mathematics.md § 2(e), with the proofs).
 ///
-/// Where the leak is paid it assumes: every K that the environment sends is ≤ 2b/T; b is a lower bound;
-/// every tick ≤ longest_tick; positions are exact; there is no latency; the contact law asks for K d at
-/// most; the force held is known and at most the one asked for. With a larger K, or the leak ignored, it
-/// promises nothing: on a static wall it is the same as no bound at all.
+/// With the leak paid it assumes: every K of the environment is ≤ 2b/T; b is a lower bound; every tick is ≤
+/// longest_tick; positions are exact; there is no latency; the force of the contact law is at most K d; the held
+/// force is known and no larger than commanded. With a larger K, or the leak ignored, it guarantees nothing: on a
+/// static wall it is the same as no bound at all.
 template <hold_leak Leak = hold_leak::paid>
 struct basic_set_position_modulation {
   static constexpr bool needs_local_model = true;
@@ -108,7 +108,7 @@ class basic_set_position_modulation<Leak>::on {
   }
 
  private:
-  /// The present spring: K [N/m], d [m] (< 0 outside), and its unit normal.
+  /// The present spring: K [N/m], d [m] (< 0 outside), unit normal, and gap.
   struct contact_spring {
     scalar stiffness{};
     scalar depth{};
@@ -126,8 +126,8 @@ class basic_set_position_modulation<Leak>::on {
     return depth > scalar(0) ? stiffness * depth * depth / scalar(2) : scalar(0);
   }
 
-  /// Books the last tick for the spring of that tick, and returns the energy [J] that the spring stores at its
-  /// end. After a lost or a late tick there is neither that energy nor credit.
+  /// Books the last tick with the spring of that tick, and returns the energy [J] that the spring stores at its end.
+  /// After a lost or a late tick it returns 0 and leaves no credit.
   constexpr scalar book(const auto& port) noexcept {
     if (!(spring_.stiffness > scalar(0))) return scalar(0);  // there was no target yet, so no force
     if (port.fate() != tick_fate::on_time) {

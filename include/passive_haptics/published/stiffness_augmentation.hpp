@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Shapers that begin soft and grow stiff as far as the ledger has energy to spare.
+// Shapers that begin with a soft spring and stiffen it as far as the ledger has spare energy.
 //
-//   nonlinear_coupling    K_c grows all the time in contact        stiffens within one press
+//   nonlinear_coupling    K_c grows throughout the contact         stiffens within one press
 //   stiffness_increment   K grows once per press and release       stiffens from touch to touch
-//   force_augmentation    an offset is added where motion turns    steady force, soft feel
+//   force_augmentation    an offset is added at each turn          large force, soft spring
 //
-// All three only reduce the desired force, and strict_bound behind them alone makes them passive. With U(d) [J] what
-// the shaped spring gives back on a release from depth d, growth at d may raise it by no more than
+// All three only reduce the desired force, and only strict_bound behind them makes them passive. With U(d) [J] the
+// energy that the shaped spring gives back on a release from depth d [m], growth at d may raise U by at most
 //     E_free = E1 − max(U(d), ¼ fᵀB⁻¹f)
 // so no energy is promised twice. A spring of up to 2b/T on a surface at rest that begins with E1 ≥ U keeps E1 ≥ U
 // in every motion, and the strict law never cuts its force. Each is INSPIRED BY the work it names; the published
@@ -45,7 +45,7 @@ template <class Space>
   return kernels::larger(port.credit() - kernels::larger(release, outflow), scalar(0));
 }
 
-/// `wanted` units, or as many as `spare` [J] pays for at `price` [J] a unit.
+/// `wanted`, or as much of it as `spare` [J] pays for at `price` [J] per unit.
 template <class Scalar>
 [[nodiscard]] constexpr Scalar paid_for(Scalar wanted, Scalar price, Scalar spare) noexcept {
   return wanted * price <= spare ? wanted : spare / price;
@@ -54,8 +54,8 @@ template <class Scalar>
 
 /// f = min(f*, K_f d), 1/K_f = 1/K_c + 1/K, and K_c grows in contact, each tick of length dt by
 ///     ΔK_c = min(rate·dt, most − K_c, 2 E_free/d²)       charged: ΔK_f d²/2 ≤ ΔK_c d²/2 [J]
-/// K_c is back at `initial` when the contact, or a sample, is lost. U = K_f d²/2. Inspired by the nonlinear
-/// virtual coupling of the thesis (Fig. 1.7), of which only the idea is known. The price is that of
+/// K_c is reset to `initial` when the contact, or a sample, is lost. U = K_f d²/2. Inspired by the nonlinear
+/// virtual coupling of the thesis (Fig. 1.7), of which only the idea is known. Its cost is that of
 /// strict_bound, and each press starts soft.
 struct nonlinear_coupling {
   static constexpr bool needs_local_model = false;
@@ -122,10 +122,10 @@ struct nonlinear_coupling {
 
 /// f = min(f*, K_i d), and K_i grows when a press follows a release or a bounce, by
 ///     ΔK = min(step, K − K_i, 2 E_free/d²)               charged: ΔK d²/2 [J]
-/// K_i is back at `initial` after `reset_after` out of contact, or a lost sample. U = K_i d²/2.
+/// K_i is reset to `initial` after `reset_after` out of contact, or a lost sample. U = K_i d²/2.
 /// Inspired by the successive stiffness increment (SSI) of Singh, Jafari and Ryu. A single tick that moves the
 /// other way counts as a turn, so quantised or noisy positions make K_i grow sooner; E_free limits the growth
-/// all the same. The price is that of strict_bound, and the first presses are soft.
+/// all the same. Its cost is that of strict_bound, and the first presses are soft.
 struct stiffness_increment {
   static constexpr bool needs_local_model = false;
   static constexpr bool needs_ledger = true;
@@ -200,13 +200,13 @@ struct stiffness_increment {
   };
 };
 
-/// f = min(f*, K_L d + F), K_L = min(low, K), and where the motion turns, in or out, the offset F
-/// goes towards what is missing there, (K − K_L) d, by
+/// f = min(f*, K_L d + F), K_L = min(low, K). Whenever the motion turns, in or out, the offset F [N]
+/// moves towards the missing force (K − K_L) d by
 ///     ΔF = min(step, (K − K_L) d − F, E_free/d)          charged: ΔF d [J]
 /// or down by at most `step`. F is zero again when the contact, or a sample, is lost. U = K_L d²/2 + F d,
 /// which min(f*, ·) can only lower. Inspired by the successive force augmentation (SFA) of Singh, Jafari and
-/// Ryu, of which only the abstract is known, so this update is ours. A turn is what stiffness_increment takes
-/// for one. The price is that of strict_bound, and the force steps by up to `step` at a turn.
+/// Ryu, of which only the abstract is known, so this update is ours. A turn is defined as in
+/// stiffness_increment. Its cost is that of strict_bound, and the force steps by up to `step` at a turn.
 struct force_augmentation {
   static constexpr bool needs_local_model = false;
   static constexpr bool needs_ledger = true;

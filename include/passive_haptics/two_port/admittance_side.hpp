@@ -13,7 +13,7 @@ inline namespace v0 {
 
 struct admittance_parameters {
   double stiffness{};  ///< K [N/m]: in a step f changes by at most K ‖Δp‖; 0: f is held over a step
-  double drift_rate{};  ///< share of the position drift that is made up for in a second [1/s]
+  double drift_rate{};  ///< share of the position drift that is corrected in a second [1/s]
   double top_speed = std::numeric_limits<double>::infinity();  ///< top speed of the tool [m/s]
   double loan{};                                               ///< E1 at the start [J]
   double cap = std::numeric_limits<double>::infinity();        ///< most credit to keep [J] (L7)
@@ -39,26 +39,26 @@ struct admittance_result {
 
 /// The passivity controller β and its observer, in discrete time. Step k of the environment takes
 /// the force f(k) of the environment on the tool [N], known BEFORE the tool moves, and moves the
-/// tool by Δp'(k). The energy that goes into the environment is then no prediction but a number:
+/// tool by Δp'(k). The energy w [J] that goes into the environment is then known and not predicted:
 ///     w = −f(k)·Δp'(k) + K ‖Δp'‖²/2  ≤  E1 = E_in_rx − E_out                    at every step
 ///     w > 0: E_out += w      w < 0: E_in += −w
-/// Of the motion Δp wanted, only the part along f is cut:  Δp' = Δp + β f  with the least β ≥ 0 that suffices
+/// Of the desired motion Δp, only the part along f is reduced:  Δp' = Δp + β f  with the least β ≥ 0 that suffices
 /// (v' = v − β f of § 2(d), where f is the force INTO the environment). So E_out ≤ E_in_rx exactly: no energy
 /// is carried over, and f needs no threshold.
 ///
 /// Strict, K = 0: for every environment that consumes (Δp', f) in discrete time, i.e. whose port
 /// energy is Σ f(k)·Δp'(k), however active it is.
 /// Strict, K > 0: for every environment in continuous time whose force on the straight way changes
-/// by at most K per metre, and that moves by itself between steps only. The price is Colgate's: a
-/// motion costs K ‖Δp‖²/2 a step, in free space too, which the loan or a hand that works against a force must
-/// have paid in. settle() gives back what was not used. If K = 0 is stated for an environment with K > 0, that
+/// by at most K per metre, and that moves by itself between steps only. Its cost is Colgate's: a
+/// motion costs K ‖Δp‖²/2 [J] a step, in free space too, which the loan or a hand that works against a force must
+/// have paid in. settle() returns the unused part. If K = 0 is stated for an environment with K > 0, that
 /// environment receives up to K ‖Δp'‖²/2 a step that no ledger counts.
 ///
-/// Drift: motion that was cut, or lost to top_speed, is missing for good, unless drift_rate > 0 adds the share
+/// Drift: motion that was reduced, by the ledger or top_speed, stays missing, unless drift_rate > 0 adds the share
 /// drift_rate·dt of it to each step. It is added to Δp, so it is paid for like any motion. (The purpose is that
-/// of Chawda and O'Malley's drift compensators, from memory; the law is derived here.)
+/// of Chawda and O'Malley's drift compensators, from memory; the law is ours.)
 ///
-/// It assumes that the tool moves as told, and that f is the force of that step.
+/// It assumes that the tool moves as commanded, and that f is the force of that step.
 template <class Space, class Ledger = typename Space::scalar>
 class admittance_side {
  public:
@@ -99,7 +99,7 @@ class admittance_side {
   }
 
   /// Takes a step of the environment of `length` [s] that begins under `force` [N] on the tool. If the force is
-  /// not finite or the length ≤ 0, it moves nothing, says event::rejected_sample and makes up in the next step.
+  /// not finite or the length ≤ 0, it returns no motion and event::rejected_sample; the next step makes up for it.
   [[nodiscard]] constexpr admittance_result<Space> step(const vector& force,
                                                         seconds<scalar> length) noexcept {
     const scalar dt = length.count();
@@ -126,7 +126,7 @@ class admittance_side {
   }
 
   /// Takes, after a step with K > 0, the work [J] that the environment did on the tool in it, ∫ f·dp',
-  /// exact or a lower bound: what the step had set aside and did not need is credit again.
+  /// exact or a lower bound: the part of the step's reserve that was not needed becomes credit again.
   constexpr void settle(scalar work) noexcept {
     if (!kernels::is_finite(work)) return;
     energy_ += work - reserved_;

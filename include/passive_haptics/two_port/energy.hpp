@@ -14,15 +14,15 @@ inline namespace v0 {
 /// Energy observer of the device port. With the flow into the channel split by its sign,
 ///     E_out += max(f_held·Δx, 0)      E_in += share · max(−f_held·Δx, 0)
 ///     E1 = ∑ Δxᵀ(b/dt)Δx + E_in_rx − E_out + (1 − share) ∑ max(−f_held·Δx, 0)
-/// E_in is promised to the other side, so it is no credit here; the damping stays here and is
-/// promised to nobody. share = 1 is the published bookkeeping (§ 2(d)).
+/// E_in [J] is promised to the other side, so it is no credit here; the damping's energy is credit here and
+/// is not promised. share = 1 is the published bookkeeping (§ 2(d)).
 ///
 /// It fits any passive_port and impedance_side. With strict_bound E1 ≥ 0 by lemma L3, because a tick changes
 /// E1 by ΔxᵀBΔx − f·Δx when f·Δx > 0 and never lowers it otherwise.
 ///
-/// The price: the energy that the hand puts in comes back over the channel or not at all. Pressed slowly from an
-/// empty ledger, strict_bound shows at most 2B (1 − share) N/m, B = b/T (lemma L4 without the promised part).
-/// With share = 1 it shows only what the damping and the other side have paid for.
+/// Its cost: the promised share of the energy that the hand puts in comes back over the channel only. Pressed slowly
+/// from an empty ledger, strict_bound gives at most 2B (1 − share) [N/m], B = b/T (L4 without the promised part).
+/// With share = 1 only the energy of the damping and of the other side can be displayed.
 template <class Damping = isotropic_damping, ledger_sum Sum = ledger_sum::plain>
 struct basic_two_port_energy {
   static constexpr guarantee passivity = guarantee::strict;
@@ -72,7 +72,7 @@ class basic_two_port_energy<Damping, Sum>::on {
             .loan = static_cast<double>(loan_),
             .cap = static_cast<double>(cap_)};
   }
-  /// Reset both sides together: a side that is reset alone spends again what it has spent already.
+  /// Reset both sides together, because a side that is reset alone could spend the same energy again.
   constexpr void reset() noexcept {
     energy_ = loan_;
     promised_ = scalar(0);

@@ -9,16 +9,16 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The device's end of the channel: a passive port that asks for the newest force that has arrived. Its
-/// `passivity` means that the energies of both ports together stay ≥ 0, but for the loans, with any other side
-/// that keeps E1 ≥ 0, under the assumptions of its bound.
+/// The device's end of the channel: a passive port whose desired force is the newest one that has arrived. Its
+/// `passivity` means that the sum of the energies of both ports is ≥ −(both loans), with any other side that keeps
+/// E1 ≥ 0, under the assumptions of its bound.
 ///     ph::impedance_side master{scene{}, ph::two_port_energy{.damping = 2.0}, ph::strict_bound{},
 ///                               ph::loop_limits{.longest_tick = 0.0011}};
 ///     master.receive(packet);                                // as many as have come, in any order
 ///     device.command(master.tick(sample).force);
 ///     channel.send(master.packet());                         // {E_in, position}
-/// If the channel falls silent, the last force is held until the ledger is spent, or until the force is older
-/// than `stale_after`, where the given_force states that.
+/// If no packets arrive, the last force is held until the ledger is used up, or until the force is older than
+/// `stale_after`, if the given_force states that.
 template <class Space, class Observer, class Bound, class Limits = loop_limits>
 class impedance_side : public passive_port<Space, given_force, Observer, Bound, Limits> {
   using side = passive_port<Space, given_force, Observer, Bound, Limits>;
@@ -34,7 +34,7 @@ class impedance_side : public passive_port<Space, given_force, Observer, Bound, 
       : side(where, rule, observer, bound, limits) {}
 
   /// Takes a packet {E_in [J], force [N]} from the other side. A force that is not finite is refused, and the
-  /// next tick says so.
+  /// next tick reports event::rejected_target.
   constexpr void receive(const packet_type& packet) noexcept {
     this->observer().receive(packet.energy);
     if (packet.number <= newest_) return;

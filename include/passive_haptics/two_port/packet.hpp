@@ -12,7 +12,7 @@ inline namespace v0 {
 /// One packet, in either direction. It is trivially copyable if the payload is.
 template <class Scalar, class Payload>
 struct port_packet {
-  Scalar energy{};         ///< E_in, all that was ever promised to the receiver [J]; never falls
+  Scalar energy{};         ///< E_in [J], the sum of all promises to the receiver; it never falls
   std::uint64_t number{};  ///< 1, 2, 3 … in the order of sending
   Payload payload{};       ///< towards the environment a position [m], towards the hand a force [N]
 };

@@ -14,11 +14,11 @@ inline namespace v0 {
 ///     E_out += max(f·v dt, 0)      E_in += max(−f·v dt, 0)
 ///     E_out > E_in_rx and ‖v‖ > v_min:   α = (E_out − E_in_rx)/(dt v²) ≤ max_gain
 ///                                        f' = f − α v,   E_out −= α v² dt
-/// (§ 2(d), from memory; thresholds as seen in public code.) A deficit that max_gain leaves stays in E_out.
+/// (§ 2(d), from memory; thresholds as in public code.) A deficit beyond max_gain stays in E_out.
 ///
-/// This would be passive if f and v were constant over one and the same sample. But f' is held during the
-/// NEXT displacement, and on a sampled stiff wall these sums see no leak at all (lemma L2). For a promise
-/// take impedance_side.
+/// It would be passive if f and v were constant over the same sample. But f' is held during the NEXT displacement,
+/// so on a sampled stiff wall these sums do not contain the leak of the hold (lemma L2). It is NOT passive; use
+/// impedance_side for a guarantee.
 struct two_port_series_parameters {
   double min_speed = 1e-3;  ///< v_min [m/s]; below it f' = f
   double max_gain =
@@ -40,7 +40,7 @@ class two_port_series_controller {
   constexpr explicit two_port_series_controller(const two_port_series_parameters& p = {}) noexcept
       : parameters_(p) {}
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return parameters_.check(); }
-  /// New parameters; the sums are kept. A fault changes nothing.
+  /// Takes new parameters and keeps the sums. If check() finds a fault, nothing changes.
   constexpr parameter_fault set(const two_port_series_parameters& p) noexcept {
     const auto fault = p.check();
     if (!fault) parameters_ = p;
