@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// From the facts of a device whose transmission gives to the best that we know of it:
+// The recommended composition for a device with a compliant transmission, from its stated numbers:
 //
-//   make_touch<Space>(device, transmission, hand)            as compositions.hpp's, which take the device for stiff
+//   make_touch<Space>(device, transmission, hand)            as in compositions.hpp, which assumes a stiff device
 //   make_contacts<Space>(device, transmission, hand, slots…)
 //   make_guard<Space>(device, transmission, hand)
 //
-// What is said of the transmission picks the bound, when it is compiled: any_transmission strict_bound,
-// observed_transmission observed_reach, chain_transmission<N> modelled_reach<N>.
+// The type of the transmission selects the force bound: any_transmission selects strict_bound,
+// observed_transmission observed_reach, and chain_transmission<N> modelled_reach<N>.
 //
 //     auto touch = ph::make_touch<scene>(
 //         device, ph::chain_transmission<2>{ph::two_masses(0.1, 0.3, 160.0, 0.03, 0.1)}, {.force = 5.0});
@@ -21,7 +21,7 @@ inline namespace v0 {
 
 namespace detail {
 
-/// What a bound may rest on, as late as the loop is.
+/// The force bound of a transmission, in a loop that is `Late` ticks late.
 template <int Late>
 [[nodiscard]] constexpr strict_bound bound_of(const auto& /*d*/, const any_transmission& /*t*/,
                                               const known_hand& /*hand*/) noexcept {
@@ -40,7 +40,7 @@ template <int Late, int N>
           t.friction,  d.longest_tick,
           t.tolerance, t.loss_tolerance};
 }
-/// The mass that the contact's law settles: what moves with the encoder within a tick.
+/// The mass [kg] for which the contact law is designed: the mass that moves with the encoder within a tick.
 [[nodiscard]] constexpr double rotor_of(const auto& d, const any_transmission& /*t*/) noexcept {
   return d.mass;
 }
@@ -53,7 +53,7 @@ template <int N>
                                         const chain_transmission<N>& t) noexcept {
   return t.device.masses[0] / (1.0 + t.tolerance);
 }
-/// The device as its port sees it; a rotor heavier than what the hand feels of everything is refused by check().
+/// The device with the rotor's mass. If that exceeds the whole mass by 5 %, it is NaN, which check() refuses.
 template <class Device, class Transmission>
 [[nodiscard]] constexpr Device seen_through(Device d, const Transmission& t) noexcept {
   const double rotor = rotor_of(d, t);
@@ -61,7 +61,7 @@ template <class Device, class Transmission>
   return d;
 }
 
-/// A transmission that has a bound for a device and a hand.
+/// Satisfied by a transmission that has a bound for a device and a hand.
 template <class T>
 concept stated_transmission = requires(const T& t, const exact_device& d, const known_hand& hand) {
   bound_of<0>(d, t, hand);
@@ -69,8 +69,8 @@ concept stated_transmission = requires(const T& t, const exact_device& d, const 
 
 }  // namespace detail
 
-/// One surface, felt through the transmission. The law settles the rotor's mass; on encoders dry friction is counted on only
-/// where it is the rotor's.
+/// One surface, felt through the transmission. The contact law is designed for the rotor's mass. On encoders, state
+/// only the dry friction of the rotor itself.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
           detail::described Device = exact_device, detail::stated_transmission Transmission>
 [[nodiscard]] constexpr auto make_touch(const Device& device, const Transmission& transmission,
@@ -88,7 +88,7 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
                      detail::eyes_of_touch(seen, most)};
 }
 
-/// Several surfaces.
+/// Several surfaces in slots, as in compositions.hpp.
 template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
           detail::stated_transmission Transmission, class... Room>
 [[nodiscard]] constexpr auto make_contacts(const Device& device, const Transmission& transmission,
@@ -107,7 +107,7 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
                       detail::eyes_of(seen)};
 }
 
-/// A force of your own.
+/// A force of your own, as in compositions.hpp.
 template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
           detail::stated_transmission Transmission>
 [[nodiscard]] constexpr auto make_guard(const Device& device, const Transmission& transmission,

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A chain of masses, and what the encoder on the first of them says of its next travel.
+// A chain of masses, and the prediction of the first one's travel from the encoder on it.
 //
-//   motor f ─▶ m₁, b ──(k₁, d₁)── m₂ ──(k₂, d₂)── … m_N ◀── hand h            along every axis the same
+//   motor f ─▶ m₁, b ──(k₁, d₁)── m₂ ──(k₂, d₂)── … m_N ◀── hand h            the same along every axis
 //              └─▶ encoder
 //
-// The chain is linear, and its 2N numbers are seen in 2N positions of the encoder, so that the travel of a coming tick is
+// The chain is linear, and 2N positions of the encoder determine its 2N state variables, so the travel [m] of a coming tick is
 //     s = Σ vᵢ Δx(n−i) + Σ uᵢ f(n−i) + ∫ K h + ∫ L r        i < 2N − 1
-// with K, L what a force h of the hand and a dry friction r do to it that those positions do not show. No hand of at most F
-// makes more of it than F ∫|K|, and one does (Theorem C, docs/design/mathematics.md § 14).
+// K and L [m/(N·s)] are the effects of the hand's force h and of a dry friction r that those positions do not determine. A
+// hand of at most F adds at most F ∫|K|, and some hand attains that (ours; Theorem C, docs/design/mathematics.md § 14).
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -25,10 +25,10 @@ template <int N>
 struct chain {
   static_assert(N >= 1 && N <= 4, "passive_haptics: a chain has one to four masses");
 
-  std::array<double, N> masses{};  ///< m₁, that the encoder is on, … m_N, that the hand holds [kg]
-  std::array<double, N - 1> springs{};  ///< k, between one and the next [N/m]
-  std::array<double, N - 1> losses{};   ///< d, of the same [N·s/m]
-  double damping{};                     ///< b, of m₁ [N·s/m]
+  std::array<double, N> masses{};       ///< m₁ with the encoder, … m_N at the hand [kg]
+  std::array<double, N - 1> springs{};  ///< k of the spring between neighbours [N/m]
+  std::array<double, N - 1> losses{};   ///< d of the damper between neighbours [N·s/m]
+  double damping{};                     ///< b of m₁ against the ground [N·s/m]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     for (const double m : masses) {
@@ -45,8 +45,8 @@ struct chain {
   }
 };
 
-/// Two masses, as they are identified: `share` of `mass` moves with the encoder, and free it rings with `mode` [Hz] and a
-/// loss of ζ:  k = μ ω²,  d = 2 ζ ω μ,  μ = share (1 − share) mass,  ω = 2π mode.
+/// Two masses from identified numbers: `share` of `mass` [kg] moves with the encoder, and the free device has a mode of
+/// `mode` [Hz] with the damping ratio ζ = `loss`:  k = μ ω²,  d = 2 ζ ω μ,  μ = share (1 − share) mass,  ω = 2π mode.
 [[nodiscard]] constexpr chain<2> two_masses(double mass, double share, double mode, double loss,
                                             double damping) noexcept {
   const double omega = 2.0 * std::numbers::pi * mode, reduced = share * (1.0 - share) * mass;
@@ -58,12 +58,12 @@ struct chain {
 
 namespace detail {
 
-/// s of one part of one coming tick, in numbers: Σ travels·Δx + Σ forces·f, newest first, the coming ones before them;
-/// `hand` and `rubbing` are ∫|K| and ∫|L| [m/N], `noise` what positions that are off by half a unit add.
+/// The coefficients of s for one part of one coming tick: s = Σ travels·Δx + Σ forces·f, newest first, after the coming
+/// ones. `hand` and `rubbing` are ∫|K| and ∫|L| [m/N], `noise` is ½ Σ|wᵢ|, the effect of positions off by ½.
 template <int N, int Ahead>
 struct travel_law {
   std::array<double, 2 * N - 1> travels{};
-  std::array<double, 2 * N - 1 + Ahead> forces{};  ///< forces[0] of the tick itself [m/N]
+  std::array<double, 2 * N - 1 + Ahead> forces{};  ///< [m/N]; forces[0] is that of the tick itself
   double hand{}, rubbing{}, noise{};
 };
 
@@ -77,7 +77,7 @@ class chain_response {
 
  public:
   chain_response(const chain<N>& c, double T) {
-    // the state: position and speed of each mass, and after them a force on the first and one on the last
+    // the state: position and velocity of each mass, then a force on the first mass and one on the last
     using wider = Eigen::Matrix<double, order + 2, order + 2>;
     wider A = wider::Zero();
     const auto m = [&c](int i) { return c.masses[static_cast<std::size_t>(i)]; };
@@ -120,7 +120,7 @@ class chain_response {
   [[nodiscard]] travel_law<N, Ahead> law(int j, int part, int parts) const {
     travel_law<N, Ahead> found;
     const int end = pieces * part / parts,
-              last = order - 2 + j;  // the tick itself, the oldest that is seen is 0
+              last = order - 2 + j;  // the tick itself; the oldest position has number 0
     const auto at = [](const auto& some, int i) -> const auto& {
       return some[static_cast<std::size_t>(i)];
     };
@@ -129,7 +129,7 @@ class chain_response {
     for (int i = 0; i < order; ++i) seen.row(i) = at(power_, i).row(0);
     const row target = rise * at(power_, last);
     const row w = seen.transpose().fullPivLu().solve(target.transpose()).transpose();
-    // what an impulse leaves of s that the positions do not show; it ends tick t in the state `g`
+    // the part of s that the positions do not show, of an impulse that ends tick t in the state `g`
     const auto left = [&](int t, const column& g) {
       double s = rise * at(power_, last - 1 - t) * g;
       for (int i = t + 1; i < order; ++i) s -= w(i) * (at(power_, i - t - 1).row(0) * g)(0);
@@ -161,10 +161,10 @@ class chain_response {
   }
 
  private:
-  std::array<matrix, pieces + 1> after_;   ///< the state so many pieces later
-  std::array<column, pieces + 1> pushed_;  ///< and what a newton on the first mass has done to it
+  std::array<matrix, pieces + 1> after_;   ///< transition of the state over so many pieces
+  std::array<column, pieces + 1> pushed_;  ///< state after 1 N on the first mass for so long
   std::array<matrix, 2 * order + 4> power_;
-  column motor_, hand_;  ///< what a newton does in one piece
+  column motor_, hand_;  ///< state after 1 N on the first and the last mass for one piece
 };
 
 }  // namespace detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What every bound here has in common: it knows how far the encoder can get along a force, and that is all it knows.
+// The common part of the bounds in this room, which differ only in their reach δ(j), the travel along a force:
 //
 //   Σ W(h(j), δ(j)) + W(f, δ(k+1)) ≤ E1,     W(f, δ) = max of f s − B s² over 0 ≤ s ≤ δ            (§ 2(a′))
 
@@ -10,8 +10,8 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// The share of `desired` that the ledger covers, what is on its way to the motors first. `reach(j, f, |f|)` is δ(j) [m],
-/// the most that the encoder can travel along f in the j-th coming tick.
+/// The share of `desired` that the ledger covers after the forces commanded before it. `reach(j, f, |f|)` is δ(j) [m], the
+/// farthest that the encoder can travel along f in the j-th coming tick.
 template <class P, class State>
 [[nodiscard]] constexpr share<typename P::scalar> covered(const typename P::effort& desired,
                                                           const State& state,
@@ -20,7 +20,7 @@ template <class P, class State>
   using effort = typename P::effort;
   const scalar T = state.longest_tick;
   if (state.damping.worst_outflow(desired, T) <= kernels::spendable(state.credit())) {
-    return {scalar(1)};  // by the worst motion of all
+    return {scalar(1)};  // even the worst motion is covered
   }
   const scalar force = P::norm(desired);
   if (!(force > scalar(0))) return {scalar(1)};
@@ -37,7 +37,7 @@ template <class P, class State>
   scalar most = kernels::reachable_force_bound(credit, state.damping.per_tick(desired, T),
                                                reach(State::latency + 1, desired, force));
   if constexpr (State::damping_type::rubs) {
-    if (credit < scalar(0)) return {scalar(0)};  // friction is no licence to go on spending
+    if (credit < scalar(0)) return {scalar(0)};  // a ledger in debt allows no force, not even c
     most = (state.damping.friction(desired) + most) *
            (scalar(1) - scalar(4) * kernels::rounding<scalar>());
   }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Ledgers for a force that is not the same from sample to sample: it comes a fraction of a tick late, or creeps.
+// Ledgers for a force that is not constant between samples: it comes a fraction of a tick late, or lags behind.
 //
-//   split_tick{ledger}       the command takes over τ of a tick after the sample        exact positions, strict
-//   lagging_force{ledger}    it is approached with a time constant, as behind a low-pass the same
-//   between_samples{dual}    as split_tick, for encoders and for bounds that know a reach conditional
+//   split_tick{ledger}       the force changes τ of a tick after the sample             exact positions, strict
+//   lagging_force{ledger}    the force follows with a time constant, as in a low-pass   exact positions, strict
+//   between_samples{dual}    as split_tick, for encoders and for bounds with a reach    conditional
 //
 //     ph::passive_port{scene{}, ph::given_force{}, ph::split_tick{ph::reduced_energy{.damping = 0.1}, 0.3, 0.4, 1e-3},
 //                      ph::strict_bound{}, ph::loop_limits{.longest_tick = 1e-3}}
 //
-// A force that is φ(t) within a tick hands out, beside b Δ²/T − φ̄·Δ, no more than T/(4b) times its variance there, and some
-// motion of the same Δ takes just that (Theorem D, docs/design/mathematics.md § 14): so what these ledgers book is exact.
+// With a force φ(t) of mean φ̄ within a tick, the energy gained is at least b Δ²/T − φ̄·Δ less T/(4b) times the variance of φ, and
+// some motion with the same Δ attains that (ours; Theorem D, docs/design/mathematics.md § 14). These ledgers book just that.
 
 #include <passive_haptics/energy_observer/dual_ledger.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>
@@ -22,9 +22,9 @@ namespace passive_haptics {
 inline namespace v0 {
 
 namespace detail {
-/// What the two strict ones have in common. They keep E1 less a reserve for what the motors will go on holding at the next
-/// sample, so that strict_bound, ¼fᵀB⁻¹f ≤ value(), is right as it stands. Of the travel in a part of a tick they know
-/// nothing: to a bound that reckons with a reach, it is any.
+/// The common part of the two strict ledgers. Their value is E1 less a reserve for the force that the motors still hold after
+/// the next sample, so that strict_bound, ¼fᵀB⁻¹f ≤ value(), applies unchanged. The travel within a part of a tick is not
+/// known, so travel_error() is unbounded for a bound that uses a reach.
 template <class Ledger>
 struct uneven_force {
   static_assert(Ledger::exact,
@@ -39,9 +39,9 @@ struct uneven_force {
 
 /// In each tick the force f₋ of the last one is held for the first part τ, and f after it:
 ///     E1 += b Δ²/T − (τ f₋ + (1 − τ) f)·Δ − τ (1 − τ) W(f − f₋),     W(f) = ¼ fᵀB⁻¹f
-/// for the τ in [fraction, fraction_above] that makes the least of it, found anew in each tick; reserved is
-/// fraction_above · W(f). With late_loop_limits<k> it comes k + τ ticks late. A fraction between is covered, and one that
-/// changes from tick to tick. `held` of a device_sample is the force that begins in the tick.
+/// for that τ in [fraction, fraction_above] which makes it least, in each tick; fraction_above · W(f) [J] is reserved. With
+/// late_loop_limits<k> the force comes k + τ ticks late. Any τ between is covered, also one that changes from tick to tick.
+/// `held` of a device_sample is the force that begins in the tick.
 template <class Ledger = reduced_energy>
 struct split_tick : detail::uneven_force<Ledger> {
   constexpr split_tick(const Ledger& l = {}, double at_least = 0.0, double at_most = 1.0,
@@ -99,14 +99,14 @@ class split_tick<Ledger>::on : public part_at<Ledger, P> {
     const scalar up = scalar(1) + scalar(4) * kernels::rounding<scalar>();
     const scalar more =
         this->damping().worst_outflow(held, T_) * up - this->damping().worst_outflow(before, T_);
-    // rounding of the mean, and of τ, which is at the bottom of a parabola
+    // rounding of the mean, and of τ, which is at the minimum of a parabola
     const scalar passed =
         scalar(4) * kernels::rounding<scalar>() * (work.passed + P::work(held, dx).passed);
     this->lend(-(t * (scalar(1) - t) * W * up + most_ * more + passed));
     last_ = held;
     return true;
   }
-  /// A tick that nobody saw: what the force before had left to do is reserved already.
+  /// Books a tick of unknown motion; the outflow of the force before is reserved already.
   constexpr void forfeit(const effort& held, scalar T) noexcept {
     kept::forfeit(held, T);
     last_ = held;
@@ -124,17 +124,17 @@ class split_tick<Ledger>::on : public part_at<Ledger, P> {
   typename P::stored_effort last_{};
 };
 
-/// The force y behind a first-order lag of time constant θ, of an actuator or a filter: θ ẏ = f − y. Booked is its mean and
-/// its variance in the tick, in closed form; reserved is θ yᵀb⁻¹y/4, and with it strict_bound needs no other formula: what y
-/// hands out in a tick of any length up to T, and what is reserved at its end, is at most ¼fᵀB⁻¹f + θ yᵀb⁻¹y/4.
-/// θ is to be known; told less or more than it is, joules are drawn.
+/// The force y after a first-order lag of time constant θ, of an actuator or a filter: θ ẏ = f − y. The ledger books the mean
+/// and the variance of y in the tick, in closed form, and reserves θ yᵀb⁻¹y/4 [J]. With that strict_bound applies unchanged:
+/// the outflow of y in a tick of any length up to T plus the reserve at its end is at most ¼fᵀB⁻¹f + θ yᵀb⁻¹y/4. θ has to be
+/// known: with a smaller or a larger θ stated, a hand can draw energy.
 template <class Ledger = reduced_energy>
 struct lagging_force : detail::uneven_force<Ledger> {
   constexpr lagging_force(const Ledger& l = {}, double theta = 0.0) noexcept
       : ledger(l), time_constant(theta) {}
 
   Ledger ledger;
-  double time_constant;  ///< θ [s], 1/(2π f) of a low-pass of f
+  double time_constant;  ///< θ [s]; 1/(2π f_c) of a low-pass of f_c [Hz]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::not_negative(time_constant) || time_constant > 0.1) {
@@ -168,7 +168,7 @@ class lagging_force<Ledger>::on : public part_at<Ledger, P> {
     const scalar gone = -std::expm1(-z);  // 1 − e⁻ᶻ of the way
     const effort off = P::difference(effort(force_), held);
     const effort next = effort(held + P::scaled(off, scalar(1) - gone));
-    if (blind_ > scalar(0)) {  // y is not known yet: nothing is sure but what is reserved
+    if (blind_ > scalar(0)) {  // y is not known again yet: the tick is written off
       kept::forfeit(held, dt);
       blind_ -= dt;
     } else {
@@ -183,7 +183,7 @@ class lagging_force<Ledger>::on : public part_at<Ledger, P> {
     force_ = next;
     return true;
   }
-  /// A tick that nobody saw: what y had left to do is reserved already.
+  /// Books a tick of unknown motion; the outflow of y is reserved already.
   constexpr void forfeit(const effort& held, scalar T) noexcept {
     kept::forfeit(held, T);
     blind_ = scalar(40) * theta_;
@@ -198,7 +198,7 @@ class lagging_force<Ledger>::on : public part_at<Ledger, P> {
   }
 
  private:
-  /// Of e^{−t/θ} over a tick of `z` = dt/θ, with g = 1 − e⁻ᶻ: g (2 − g)/(2z) − g²/z².
+  /// The variance of e^{−t/θ} over a tick of `z` = dt/θ, with g = 1 − e⁻ᶻ: g (2 − g)/(2z) − g²/z².
   [[nodiscard]] static scalar variance(scalar z, scalar g) noexcept {
     const scalar exact = g * (scalar(2) - g) / (scalar(2) * z) - g * g / (z * z);
     return kernels::smaller(z * z / scalar(12), kernels::larger(exact, scalar(0)) +
@@ -208,14 +208,14 @@ class lagging_force<Ledger>::on : public part_at<Ledger, P> {
   scalar theta_{}, blind_{};
   typename P::stored_effort force_{};  ///< y at the sample
 };
-/// The ledger of the places where the force changes, ξ_n = x(t_n + τT), of which the samples on both sides show
+/// A ledger over the positions at which the force changes, ξ_n = x(t_n + τT) [m]. The samples on both sides give
 ///     ξ̂_n = (1 − τ) x̂_n + τ x̂_n+1,     |ξ_n − ξ̂_n| ≤ ½ q',     q' = q + α τ (1 − τ) T² + w v T
-/// while the device accelerates by α at most: between ξ_n and ξ_n+1 one force is held, and a dual_ledger that is told q' is
-/// right as it stands (Theorem E, § 14). ξ_n is known a sample later: a loop that is k + τ ticks late needs
-/// late_loop_limits<k + 1>. Every bound for encoders is proved with it. w = fraction_above − fraction, and v the top speed
-/// of the loop's limits, for a fraction that is not known better.
+/// if the device's acceleration is at most α. Between ξ_n and ξ_n+1 one force is held, so a dual_ledger with the step q'
+/// applies unchanged (ours; Theorem E, § 14). ξ_n is known one sample later, so a loop that is k + τ ticks late needs
+/// late_loop_limits<k + 1>. Every bound for encoders is proved with it. w = fraction_above − fraction is the width of the
+/// interval of τ, and v the top speed of the loop's limits.
 ///
-/// α is a promise: (force_limit + hand and friction)/mass, and b v/m for the damper.
+/// α is assumed, at least (force_limit + hand and friction)/mass, plus b v/m for the damper.
 template <class Ledger = dual_ledger>
 struct between_samples {
   static_assert(
@@ -226,12 +226,12 @@ struct between_samples {
   static constexpr bool counts = Ledger::counts;
   static constexpr bool exact = false;
 
-  Ledger ledger{};             ///< with the sensor's own q
+  Ledger ledger{};             ///< with q of the sensor itself
   double fraction{};           ///< τ, at least
   double fraction_above{};     ///< τ, at most
   double acceleration{};       ///< α [m/s²]
   double longest_tick = 1e-3;  ///< T of the loop [s]
-  double top_speed = 5.0;      ///< v of the loop [m/s]; it counts where τ is not known exactly
+  double top_speed = 5.0;      ///< v of the loop [m/s]; used if w > 0
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(fraction >= 0.0 && fraction <= 1.0)) {
@@ -273,7 +273,7 @@ class between_samples<Ledger>::on : public part_at<Ledger, P> {
   [[nodiscard]] constexpr between_samples parameters() const noexcept { return stated_; }
 
   constexpr bool update(const motion& dx, const effort& held, scalar dt) noexcept {
-    if (!known_) {  // where the force began to be held was not seen
+    if (!known_) {  // the position at which the force began is unknown
       kept::forfeit(held, kernels::larger(T_, dt));
     } else {
       const motion went = motion(motion(travel_) * (scalar(1) - middle_) + dx * middle_);
@@ -294,7 +294,7 @@ class between_samples<Ledger>::on : public part_at<Ledger, P> {
     travel_ = P::zero();
     known_ = false;
   }
-  /// Of the next travels along the force, as a bound reckons them from the last one.
+  /// The error [m] of the next travels along the force, as a bound predicts them from the last one.
   [[nodiscard]] constexpr scalar travel_error() const noexcept {
     const scalar T = kernels::larger(T_, dt_);
     return kept::travel_error() + a_ * T * T / scalar(2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The reachable bound of a device whose transmission is known: a chain of masses, with an unknown hand on the last one.
+// The reachable bound of a device with a known transmission: a chain of masses, with an unknown hand on the last one.
 //
 //   modelled_reach<N>      N masses, a loop on time        the stiffest where the mode is above 100 Hz
 //   modelled_reach<N, k>   and up to k ticks late
@@ -13,22 +13,22 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The last 2N positions of the encoder, and what the motors held, leave nothing open of the chain but what the hand and dry
-/// friction have done meanwhile. So the next travel is, but for Σ vᵢ Δx + Σ uᵢ f, at most
-///     F ∫|K| + c ∫|L|                                                             (chain.hpp; Theorem C, § 14)
-/// and N = 1 without a damper is reachable_bound. It is looked at after each quarter of a tick, since within a tick the
+/// The last 2N positions of the encoder and the held forces determine the chain's state, apart from the effect of the hand F
+/// [N] and of dry friction c [N] meanwhile. So the next travel [m] is at most
+///     δ = Σ vᵢ Δx + Σ uᵢ f + F ∫|K| + c ∫|L|                                      (chain.hpp; Theorem C, § 14)
+/// and N = 1 without a damper is reachable_bound. It is evaluated after each quarter of a tick, because within a tick the
 /// rotor may be farther out than at its end.
 ///
-/// Each number of the chain may be off by its tolerance. The reach is taken of the numbers as stated, and 5/4 of what each
-/// of them can add to it by itself: not proved; devices at the corners of the box are attacked in tests and bench/devices.
+/// Each number of the chain may be off by its tolerance. The reach is that of the stated numbers plus 5/4 of the sum of what
+/// each number adds by itself. This is not proved; tests and bench/devices attack devices at the corners of the box.
 ///
 /// Passive (E1 ≥ 0) under ALL of these:
-///   - the device is a chain like that, the same along every axis, within the tolerances: a mode that is not stated is not
+///   - the device is such a chain, the same along every axis, within the tolerances; a mode that is not stated is not
 ///     covered;
-///   - the hand pushes on the last mass, with at most `hand_force`, and on nothing else; dry friction, at most `friction`,
-///     is the first mass's;
-///   - every tick takes `tick`. One of another length is bounded strictly, and so are the 2N − 1 after it;
-///   - strict_bound's own, as reachable_bound has them.
+///   - the hand pushes on the last mass only, with at most `hand_force`; dry friction, at most `friction`, acts on the first
+///     mass only;
+///   - every tick has the length `tick`. In one of another length, and in the 2N − 2 after it, the bound is the strict one;
+///   - the assumptions of strict_bound, as in reachable_bound.
 template <int N, int Late = 0>
 struct modelled_reach {
   static constexpr guarantee passivity = guarantee::conditional;
@@ -36,12 +36,12 @@ struct modelled_reach {
       .needs_ledger = true, .exact_travel = false, .latency = Late};
 
   chain<N> device{};
-  double hand_force{};  ///< F, on the last mass [N]
-  double friction{};    ///< c, dry, on the first [N]
-  double tick = 1e-3;   ///< T, of every tick [s]
-  double tolerance =
-      0.03;  ///< of masses and springs: at most, and at least, (1 + tolerance) times as much
-  double loss_tolerance = 0.30;  ///< of losses and damping
+  double hand_force{};      ///< F, largest force on the last mass [N]
+  double friction{};        ///< c, largest dry friction of the first mass [N]
+  double tick = 1e-3;       ///< T, the length of every tick [s]
+  double tolerance = 0.03;  ///< of masses and springs: each within a factor of (1 + tolerance)
+  double loss_tolerance =
+      0.30;  ///< of losses and damping: each within a factor of (1 + loss_tolerance)
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = device.check()) return fault;
@@ -95,10 +95,11 @@ class modelled_reach<N, Late>::on {
   }
 
  private:
-  static constexpr int seen = 2 * N - 1;  ///< ticks whose travels and forces are used
+  static constexpr int seen = 2 * N - 1;  ///< past ticks whose travels and forces are used
   static constexpr int ahead = Late + 1,
-                       parts = 4;            ///< ticks, and places in a tick, that are looked at
-  static constexpr int numbers = 3 * N - 1;  ///< of a chain
+                       parts =
+                           4;  ///< coming ticks, and parts of each, for which a reach is computed
+  static constexpr int numbers = 3 * N - 1;  ///< how many numbers a chain has
   static constexpr int models =
       1 + 2 * numbers;  ///< as stated, and each number larger, and smaller
 
@@ -109,7 +110,7 @@ class modelled_reach<N, Late>::on {
   };
   using laws_of_a_tick = std::array<std::array<law, models>, parts>;
 
-  /// The chain as stated, but for one number.
+  /// The stated chain with one number multiplied by its factor.
   [[nodiscard]] static chain<N> but_for(chain<N> c, int number, double larger,
                                         double more_lossy) noexcept {
     auto i = static_cast<std::size_t>(number);
@@ -169,7 +170,7 @@ class modelled_reach<N, Late>::on {
     held_[0] = state.held;
   }
 
-  /// δ(j) along `direction`, of length `length` [m].
+  /// δ(j) [m] along `direction`, a vector of length `length`.
   template <class State>
   [[nodiscard]] constexpr scalar reach(int j, const effort& direction, scalar length,
                                        const State& state) const noexcept {
@@ -216,7 +217,7 @@ class modelled_reach<N, Late>::on {
   modelled_reach stated_;
   std::array<laws_of_a_tick, ahead> laws_{};
   std::array<typename Space::stored_effort, seen> travels_{}, held_{};  ///< newest first
-  int ticks_ = 0;  ///< seen in a row, up to `seen`
+  int ticks_ = 0;  ///< known ticks in a row, up to `seen`
 };
 
 static_assert(force_bound_for<modelled_reach<2>, space<float, 1>>);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The reachable bound of a motor that pulls on its handle through a cable, a belt or a coupler. What pulls at the other
-// end is not known, and larger than a hand; but the last three positions show it, and it cannot change at once.
+// The reachable bound of a motor that moves its handle through a cable, a belt or a coupler. The force of the transmission
+// on the rotor is unknown, and may exceed the hand's; but the last three positions show it, and its rate is limited.
 //
-//   observed_reach   the rotor's mass, and how fast what pushes on it can change        any number of modes behind it
+//   observed_reach   needs the rotor's mass and the rate limit of the force on it       any number of modes behind it
 
 #include <passive_haptics/compliant/covered.hpp>
 
@@ -12,33 +12,34 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// m ẍ = f + g: f is what the motors hold, g all else. With V₀, V₁ the mean velocities of the last two ticks, of lengths
-/// T₀, T₁, and f̂ the mean of what was held in them,
+/// m ẍ = f + g, with f the motors' force and g all others [N]. With V₀, V₁ the mean velocities [m/s] of the last two ticks, of
+/// lengths T₀, T₁ [s], and f̂ the mean of the force held in them, the mean of g over them is
 ///     ĝ = m a − f̂,     a = 2 (V₀ − V₁)/(T₀ + T₁)
-/// is the mean of g over them, and while |dg/dt| ≤ R the next tick of length T goes no farther along f than
-///     δ(1) = V₀T + T²/m ((f + h)/2 − f̂ + m a + R T + 3/2 c)          of equal ticks; any: docs/design/mathematics.md § 14
-/// h held in the last tick: reachable_bound's formula with the force measured in place of the largest one. Where |g| ≤ G is
-/// stated as well, the nearer of both reaches counts.
+/// and while |dg/dt| ≤ R [N/s], the travel along f in the next tick is for equal ticks at most
+///     δ(1) = V₀T + T²/m ((f + h)/2 − f̂ + m a + R T + 2 c)       (ours; any ticks: docs/design/mathematics.md § 14)
+/// with h the force held in the last tick and c the dry friction. This is the formula of reachable_bound with the measured
+/// force instead of the largest one. If |g| ≤ G is stated as well, the smaller of both reaches counts.
 ///
 /// Passive (E1 ≥ 0) under ALL of these:
 ///   - the mass that moves rigidly with the encoder, m, is the same in every direction and between `mass` and `mass_above`;
-///   - what pushes on it besides motor and dry friction changes by at most `slew` a second: k_c v + d_c a of a spring k_c
-///     and its damper d_c whose ends part with v (§ 14 has the formula), whatever is behind it;
-///   - dry friction is at most `friction`, and may flip at any time; the damper at most `damping_above`;
-///   - strict_bound's own, as reachable_bound has them.
-/// Necessary for it is |ĝ − ĝ_last| ≤ R (T₀ + T₁ + T₂)/3 + 2c, and |ĝ| ≤ G + c. A motion that is not so refutes what was
-/// stated: then it is strict for 0.1 s, twice as long each time, and says event::outside_force. That promises nothing.
+///   - all forces on it but the motor's and dry friction change by at most `slew` per second: slew_of() has it for a spring
+///     k_c and its damper d_c whose ends part with v, whatever is behind them (Lemma A, § 14);
+///   - dry friction is at most `friction`, and may change its sign at any time; the damper is at most `damping_above`;
+///   - the assumptions of strict_bound, as in reachable_bound.
+/// They imply |ĝ − ĝ_last| ≤ R (T₀ + T₁ + T₂)/3 + 2c and |ĝ| ≤ G + c. A motion that violates one of these refutes a stated
+/// number: then the bound is the strict one for 0.1 s, twice as long each time, with event::outside_force. The guarantee
+/// does not rest on this test.
 struct observed_reach {
   static constexpr guarantee passivity = guarantee::conditional;
   static constexpr bound_traits traits{
       .needs_ledger = true, .exact_travel = false, .latency = any_latency};
 
-  double mass{};                   ///< m, at least: what moves rigidly with the encoder [kg]
-  double mass_above{};             ///< m, at most [kg]; 0: not known
-  double slew{};                   ///< R [N/s]
-  double friction{};               ///< c, dry, at most [N]
-  double damping_above{};          ///< b of that mass, at most [N·s/m]
-  double pull = detail::no_limit;  ///< G, the most that g is but for dry friction [N]
+  double mass{};                   ///< lower bound of m, which moves rigidly with the encoder [kg]
+  double mass_above{};             ///< upper bound of m [kg]; 0: unknown
+  double slew{};                   ///< R, largest rate of g without dry friction [N/s]
+  double friction{};               ///< c, largest dry friction [N]
+  double damping_above{};          ///< upper bound of the damping b of m [N·s/m]
+  double pull = detail::no_limit;  ///< G, largest g without dry friction [N]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
@@ -91,7 +92,7 @@ class observed_reach::on {
     return allowed;
   }
 
-  // What a port asks of a bound that looks at the motion; it looks in every tick, by itself.
+  // The interface of a bound that tests the motion, which port/concepts.hpp lists; limit() tests every tick.
   [[nodiscard]] constexpr on& watching() noexcept { return *this; }
   [[nodiscard]] static constexpr bool looks() noexcept { return false; }
   template <bool Exact>
@@ -106,7 +107,7 @@ class observed_reach::on {
  private:
   static constexpr scalar first_pause = scalar(0.1);  // [s]
 
-  /// Counts the ticks that were seen in a row, and holds their motion against what was stated.
+  /// Counts the known ticks in a row, and tests their motion against the stated numbers.
   template <class State>
   constexpr void look(const State& state) noexcept {
     if (strict_for_ > scalar(0)) strict_for_ -= state.dt;
@@ -150,13 +151,13 @@ class observed_reach::on {
       return state.travel_error;
     }
   }
-  /// f/m, the larger of what m may be.
+  /// The largest f/m over the interval of m, so f/mass for f > 0, and f/mass_above (0 if unknown) for f < 0.
   [[nodiscard]] constexpr scalar by_mass(scalar force) const noexcept {
     if (force > scalar(0)) return force / m_;
     return above_ > scalar(0) ? force / above_ : scalar(0);
   }
 
-  /// δ(j) along `direction`, of length `length` [m].
+  /// δ(j) [m] along `direction`, a vector of length `length`.
   template <class State>
   [[nodiscard]] constexpr scalar reach(int j, const effort& direction, scalar length,
                                        const State& state) const noexcept {
@@ -176,7 +177,7 @@ class observed_reach::on {
     return nearest;
   }
 
-  /// |g| ≤ G: speeds up by no more than (h + G + c + 2B|Δx|)/m.
+  /// δ(j) [m] from |g| ≤ G: the acceleration is at most (h + G + c + 2B|Δx|)/m.
   template <class State>
   [[nodiscard]] constexpr scalar by_size(int j, const auto& h, scalar moved,
                                          const State& state) const noexcept {
@@ -192,7 +193,7 @@ class observed_reach::on {
                (kernels::magnitude(moved) + speeds_up(j) * T * T);
   }
 
-  /// |dg/dt| ≤ R: g stays what it was but for R times how much later it acts (Theorem B, § 14).
+  /// δ(j) [m] from |dg/dt| ≤ R: g differs from ĝ by at most R times the delay between them, and 2c (Theorem B, § 14).
   template <class State>
   [[nodiscard]] constexpr scalar by_slew(int j, const auto& h, scalar moved, scalar before,
                                          scalar held_before, const State& state) const noexcept {
@@ -203,7 +204,7 @@ class observed_reach::on {
     const auto speeds_up = [&](int i) {
       return a + by_mass(h[static_cast<std::size_t>(i)] - held);
     };
-    // w_j rises in the last tick, is 1 in those between and falls in tick j: its area, and by how much later it lies
+    // w_j rises in the last tick, is 1 in those between and falls in tick j: its area, and its delay after w_0
     const scalar S = scalar(j - 1) * T;
     const scalar area = (T0 + T) * half + S;
     const scalar moment = -T0 * T0 / scalar(6) + S * S * half + S * T * half + T * T / scalar(6);
@@ -235,10 +236,11 @@ class observed_reach::on {
 
   observed_reach stated_;
   scalar m_{}, above_{}, R_{}, c_{}, b_{}, G_{};
-  typename Space::stored_effort travel_{}, held_{}, g_{};  ///< of the tick before the last one
+  typename Space::stored_effort travel_{}, held_{},
+      g_{};  ///< those of the tick before the last one
   scalar dt_{}, before_{}, unsure_{};
   scalar strict_for_{}, pause_ = first_pause / scalar(2);
-  int ticks_ = 0;  ///< seen in a row, up to 3
+  int ticks_ = 0;  ///< known ticks in a row, up to 3
 };
 
 static_assert(force_bound_for<observed_reach, space<float, 1>>);
