@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a device is, measured on it: before a promise rests on numbers, let it say them itself.
+// Identification of a device: measures the numbers on which a guarantee rests.
 //
 //   identify.hpp               identify<P>(device): every axis, in a loop of its own
 //   axis_identification.hpp    tick(position, dt) → force, then result(): one axis, in yours
-//   axis_found.hpp             the bounds, and stated(), what a promise may rest on
+//   axis_found.hpp             the bounds found, and stated(), the numbers for a composition
 //   describe.hpp               a table, the composition to paste, its stiffness budget
-//   recording_file.hpp         load_recording(): what somebody has logged; CSV, MAT 5, NumPy
-//   recorded_device.hpp        the numbers that a recording bears
-//   replay.hpp                 the falsifier: is a ledger told too much?
-//   identification_file.hpp    save(), load(): what was found
-//   device_file.hpp            save_device(), load_device(): what a composition is told, in JSON
+//   recording_file.hpp         load_recording(): a log of a device; CSV, MAT 5, NumPy
+//   recorded_device.hpp        the numbers that follow from a recording
+//   replay.hpp                 a falsifier: tests whether a ledger claims more energy than a recording has
+//   identification_file.hpp    save(), load(): the result of an identification
+//   device_file.hpp            save_device(), load_device(): the device of a composition, in JSON
 //
-// The method, what it has been tried on and what it cannot find: docs/design/identification.md.
+// docs/design/identification.md has the method, the devices it was tried on, and its limits.
 
 #include <passive_haptics/identification/describe.hpp>
 #include <passive_haptics/identification/device_file.hpp>

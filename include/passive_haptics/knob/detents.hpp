@@ -7,8 +7,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Between the stops, with u [m] the distance of x from the nearest multiple of the pitch p and K [N/m] the stiffness
-/// displayed (joints: rad, N·m/rad),
+/// Between the stops, with u [m] = x less the nearest multiple of the pitch p and K [N/m] the displayed stiffness
+/// (joints: rad, N·m/rad),
 ///     f = −K u (1 − 2|u|/p)
 /// which is a sine to within 6 % of its maximum K p/8, without a call of sin. Beyond a stop a spring is added. The
 /// force is the gradient of a potential, so a closed path takes and gives no energy (ours).
