@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a stylus touches with its tip, while its motors push at the gimbal.
+// Contacts of the tip of a stylus whose motors push at the gimbal.
 //
 //     ph::passive_port touch{ph::stylus<double>{}, ph::at_tip{ph::contact_set{…}, tip}, …};
 
@@ -10,14 +10,14 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A source for the tip: it is asked where the tip is and how fast that moves, and its force goes to the
-/// gimbal. The torque r × f is lost where no motor gives it, so the tip turns round its contact freely; the
-/// energy is counted where the motors push, so a tip that is turned into a wall has paid for nothing: start
-/// with a loan, or keep r short (docs/design/six_dof.md).
+/// A source for the tip: it is given the position and velocity of the tip, and its force f acts at the gimbal. The
+/// torque r × f is missing, because no motor gives it, so the tip turns freely about its contact. Energy is f·Δp of
+/// the gimbal, so turning the tip into a wall adds none to the ledger: start with a loan, or keep r short
+/// (docs/design/six_dof.md).
 template <class Source>
 struct at_tip {
   Source source{};
-  std::array<double, 3> tip{};  ///< r, from the gimbal, in the frame of the stylus [m]
+  std::array<double, 3> tip{};  ///< r from gimbal to tip, in the frame of the stylus [m]
 
   constexpr at_tip() noexcept = default;
   constexpr at_tip(const Source& s, const std::array<double, 3>& r) noexcept : source(s), tip(r) {}
@@ -72,11 +72,11 @@ class at_tip<Source>::on {
     detail::take<Source, space>(source_, p);
   }
 
-  /// What feels at the tip, to update or to release.
+  /// The source at the tip, to update or to release.
   [[nodiscard]] constexpr source_type& contact() noexcept { return source_; }
   [[nodiscard]] constexpr const source_type& contact() const noexcept { return source_; }
 
-  /// The tip, as its source sees it.
+  /// The motion of the tip, which its source is given.
   struct tip_motion {
     vector position, travel;  ///< [m]
     scalar dt;                ///< [s]

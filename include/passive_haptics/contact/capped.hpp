@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A contact law that is never stiffer than what the device can pay for (the menu is in spring.hpp).
+// A contact law with a stiffness of at most the device's budget (the menu is in spring.hpp).
 //
 //     constexpr auto budget = design::stiffness_budget(grip);
 //     ph::capped law{ph::damped_spring{.mass = grip.mass, .force_limit = 9.0}, budget.stiffness};
@@ -11,21 +11,20 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The law, told K = min(K of the constraint, most). A soft wall that stays is better than a stiff one
-/// whose ledger runs dry and that lets the hand fall through; how much is too much is what
-/// design::stiffness_budget says. Softer than asked for is a fact about the device, so the law tells:
-/// model.law().is_capped().
+/// The law with K = min(K of the constraint, most) [N/m]. A soft wall that lasts is better than a stiff one whose
+/// ledger is used up, so that the hand falls through; design::stiffness_budget computes `most`.
+/// model.law().is_capped() says whether K was lowered.
 ///
-/// With a working capital C [J] the law follows the ledger: it is told s K. What the wall's own spring will not give
-/// back, E1 − f²/(2 s K), is free, and s goes to s* = free/(C/5) between 0.15 and 1: down by 0.3 a second, up by 0.02 a
-/// second and only while free > C/5; where nothing is pressed it is 1. So a force of 1 N changes by 0.3 mN in a tick of
-/// 1 ms, and the wall is soft before it is lost. It follows the free energy because E1 itself swings with f²/(2K) in
-/// every kneading: then K would rise where that is dear and fall where it brings nothing (docs/design/encoders.md).
+/// With a working capital C [J] the stiffness is s K, and s follows the free energy E1 − f²/(2 s K), which is the
+/// ledger less the energy that the wall's own spring will give back (ours). s moves towards free/(C/5), between 0.15
+/// and 1: down by 0.3 per second, up by 0.02 per second and only while free > C/5. Without contact it is 1. So a force
+/// of 1 N changes by at most 0.3 mN in a tick of 1 ms, and the wall softens before it is lost. s does not follow E1
+/// itself, which swings with f²/(2K) in every kneading, so that K would rise when that costs most (encoders.md).
 template <class Law>
 struct capped {
   Law law{};
-  double most{};             ///< [N/m]
-  double working_capital{};  ///< C [J]; 0: the cap stays where it is
+  double most{};             ///< largest stiffness [N/m]
+  double working_capital{};  ///< C [J]; 0: the cap is constant
 
   constexpr capped() noexcept = default;
   constexpr capped(const Law& l, double stiffness, double capital = 0.0) noexcept
@@ -57,7 +56,7 @@ class capped<Law>::on : public part_at<Law, Space> {
       : law_part(p.law),
         most_(detail::number<scalar>(p.most)),
         enough_(fifth_of(p.working_capital)) {}
-  /// The new ones count from the next adopt() on.
+  /// New parameters take effect at the next adopt().
   constexpr void set(const capped& p) noexcept {
     detail::take<Law, Space>(*this, p.law);
     most_ = detail::number<scalar>(p.most);
@@ -80,7 +79,7 @@ class capped<Law>::on : public part_at<Law, Space> {
     stiffness_ = is_capped_ ? most_ : K;
     detail::tell(static_cast<law_part&>(*this), share_ * stiffness_, T, late);
   }
-  /// A tick in which the surface is pressed, or not: the port's state says what is left in its ledger.
+  /// Updates s after a tick with or without contact, from the ledger in the port's state.
   constexpr void follow(bool pressed, const auto& port) noexcept {
     bool moves = share_ < scalar(1);
     if (pressed && !moves) {
@@ -89,11 +88,11 @@ class capped<Law>::on : public part_at<Law, Space> {
     if (moves) [[unlikely]]
       near_to(pressed, port);
   }
-  /// Does the constraint ask for more than `most`?
+  /// True if the constraint's K is above `most`.
   [[nodiscard]] constexpr bool is_capped() const noexcept { return is_capped_; }
 
  private:
-  /// Where the cap stays no ledger is low.
+  /// C/5 [J]; without a working capital a number below every ledger.
   [[nodiscard]] static constexpr scalar fifth_of(double capital) noexcept {
     return capital > 0.0 ? detail::number<scalar>(capital / 5.0) : -kernels::largest<scalar>();
   }

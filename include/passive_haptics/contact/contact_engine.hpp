@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What contact_set and rigid_tool do in a tick. They differ in the frame: what a contact's force does to the
-// device, and where on the device the contact is.
+// The tick of contact_set and rigid_tool. They differ in their frame, which has the place of a contact on the device
+// and the effort of its force on the device.
 //
 //   surfaces ─▶ PURSUIT ─▶ own depths, ─▶ PROXY ─▶ Σ λ n ─▶ STICK_SLIP ─▶ wanted effort ─▶ (the port's bound)
 //   (slots)     per slot   own normals    (S1, S2)          per slot
@@ -19,7 +19,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// How the contacts of a device press, how fast they follow, and whether they rub.
+/// The spring of the contacts of a device, the rates at which they follow updates, and their friction.
 template <class Spring, class Friction, class... Slots>
 struct contact_parameters {
   static constexpr int capacity = (Slots::count + ... + 0);
@@ -46,7 +46,7 @@ struct contact_parameters {
 
 namespace detail {
 
-/// Surfaces in slots and the proxy that they leave, on a device of that frame (frame_for in port/concepts.hpp).
+/// Surfaces in slots and their proxy, for a device with that frame (frame_for in port/concepts.hpp).
 template <class Port, template <class> class Frame, class Spring, class Friction, class... Slots>
 class contact_engine {
  protected:
@@ -63,10 +63,10 @@ class contact_engine {
   template <class Surface>
   struct slot_of : pursued<Surface, space_type> {
     PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS point_type point{};
-    bool asleep = false;  ///< too far to be felt before all are looked at again
+    bool asleep = false;  ///< out of reach until all slots are evaluated again
   };
   using all_slots = slot_room<slot_of, Slots...>;
-  /// Where there are many, those out of reach are left out of the ticks.
+  /// With more than four slots, those out of reach are not evaluated in every tick.
   static constexpr bool naps = all_slots::capacity > 4 && frame::naps;
 
  public:
@@ -95,13 +95,13 @@ class contact_engine {
     if constexpr (std::same_as<Parameters, pursuit>) pace_ = decltype(pace_)(p);
     if constexpr (std::same_as<Parameters, Friction>) friction_ = decltype(friction_)(p);
   }
-  /// T [s], the latency or a parameter is another: the same surfaces are as stiff as they let them be.
+  /// Recomputes the springs of all surfaces for a new T [s], latency or parameter.
   constexpr void adopt(scalar T, int late) noexcept {
     news();
     spring_.adopt(T, late);
     slots_.for_each([&](auto& slot, std::size_t) { slot.adopt(spring_); });
   }
-  /// Does a surface of K [N/m] come to rest, as stiff as it is shown? (settles() in sampled_spring.hpp)
+  /// True if a surface of K [N/m] comes to rest at its displayed stiffness (settles() in sampled_spring.hpp).
   [[nodiscard]] constexpr bool settles(scalar K) const noexcept { return spring_.settles(K); }
   constexpr void reset() noexcept {
     slots_.for_each([](auto& slot, std::size_t) { slot.reset(); });
@@ -111,7 +111,7 @@ class contact_engine {
     refused_ = told_ = chased_ = placed_ = false;
   }
 
-  /// Nothing is there any more: the contact recedes until it presses no longer, and ends.
+  /// Removes the surface of a slot: its contact recedes until λ = 0, and ends.
   template <class Surface = first_kind>
   constexpr void release(int i) noexcept {
     news();
@@ -120,13 +120,13 @@ class contact_engine {
       slot.asleep = false;
     });
   }
-  /// Slot i of that kind, 0 ≤ i < Count: its newest surface, its lag ℓ and its λ.
+  /// Slot i of that kind, 0 ≤ i < Count, with its newest surface, its lag ℓ and its λ.
   template <class Surface = first_kind>
   [[nodiscard]] constexpr const auto& slot(int i) const noexcept {
     return slots_.template slot<Surface>(i);
   }
 
-  /// How stiff the contact that presses most is shown where it is on the device, or the first that is there.
+  /// Explains the contact with the largest λ, at its place on the device, or the first one.
   constexpr void explain(explanation& e, const auto& /*device*/, scalar /*T*/,
                          int /*late*/) const noexcept {
     const struct {
@@ -154,7 +154,7 @@ class contact_engine {
   }
 
   struct request {
-    typename Port::effort wanted;  ///< [N], [N·m]
+    typename Port::effort wanted;  ///< desired effort [N], [N·m]
     bool nothing;
     scalar depth;  ///< of the deepest contact [m]
   };
@@ -222,7 +222,7 @@ class contact_engine {
     asked_ = wanted;
     return {wanted, rests_ && !told_, all.deepest};
   }
-  /// The own surfaces follow the world's, not the force: there is nothing to put back.
+  /// The own surfaces follow their targets and not the bounded force, so nothing is moved here.
   [[nodiscard]] constexpr result_type answered(const request& r,
                                                const port_result<Port>& port) const noexcept {
     const event what = port.limited ? cut_short(port) : port.what;
@@ -239,14 +239,14 @@ class contact_engine {
   }
 
  protected:
-  /// The point of slot i of its kind, if there is such a slot.
+  /// The point of slot i of its kind, if that slot exists.
   template <class Surface>
   [[nodiscard]] constexpr point_type point_of(int i) noexcept {
     point_type point{};
     slots_.template visit<Surface>(i, [&point](auto& slot) { point = slot.point; });
     return point;
   }
-  /// The world's newest surface in slot i of its kind, at that point of the device.
+  /// Sets the newest surface of slot i of its kind, at that point of the device.
   template <class Surface>
   constexpr bool put(int i, const point_type& point, const Surface& next) noexcept {
     bool taken = false;
@@ -263,7 +263,7 @@ class contact_engine {
 
  private:
   static constexpr auto cells = static_cast<std::size_t>(all_slots::capacity);
-  /// Of a contact's K and B, what its bristle has: all of them together have no more than one contact.
+  /// The share of a contact's K and B that its bristle has, so that all bristles together have those of one contact.
   static constexpr scalar per_contact = scalar(1) / scalar(all_slots::capacity);
   struct nothing_kept {};
   struct no_friction {
@@ -272,14 +272,14 @@ class contact_engine {
   template <class T>
   using if_it_rubs = std::conditional_t<rubs, std::array<T, cells>, nothing_kept>;
 
-  /// What all slots have to say in a tick.
+  /// The rows of all slots in a tick.
   struct gathered {  // NOLINT(*-member-init): what is not counted is not read
     proxy_problem<row, scalar, all_slots::capacity> rows;
-    std::array<std::size_t, cells> slot;  ///< of each row
+    std::array<std::size_t, cells> slot;  ///< slot of each row
     PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS if_it_rubs<vector> normal;
     scalar deepest{};
     bool empty = true;
-    bool chases = false;  ///< what is felt of a surface is not yet what has been told
+    bool chases = false;  ///< an own surface has not reached its target yet
   };
   constexpr void gather(const auto& now, const auto& coupling, scalar dt, gathered& all,
                         event& what) noexcept {
@@ -318,7 +318,7 @@ class contact_engine {
                      slot.pressed());
       };
       if constexpr (cells == 1) {
-        if (!(own.depth > scalar(0))) return;  // nobody else can press it
+        if (!(own.depth > scalar(0))) return;  // it can only press with d > 0
       }
       all.deepest = kernels::larger(all.deepest, own.depth);
       all.slot[all.rows.count] = i;
@@ -331,8 +331,8 @@ class contact_engine {
       press(slot.spring());
     });
   }
-  /// All slots are looked at once more: how long those that sleep have done so [s], > 0; else 0. What was 2D outside
-  /// cannot press while the device is within D, less Σ λ_i c_i, by which the proxy is off it.
+  /// The time that sleeping slots have slept [s] if all slots are to be evaluated now, else 0. A surface that was 2D
+  /// away cannot press while the device has moved by less than D − Σ λ_i c_i, the last term being the proxy's offset.
   constexpr scalar time_to_look(const auto& now, scalar dt) noexcept {
     if constexpr (naps) {
       nap_.lasted += dt;
@@ -344,8 +344,8 @@ class contact_engine {
       return scalar(0);
     }
   }
-  /// Σ A_ij λ_j over the contacts that pressed in the last tick [m]: how deep a contact that pushes by `mine`
-  /// may be before it presses, too.
+  /// Σ A_ij λ_j [m] over the contacts that pressed in the last tick: the largest depth at which a contact with the row
+  /// `mine` has λ = 0.
   constexpr scalar pressed_by_others(const auto& now, const auto& coupling, const row& mine,
                                      scalar compliance) noexcept {
     scalar depth(0);
@@ -357,7 +357,7 @@ class contact_engine {
     });
     return depth;
   }
-  /// There are news: how steep the force may be is that of the stiffest contact that has pressed since.
+  /// Begins an update: the largest slope of the force is that of the stiffest contact that presses from now on.
   [[gnu::noinline]] constexpr void news() noexcept {
     told_ = true;
     slots_.for_each([&](const auto& slot, std::size_t) {
@@ -365,7 +365,7 @@ class contact_engine {
       if (slot.pressed() > scalar(0) && spring.stiffness > steepest_.stiffness) steepest_ = spring;
     });
   }
-  /// While there are news to make up for, what is asked changes by R dt and by what the motion may explain, no more.
+  /// While updates are followed, the desired effort changes by at most R dt plus the effect of the device's motion.
   [[gnu::noinline]] constexpr row eased(const row& wanted, const row& way, bool chases,
                                         scalar dt) noexcept {
     news();
@@ -376,11 +376,11 @@ class contact_engine {
     const row step = wanted - row(asked_);
     const scalar size = frame::size(spring_, step), most = pace_.news(dt) + explained;
     told_ = size > most;
-    chased_ = chases;  // the last of it comes in the tick after
+    chased_ = chases;  // its last step is in the next tick
     if (!told_ && !chases) steepest_ = {};
     return told_ ? row(row(asked_) + row(step * (most / size))) : wanted;
   }
-  /// No force, and nothing that was felt is remembered.
+  /// Returns no force, and drops the state of all contacts.
   constexpr void let_go() noexcept {
     slots_.for_each([](auto& slot, std::size_t) { slot.press(scalar(0)); });
     if constexpr (rubs) {
@@ -390,8 +390,8 @@ class contact_engine {
   }
 
   struct nap {
-    typename frame::stored began_at{};  ///< where the device was when all were looked at
-    scalar lasted = scalar(1);          ///< since then [s]
+    typename frame::stored began_at{};  ///< device when all slots were evaluated
+    scalar lasted = scalar(1);          ///< time since then [s]
     scalar reach{};                     ///< Σ λ c in the last tick [m]
   };
 
@@ -402,15 +402,15 @@ class contact_engine {
   pursuit::on<space_type> pace_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
   std::conditional_t<rubs, stick_slip::on<space_type>, no_friction> friction_;
-  typename frame::stored last_{};         ///< where the device was last
-  typename Port::stored_effort asked_{};  ///< in the last tick [N], [N·m]
-  typename Port::stored_effort moved_{};  ///< in the last tick [m], [rad]
-  sampled_spring<scalar> steepest_{};     ///< of the stiffest contact that pressed since the news
+  typename frame::stored last_{};         ///< last pose of the device
+  typename Port::stored_effort asked_{};  ///< desired effort of the last tick [N], [N·m]
+  typename Port::stored_effort moved_{};  ///< motion of the last tick [m], [rad]
+  sampled_spring<scalar> steepest_{};     ///< stiffest contact that pressed since the update
   bool rests_ = true;                     ///< no contact pressed in the last tick
-  bool told_ = false;     ///< there are news, or what is asked is not yet what they ask for
-  bool chased_ = false;   ///< a surface was not yet what has been told, in the last tick
-  bool refused_ = false;  ///< news, since the last tick
-  bool placed_ = false;   ///< it knows last_: the first sample is no motion
+  bool told_ = false;                     ///< an update is still being followed
+  bool chased_ = false;                   ///< `chases` of the last tick
+  bool refused_ = false;                  ///< a surface was refused since the last tick
+  bool placed_ = false;                   ///< last_ is known; it is not at the first sample
 };
 
 }  // namespace detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A set of contacts that come, move, bend, rub and go: a corner, a groove, a tool's tip among organs. One
-// source, so one port, one ledger and one bound on the sum of its forces.
+// A set of contacts that appear, move, deform, have friction and vanish: a corner, a groove, a tool's tip among
+// organs. It is one source, so there is one port, one ledger and one bound on the sum of its forces.
 //
 //     using scene = ph::space<double, 3>;
 //     ph::passive_port corner{scene{},
@@ -10,15 +10,15 @@
 //                             ph::reduced_energy{.damping = 0.03},
 //                             ph::reachable_bound{.mass = 0.1, .hand_force = 5.0},
 //                             ph::loop_limits{.longest_tick = 0.0011}};
-//     corner.source().update(0, floor);                 // from the haptic thread, whenever there is news
+//     corner.source().update(0, floor);                 // from the haptic thread, at every update
 //     corner.source().release(0);
 //
-// Free space is the intersection of what the slots leave free: a corner from inside. A solid that is not
-// convex takes a slot for each of its convex pieces; a convex one from outside takes one slot with
-// a shell round it (constraint_geometry/), or a flat side would give way to the next in a jump.
+// Free space is the intersection of the free half-spaces of all slots, such as a corner from inside. A solid that is
+// not convex takes a slot for each of its convex pieces; a convex one from outside takes one slot with a shell
+// (constraint_geometry/), because between two flat sides the force would jump.
 //
-// Why not contacts{…}: that is the sum of local models whose number is known; it takes any source, also
-// one that shapes its force. This one is for surfaces: no stiffer however many, and no steps.
+// contacts{…} is the sum of a fixed number of local models, or of any other sources, with shapers if desired. This
+// one is for surfaces: its stiffness does not grow with their number, and its force does not step.
 
 #include <passive_haptics/contact/contact_engine.hpp>
 
@@ -27,7 +27,7 @@ inline namespace v0 {
 
 namespace detail {
 
-/// A device that is a point: every contact is at it, and pushes along its own normal.
+/// The frame of a point device: every contact is at the point, and its force is along its own normal.
 template <class Space>
 struct point_frame {
   using space = Space;
@@ -38,7 +38,7 @@ struct point_frame {
   using stored = typename Space::coordinates;
   static constexpr bool naps = true;
 
-  /// How far the device is from where it was [m].
+  /// The distance of the device from a former position [m].
   [[nodiscard]] static constexpr scalar apart(const auto& now, const stored& was) noexcept {
     return Space::norm(Space::difference(now.x, vector(was)));
   }
@@ -104,10 +104,10 @@ struct point_frame {
 
 }  // namespace detail
 
-/// The surfaces, how they press, how fast they follow, and whether they rub:
+/// Surfaces in slots, with a spring, the rates at which they follow updates, and friction:
 ///     ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::stick_slip{}, ph::slots<…>{}}
-/// As a member of a class: ph::contact_set<ph::stick_slip, ph::slots<ph::half_space<scene>, 3>>. Works at a
-/// space of any dimension; friction needs two.
+/// As a member of a class: ph::contact_set<ph::stick_slip, ph::slots<ph::half_space<scene>, 3>>. It works in
+/// a space of any dimension; friction needs at least two.
 template <class Friction, class... Slots>
 struct contact_set : contact_parameters<proxy_spring, Friction, Slots...> {
   using base = contact_parameters<proxy_spring, Friction, Slots...>;
@@ -138,8 +138,8 @@ class contact_set<Friction, Slots...>::on
   constexpr on() noexcept : on(contact_set{}) {}
   constexpr explicit on(const contact_set& p) noexcept : engine(p) {}
 
-  /// The world's newest surface in slot i, counted among those of its kind. False: there is no such slot or
-  /// the surface is unusable; the last good one stays, and the next tick says so too.
+  /// Sets the newest surface of slot i, counted among those of its kind. Returns false if there is no such slot or the
+  /// surface is unusable; then the last good one stays, and the next tick has event::rejected_target.
   template <class Surface = typename engine::first_kind>
   constexpr bool update(int i, const Surface& next) noexcept {
     return this->put(i, {}, next);

@@ -6,7 +6,7 @@
 //                             ph::strict_bound{}, ph::loop_limits{.longest_tick = 0.0011}};
 //     corner.source().contact<1>().update(plane);
 //
-// Why not one port for each: they would spend the same damping twice (docs/design/mathematics.md § 4).
+// One port for each contact would spend the same damping twice (docs/design/mathematics.md § 4).
 
 #include <passive_haptics/contact/local_contact.hpp>
 #include <passive_haptics/contact/row.hpp>
@@ -14,8 +14,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The sum of what the sources ask for. What the bound leaves of it is shared out alike, so that each
-/// local model stands where its own part of the force says. Nothing is assumed of how many there are.
+/// The sum of the forces of its sources. The bound's share s applies to each source alike, so that each local model
+/// is at the depth of its own part of the force. There may be any number of sources.
 template <class... Sources>
 struct contacts {
   detail::row<Sources...> sources{};
@@ -36,14 +36,14 @@ class contacts<Sources...>::on {
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
   using result_type = tick_result<Space>;
-  static constexpr bool asks_for_numbers = false;  // a sum may not be one
+  static constexpr bool asks_for_numbers = false;  // a sum may overflow
   static constexpr bool needs_ledger = (detail::spends_ledger<part_at<Sources, Space>>() || ...);
   static_assert((source_for<Sources, Space> && ...),
                 "passive_haptics: the source does not model source_for: see port/concepts.hpp");
 
   constexpr explicit on(const contacts& p) noexcept : on(p, all{}) {}
 
-  /// The I-th of them, to update or to release.
+  /// The I-th source, to update or to release.
   template <std::size_t I>
   [[nodiscard]] constexpr auto& contact() noexcept {
     return detail::get<I>(sources_);
@@ -53,7 +53,7 @@ class contacts<Sources...>::on {
     return detail::get<I>(sources_);
   }
 
-  /// A new effort for the one of them that takes one: port.tick(sample, wanted) gives it.
+  /// A new effort for the one source that takes efforts; port.tick(sample, wanted) passes it.
   constexpr bool update(const vector& wanted) noexcept
       requires((int(detail::takes_efforts<part_at<Sources, Space>, Space>) + ...) == 1) {
     for_each(*this, [&](auto& source) {
@@ -76,7 +76,7 @@ class contacts<Sources...>::on {
     for_each(*this, [](auto& source) { detail::restart(source); });
   }
 
-  /// Of the one that presses most, or of the first; the device is at x.
+  /// Explains the source that presses most, or the first one, for a device at x.
   constexpr void explain(explanation& e, const vector& x, scalar T, int late) const noexcept {
     detail::explain(contact<0>(), e, x, T, late);
     for_each(*this, [&](const auto& source) {
@@ -135,7 +135,7 @@ class contacts<Sources...>::on {
     visit(self, act, all{});
   }
 
-  /// What one source wants [N]; zero where it wants nothing.
+  /// The desired force of one source [N], or zero.
   [[nodiscard]] static constexpr vector wanted_by(const auto& one) noexcept {
     return one.nothing ? Space::zero() : vector(one.wanted);
   }
@@ -164,8 +164,7 @@ class contacts<Sources...>::on {
     result_type sum{port.force, scalar(0), port.energy, port.what, port.limited};
     const auto answer = [&](auto& source, const auto& one) {
       const vector own = wanted_by(one);
-      const bool cut =
-          port.limited && !(own == Space::zero());  // who asks for nothing loses nothing
+      const bool cut = port.limited && !(own == Space::zero());  // a zero force is not cut
       const port_result<Space> part{cut ? vector(own * left) : own, port.energy, port.what, cut};
       const auto result = source.answered(one, part);
       sum.limited = sum.limited || result.limited;

@@ -9,19 +9,19 @@ namespace passive_haptics {
 inline namespace v0 {
 
 /// f* = max(0, K_s d − D_s max(0, v_out)) [N]: damping on the way OUT only, so it never adds force.
-///     K_s = min(K, κ m/T²)            what a mass sampled every T can be held with
+///     K_s = min(K, κ m/T²)            [N/m], at which a mass sampled every T settles
 ///     D_s = min(2ζ√(K_s m), β m/T)    [N·s/m]
 /// Static stiffness is K exactly, up to the cap κ m/T² (10 kN/m for 0.1 kg at 1 kHz). Source:
 /// docs/design/mathematics.md § 9; the defaults settle on an ideal device, κ = 0.3 does not.
 ///
-/// Deeper than F/K_s, F the `force_limit`, the spring is the secant F/d, which lets a heavy device out at a speed it
-/// can be stopped from:  f* = max(0, F − min(D_s, 2ζ√(F m/d)) max(0, v_out)).
+/// Deeper than F/K_s, with F the `force_limit`, the spring is the secant F/d, so that a heavy device comes out at a
+/// speed from which F can stop it:  f* = max(0, F − min(D_s, 2ζ√(F m/d)) max(0, v_out)).
 struct damped_spring {
   double mass{};                    ///< m, apparent mass of the device [kg], a lower bound
   double stiffness_fraction = 0.1;  ///< κ, of m/T²
   double damping_ratio = 1.0;       ///< ζ
   double damping_fraction = 0.5;    ///< β, of m/T
-  double force_limit = std::numeric_limits<double>::infinity();  ///< F, what the motors hold [N]
+  double force_limit = std::numeric_limits<double>::infinity();  ///< F, limit of the motors [N]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     return detail::sampled_fault(*this);
@@ -36,7 +36,7 @@ class damped_spring::on {
   using scalar = typename Space::scalar;
 
   constexpr explicit on(const damped_spring& p) noexcept { set(p); }
-  /// The new ones count from the next adopt() on.
+  /// New parameters take effect at the next adopt().
   constexpr void set(const damped_spring& p) noexcept { rule_ = detail::damped_mass<scalar>(p); }
   [[nodiscard]] constexpr damped_spring parameters() const noexcept {
     damped_spring p;
@@ -51,7 +51,7 @@ class damped_spring::on {
   static constexpr softened_by softener = softened_by::mass_and_tick;
   [[nodiscard]] constexpr scalar stiffness() const noexcept { return stiffness_; }  ///< K_s [N/m]
   [[nodiscard]] constexpr scalar damping() const noexcept { return damping_; }  ///< D_s [N·s/m]
-  /// ω² = K_s/m [1/s²], of a free device on it.
+  /// ω² = K_s/m [1/s²] of a free device on this spring.
   [[nodiscard]] constexpr scalar natural_square() const noexcept {
     return stiffness_ / rule_.mass();
   }

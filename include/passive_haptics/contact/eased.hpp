@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A contact law whose force does not step when the environment has news (the menu is in spring.hpp).
+// A contact law whose force does not step at updates of the surface (the menu is in spring.hpp).
 //
 //     ph::eased{ph::damped_spring{.mass = 0.1}}
 
@@ -11,10 +11,11 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The law, and the pace at which a local_contact makes up for news of what is pressed: a new place, another
-/// stiffness, what appears under the device and what vanishes. Between news, and for what is not pressed, it
-/// is the law itself, but for its damper, which brakes what swings and no hand (swing.hpp). A device held still feels steps of (K|u| + R_most) dt at most, u the speed of the
-/// surface itself (lag.hpp). A surface that no longer covers the device ends at once.
+/// The law, with a limited rate at which a local_contact follows updates of a pressed surface: a new position, another
+/// stiffness, a surface that appears under the device or vanishes (lag.hpp). Otherwise it is the law itself, except
+/// that its damper acts on a swinging device and not on a hand's motion (swing.hpp). On a device held still the force
+/// steps by at most (K|u| + R_most) dt [N], u [m/s] the surface's velocity. The contact ends at once if the surface ceases to
+/// cover the device.
 template <class Law>
 struct eased {
   Law law{};
@@ -43,7 +44,7 @@ class eased<Law>::on : public part_at<Law, Space> {
                                 int(std::same_as<Parameters, news_pace>);
 
   constexpr explicit on(const eased& p) noexcept : law_part(p.law), pace_(p.pace) {}
-  /// The new ones count from the next adopt() on, the pace from the next news.
+  /// New parameters take effect at the next adopt(), the pace at the next update.
   constexpr void set(const eased& p) noexcept {
     detail::take<Law, Space>(*this, p.law);
     pace_ = news_pace::at<scalar>(p.pace);
@@ -62,10 +63,10 @@ class eased<Law>::on : public part_at<Law, Space> {
       detail::take<Law, Space>(*this, p);
     }
   }
-  /// How fast news are made up for.
+  /// The rates at which updates are followed.
   [[nodiscard]] constexpr const news_pace::at<scalar>& pace() const noexcept { return pace_; }
 
-  /// Of a speed outwards [m/s], what the law is to damp: a hand that moves the device is not braked (swing.hpp).
+  /// The part of an outward speed [m/s] that the law damps, which excludes a hand's motion (swing.hpp).
   [[nodiscard]] constexpr scalar swinging(scalar speed, scalar dt) noexcept {
     if constexpr (requires(law_part l) { l.natural_square(); }) {
       return swing_.damped(speed, law_part::natural_square(), dt);
@@ -73,7 +74,7 @@ class eased<Law>::on : public part_at<Law, Space> {
       return speed;
     }
   }
-  /// The contact is over.
+  /// Ends the contact.
   constexpr void let_go() noexcept { swing_.stop(); }
 
  private:

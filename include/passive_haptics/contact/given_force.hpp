@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Force in, force out: a source for whoever has a force already, from a renderer, a simulator, an SDK.
+// Force in, force out: a source for a force that a renderer, a simulator or an SDK computes.
 //
 //     ph::passive_port device{scene{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03},
 //                             ph::strict_bound{}, ph::loop_limits{.longest_tick = 0.0011}};
 //     motors.command(device.tick(position, ph::seconds{dt}, wanted).force);     // a new force in every tick
-//     motors.command(device.tick(position, ph::seconds{dt}).force);             // none: the last one grows older
+//     motors.command(device.tick(position, ph::seconds{dt}).force);             // the last force again, now older
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -14,12 +14,12 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Asks for the effort it was given last. One that grows stale fades, because a renderer that has
-/// crashed would push for ever; one that is no number is refused and the last good one stays. Works at
-/// any port: forces [N] in a space, torques [N·m] in joint coordinates.
+/// The desired effort is the last one that was passed. A stale effort fades, because a renderer that has crashed
+/// would otherwise push for ever; one that is not finite is refused, and the last good one stays. It works at any
+/// port: forces [N] in a space, torques [N·m] in joint coordinates.
 struct given_force {
-  double stale_after = 0.1;  ///< age up to which an effort counts in full [s]
-  double fade = 0.05;        ///< how long it then takes to end [s]
+  double stale_after = 0.1;  ///< age up to which an effort is not reduced [s]
+  double fade = 0.05;        ///< time in which it then fades to zero [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     return freshness{stale_after, fade}.check();
@@ -48,7 +48,7 @@ class given_force::on {
     changed_ = refused_ = false;
   }
 
-  /// A new effort for the coming ticks. False: it is no number, and the last good one stays.
+  /// A new effort for the coming ticks. Returns false if it is not finite; then the last good one stays.
   constexpr bool update(const effort& wanted) noexcept {
     if (!P::is_finite(wanted)) {
       refused_ = true;
@@ -59,15 +59,15 @@ class given_force::on {
     news_.hear();
     return true;
   }
-  /// Nothing is wanted any more: the effort fades, as one that is stale does, and ends.
+  /// Ends the effort, which fades as a stale one does.
   constexpr void release() noexcept { news_.release(); }
 
-  /// The last good one, however old.
+  /// The last good effort, of any age.
   [[nodiscard]] constexpr effort newest() const noexcept { return newest_; }
 
   struct request {
     effort wanted;
-    bool nothing = false;  ///< there is always something to ask
+    bool nothing = false;  ///< an effort is always desired
   };
   template <bool Shortcut>
   [[nodiscard, gnu::always_inline]] constexpr request ask(const auto& /*motion*/, const auto& port,

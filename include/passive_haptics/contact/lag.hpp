@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How what is felt of one surface follows its news, so that they do not step. The news are limited, the
-// motion never: with d the depth of the device in the newest surface,
+// The surface that is felt (the own one) follows the updates of the newest one at a limited rate, so that the force
+// does not step. The device's own motion is never limited. With d [m] the depth in the newest surface,
 //
 //     own depth = d − ℓ + p
-//     news       own depth stays as it is, so the lag ℓ takes up the jump, and p = 0
+//     update     the own depth is kept: the lag ℓ [m] takes the jump of d, and the lead p [m] is 0
 //     each tick  |ℓ| falls by ρ dt,   ρ = 3|ℓ₀|/P, within [R_least, R_most]/K; and, if that takes no longer than
-//                0.8 s, so that ρ and u together are no faster than max(R_usual/K, 4/3 |u|)
-//                p grows by u dt for the time P, but not longer than `ahead`; where no news have come for twice
-//                as long, the surface may have stopped, and p is made up for as ℓ is
-//                the own normal turns by ω dt as long as p grows, and towards the newest one, so turned, at its rate
+//                0.8 s, the sum of ρ and u is at most max(R_usual/K, 4/3 |u|)
+//                p grows by u dt for the time P, but no longer than `ahead`; if no update has come for twice as
+//                long, the surface may have stopped, and p is reduced to 0 in the same way as ℓ
+//                the own normal turns by ω dt while p grows, and at its own rate towards the newest one so turned
 //
-// ℓ₀ is the lag [m] at the last news, P the time [s] that news usually take, u [m/s] and ω [1/s] how fast they move
-// and turn the surface where the device is: as fast as the last ones, but not more than twice as fast as those before,
-// and not at all if those went the other way. So a surface that jumps once is not thrown further, and one that goes on
-// is not late. Source: docs/design/contacts.md § 6.
+// ℓ₀ is the lag at the last update, P [s] the usual time between updates, and u [m/s] and ω [1/s] the velocity and the
+// turn of the surface at the device between the last two updates: at most twice that of the two before, and 0 if that
+// had the opposite sign. So a surface that jumps once is not extrapolated, and one that moves on is not late.
+// Source: ours; docs/design/contacts.md § 6.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -25,14 +25,14 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// How fast what is felt catches up with news of a surface that is pressed.
+/// The rates at which the own surface follows updates of a pressed one.
 struct news_pace {
-  double least_force_rate = 5.0;   ///< R_least, of what is made up for [N/s]
-  double usual_force_rate = 19.5;  ///< R_usual: 0.0195 N a tick are not felt [N/s]
-  double most_force_rate = 50.0;   ///< R_most [N/s]
-  double longest_interval = 0.3;   ///< what counts as a time between news, at most [s]
-  double ahead = 0.08;             ///< for which u is believed after the last news, at most [s]
-  double oldest = 0.1;             ///< age of news that is made up for by u, at most [s]
+  double least_force_rate = 5.0;   ///< R_least, least rate of the force [N/s]
+  double usual_force_rate = 19.5;  ///< R_usual [N/s]: 0.0195 N per ms are not felt
+  double most_force_rate = 50.0;   ///< R_most, largest rate [N/s]
+  double longest_interval = 0.3;   ///< largest P [s]
+  double ahead = 0.08;             ///< longest extrapolation by u after an update [s]
+  double oldest = 0.1;             ///< largest age of an update that u compensates [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(least_force_rate)) {
@@ -74,7 +74,7 @@ class news_pace::at {
             .oldest = static_cast<double>(oldest_)};
   }
 
-  /// ρ for a lag [m], the time between news [s], u [m/s] and 1/K [m/N].
+  /// ρ [m/s] for a lag [m], the time between updates P [s], u [m/s] and 1/K [m/N].
   [[nodiscard]] constexpr Scalar speed_for(Scalar lag, Scalar interval, Scalar u,
                                            Scalar compliance) const noexcept {
     const Scalar size = kernels::magnitude(lag), same_way = lag < Scalar(0) ? -u : u;
@@ -95,12 +95,12 @@ class news_pace::at {
   Scalar least_, usual_, most_, longest_, ahead_, oldest_;
 };
 
-/// What news may say of a surface beside where it is.
+/// The motion of a surface, which an update may state.
 template <class Space>
 struct surface_motion {
-  /// How fast it moves by itself where it is told [m/s]; not how it gives way, which answers to the force.
+  /// Its own velocity at the stated place [m/s], without the part by which it yields to the force.
   std::optional<typename Space::coordinates> velocity{};
-  /// How long ago it was so [s]. It is made up for where the velocity is told, too.
+  /// The age of the update [s], which is compensated if the velocity is stated.
   typename Space::scalar age{};
 
   [[nodiscard]] constexpr bool is_usable() const noexcept {
@@ -109,30 +109,31 @@ struct surface_motion {
   }
 };
 
-/// ℓ, p, and what is known of the news.
+/// The lag ℓ, the lead p, and the motion of the updates.
 template <class Scalar>
 class lag {
  public:
-  /// ℓ − p [m]: how much less deep the own surface is than the newest.
+  /// ℓ − p [m], the depth in the newest surface less the own depth.
   [[nodiscard]] constexpr Scalar offset() const noexcept { return behind_ - lead_; }
-  /// How old the last news were when they were told, as far as that is made up for [s].
+  /// The part of the age of the last update that is compensated [s].
   [[nodiscard]] constexpr Scalar age() const noexcept { return age_; }
-  /// Nothing is left to make up for, and nothing moves.
+  /// True if ℓ is 0 and nothing moves.
   [[nodiscard]] constexpr bool settled() const noexcept { return settled_; }
 
-  /// For how long the last news have been taken on with since they were made [s], and whether they still are; 0 where it may have stopped.
+  /// The time for which the last update is extrapolated so far [s], 0 if the surface may have stopped; and whether
+  /// it still is.
   [[nodiscard]] constexpr Scalar taken_on() const noexcept {
     return silent() ? Scalar(0) : age_ + kernels::smaller(since_, ahead_);
   }
   [[nodiscard]] constexpr bool taking_on() const noexcept { return since_ < ahead_; }
-  /// No news when there should have been some.
+  /// True if no update has come for twice the usual time.
   [[nodiscard]] constexpr bool silent() const noexcept { return since_ > Scalar(2) * ahead_; }
-  /// Since the last news [s].
+  /// The time since the last update [s].
   [[nodiscard]] constexpr Scalar since() const noexcept { return since_; }
 
-  /// Time goes by [s].
+  /// Adds dt [s] to that time.
   constexpr void grow_older(Scalar dt) noexcept { since_ += dt; }
-  /// And what is not settled follows.
+  /// Moves ℓ and p on by one tick of dt [s].
   constexpr void follow(Scalar dt) noexcept {
     const Scalar step = speed_ * dt;
     if (kernels::magnitude(behind_) <= step) {
@@ -149,30 +150,30 @@ class lag {
     }
     settled_ = behind_ == Scalar(0) && goes_on_ == Scalar(0);
   }
-  /// What the news that are told now say of their motion there.
+  /// The stated motion of an update at the device.
   struct account {
-    Scalar speed{};      ///< outwards, of its own [m/s]
+    Scalar speed{};      ///< outward, of the surface itself [m/s]
     Scalar age{};        ///< [s]
-    bool knows = false;  ///< the speed
+    bool knows = false;  ///< `speed` is stated
   };
-  /// News so old [s] are younger than the last ones, or not older than `slack`.
+  /// True if an update of that age [s] is younger than the last one, or older by at most `slack` [s].
   [[nodiscard]] constexpr bool follows(Scalar age, Scalar slack) const noexcept {
     return age <= since_ + told_age_ + slack;
   }
-  /// Between the instants of the last news and of these, which are so old [s].
+  /// The time between the instants of the last update and of one of that age [s].
   [[nodiscard]] constexpr Scalar between(Scalar age) const noexcept {
     return kernels::larger(kernels::larger(since_ + told_age_ - age, since_ / Scalar(2)),
                            kernels::rounding<Scalar>());
   }
-  /// News: the device is `now` deep in them, they have moved by `moved` where it is, and it was `own` deep in
-  /// what was felt, or is to begin so deep; 0 for what was not felt [m].
+  /// An update: `now` is the depth in it, `moved` its displacement at the device, and `own` the own depth so far or at
+  /// the beginning of the contact, 0 without contact [m].
   constexpr void hear(Scalar own, Scalar now, Scalar moved, Scalar compliance,
                       const news_pace::at<Scalar>& pace, const account& told = {}) noexcept {
     const Scalar speed = moved / between(told.age);
     expect(speed, compliance, pace, told);
     const Scalar interval =
         kernels::smaller(kernels::larger(since_, kernels::rounding<Scalar>()), pace.longest());
-    // Longer ones count at once, shorter ones little by little: a network that drops some stays smooth.
+    // P follows a longer interval at once and a shorter one slowly, for a network that drops updates.
     if (!(usual_ > Scalar(0))) usual_ = pace.longest();
     usual_ = kernels::larger(interval, usual_ + (interval - usual_) / Scalar(8));
     ahead_ = kernels::smaller(usual_, pace.ahead());
@@ -188,14 +189,14 @@ class lag {
     speed_ = pace.speed_for(behind_, usual_, goes_on_, compliance);
     settled_ = behind_ == Scalar(0) && lead_ == Scalar(0) && goes_on_ == Scalar(0);
   }
-  /// Neither the own surface nor the newest is touched: no force can step.
+  /// Drops ℓ and p, for a device that touches neither surface, so that no force can step.
   constexpr void let_go() noexcept {
     behind_ = lead_ = goes_on_ = gains_ = Scalar(0);
     settled_ = true;
   }
 
  private:
-  /// u, u̇ and what they rest on, from the speed at which the news have moved.
+  /// Updates u and u̇ from the speed between the last two updates and the stated one.
   constexpr void expect(Scalar speed, Scalar compliance, const news_pace::at<Scalar>& pace,
                         const account& told) noexcept {
     const Scalar moved = kernels::magnitude(speed), calm = pace.usual() * compliance;
@@ -215,7 +216,7 @@ class lag {
     if (knows_) of_the_rest = kernels::clamped(of_the_rest, -calm, calm);
     goes_on_ = its_ + of_the_rest;
   }
-  /// What is told is taken to the present, and u with it; u̇ changes u by no more than the told speeds are.
+  /// Extrapolates the stated motion to the present, where u̇ changes u by at most the larger stated speed.
   constexpr void take_on(const news_pace::at<Scalar>& pace) noexcept {
     age_ = knows_ ? kernels::smaller(told_age_, pace.oldest()) : Scalar(0);
     const Scalar most = fastest_ / (age_ + ahead_);
@@ -223,7 +224,7 @@ class lag {
     lead_ = (its_ + gains_ * age_ / Scalar(2)) * age_;
     goes_on_ += gains_ * age_;
   }
-  /// The newer of two speeds, but not more than twice the older; 0 if they go opposite ways.
+  /// The newer of two speeds, limited to twice the older; 0 if their signs differ.
   [[nodiscard]] static constexpr Scalar believed(Scalar newer, Scalar older) noexcept {
     if (!(newer * older > Scalar(0))) return Scalar(0);
     const Scalar most = Scalar(2) * older;
@@ -232,20 +233,20 @@ class lag {
 
   Scalar behind_{}, lead_{};         ///< ℓ, p [m]
   Scalar speed_{};                   ///< ρ [m/s]
-  Scalar goes_on_{}, last_speed_{};  ///< u, and the speed of the last news alone [m/s]
-  Scalar usual_{}, ahead_{};         ///< P, and for how long p grows [s]
-  Scalar since_{};                   ///< since the last news [s]
-  Scalar age_{}, told_age_{};        ///< of the last news, made up for and told [s]
+  Scalar goes_on_{}, last_speed_{};  ///< u, and the speed between the last two updates [m/s]
+  Scalar usual_{}, ahead_{};         ///< P, and the time for which p grows [s]
+  Scalar since_{};                   ///< time since the last update [s]
+  Scalar age_{}, told_age_{};        ///< age of the last update, compensated and stated [s]
   Scalar gains_{};                   ///< u̇ [m/s²]
-  Scalar its_{}, fastest_{};         ///< told: the last speed believed, the larger of two [m/s]
-  Scalar told_speed_{};              ///< the last, believed or not [m/s]
-  std::uint8_t doubts_ = 0;          ///< how often in a row that was worse than none
-  bool knows_ = false;               ///< the last news told their speed
+  Scalar its_{}, fastest_{};         ///< last stated speed used, larger one of the last two [m/s]
+  Scalar told_speed_{};              ///< last stated speed [m/s]
+  std::uint8_t doubts_ = 0;          ///< how often in a row that was worse than 0 m/s
+  bool knows_ = false;               ///< the last update stated its speed
   bool settled_ = true;
 };
 
-/// ω, the turn of a normal that two news in a row have shown: the newer, but not more than twice the older, and none
-/// where they turn opposite ways. In one dimension nothing turns.
+/// ω [1/s], the turn of a normal between updates: that between the last two, limited to twice the one before, and 0 if
+/// their directions differ by more than 90°. In one dimension nothing turns.
 template <class Space, bool = (Space::dof > 1)>
 class turning {
  public:
@@ -253,14 +254,14 @@ class turning {
   using vector = typename Space::vector;
 
   [[nodiscard]] constexpr bool still() const noexcept { return still_; }
-  /// A unit normal, turned for a time [s].
+  /// A unit normal after it has turned with ω for a time [s].
   [[nodiscard]] constexpr vector turned(const vector& normal, scalar time) const noexcept {
     if (still()) return normal;
     const vector further = normal + vector(believed_) * time;
     const scalar length = Space::norm(further);
     return length > scalar(0) ? vector(further / length) : normal;
   }
-  /// News have turned the normal by `swung`, a difference of unit vectors, within `took` [s].
+  /// Takes the turn `swung` of an update, a difference of unit vectors, within `took` [s].
   constexpr void hear(const vector& swung, scalar took) noexcept {
     const vector newer = swung / took, older = last_;
     const scalar square = Space::dot(newer, newer), most = scalar(4) * Space::dot(older, older);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The local model of the thesis, without its energy: one contact that asks a port for force.
+// The local model of the thesis, without its energy: one contact, a source of desired force for a port.
 //
 //   motion ─▶ probe ─▶ normal ─▶ law ─▶ shapers ─▶ wanted force ─▶ (the port's bound) ─▶ follow
 //             depth in  n_LM →   f* = K d…                                              own piece
@@ -15,13 +15,13 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What a port with contacts returns. Trivial to log.
+/// The result of a tick of a port with contacts. It is trivially copyable.
 template <class Space>
 struct tick_result {
-  typename Space::vector force;   ///< on the device [N]
+  typename Space::vector force;   ///< force on the device [N]
   typename Space::scalar depth;   ///< penetration in the local model [m], 0 outside
   typename Space::scalar energy;  ///< E1 [J]
-  event what = event::nominal;    ///< the worst that happened
+  event what = event::nominal;    ///< the worst event of the tick
   bool limited = false;           ///< shaper or bound changed the desired force
 };
 
@@ -31,7 +31,7 @@ inline constexpr bool is_shaped = requires(part_at<Law, Space> law) {
   law.shapers();
 };
 
-/// Does the law say at what pace news are made up for?
+/// True if the law limits the rate at which updates are followed.
 template <class Law>
 inline constexpr bool eases_news = requires(const Law law) {
   law.pace();
@@ -43,8 +43,8 @@ template <class Law>
   return false;
 }
 
-/// Tells of a surface to a device at x: how stiff it is and how deep that is, and of what is shown of it [N/m] why it
-/// is no more; while it is touched, whether it has news to make up for, or fades.
+/// Explains a surface for a device at x: its stiffness, the depth, the displayed stiffness `shown` [N/m] and its reason
+/// and, while it is touched, whether it follows an update (`lags`) or fades.
 template <class Surface, class Scalar>
 constexpr void explain_surface(explanation& e, const Surface& surface, const auto& x, Scalar shown,
                                softened_by why, bool lags, bool fades) noexcept {
@@ -58,7 +58,7 @@ constexpr void explain_surface(explanation& e, const Surface& surface, const aut
   if (touched && fades) e.now = softened_by::silence;
 }
 
-/// Is what a supply brings, if it says what, a constraint?
+/// True unless a supply has a constraint_type that is no constraint.
 template <class Supply, class Space>
 [[nodiscard]] constexpr bool supplies_no_other_than_constraints() noexcept {
   if constexpr (requires { typename Supply::constraint_type; }) {
@@ -66,7 +66,7 @@ template <class Supply, class Space>
   }
   return true;
 }
-/// The space of what a supply brings, or of a surface that is given in place of one.
+/// The space of a supply's constraint, or of a surface that is given instead of a supply.
 template <class Supply>
 struct space_of {
   using type = typename Supply::constraint_type::space_type;
@@ -80,10 +80,10 @@ struct space_of<Surface> {
 };
 }  // namespace detail
 
-/// A surface that a supply brings, turned by a normal interpolation, pressed back by a contact law:
+/// A contact with the surface of a supply, with a normal interpolation and a contact law:
 ///     ph::local_contact{ph::followed<ph::half_space<scene>>{}, ph::turn_limited{.rate = 2.0},
 ///                       ph::damped_spring{.mass = 0.1}}
-/// Models source_for<Space>. It holds no energy and promises nothing.
+/// Models source_for<Space>. It has no ledger and guarantees nothing; the port's bound does.
 template <class Space, class Supply, class Normals, class Law>
 class local_contact {
   static_assert(
@@ -152,7 +152,7 @@ class local_contact {
     if constexpr (eases) law_.let_go();
   }
 
-  /// T [s], the latency or a parameter is another: the same surface is as stiff as they let it be.
+  /// Recomputes the displayed stiffness for a new T [s], latency or parameter.
   constexpr void adopt(scalar longest_tick, int late) noexcept {
     if constexpr (eases) slack_ = longest_tick;
     if (supply_.target().stiffness > scalar(0)) {
@@ -160,7 +160,7 @@ class local_contact {
     }
   }
 
-  /// How stiff the surface is shown to a device at x, in ticks of T [s] and commands held `late` ticks later.
+  /// Explains the surface for a device at x, in ticks of T [s] with commands held `late` ticks later.
   constexpr void explain(explanation& e, const vector& x, scalar T, int late) const noexcept {
     if constexpr (Supply::moves) {
       if (!(supply_.weight() > scalar(0))) {
@@ -175,12 +175,12 @@ class local_contact {
                             softener(law_for(K, T, late)), lags(), fades);
   }
 
-  /// What is shown of a surface of K, likewise [N/m].
+  /// The displayed stiffness of a surface of K [N/m], in the same loop.
   [[nodiscard]] constexpr scalar shown_stiffness(scalar K, scalar T, int late) const noexcept {
     return scalar(1) / law_for(K, T, late).depth(scalar(1), scalar(0));
   }
 
-  /// The environment's newest constraint. False: it is unusable, and the last good one stays.
+  /// Takes the environment's newest constraint. Returns false if it is unusable; then the last good one stays.
   template <class Owner = Supply>
   requires(Owner::moves) constexpr bool update(const constraint_type& next) noexcept {
     if constexpr (eases) {
@@ -189,8 +189,8 @@ class local_contact {
     }
     return supply_.update(next);
   }
-  /// The same, of a surface that also tells how it moves and how old that is. What is no number, or older than the
-  /// last one, is refused.
+  /// The same, with the surface's velocity and age. An update that is not finite, or older than the last one, is
+  /// refused.
   template <class Owner = Supply>
   requires(Owner::moves&& detail::eases_news<part_at<Law, Space>>) constexpr bool update(
       const constraint_type& next, const surface_motion<Space>& how) noexcept {
@@ -202,7 +202,7 @@ class local_contact {
     told_ = how;
     return true;
   }
-  /// Nothing is there any more: the contact fades, as it does when data are stale, and ends.
+  /// Removes the surface: the contact fades as with stale data, and ends.
   template <class Owner = Supply>
   requires(Owner::moves) constexpr void release() noexcept { supply_.release(); }
 
@@ -212,22 +212,22 @@ class local_contact {
   }
   [[nodiscard]] constexpr const law_type& law() const noexcept { return law_; }
 
-  /// What is asked of the port, and what answered() needs to know of it.
+  /// The desired force, and the state of the contact that answered() needs.
   struct request {
-    vector wanted;   ///< [N]
-    bool nothing;    ///< there is no contact; then only `weight` has a meaning below
-    vector desired;  ///< force of the law, before any shaper [N]
-    bool in_local;   ///< the device touches the local model, so the model moves from where it is
-    bool following;  ///< the own surface has not arrived at the target yet
-    scalar weight;   ///< how far the contact counts, in [0, 1]
-    scalar felt;     ///< depth that the law was given [m]
+    vector wanted;         ///< desired force after the shapers [N]
+    bool nothing;          ///< true without contact; then only `weight` is defined below
+    vector desired;        ///< force of the law, before the shapers [N]
+    bool in_local;         ///< the device touches the local model, which then moves from its place
+    bool following;        ///< the own surface has not reached the target yet
+    scalar weight;         ///< factor of the force, in [0, 1]
+    scalar felt;           ///< depth in the law [m]
     scalar outward_speed;  ///< [m/s]
     vector here;           ///< [m]
     vector normal;
   };
 
-  /// What this contact asks of the port in a tick. `what` becomes worse if the supply has bad news. With a
-  /// `Shortcut`, as under a bound that only reduces, a tick without contact is over at once.
+  /// The desired force of a tick. `what` becomes worse if the supply's data are missing, bad or stale. With a
+  /// `Shortcut`, for a bound that only reduces, a tick without contact returns at once.
   template <bool Shortcut>
   [[nodiscard, gnu::always_inline]] constexpr request ask(const auto& motion, const auto& port,
                                                           event& what) noexcept {
@@ -277,7 +277,7 @@ class local_contact {
             weight, felt,  speed,   here,        normal};
   }
 
-  /// Puts the local model where the force that is left says it is.
+  /// Moves the local model to the depth of the bounded force.
   [[gnu::always_inline]] constexpr result_type answered(const request& r,
                                                         const port_result<Space>& port) noexcept {
     if (r.nothing) {
@@ -307,7 +307,7 @@ class local_contact {
     return {port.force, felt, port.energy, what, limited};
   }
 
-  /// A tick that nobody could believe, of length dt [s].
+  /// A tick of length dt [s] whose sample was rejected.
   constexpr result_type refused(const port_result<Space>& port, scalar dt) noexcept {
     if constexpr (Supply::moves) {
       supply_.grow_older(dt);
@@ -320,7 +320,7 @@ class local_contact {
  private:
   static constexpr bool eases = Supply::moves && detail::eases_news<law_type>;
   struct no_memory {};
-  /// The law as a surface of K has it.
+  /// The law for a surface of K [N/m].
   [[nodiscard]] constexpr law_type law_for(scalar K, scalar T, int late) const noexcept {
     law_type law = law_;
     detail::tell(law, K, T, late);
@@ -340,7 +340,7 @@ class local_contact {
     }
     return true;
   }
-  /// Shapers that only reduce, and remember nothing, have no say where nothing is asked.
+  /// True if the shapers only reduce and have no state, so that they need not be called for zero force.
   template <class State>
   [[nodiscard]] static constexpr bool shapers_keep_zero() noexcept {
     if constexpr (detail::is_shaped<Law, Space>) {
@@ -351,11 +351,11 @@ class local_contact {
     return true;
   }
 
-  /// News may come just before a tick or just after it.
+  /// Compares ages with a slack of one tick, because an update may come just before or after a tick.
   [[nodiscard]] constexpr bool is_younger(scalar age) const noexcept {
     return supply_.changed() ? age <= told_.age + slack_ : lag_.follows(age, slack_);
   }
-  /// How far the contact counts, in [0, 1]: less while a silent environment fades, 0 before its first target.
+  /// The factor of the force, in [0, 1]: below 1 while stale data fade, 0 before the first target.
   [[nodiscard]] constexpr scalar presence([[maybe_unused]] scalar depth, scalar dt,
                                           event& what) noexcept {
     if constexpr (Supply::moves) {
@@ -378,7 +378,7 @@ class local_contact {
     if constexpr (Supply::moves) return supply_.changed();
     return false;
   }
-  /// Of the speed outwards, what swings; another law damps all of it.
+  /// The part of the outward speed that the law damps: an eased law's swinging(), else all of it.
   [[nodiscard, gnu::always_inline]] constexpr scalar damped_speed(
       scalar outwards, [[maybe_unused]] bool touched, [[maybe_unused]] scalar dt) noexcept {
     if constexpr (eases) {
@@ -387,7 +387,7 @@ class local_contact {
     }
     return outwards;
   }
-  /// How deep x is in the surface that is felt [m]: the newest one or, where news are eased, what follows it.
+  /// The depth of x in the own surface [m]: the newest one or, if updates are eased, the one that follows it.
   [[nodiscard, gnu::always_inline]] constexpr scalar depth_in_own(
       scalar now, [[maybe_unused]] const vector& x, [[maybe_unused]] const auto& port) noexcept {
     if constexpr (eases) {
@@ -409,7 +409,7 @@ class local_contact {
     lag_.let_go();  // neither is touched, so no force can step
     return now;
   }
-  /// News: what is pressed keeps the force that it has.
+  /// Takes an update; a pressed contact keeps its force.
   constexpr void hear(scalar now, const vector& x, const auto& port) noexcept {
     const auto was = shown_.at(x);
     const scalar counted = supply_.last_weight();
@@ -429,7 +429,7 @@ class local_contact {
               {knows ? Space::dot(vector(*told_.velocity), outward) : scalar(0), told_.age, knows});
     told_ = {};
   }
-  /// What vanishes takes its force along at a limited rate, too.
+  /// The factor of a contact that fades, whose force also falls at a limited rate if the law is eased.
   [[nodiscard, gnu::noinline]] constexpr scalar faded(scalar weight, [[maybe_unused]] scalar depth,
                                                       [[maybe_unused]] scalar dt) const noexcept {
     if constexpr (eases) {
@@ -444,7 +444,7 @@ class local_contact {
     if constexpr (eases) return !lag_.settled() || !turn_.still();
     return false;
   }
-  /// Was x behind the surface but outside its edges in the last tick? Such a device has come from the side.
+  /// True if x was behind the surface but outside its edges in the last tick, so that the device came from the side.
   [[nodiscard]] constexpr bool pass_beside([[maybe_unused]] bool now) noexcept {
     if constexpr (Supply::moves) return std::exchange(beside_, now);
     return false;
@@ -455,12 +455,12 @@ class local_contact {
     return {none, true, none, false, false, weight, scalar(0), scalar(0), none, none};
   }
 
-  /// x in the local model: how deep, and is it touched there?
+  /// The depth of x in the local model, and whether it is touched there.
   struct local_touch {
     scalar depth;  ///< [m]
     bool touched;
   };
-  /// A contact that has come from the side, or has only just appeared, is an update (A18).
+  /// A contact from the side, or one that has just appeared, is treated as an update (A18).
   [[nodiscard, gnu::always_inline]] constexpr local_touch in_own(const vector& x, scalar depth,
                                                                  bool touched) const noexcept {
     if constexpr (Supply::moves) {
@@ -493,7 +493,8 @@ class local_contact {
     }
     return goal;
   }
-  /// At its rate a normal turns, and where little is pressed as fast as half of R_usual lets the force change [rad].
+  /// The largest turn of the normal in dt [rad]: its rate or, under a small force, the turn that changes the force by
+  /// R_usual dt/2.
   [[nodiscard]] constexpr scalar gentle_turn(scalar depth, scalar dt) const noexcept {
     const scalar pressed = law_.force(depth, scalar(0));
     const scalar not_felt = scalar(0.5) * law_.pace().usual() * dt;
@@ -502,7 +503,7 @@ class local_contact {
     return not_felt < pressed * scalar(0.5) ? not_felt / pressed
                                             : kernels::larger(at_its_rate, scalar(0.5));
   }
-  /// What the local model would push with, by the law as it was in the last tick [N].
+  /// The force of the local model, by the law of the last tick [N].
   [[nodiscard]] constexpr scalar local_force([[maybe_unused]] const law_type& before,
                                              [[maybe_unused]] const local_touch& own,
                                              [[maybe_unused]] scalar speed) const noexcept {
@@ -515,18 +516,18 @@ class local_contact {
   Supply supply_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS normals_type normals_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS law_type law_;
-  /// Behind the surface, but outside its edges: only what moves can be met that way.
+  /// x was behind the surface, but outside its edges; this is needed for a supply that moves only.
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<Supply::moves, bool, no_memory> beside_{};
   struct no_lag {};
   struct no_turn {};
   struct no_surface {};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, lag<scalar>, no_lag> lag_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, turning<Space>, no_turn> turn_{};
-  /// The target of the last tick, for what is new.
+  /// The target of the last tick, to compare with an update.
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, constraint_type, no_surface> shown_{};
   struct no_account {};
   struct no_slack {};
-  /// What the newest target tells of its motion, until a tick has heard it.
+  /// The stated motion of the newest target, until the next tick takes it.
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, surface_motion<Space>, no_account>
       told_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, scalar, no_slack>
@@ -537,7 +538,7 @@ class local_contact {
 template <class Supply, class Normals, class Law>
 local_contact(Supply, Normals, Law)
     -> local_contact<typename detail::space_of<Supply>::type, Supply, Normals, Law>;
-/// One that lacks its law, so that the compiler says so.
+/// The deduction guide for a local_contact without a law, so that the compiler names what is missing.
 template <class Supply, class Normals>
 local_contact(Supply, Normals)
     -> local_contact<typename detail::space_of<Supply>::type, Supply, Normals, detail::left_out>;

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Surfaces as a collision search finds them: another number of them each time, in any order. A set of contacts
-// has slots, and what is felt of a slot is what it has been told since it was filled; so each surface has to
-// come back to the slot that it was in.
+// Assigns the surfaces of a collision search, whose number and order change every time, to the slots of a set of
+// contacts. A slot follows its own surface with a limited rate, so each surface has to return to its slot.
 //
 //     ph::contact_manifold<ph::half_space<scene>, 8> seen;        // beside the port, in the haptic thread
-//     seen.show(port.source(), surfaces, position);               // whenever there are news; all that there are
-//     seen.show(port.source(), surfaces, position, ids);          // where the search has names for them
+//     seen.show(port.source(), surfaces, position);               // at every update, with all surfaces
+//     seen.show(port.source(), surfaces, position, ids);          // if the search has ids for them
 //     seen.show(tool.source(), surfaces, points, pose);           // a rigid_tool: a point for each surface
 //
-// Who is who is decided where the device is, x:
+// Surfaces are compared at the device's position x:
 //
 //     c = |d_told(x) − d_slot(x)| + ℓ |n_told(x) − n_slot(x)|  [m]        the same if c ≤ the gate          (M1)
 //
-// an equal id first, whatever c; then pairs in the order of rising c (a stable matching, so the order of what is
-// told has no say); what is left over takes a slot that is free, or else the one that presses least; and a slot
-// that nobody has claimed is released. One that is still receding may be claimed. Of more surfaces than slots
-// the deepest are kept. Source, and what it costs: docs/design/contacts.md.
+// First, equal ids are matched, for any c; then pairs in the order of rising c (a stable matching, independent of the
+// order of the surfaces). A surface without a match takes a free slot, or else the slot with the smallest force; a
+// slot without a surface is released. A slot that is still receding may be matched. Of more surfaces than slots
+// the deepest are kept. Source (ours) and cost: docs/design/contacts.md.
 
 #include <passive_haptics/contact/contact_engine.hpp>
 
@@ -29,12 +28,12 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Which surfaces are the same at two times.
+/// The tolerances by which a surface is recognised again.
 struct same_surface {
-  double within = 0.01;  ///< the gate: c of (M1) at most [m]
-  double lever = 0.02;   ///< ℓ: a normal that turns by 1 rad counts as a depth of so much [m]
-  double stay = 1e-3;    ///< of more surfaces than slots, what one in no slot must be deeper by [m]
-  double twin = 1e-6;    ///< and c of two that count as one [m]
+  double within = 0.01;  ///< the gate, largest c of (M1) of the same surface [m]
+  double lever = 0.02;   ///< ℓ, depth that a turn of the normal by 1 rad counts as [m]
+  double stay = 1e-3;    ///< how much deeper a surface must be to replace one in a slot [m]
+  double twin = 1e-6;    ///< largest c of two surfaces that count as one [m]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(within)) return {"within", within, "finite and > 0 m"};
@@ -45,14 +44,14 @@ struct same_surface {
   }
 };
 
-/// What has become of the surfaces of a frame. The first five add up to what was told.
+/// The result of one update. The first five numbers add up to the number of surfaces.
 struct manifold_news {
-  int matched = 0;   ///< found the slot that they were in
-  int added = 0;     ///< have a slot from now on
-  int refused = 0;   ///< unusable; the next tick says so, too (event::rejected_target)
-  int merged = 0;    ///< equal to one that has a slot, where there was no slot left for a second
-  int left_out = 0;  ///< shallower than all that have a slot, where there was none left
-  int released = 0;  ///< slots whose surface is no longer there
+  int matched = 0;   ///< surfaces that returned to their slot
+  int added = 0;     ///< surfaces with a new slot
+  int refused = 0;   ///< unusable surfaces; the next tick has event::rejected_target, too
+  int merged = 0;    ///< surfaces equal to one in a slot, with no slot left for a second
+  int left_out = 0;  ///< surfaces shallower than all in slots, with no slot left
+  int released = 0;  ///< slots whose surface has gone
 
   /// How many surfaces have a slot.
   [[nodiscard]] constexpr int taken() const noexcept { return matched + added; }
@@ -60,7 +59,7 @@ struct manifold_news {
 
 namespace detail {
 
-/// How many slots for that surface a source has.
+/// The number of slots of a source for that kind of surface.
 template <class Surface, class Spring, class Friction, class... Groups>
 [[nodiscard]] constexpr int room_for(
     const contact_parameters<Spring, Friction, Groups...>* /*p*/) noexcept {
@@ -69,15 +68,15 @@ template <class Surface, class Spring, class Friction, class... Groups>
 
 }  // namespace detail
 
-/// Brings surfaces that have no numbers into the first `Count` slots of their kind of a contact_set or a
-/// rigid_tool. The slots after them, if there are any, are left to their owner.
+/// Assigns surfaces to the first `Count` slots of their kind of a contact_set or a rigid_tool. Further slots are not
+/// touched.
 template <class Surface, int Count, class Space = typename Surface::space_type>
 requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
  public:
   using scalar = typename Space::scalar;
   using vector = typename Space::vector;
   using id_type = std::uint64_t;                ///< a face, a feature, a pair of bodies
-  static constexpr id_type no_id = ~id_type{};  ///< of a surface that has no name
+  static constexpr id_type no_id = ~id_type{};  ///< the id of a surface without one
 
   constexpr contact_manifold() noexcept : contact_manifold(same_surface{}) {}
   constexpr explicit contact_manifold(const same_surface& rule) noexcept
@@ -91,15 +90,15 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
   [[nodiscard]] constexpr same_surface parameters() const noexcept { return rule_; }
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return rule_.check(); }
 
-  /// All surfaces that there are now, in any order, for a contact_set whose device is at x [m]; ids as many as
-  /// surfaces, or none. One that is unusable is refused, and if its id is known, its slot keeps the last good one.
+  /// Takes all present surfaces, in any order, for a contact_set whose device is at x [m], with as many ids as
+  /// surfaces, or none. An unusable one is refused; if its id is known, its slot keeps the last good surface.
   template <class Source>
   constexpr manifold_news show(Source& source, std::span<const Surface> surfaces, const vector& x,
                                std::span<const id_type> ids = {}) noexcept {
     return match(source, surfaces, at_device{x}, ids);
   }
   /// The same for a rigid_tool: each surface is for a point of the tool, in the frame of the handle [m], and
-  /// `pose` is the handle's. Surfaces without a point are refused. Points that are c apart count as c in (M1).
+  /// `pose` is the handle's. Surfaces without a point are refused. The distance of two points is added to c in (M1).
   template <class Source, class Pose>
   manifold_news show(Source& source, std::span<const Surface> surfaces,
                      std::span<const typename Source::point> points, const Pose& pose,
@@ -111,7 +110,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
   static constexpr auto cells = static_cast<std::size_t>(Count);
   static constexpr std::size_t nobody = ~std::size_t{};
 
-  /// A contact_set feels every surface where the device is.
+  /// For a contact_set, every surface is touched at the device's position.
   struct at_device {
     static constexpr bool apart = false;
     const vector& x;
@@ -124,7 +123,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
       return source.update(i, s);
     }
   };
-  /// A rigid_tool feels each at a point of its own.
+  /// For a rigid_tool, each surface is touched at a point of the tool.
   template <class Tool, class Pose>
   struct on_tool {
     static constexpr bool apart = true;
@@ -146,7 +145,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
     }
   };
 
-  /// A surface where the device is.
+  /// A surface at the device's position.
   struct view {
     vector normal = Space::zero();
     vector place = Space::zero();  ///< [m]
@@ -166,26 +165,26 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
       return kernels::is_finite(depth) && Space::is_finite(normal);
     }
   };
-  /// One that is told and may get a slot.
+  /// A surface that may get a slot.
   struct candidate {
     view seen;
-    std::size_t number{};  ///< among those told
-    scalar rank{};         ///< its depth, less what it is away from what is in the slots [m]
+    std::size_t number{};  ///< its number in the update
+    scalar rank{};         ///< its depth less its distance c from the slots [m]
     bool twin = false;     ///< equal to another candidate
     bool placed = false;
   };
   struct frame_state {
-    std::array<view, cells> slot;       ///< what is in each slot
-    std::array<bool, cells> filled{};   ///< there is something in it
+    std::array<view, cells> slot;       ///< the surface in each slot
+    std::array<bool, cells> filled{};   ///< the slot has a surface
     std::array<candidate, cells> told;  ///< the candidates
     std::array<std::size_t, cells> by;  ///< the candidate that each slot belongs to
-    std::array<scalar, cells> bar;      ///< below which c has to be to take a slot [m]
-    std::array<bool, cells> kept{};     ///< its surface was told, and unusable
-    std::size_t count = 0;              ///< of the candidates
-    std::size_t worst = 0;              ///< which of them is the first to go
+    std::array<scalar, cells> bar;      ///< largest c with which a candidate takes the slot [m]
+    std::array<bool, cells> kept{};     ///< its surface came, and was unusable
+    std::size_t count = 0;              ///< number of candidates
+    std::size_t worst = 0;              ///< the candidate that is dropped first
   };
 
-  /// c of (M1), as far as it is below `most` [m]. Of two in one place the stiffness says which is which.
+  /// c of (M1) [m], or more than `most` if it is above that. Two surfaces in one place are told apart by stiffness.
   template <bool Apart>
   [[nodiscard]] constexpr scalar cost(const view& a, const view& b, scalar most) const noexcept {
     scalar c = kernels::magnitude(a.depth - b.depth);
@@ -206,7 +205,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
         "of this kind");
     manifold_news news;
     if (!where.is_finite()) {
-      where.refuse(source);  // there is no such slot: the next tick says so
+      where.refuse(source);  // no such slot: the next tick has rejected_target
       news.refused = static_cast<int>(surfaces.size());
       return news;
     }
@@ -227,7 +226,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
       }
     }
 
-    // Which of them may have a slot: O(surfaces · slots).
+    // Selects the candidates, in O(surfaces · slots).
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       Surface usable = surfaces[k];
       candidate next;
@@ -268,7 +267,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
     }
     for (std::size_t k = 0; k < now.count; ++k) {
       if (now.told[k].placed) continue;
-      std::size_t i = nobody;  // that which presses least
+      std::size_t i = nobody;  // the slot with the smallest force
       for (std::size_t j = 0; j < cells; ++j) {
         if (now.by[j] != nobody || now.kept[j]) continue;
         if (i == nobody || slot_at(j).pressed() < slot_at(i).pressed()) i = j;
@@ -283,7 +282,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
     return news;
   }
 
-  /// Among the candidates, if there is room; else in place of one that is told twice, or of the shallowest.
+  /// Adds a candidate, if there is room; else it replaces one that came twice, or the shallowest one.
   template <bool Apart>
   constexpr void choose(frame_state& now, candidate& next, bool crowded, id_type id,
                         manifold_news& news) const noexcept {
@@ -293,7 +292,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
     }
     next.rank = next.seen.depth;
     const bool full = now.count == cells;
-    if (full && before(next, now.told[now.worst])) {  // however near it is to what is in the slots
+    if (full && before(next, now.told[now.worst])) {  // whatever its distance from the slots is
       ++news.left_out;
       return;
     }
@@ -317,21 +316,21 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
       if (before(now.told[k], now.told[now.worst])) now.worst = k;
     }
   }
-  /// Is a the first to go? What is told twice, then what does not cover the device, then the shallower.
+  /// True if a is dropped before b: twins first, then surfaces that do not cover the device, then shallower ones.
   [[nodiscard]] static constexpr bool before(const candidate& a, const candidate& b) noexcept {
     if (a.twin != b.twin) return a.twin;
     if (a.seen.covers != b.seen.covers) return b.seen.covers;
     return a.rank < b.rank;
   }
-  /// Slots that have no owner yet are open to what is nearer than `gate` [m].
+  /// Opens slots without an owner to candidates with c below `gate` [m].
   constexpr void open(frame_state& now, scalar gate) const noexcept {
     for (std::size_t i = 0; i < cells; ++i) {
       const bool vacant = now.filled[i] && !now.kept[i] && now.by[i] == nobody;
       now.bar[i] = vacant ? gate : scalar(-1);
     }
   }
-  /// Who has no slot yet takes the nearest of those it may have whose owner is farther from it; that one goes on
-  /// to its next nearest.
+  /// A candidate without a slot takes the nearest open slot whose owner has a larger c; that owner then looks for its
+  /// next nearest (stable matching).
   template <bool Apart>
   constexpr void claim_all(frame_state& now, const auto& may) const noexcept {
     for (std::size_t first = 0; first < now.count; ++first) {
@@ -355,7 +354,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
       }
     }
   }
-  /// Tells slot i what it is now: 1 if it takes it.
+  /// Updates slot i with its surface; returns 1 if that is accepted.
   constexpr int put(auto& source, const auto& where, std::span<const Surface> surfaces,
                     const frame_state& now, std::size_t i, const auto& id_of,
                     manifold_news& news) noexcept {
@@ -371,8 +370,8 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
 
   same_surface rule_;
   scalar within_, lever_, stay_, twin_;  ///< [m]
-  std::array<id_type, cells> ids_{};     ///< of what each slot was told last
-  std::array<bool, cells> told_{};       ///< it shows a surface of the last frame
+  std::array<id_type, cells> ids_{};     ///< id of the last surface of each slot
+  std::array<bool, cells> told_{};       ///< its surface was in the last update
 };
 
 }  // namespace v0

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// λ ≥ 0 that minimises ½ λᵀAλ − d'ᵀλ, A positive definite: λ ≥ 0, Aλ ≥ d', and one of the two an equation in
-// each row. (S1 of proxy.hpp)
+// Finds the λ ≥ 0 that minimises ½ λᵀAλ − d'ᵀλ, A positive definite: λ ≥ 0 and Aλ ≥ d', with equality in one of
+// the two in each row. (S1 of proxy.hpp)
 //
-//   up to three rows   in closed form: of the seven sets of contacts that may press, one fits
+//   up to three rows   in closed form: one of the seven sets of pressing contacts is the solution
 //   more               by active sets, from those that pressed in the last tick. The objective falls with
-//                      each change, so it ends; whatever it is stopped at is λ ≥ 0, and the bound meets that.
+//                      each change, so it ends. If it is stopped before, λ ≥ 0 still, and the bound limits the force.
 
 #include <passive_haptics/contact/proxy.hpp>
 
@@ -14,7 +14,7 @@ inline namespace v0 {
 
 namespace detail {
 
-/// Of up to three rows. `between`(i, j) is A_ij, i ≠ j [m/N].
+/// Solves up to three rows. `between`(i, j) is A_ij, i ≠ j [m/N].
 template <class Row, class Scalar, int Capacity>
 constexpr void solve_exactly(proxy_problem<Row, Scalar, Capacity>& p, auto between_rows) noexcept {
   constexpr Scalar none(0);
@@ -93,8 +93,8 @@ class active_set {
     is_in_[i] = true;
   }
 
-  /// λ of S goes to where A_SS λ = d', or as far as none of it turns negative: what stops it leaves S. True
-  /// when it came there.
+  /// Moves λ of S towards the solution of A_SS λ = d' until one of them is zero, which then leaves S. Returns true if
+  /// it reached the solution.
   constexpr bool step(auto between) noexcept {
     for (; factored_ < count_; ++factored_) append(between);
     std::array<Scalar, capacity> goal{};  // of A_SS λ = d', by Lᵀ
@@ -122,7 +122,7 @@ class active_set {
     count_ = kept;
     return share == Scalar(1);
   }
-  /// d' − Aλ of a contact outside of S [m]: how much of it nobody presses yet.
+  /// d' − Aλ of a contact outside of S [m]; > 0 if it has to press, too.
   [[nodiscard]] constexpr Scalar missing(std::size_t i, auto between) const noexcept {
     Scalar rest = p_.wish[i];
     for (std::size_t k = 0; k < count_; ++k) rest -= between(i, in_[k]) * p_.pressed[in_[k]];
@@ -131,7 +131,7 @@ class active_set {
   [[nodiscard]] constexpr bool has(std::size_t i) const noexcept { return is_in_[i]; }
 
  private:
-  /// One row more of L, and of L⁻¹d'.
+  /// Appends a row to L and to L⁻¹d'.
   constexpr void append(auto between) noexcept {
     const std::size_t k = factored_, i = in_[k];
     Scalar square = p_.own[i], half = p_.wish[i];
@@ -155,7 +155,7 @@ class active_set {
   std::size_t count_ = 0, factored_ = 0;
 };
 
-/// Of any number of rows, by active sets.
+/// Solves any number of rows by active sets.
 template <class Row, class Scalar, int Capacity>
 constexpr void solve_by_sets(proxy_problem<Row, Scalar, Capacity>& p, auto between) noexcept {
   active_set<Row, Scalar, Capacity> set(p);
@@ -183,7 +183,7 @@ constexpr void solve_by_sets(proxy_problem<Row, Scalar, Capacity>& p, auto betwe
 
 }  // namespace detail
 
-/// λ of (S1) into `pressed`. `between`(i, j) is A_ij [m/N] of two rows, i ≠ j.
+/// Writes λ of (S1) into `pressed`. `between`(i, j) is A_ij [m/N] of two rows, i ≠ j.
 template <class Row, class Scalar, int Capacity>
 constexpr void solve(proxy_problem<Row, Scalar, Capacity>& p, auto between) noexcept {
   if constexpr (Capacity > 3) {

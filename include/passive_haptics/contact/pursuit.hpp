@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// One slot of a set of contacts: the newest surface that the world has told, and what is felt of it, which
-// follows at a limited speed. The news are limited, the motion never:
+// One slot of a set of contacts: the newest surface of the environment (the target), and the own surface that is
+// felt and follows it at a limited rate. The device's own motion is never limited:
 //
-//   new shape     the depth that is felt stays; the lag ℓ becomes the difference             d = d_target − ℓ
-//   appears       no deeper than what the contacts that are there press anyway, so with λ = 0
-//   every tick    |ℓ| falls by ρ dt, or by what makes up for the last news within t_c, if that is more; the
-//                 own normal turns with the target's where the device moves along it, and makes up for what
-//                 news have turned at a limited rate, or within t_c if that is more
-//   vanishes      ℓ grows by ρ dt and by whatever the device goes deeper, until λ = 0
+//   update        the own depth d [m] is kept; the lag ℓ [m] becomes the difference          d = d_target − ℓ
+//   appears       d is the largest depth at which the contact's force is λ = 0 beside the other contacts
+//   every tick    |ℓ| falls by ρ dt, or as fast as removes ℓ within t_c if that is more; the own normal turns
+//                 with the target's as the device slides along it, and catches up with the turn of an update
+//                 at turn_rate, or within t_c if that is faster
+//   vanishes      ℓ grows by ρ dt and by any increase of d_target, until λ = 0
 //
-// The own normal is carried along with the target's first, whatever the surface: sliding is no news, however
-// fast. Over an edge, where the closest feature of a mesh changes, it turns as if the edge were rounded by r:
-// by |Δx|/r at most. Where a bend turns the push against the motion it is led by τ, as the depth is: that brakes
-// what rolls in a bowl. Source: docs/design/contacts.md.
+// The own normal first turns with the target's, on any surface, so fast sliding counts as no update. Over an edge,
+// where the closest feature of a mesh changes, it turns as if the edge had the radius r, by |Δx|/r at most. Where the
+// turn along a curved surface is against the motion, the push is led by τ, as the depth is, which brakes a device
+// that rolls in a bowl. Source: ours; docs/design/contacts.md.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/contact/proxy.hpp>
@@ -27,14 +27,15 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// How fast what is felt follows the world. What is older than `stale_after` recedes as what has vanished does.
+/// The rates at which the own surface follows its target. A target older than `stale_after` recedes as if it vanished.
 struct pursuit {
-  double speed = 0.05;       ///< ρ, of a surface under the finger, at least [m/s]
-  double catch_up = 0.04;    ///< t_c, in which news of what is pressed are made up for [s]
-  double turn_rate = 2.0;    ///< of a normal [rad/s]
-  double force_rate = 50.0;  ///< R, of what is asked, where nothing but news changes it [N/s]
-  double edge = 1e-3;        ///< r, by which an edge of a mesh feels rounded [m]
-  double stale_after = std::numeric_limits<double>::infinity();  ///< without news it vanishes [s]
+  double speed = 0.05;       ///< ρ, least speed of a surface under the device [m/s]
+  double catch_up = 0.04;    ///< t_c, time in which an update is followed [s]
+  double turn_rate = 2.0;    ///< fastest turn of a normal [rad/s]
+  double force_rate = 50.0;  ///< R, fastest change of the force by updates [N/s]
+  double edge = 1e-3;        ///< r, the radius with which an edge of a mesh is felt [m]
+  double stale_after =
+      std::numeric_limits<double>::infinity();  ///< age at which a surface vanishes [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(speed)) return {"speed", speed, "finite and > 0 m/s"};
@@ -72,11 +73,11 @@ class pursuit::on {
             .stale_after = static_cast<double>(stale_after_)};
   }
 
-  /// How fast a lag ℓ is to be made up for [m/s].
+  /// The speed at which a lag ℓ falls, max(ρ, |ℓ|/t_c) [m/s].
   [[nodiscard]] constexpr scalar speed_for(scalar lag) const noexcept {
     return kernels::larger(speed_, kernels::magnitude(lag) / catch_up_);
   }
-  /// What a contact that ends loses of its depth in dt, at an outward speed v [m].
+  /// The growth of ℓ of a contact that ends, in dt at an outward speed v: (ρ + max(−v, 0)) dt [m].
   [[nodiscard]] constexpr scalar receding(scalar v, scalar dt) const noexcept {
     return (speed_ + kernels::larger(-v, scalar(0))) * dt;
   }
@@ -84,11 +85,11 @@ class pursuit::on {
                                         scalar dt) const noexcept {
     return turn_.step(from, to, dt);
   }
-  /// By how much news may change the force in dt [N].
+  /// R dt, the largest change of the force by updates in dt [N].
   [[nodiscard]] constexpr scalar news(scalar dt) const noexcept { return force_rate_ * dt; }
-  /// D: a surface is left alone until the device may come nearer to it than that [m].
+  /// D = 0.2 s · ρ [m]: a surface is not evaluated until the device may be nearer to it than that.
   [[nodiscard]] constexpr scalar out_of_reach() const noexcept { return scalar(0.2) * speed_; }
-  /// ≥ 1: how many times faster than the turn rate a normal must turn to make up for the last news within t_c.
+  /// The factor ≥ 1 of the turn rate at which a normal reaches the goal within t_c.
   [[nodiscard]] constexpr scalar hurry_for(const vector& own, const vector& goal) const noexcept {
     const scalar angle = Space::norm(vector(goal - own));
     return kernels::larger(angle / catch_up_ * per_rate_, scalar(1));
@@ -106,24 +107,24 @@ class pursuit::on {
   turn_limited::on<Space> turn_;
 };
 
-/// What one slot has to say in a tick.
+/// The own surface of one slot in a tick.
 template <class Space>
 struct felt_surface {
-  typename Space::vector normal;   ///< of its own, unit, outward
-  typename Space::vector push;     ///< −∇depth; the normal, for a distance
-  typename Space::scalar depth{};  ///< of its own, ≤ 0 outside [m]
-  bool chases = false;             ///< it is not yet what the world has told
+  typename Space::vector normal;   ///< own normal, unit, outward
+  typename Space::vector push;     ///< −∇d; the normal, if depth is a distance
+  typename Space::scalar depth{};  ///< own depth, ≤ 0 outside [m]
+  bool chases = false;             ///< it has not reached the target yet
 
-  /// Numbers, all of them, and no push beyond what a square can say.
+  /// True if all numbers, and the square of `push`, are finite.
   [[nodiscard]] constexpr bool is_finite() const noexcept {
     return kernels::is_finite(depth + Space::dot(push, push));
   }
 };
 
-/// A slot. λ is told to it after each tick.
+/// A slot. press() sets its λ after each tick.
 template <class Surface, class Space>
 class pursued {
-  /// A plane is the same everywhere, so it turns by news alone.
+  /// The normal of a plane is the same everywhere, so only updates turn it.
   static constexpr bool has_edges = kind_of<Surface>() == surface_kind::faceted;
   static constexpr bool turns_along = kind_of<Surface>() != surface_kind::flat;
   static constexpr bool bends = turns_along && !has_edges;
@@ -135,8 +136,8 @@ class pursued {
   static_assert(surface_for<Surface, Space>,
                 "passive_haptics: the surface does not model surface_for: see port/concepts.hpp");
 
-  /// Takes a new surface while the contact is at `here`, and was at `was` with the last one, or refuses it
-  /// and keeps the last good one. One that is pressed keeps the force it has; any other is met anew.
+  /// Takes a new surface while the contact is at `here`, and was at `was` with the last one, or refuses it and keeps
+  /// the last good one. A pressed contact keeps its force; any other one is treated as new.
   constexpr bool update(Surface next, const vector& was, const vector& here, const auto& rule,
                         const pursuit::on<Space>& pace) noexcept {
     if (!next.prepare()) return false;
@@ -160,12 +161,12 @@ class pursued {
     age_ = scalar(0);
     return true;
   }
-  /// Nothing is there any more: what is pressed recedes until it is not.
+  /// Removes the surface; a pressed one recedes until λ = 0.
   constexpr void release() noexcept {
     state_ = pressed_ > scalar(0) ? state::leaving : state::empty;
   }
   constexpr void reset() noexcept { *this = {}; }
-  /// The same surface, as stiff as another rule lets it be.
+  /// Recomputes the spring of the same surface for a new rule.
   constexpr void adopt(const auto& rule) noexcept {
     if (taken()) spring_ = rule.sampled(target_.stiffness);
   }
@@ -174,29 +175,29 @@ class pursued {
   [[nodiscard]] constexpr bool stale() const noexcept { return state_ == state::stale; }
   [[nodiscard]] constexpr const Surface& target() const noexcept { return target_; }
   [[nodiscard]] constexpr scalar lag() const noexcept { return lag_; }  ///< ℓ [m]
-  /// With which it is made up for [m/s].
+  /// The speed at which ℓ falls [m/s].
   [[nodiscard]] constexpr scalar speed() const noexcept { return speed_; }
   [[nodiscard]] constexpr scalar pressed() const noexcept { return pressed_; }  ///< λ [N]
-  [[nodiscard]] constexpr vector normal() const noexcept { return normal_; }    ///< its own
+  [[nodiscard]] constexpr vector normal() const noexcept { return normal_; }    ///< own normal
   constexpr void press(scalar lambda) noexcept { pressed_ = lambda; }
   [[nodiscard]] constexpr const sampled_spring<scalar>& spring() const noexcept { return spring_; }
 
-  /// What ends and is not pressed: gone, or met anew where it is covered again.
+  /// Ends a contact with λ = 0: the slot becomes empty, or expects the surface to cover the device again.
   constexpr bool vanish() noexcept {
     if (state_ == state::leaving || state_ == state::stale) state_ = state::empty;
     if (state_ == state::there) state_ = state::expected;
     return false;
   }
-  /// Time goes by [s]: a surface without news for too long leaves.
+  /// Adds dt [s] to the age; a surface without updates for too long becomes stale.
   constexpr void grow_older(scalar dt, const pursuit::on<Space>& pace) noexcept {
     age_ += dt;
     if (state_ == state::there && pace.stale(age_)) state_ = state::stale;
   }
 
-  /// Brings the slot to a tick in which the device is at x, and writes what is felt of its surface there into
-  /// `own`; false if it is empty or ends. `along`(n) is the outward speed of the device [m/s], `rests` says
-  /// that no contact pressed in the last tick, and `unfelt`(push) is the depth [m] that a contact pushing so
-  /// may have before the contacts that are there leave it any force.
+  /// Updates the slot for a tick with the device at x, and writes its own surface into `own`; returns false if it is
+  /// empty or ends. `along`(n) is the outward speed of the device [m/s], `rests` is true if no contact pressed in the
+  /// last tick, and `unfelt`(push) is the largest depth [m] at which a contact with that push has λ = 0 beside the
+  /// others.
   [[nodiscard, gnu::always_inline]] constexpr bool follow(const vector& x, const auto& along,
                                                           scalar dt, bool rests, const auto& unfelt,
                                                           const pursuit::on<Space>& pace,
@@ -207,14 +208,14 @@ class pursued {
     own.depth = shown.depth;
     const bool ends = state_ == state::leaving || state_ == state::stale || !shown.covered();
     if (!own.is_finite()) [[unlikely]] {
-      return true;  // the caller sees what has come of it
+      return true;  // the caller checks is_finite() again
     }
     if (!(pressed_ > scalar(0))) {
       if (ends) return vanish();
       if (state_ == state::expected) {
         meet(own, unfelt(own.push), pace);
       } else if (rests && own.depth <= scalar(0)) {
-        keep(scalar(0), own.normal);  // no contact is felt, so no force can step
+        keep(scalar(0), own.normal);  // there is no force that could step
       }
     }
     const scalar lag =
@@ -240,7 +241,7 @@ class pursued {
  private:
   enum class state : std::uint8_t { empty, expected, there, leaving, stale };
 
-  /// What the way since the last tick lets a normal turn by over an edge [rad].
+  /// |Δx|/r, the largest turn of a normal over an edge since the last tick [rad].
   [[nodiscard]] constexpr scalar turn_of_way(
       [[maybe_unused]] const vector& x, [[maybe_unused]] const pursuit::on<Space>& pace) noexcept {
     if constexpr (has_edges) {
@@ -251,8 +252,8 @@ class pursued {
       return scalar(0);
     }
   }
-  /// How a push turns in τ from now, as (S2) leads the depth, where that brakes: nothing else damps a device that rolls
-  /// in a bowl. What turns by more than the way over r is no bend but a crease.
+  /// The turn of the push within τ, added as a lead as (S2) does for the depth, if it is against the motion: nothing
+  /// else damps a device that rolls in a bowl. A turn of more than |Δx|/r is a crease, and gets no lead.
   [[nodiscard]] constexpr vector braking(const vector& goal, const vector& x, scalar dt,
                                          const pursuit::on<Space>& pace) noexcept {
     const vector turn = goal - vector(shown_), way = Space::difference(x, place_);
@@ -262,8 +263,8 @@ class pursued {
                         Space::dot(turn, turn) * (r * r) <= Space::dot(way, way);
     return brakes ? vector(turn * (spring_.settling / dt)) : Space::zero();
   }
-  /// The own normal, carried along with the target's; over an edge by `most` [rad], of which what is not needed
-  /// remains for what is left of the edge.
+  /// The own normal, turned with the target's; over an edge by `most` [rad], whose unused part remains for the rest of
+  /// the edge.
   [[nodiscard]] constexpr vector along_the_target(
       const vector& before, [[maybe_unused]] const vector& goal, [[maybe_unused]] scalar& most,
       [[maybe_unused]] const pursuit::on<Space>& pace) noexcept {
@@ -279,7 +280,7 @@ class pursued {
       return before;
     }
   }
-  /// A surface that has just appeared is no deeper than it can be with λ = 0, whatever the speed (S2).
+  /// Begins a surface that has just appeared with the largest depth at which λ = 0 for any speed (S2).
   constexpr void meet(const felt& here, scalar most, const pursuit::on<Space>& pace) noexcept {
     if (most > scalar(0)) most = most / scalar(inward_limit);
     keep(here.depth - kernels::smaller(here.depth, most), here.normal);
@@ -293,7 +294,7 @@ class pursued {
     if constexpr (turns_along) shown_ = normal;
   }
 
-  /// ℓ, nearer to zero by a step [m].
+  /// ℓ, moved towards zero by `step` [m].
   [[nodiscard]] static constexpr scalar shortened(scalar lag, scalar step) noexcept {
     if (kernels::magnitude(lag) <= step) return scalar(0);
     return lag < scalar(0) ? lag + step : lag - step;
@@ -305,16 +306,16 @@ class pursued {
 
   Surface target_{};
   sampled_spring<scalar> spring_{};
-  coordinates normal_{};  ///< its own, unit
+  coordinates normal_{};  ///< own normal, unit
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<turns_along, coordinates, nothing>
-      shown_{};  ///< the target's, where the device was last
+      shown_{};  ///< the target's normal at the last position
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<turns_along, coordinates, no_place>
-      place_{};       ///< of the device, where it was last [m]
+      place_{};       ///< last position of the device [m]
   scalar lag_{};      ///< ℓ [m]
-  scalar speed_{};    ///< with which it is made up for [m/s]
-  scalar hurry_{1};   ///< how much faster than the turn rate its normal turns
+  scalar speed_{};    ///< speed at which ℓ falls [m/s]
+  scalar hurry_{1};   ///< factor of the turn rate of the normal
   scalar pressed_{};  ///< λ in the last tick [N]
-  scalar age_{};      ///< since the last news [s]
+  scalar age_{};      ///< time since the last update [s]
   state state_ = state::empty;
 };
 

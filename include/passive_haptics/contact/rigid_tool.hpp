@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A rigid tool that touches the world at several of its points: a peg, a scalpel, a box. A source for a
-// rigid_body port, so one ledger and one bound for force and torque together.
+// A rigid tool with contacts at several of its points: a peg, a scalpel, a box. It is a source for a rigid_body port,
+// so there is one ledger and one bound for force and torque together.
 //
 //     ph::passive_port peg{ph::rigid_body<double>{},
 //                          ph::rigid_tool{ph::tool_spring{.mass = 0.15, .least_inertia = 1e-4}, ph::pursuit{},
 //                                         ph::slots<ph::half_space<scene>, 16>{}},
 //                          ph::basic_reduced_energy<ph::rigid_damping>{.damping = {0.03, 1e-4}},
 //                          ph::rigid_reachable_bound{…}, ph::loop_limits{.longest_tick = 0.0011}};
-//     peg.source().update(0, point, floor);     // a point of the handle's frame and what it may touch
+//     peg.source().update(0, point, floor);     // a point in the handle's frame and its surface
 //
-// Slot i is a point of the tool and a surface: a corner of a box that meets three walls takes three slots. The
-// proxy is the pose that the handle would have if it could not enter (contact/proxy.hpp), so the tool is no
-// stiffer with 16 contacts than with one.
+// Slot i has a point of the tool and a surface, so a corner of a box at three walls takes three slots. The proxy is
+// the pose of the handle without penetration (contact/proxy.hpp), so 16 contacts are no stiffer than one.
 
 #include <passive_haptics/contact/contact_engine.hpp>
 #include <passive_haptics/device/rigid_body.hpp>
@@ -20,17 +19,18 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// How a tool presses: the coupling between the handle and its proxy,
+/// The spring of a tool, the coupling between the handle and its proxy,
 ///     C⁻¹ = diag(k_v I, k_ω I),   k_v = min(K, κ m/T²),   k_ω = min(K ℓ², κ I_least/T²)
-/// which settles however many contacts there are: m and I_least are of the handle point, both at once
-/// (rigid_inertia::at_handle), and many contacts together have κ/(1 − ε) of them. A point r off the handle is felt with
-/// 1/(nᵀC n), n its row (n, r × n): softer than K, because the handle gives way to a turn.
+/// which settles for any number of contacts: m and I_least are lower bounds at the handle point that hold together
+/// (rigid_inertia::at_handle), and many contacts together have at most κ/(1 − ε) of them (Theorem 4 of § 9). A point at
+/// r from the handle has the stiffness 1/(nᵀC n), with the row n = (n, r × n), below K because the handle turns.
 struct tool_spring {
   double mass{};           ///< m, apparent mass of the handle [kg], a lower bound
   double least_inertia{};  ///< smallest moment of inertia about the handle [kg·m²], a lower bound
   double lever = 0.03;     ///< ℓ, a length of the tool [m]
   double stiffness_fraction = 0.1;  ///< κ, of m/T² and of I/T²
-  double softness = 0.1;  ///< ε: more than for a point, since points of a tool are often alike
+  double softness =
+      0.1;  ///< ε, more than for a point, because points of a tool often have equal rows
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = detail::sampled_fault(*this)) return fault;
@@ -64,22 +64,22 @@ class tool_spring::at {
     p.softness = static_cast<double>(softness_);
     return p;
   }
-  /// From now on for ticks of T at most [s], and commands that are held `late` ticks after they were given.
+  /// Sets the longest tick T [s] and the latency of `late` ticks.
   constexpr void adopt(Scalar T, int late = 0) noexcept {
     sampled_every_ = T;
     late_ = late;
     least_yield_ = T * T / (rule_.fraction(late) * inertia_);
   }
-  /// K = min(K, (1 − ε) κ m/T²) and B = K τ of a point at the handle.
+  /// K = min(K, (1 − ε) κ m/T²) [N/m] and B = K τ [N·s/m] of a point at the handle.
   [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K) const noexcept {
     const Scalar k = rule_.stiffness(K, softness_, sampled_every_, late_);
     return sampled_spring<Scalar>::of(k, k * settling_time(k, Scalar(1) / yield(Scalar(1) / k)));
   }
-  /// γ = 1/k_ω = max(c/ℓ², T²/(κ I)) [rad/(N·m)] beside c = 1/k_v [m/N].
+  /// γ = 1/k_ω = max(c/ℓ², T²/(κ I)) [rad/(N·m)] for c = 1/k_v [m/N].
   [[nodiscard]] constexpr Scalar yield(Scalar compliance) const noexcept {
     return kernels::larger(compliance * per_lever_, least_yield_);
   }
-  /// Does a surface of K [N/m] come to rest under this spring? (settles() in sampled_spring.hpp)
+  /// True if a surface of K [N/m] comes to rest with this spring (settles() in sampled_spring.hpp).
   [[nodiscard]] constexpr bool settles(Scalar K) const noexcept {
     const auto s = sampled(K);
     const Scalar turns = s.stiffness * yield(s.compliance) * inertia_;
@@ -90,7 +90,7 @@ class tool_spring::at {
   [[nodiscard]] constexpr Scalar lever() const noexcept { return lever_; }        ///< ℓ [m]
 
  private:
-  /// τ = min(2√(m/k_v), 2√(I/k_ω), 5T) [s]: B/K of damped_spring, for travel and for turns. k ticks late it is
+  /// τ = B/K = min(2√(m/k_v), 2√(I/k_ω), 5T) [s], for translation and rotation. In a loop k ticks late it is
   /// 2.25(k + 1) T instead of 5T.
   [[nodiscard]] constexpr Scalar settling_time(Scalar k, Scalar turn) const noexcept {
     const Scalar slowest = kernels::smaller(rule_.mass() / k, inertia_ / turn);
@@ -105,7 +105,7 @@ class tool_spring::at {
 
 namespace detail {
 
-/// A device that is a rigid body: a contact at r off the handle pushes with the wrench (n, r × n).
+/// The frame of a rigid body: a contact at r from the handle has the wrench (n, r × n) per newton.
 template <class Body>
 struct body_frame {
   using space = typename Body::body_space;
@@ -114,7 +114,7 @@ struct body_frame {
   using row = typename Body::effort;
   using point = stored_vector<scalar, 3>;  ///< in the frame of the handle [m]
   using stored = typename Body::stored_pose;
-  static constexpr bool naps = false;  ///< a turn brings what is far off the handle near at once
+  static constexpr bool naps = false;  ///< because a turn moves points far from the handle quickly
 
   [[nodiscard]] static bool is_point(const point& p) noexcept { return space::is_finite(p); }
   [[nodiscard]] static vector place(const stored& was, const point& p) noexcept {
@@ -168,7 +168,7 @@ struct body_frame {
     [[nodiscard]] scalar own(const row& r, scalar compliance) const noexcept {
       return compliance + space::dot(Body::angular(r), Body::angular(r)) * spring.yield(compliance);
     }
-    /// K nᵀC n at most, whatever the direction.
+    /// The largest K nᵀC n of a point over all directions of n, which is 1 at the handle.
     [[nodiscard]] scalar most_yield(const point& p, scalar compliance) const noexcept {
       return scalar(1) + space::dot(p, p) * spring.yield(compliance) / compliance;
     }
@@ -177,13 +177,13 @@ struct body_frame {
   [[nodiscard]] static proxy<Spring> coupling(const Spring& spring) noexcept {
     return {spring, scalar(1) - spring.softness()};
   }
-  /// [N], a torque by what it is at the lever.
+  /// The size of a wrench [N], a torque counted as torque/ℓ.
   [[nodiscard]] static scalar size(const auto& spring, const row& wrench) noexcept {
     const vector turning = Body::angular(wrench) * (scalar(1) / spring.lever());
     return kernels::square_root(space::dot(Body::linear(wrench), Body::linear(wrench)) +
                                 space::dot(turning, turning));
   }
-  /// [m], a turn by what it moves the lever.
+  /// The size of a motion [m], a turn counted as turn·ℓ.
   [[nodiscard]] static scalar stretch(const auto& spring, const row& way) noexcept {
     const vector turning = Body::angular(way) * spring.lever();
     return kernels::square_root(space::dot(Body::linear(way), Body::linear(way)) +
@@ -193,7 +193,7 @@ struct body_frame {
 
 }  // namespace detail
 
-/// The points and their surfaces, how they press, how fast they follow, and whether they rub.
+/// Points and their surfaces in slots, with a spring, the rates at which they follow updates, and friction.
 template <class Friction, class... Slots>
 struct rigid_tool : contact_parameters<tool_spring, Friction, Slots...> {
   using base = contact_parameters<tool_spring, Friction, Slots...>;
@@ -225,20 +225,21 @@ class rigid_tool<Friction, Slots...>::on
   constexpr on() noexcept : on(rigid_tool{}) {}
   constexpr explicit on(const rigid_tool& p) noexcept : engine(p) {}
 
-  /// Where a point of the tool, in the frame of the handle [m], is in the world when the handle is there [m].
+  /// The position in the world [m] of a point of the tool, given in the frame of the handle [m], for a pose of the
+  /// handle.
   [[nodiscard]] static auto place(const typename Body::pose& handle, const point& at) noexcept {
     typename detail::body_frame<Body>::stored pose = handle;
     pose.orientation = rotation::normalised(pose.orientation);
     return detail::body_frame<Body>::place(pose, at);
   }
-  /// Slot i, counted among those of its kind: a point of the tool, in the frame of the handle [m], and the
-  /// world's newest surface there. False: there is no such slot, or one of them is unusable; the last good
-  /// ones stay, and the next tick says so too.
+  /// Sets slot i, counted among those of its kind: a point of the tool, in the frame of the handle [m], and its newest
+  /// surface. Returns false if there is no such slot, or one of both is unusable; then the last good ones stay, and the
+  /// next tick has event::rejected_target.
   template <class Surface>
   constexpr bool update(int i, const point& at, const Surface& next) noexcept {
     return this->put(i, at, next);
   }
-  /// The same point.
+  /// The same with the slot's present point.
   template <class Surface>
   constexpr bool update(int i, const Surface& next) noexcept {
     return this->put(i, this->template point_of<Surface>(i), next);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Parts of different types, side by side, as a plain value.
+// A tuple of parts of different types, as a plain value.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -11,7 +11,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// A tuple that is trivially copyable where its elements are.
+/// A tuple that is trivially copyable if its elements are.
 template <std::size_t I, class T>
 struct cell {
   T value;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How stiff a contact may be for a mass that is sampled, and how it settles: what damped_spring, proxy_spring
-// and tool_spring have in common. For a mass m [kg], sampled every T [s], on a wall K [N/m]:
+// The stiffness and damping with which a contact of a sampled mass settles: the common part of damped_spring,
+// proxy_spring and tool_spring. For a mass m [kg], sampled every T [s], on a wall K [N/m]:
 //
-//     K_s = min(K, κ m/T²)            the stiffness that it can be held with [N/m]
-//     D_s = min(2ζ√(K_s m), β m/T)    damping ratio ζ, below what sampling allows [N·s/m]
-//     D_F = min(D_s, 2ζ√(F m/d))      deeper than F/K_s, where the motors give F [N] and no more, and the
-//                                     spring is the secant F/d: a heavy device is stopped all the way out
+//     K_s = min(K, κ m/T²)            stiffness [N/m], κ below the limit of sampling
+//     D_s = min(2ζ√(K_s m), β m/T)    damping [N·s/m] of ratio ζ, below the limit of sampling
+//     D_F = min(D_s, 2ζ√(F m/d))      damping deeper than F/K_s, where the spring is the secant F/d of the
+//                                     motors' limit F [N], so that a heavy device is braked all the way out
 //
-// Where commands are held late, κ and D_s are less, or the contact rings for ever (late_limits); settles() says which
-// contacts come to rest. Several contacts share one coupling, so K_s of each is (1 − ε) κ m/T² at most (proxy.hpp).
+// In a loop with latency κ and D_s have to be smaller, or the contact rings for ever (late_limits); settles() tests
+// a contact. Several contacts share one coupling, so K_s of each is (1 − ε) κ m/T² at most (proxy.hpp).
 // Source: docs/design/mathematics.md § 9, and docs/design/settling.md for D_F.
 
 #include <passive_haptics/base/parameter.hpp>
@@ -17,7 +17,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What a sampled mass can take of a contact, each number at hand without a division.
+/// Spring and damper of a contact, in three numbers, so that a tick needs no division.
 template <class Scalar>
 struct sampled_spring {
   Scalar stiffness{};   ///< K [N/m]
@@ -28,12 +28,12 @@ struct sampled_spring {
   }
 };
 
-/// Does what is pressed come to rest? Of a device of mass m or more that nothing damps, on planes at rest which
-/// ask for f(n) = −∇Φ(x(n) + σ Δx(n)), Φ convex and no steeper than K = κ m/T² (contact_set is such a law, σ
-/// = B/(K T)), where a command is held k ticks late, ticks are equal, positions exact, and no bound cuts:
+/// True if a contact comes to rest, for an undamped device of mass ≥ m on planes at rest with the force
+/// f(n) = −∇Φ(x(n) + σ Δx(n)), Φ convex with a stiffness of at most K = κ m/T² (contact_set is such a law, σ = B/(K T)),
+/// in a loop k ticks late, with equal ticks, exact positions and no bound that cuts. The condition is
 ///     Re (1 − 1/z) z⁻ᵏ G(z) + |1 − 1/z|²/(2κ) > 0 on |z| = 1,   G = ½(z + 1)(1 + σ(1 − 1/z))/(z − 1)²
-/// For k = 0 that is κ (2√σ − √(σ−1))² < 2, σ > 1; for k > 0 it is looked at at 2000 points of the circle.
-/// Source: docs/design/mathematics.md § 9, Theorem 3.
+/// For k = 0 that is κ (2√σ − √(σ−1))² < 2, σ > 1; for k > 0 it is evaluated at 2000 points of the circle.
+/// Source: ours; docs/design/mathematics.md § 9, Theorem 3.
 [[nodiscard]] constexpr bool settles(double kappa, double sigma, int k = 0) noexcept {
   if (!(kappa > 0.0 && sigma > 1.0 && k >= 0)) return false;
   if (k == 0) {
@@ -58,7 +58,7 @@ struct sampled_spring {
 
 namespace detail {
 
-/// The same of a contact as it is sampled, on a mass m [kg].
+/// The same for a sampled_spring on a mass m [kg].
 template <class Scalar>
 [[nodiscard]] constexpr bool comes_to_rest(const sampled_spring<Scalar>& s, Scalar m, Scalar T,
                                            int late) noexcept {
@@ -66,13 +66,13 @@ template <class Scalar>
                      static_cast<double>(s.settling / T), late);
 }
 
-/// κ, σ and β = κ σ that a contact may have at most, k > 0 ticks late: what falls onto it comes back with 0.85 of its
-/// speed at most. And the σ that it needs to come to rest at all. (§ 9)
+/// The largest κ, σ and β = κ σ of a contact k > 0 ticks late, with which a device that falls onto it rebounds with at
+/// most 0.85 of its speed; and the least σ with which it comes to rest at all. (§ 9, measured)
 template <class Scalar>
 struct late_limits {
   Scalar stiffness = kernels::largest<Scalar>(), damping = kernels::largest<Scalar>();
   Scalar ticks = Scalar(5), least_ticks = Scalar(0);
-  /// `each` is σ/(k + 1): 2.25, and 6 of a damper that acts on the way out only.
+  /// `each` is the largest σ/(k + 1): 2.25, or 6 for a damper that acts on the way out only.
   constexpr explicit late_limits(int k, Scalar each = Scalar(2.25)) noexcept {
     if (k <= 0) return;
     const Scalar n = Scalar(1 + k);
@@ -83,7 +83,7 @@ struct late_limits {
   }
 };
 
-/// σ of a spring at its cap κ: min(2ζ/√κ, β/κ), or min(2/√κ, 5) of one that says nothing of its damping.
+/// σ of a spring at its cap κ: min(2ζ/√κ, β/κ), or min(2/√κ, 5) for a spring without damping parameters.
 template <class Spring>
 [[nodiscard]] constexpr double ticks_to_settle(const Spring& p) noexcept {
   double ratio = 1.0, most = 5.0;
@@ -94,7 +94,7 @@ template <class Spring>
   return kernels::smaller(2.0 * ratio / kernels::square_root(p.stiffness_fraction), most);
 }
 
-/// What is wrong with the parameters that a spring shares with the others; one that it has not is not asked.
+/// The first fault among the parameters that the springs have in common, as far as `Spring` has them.
 template <class Spring>
 [[nodiscard]] constexpr parameter_fault sampled_fault(const Spring& p) noexcept {
   if (!positive(p.mass)) return {"mass", p.mass, "finite and > 0 kg"};
@@ -109,7 +109,7 @@ template <class Spring>
       return {"damping_fraction", p.damping_fraction, "in [0, 1]"};
     }
   }
-  const double ticks = ticks_to_settle(p);  // 0: left to the device's own damper, and asked for
+  const double ticks = ticks_to_settle(p);  // 0: no damping, as the user has stated
   if (ticks > 0.0 && !settles(p.stiffness_fraction, ticks)) {
     return {"stiffness_fraction", p.stiffness_fraction,
             "smaller: with this damping such a contact rings for ever (settles() in "
@@ -134,7 +134,7 @@ class sampled_mass {
   template <class Spring>
   constexpr explicit sampled_mass(const Spring& p) noexcept
       : mass_(number<Scalar>(p.mass)), fraction_(number<Scalar>(p.stiffness_fraction)) {}
-  /// Writes the parameters that it was made of.
+  /// Writes its parameters into p.
   template <class Spring>
   constexpr void state(Spring& p) const noexcept {
     p.mass = static_cast<double>(mass_);
@@ -142,12 +142,12 @@ class sampled_mass {
   }
 
   [[nodiscard]] constexpr Scalar mass() const noexcept { return mass_; }  ///< m [kg]
-  /// K_s, where commands are held `late` ticks after they were given; ε is the softness of what several share.
+  /// K_s [N/m] in a loop `late` ticks late; `softness` is ε of a shared coupling, else 0.
   [[nodiscard]] constexpr Scalar stiffness(Scalar K, Scalar softness, Scalar T,
                                            int late) const noexcept {
     return kernels::sampled_stiffness(K, fraction(late) * (Scalar(1) - softness), mass_, T);
   }
-  /// What is left of κ there.
+  /// κ in a loop `late` ticks late.
   [[nodiscard]] constexpr Scalar fraction(int late) const noexcept {
     return kernels::smaller(fraction_, late_limits<Scalar>(late).stiffness);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Force in, force out, and at rest when the hand is: given_force with the damping that somebody else's
-// renderer does not have.
+// Force in, force out, and at rest when the hand is: given_force with a damper, for the force of a renderer without
+// one.
 //
 //     ph::make_guard<scene>({.mass = 0.1, .damping = 0.03, .force_limit = 9, .longest_tick = 0.0011}, {.force = 5})
 //
@@ -12,35 +12,35 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The force w given, and dampers that only brake, with v the velocity and n the direction of w, smoothed:
+/// The given force w [N] with dampers that only brake, v [m/s] the velocity and n the smoothed direction of w:
 ///     f = w − n clip(B n·v, −2 n·w, n·w) + clip(σ (I − nnᵀ)(w − w_last)) − clip(B_s (I − nnᵀ) v)
 ///     B = β m/T          along n [N·s/m]; at most 2|w| inwards, |w| outwards
-///     σ                  ticks by which the part of w across n is led; at most B times the speed that it brakes
-///     B_s = β_s m/T      across n [N·s/m]: it stops what swings along a trough; 0.02 N at 0.1 kg and 0.1 m/s
-///     n ← n + (w/|w| − n) dt/(τ + dt), of length 1: facets and detents turn it smoothly
-/// Both parts across n are at most |w| together. At rest f = w, in the air f = 0.
+///     σ                  lead of the part of w across n [ticks]; at most B times the speed that it brakes
+///     B_s = β_s m/T      across n [N·s/m]: it stops a swing along a trough; 0.02 N at 0.1 kg and 0.1 m/s
+///     n ← n + (w/|w| − n) dt/(τ + dt), of length 1, so that it turns smoothly at facets and detents
+/// The sum of both parts across n is at most |w|. At rest f = w; for w = 0 f = 0.
 ///
-/// What is steeper than K_m = most_stiffness(T, 0, l) would ring, so of such a renderer w is s times what is given: K,
-/// its slope −Δw·Δx/|Δx|² along w and across it, is learned over 30 ms of motion, and s = ¾ K_m/K from then on, until
-/// it is less than half as steep. shown() is s. A world that moves pushes Δw with Δx, not against it, and changes no s.
+/// A renderer stiffer than K_m = most_stiffness(T, 0, l) [N/m] would ring, so its w is multiplied by s = ¾ K_m/K. Its
+/// stiffness K, the slope −Δw·Δx/|Δx|² along w and across it, is estimated over 30 ms of motion; s rises again when K
+/// falls below half. shown() is s. A moving surface changes w along Δx and not against it, so it does not lower s.
 ///
-/// Of a force that the motors cannot hold F is left, and B √(F/|w|), critical for the secant: a device comes out
-/// at a speed that it can be stopped from. In a loop that is k ticks late B is 1/(1 + k) of itself. T is the port's
-/// longest tick. v is what the motion estimator says: on encoders whose steps are felt take a mass_observer.
-/// It promises nothing of energy; the bound behind it does.
+/// A force above the motors' limit F is shortened to F, and B to B √(F/|w|), critical for the secant, so that the
+/// device comes out at a speed from which F can stop it. In a loop that is k ticks late B is divided by 1 + k. T is the
+/// port's longest tick, and v is that of the motion estimator: with coarse encoders use a mass_observer. It gives no
+/// passivity guarantee; the bound behind it does.
 struct settled_force {
   double mass{};  ///< m, smallest apparent mass, over all directions and poses [kg]
-  double damping_fraction = 0.25;                                ///< β, of m/T
-  double lead = 5.0;                                             ///< σ [ticks]
-  double slide_fraction = 0.002;                                 ///< β_s, of m/T
-  double turn_time = 0.02;                                       ///< τ, with which n follows w [s]
-  double force_limit = std::numeric_limits<double>::infinity();  ///< F, what the motors hold [N]
-  double most = std::numeric_limits<double>::infinity();  ///< what encoder steps are paid for [N/m]
-  double stale_after = 0.1;  ///< age up to which a force counts in full [s]
-  double fade = 0.05;        ///< how long it then takes to end [s]
-  bool softens = true;       ///< what is too steep; without, it goes out as it is, and rings
+  double damping_fraction = 0.25;                                ///< β, in units of m/T
+  double lead = 5.0;                                             ///< σ, lead across n [ticks]
+  double slide_fraction = 0.002;                                 ///< β_s, in units of m/T
+  double turn_time = 0.02;                                       ///< τ, time constant of n [s]
+  double force_limit = std::numeric_limits<double>::infinity();  ///< F, limit of the motors [N]
+  double most = std::numeric_limits<double>::infinity();         ///< budget for encoder steps [N/m]
+  double stale_after = 0.1;  ///< age up to which a force is not reduced [s]
+  double fade = 0.05;        ///< time in which it then fades to zero [s]
+  bool softens = true;       ///< if false, s = 1, and too stiff a renderer rings
 
-  /// The ranges are those in which most_stiffness was found, and what is not felt as mud.
+  /// The ranges are those for which most_stiffness was measured and damping does not feel viscous.
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
     if (!(damping_fraction > 0.0 && damping_fraction <= 0.5)) {
@@ -57,15 +57,15 @@ struct settled_force {
     }
     return given_force{stale_after, fade}.check();
   }
-  /// The stiffest renderer [N/m] that settles along n, K (k + l + 3/2) T ≤ B: its force is k = `renderer_late` ticks
-  /// old, a tick T [s], the loop l = `loop_late` ≤ 2 ticks late (§ 10). A device that falls on it may bounce above ¾ of
-  /// that; what is stiffer is as passive, and may ring. Across n, σ > k + l + 1/2 is needed as well.
+  /// The largest stiffness of a renderer [N/m] that settles along n, K (k + l + 3/2) T ≤ B, with a force that is
+  /// k = `renderer_late` ticks of T [s] old, in a loop l = `loop_late` ≤ 2 ticks late (ours, § 10). Above ¾ of it a
+  /// device that falls on it may bounce; a stiffer one is as passive, but may ring. Across n, σ > k + l + 1/2 is needed.
   [[nodiscard]] constexpr double most_stiffness(double T, int renderer_late = 0,
                                                 int loop_late = 0) const noexcept {
     const double late = static_cast<double>(renderer_late) + static_cast<double>(loop_late);
     return damping_fraction * mass / ((1.0 + loop_late) * (late + 1.5) * T * T);
   }
-  /// Does a renderer of K [N/m] settle along n and across it? One that is stiffer is shown softer, if `softens`.
+  /// True if a renderer of K [N/m] settles along n and across it. A stiffer one is displayed softer, if `softens`.
   [[nodiscard]] constexpr bool settles(double K, double T, int renderer_late = 0,
                                        int loop_late = 0) const noexcept {
     return K > 0.0 && K <= most_stiffness(T, renderer_late, loop_late) && loop_late <= 2 &&
@@ -92,7 +92,7 @@ class settled_force::on : private part_at<given_force, P> {
     set(p);
     reset();
   }
-  /// What depends on T counts from the next adopt() on.
+  /// Parameters that depend on T take effect at the next adopt().
   constexpr void set(const settled_force& p) noexcept {
     given::set({p.stale_after, p.fade});
     mass_ = detail::number<scalar>(p.mass);
@@ -118,7 +118,7 @@ class settled_force::on : private part_at<given_force, P> {
             .fade = rule.fade,
             .softens = softens_};
   }
-  /// The same in the loop of the port.
+  /// The same for the port's T and latency.
   [[nodiscard]] constexpr bool settles(scalar K, int renderer_late = 0) const noexcept {
     return parameters().settles(static_cast<double>(K), static_cast<double>(longest_tick_),
                                 renderer_late, late_);
@@ -130,8 +130,7 @@ class settled_force::on : private part_at<given_force, P> {
     const scalar settles = fraction_ * per_tick_ / ((scalar(late) + scalar(1.5)) * T);
     steepest_ = softens_ ? kernels::smaller(settles, stiffest_) : kernels::largest<scalar>();
   }
-  /// most_stiffness, as long as nobody knows how stiff the renderer is; of one that was found too steep what it is, and ¾
-  /// of that.
+  /// Explains most_stiffness; for a renderer that was found too stiff, its estimated stiffness and ¾ of most_stiffness.
   constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
     e.asked = e.shown = std::numeric_limits<double>::infinity();
     const double part = shown_ < scalar(1) ? 0.75 : 1.0;
@@ -145,7 +144,7 @@ class settled_force::on : private part_at<given_force, P> {
     last_ = n_ = given_ = P::zero();
     forget();
   }
-  /// s: 1, or less of a renderer that is steeper than it settles with.
+  /// s: 1, or less for a renderer that is too stiff to settle.
   [[nodiscard]] constexpr scalar shown() const noexcept { return shown_; }
 
   template <bool Shortcut>
@@ -160,12 +159,12 @@ class settled_force::on : private part_at<given_force, P> {
     const effort w = P::scaled(softly, share);
     if constexpr (!requires {
                     motion.travel / motion.dt;
-                  }) {  // what creeps over steps has no speed
+                  }) {  // notice() misses a slow motion over encoder steps
       const effort change = P::difference(w, last_), way = port.travel;
       if (-P::dot(change, way) > steepest_ * P::dot(way, way)) watched_ = long_enough;
     }
     const effort f = settled(w, detail::velocity_of<P>(motion), per_tick_ * secant, port.dt);
-    return {P::is_finite(f) ? f : w};  // f of an absurd force, or of next to none, is no number
+    return {P::is_finite(f) ? f : w};  // f is not finite if w overflows or underflows
   }
 
  private:
@@ -177,9 +176,9 @@ class settled_force::on : private part_at<given_force, P> {
       moved = keep * moved + way;
       changed = keep * changed + change;
     }
-    /// Of a force so steep, how much is as steep as `enough`; 100 where it is hardly steep, or where that is not sure: less
-    /// than a quarter of what changes goes with the motion, or the rest may make all the difference. That is noise, or
-    /// an effect that was added.
+    /// `enough` over the stiffness, the share s of the force that has the stiffness `enough` [N/m]. It is 100 for a soft
+    /// force and for an uncertain estimate: if less than a quarter of Σ Δw² correlates with the motion, or if the rest
+    /// may explain the excess, as with noise or an added effect.
     [[nodiscard]] constexpr scalar share(scalar enough) const noexcept {
       const scalar allowed = enough * moved, both = moved * changed, steep = stiff * stiff;
       const scalar beyond = stiff - allowed, rest = both - steep;
@@ -187,7 +186,7 @@ class settled_force::on : private part_at<given_force, P> {
       return sure && stiff * scalar(100) > allowed ? allowed / stiff : scalar(100);
     }
   };
-  static constexpr int long_enough = 30;  ///< [ticks] of motion that are looked at
+  static constexpr int long_enough = 30;  ///< ticks of motion that are evaluated after a stiff one
 
   constexpr void forget() noexcept {
     along_ = across_ = {};
@@ -196,12 +195,12 @@ class settled_force::on : private part_at<given_force, P> {
     ticks_ = scalar(0);
     knows_given_ = learns_ = false;
   }
-  /// Along n the last tick was too steep: it is to be looked at.
+  /// Begins the evaluation if the last tick was too stiff along n.
   [[gnu::always_inline]] constexpr void notice(scalar rise, scalar speed, scalar dt) noexcept {
     if (-rise * speed > steepest_ * dt * speed * speed) [[unlikely]]
       watched_ = long_enough;
   }
-  /// How steep is the renderer? What moves slower than 1 mm/s says nothing of it.
+  /// Estimates the renderer's stiffness from one tick, unless the device moves at less than 1 mm/s.
   [[gnu::cold, gnu::noinline]] constexpr void look(const typename P::stored_effort& travel,
                                                    scalar dt) noexcept {
     const effort w = given::newest(), way = travel, change = P::difference(w, given_);
@@ -233,7 +232,7 @@ class settled_force::on : private part_at<given_force, P> {
     }
     if (shown_ == scalar(1) && --watched_ == 0) forget();
   }
-  /// f of w at the velocity v; m/T is `per_tick` [N·s/m].
+  /// f [N] for w at the velocity v; m/T is `per_tick` [N·s/m].
   [[nodiscard, gnu::always_inline]] constexpr effort settled(const effort& w, const effort& v,
                                                              scalar per_tick, scalar dt) noexcept {
     const effort change = P::difference(w, last_);
@@ -262,7 +261,7 @@ class settled_force::on : private part_at<given_force, P> {
       return less(less(w, n, brake), across, -within(across, size));
     }
   }
-  /// n on its way to w/|w|; a force that has turned round is met anew.
+  /// Updates n towards w/|w|; if w has turned by more than 90°, n = w/|w| at once.
   [[nodiscard, gnu::always_inline]] constexpr effort turned(const effort& w, scalar size,
                                                             scalar dt) noexcept {
     const effort last = n_;
@@ -276,7 +275,7 @@ class settled_force::on : private part_at<given_force, P> {
     n_ = n;
     return n;
   }
-  /// How much of what leads w brakes, at most B times the speed along it.
+  /// The share of the lead of w that brakes, at most B times the speed along it.
   [[nodiscard, gnu::always_inline]] static constexpr scalar braking(const effort& ahead,
                                                                     const effort& v,
                                                                     scalar B) noexcept {
@@ -284,7 +283,7 @@ class settled_force::on : private part_at<given_force, P> {
     if (!(against > scalar(0))) return scalar(0);
     return B * against < squared ? B * against / squared : scalar(1);
   }
-  /// What is to be multiplied so that it is no longer than `most`.
+  /// The factor ≤ 1 that shortens `a` to the length `most`.
   [[nodiscard, gnu::always_inline]] static constexpr scalar within(const effort& a,
                                                                    scalar most) noexcept {
     const scalar squared = P::dot(a, a);
@@ -300,14 +299,14 @@ class settled_force::on : private part_at<given_force, P> {
   scalar longest_tick_{};             ///< T [s]
   int late_ = 0;                      ///< [ticks]
   typename P::stored_effort last_{};  ///< w of the last tick [N]
-  typename P::stored_effort n_{};     ///< n; zero in the air
+  typename P::stored_effort n_{};     ///< n; zero for w = 0
   scalar steepest_{};                 ///< K_m [N/m]
   bool softens_ = true, knows_given_ = false, learns_ = false;
-  scalar ticks_{};            ///< of motion that it has looked at, of the last 30 ms
-  int watched_ = 0;           ///< ticks of motion for which it is still looked at how steep w is
-  scalar shown_ = scalar(1);  ///< s
-  slope along_{}, across_{};  ///< of what was given, along w and across
-  typename P::stored_effort given_{};  ///< in the last tick that was looked at [N]
+  scalar ticks_{};                     ///< evaluated ticks of motion, of the last 30 ms
+  int watched_ = 0;                    ///< ticks of motion that are still to be evaluated
+  scalar shown_ = scalar(1);           ///< s
+  slope along_{}, across_{};           ///< slopes of the given force, along w and across
+  typename P::stored_effort given_{};  ///< given force of the last evaluated tick [N]
 };
 
 static_assert(source_for<settled_force, space<float, 1>>);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A contact law and what shapes its force before the port's bound sees it.
+// A contact law with shapers, which change its force before the port's bound.
 //
 //   ph::shaped{ph::spring{}, ph::force_rate_limit{.rate = 100.0}}
 //
 //   shaper/thesis_rule.hpp                   the rule of the thesis             NOT passive by itself
 //   shaper/force_rate_limit.hpp              no jumps at updates
-//   published/stiffness_augmentation.hpp     begin soft, grow stiff
-//   published/set_position_modulation.hpp    PSPM: the jump of the surface
-//   published/reference_energy.hpp           PO/PC that repays all the way out
+//   published/stiffness_augmentation.hpp     springs that begin soft and stiffen
+//   published/set_position_modulation.hpp    PSPM, which limits the energy of jumps of the surface
+//   published/reference_energy.hpp           PO/PC that dissipates during the whole release
 //
-// A shaper may look at the contact and at the ledger, and promises nothing: the bound answers for
-// whatever is asked of it.
+// A shaper may read the contact and the ledger. It gives no guarantee; the bound does, for any desired
+// force.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/composing.hpp>
@@ -19,7 +19,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The law, then the shapers in the order given.
+/// Applies the law, then the shapers in the given order.
 template <class Law, class... Shapers>
 struct shaped {
   using sequence_type = detail::sequence<Shapers...>;

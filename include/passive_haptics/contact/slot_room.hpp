@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Room for surfaces of one or of several kinds, so many of each: what contact_set and rigid_tool keep them in.
+// Slots for surfaces of one or several kinds, a fixed number of each, for contact_set and rigid_tool.
 
 #include <passive_haptics/contact/row.hpp>
 
@@ -12,7 +12,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Room for `Count` surfaces of one kind.
+/// `Count` slots for surfaces of one kind.
 template <class Surface, int Count>
 requires(Count >= 1) struct slots {
   using surface_type = Surface;
@@ -21,7 +21,7 @@ requires(Count >= 1) struct slots {
 
 namespace detail {
 
-/// One `Slot<Surface>` for each place of the groups.
+/// One `Slot<Surface>` for each slot of the groups.
 template <template <class Surface> class Slot, class... Groups>
 class slot_room {
   template <class Surface>
@@ -35,10 +35,10 @@ class slot_room {
   static constexpr int capacity = (0 + ... + Groups::count);
   using first_kind = std::tuple_element_t<0, std::tuple<typename Groups::surface_type...>>;
 
-  /// act(slot, number) for all of them, kind by kind.
+  /// Calls act(slot, number) for all slots, kind by kind.
   constexpr void for_each(auto act) noexcept { each(*this, act); }
   constexpr void for_each(auto act) const noexcept { each(*this, act); }
-  /// act(slot) for the i-th of that kind, if there is one.
+  /// Calls act(slot) for the i-th slot of that kind, if there is one.
   template <class Surface>
   constexpr void visit(int i, auto act) noexcept {
     static_assert(
@@ -50,7 +50,7 @@ class slot_room {
       if (i >= 0 && static_cast<std::size_t>(i) < all.size()) act(all[static_cast<std::size_t>(i)]);
     }
   }
-  /// The i-th of that kind, 0 ≤ i < Count.
+  /// The i-th slot of that kind, 0 ≤ i < Count.
   template <class Surface>
   [[nodiscard]] constexpr const Slot<Surface>& slot(int i) const noexcept {
     return group<Surface>(*this)[static_cast<std::size_t>(i)];

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Contact laws: depth and speed to desired force. The bound decides what is left of it.
+// Contact laws: the desired force f* [N] from depth d [m] and outward speed v_out [m/s]. The bound then limits it.
 //
-//   spring            f* = K d                         (2.18); faithful, rings on a bare device
+//   spring            f* = K d                         (2.18); exact stiffness, rings without a hand
 //   damped_spring     f* = K_s d − D_s max(0, v_out)   (§ 9); settles; needs the device's mass
 //   virtual_coupling  f* = max(0, K_f d − D_c v_out)   (§ 2(g)); 1/K_f = 1/K_c + 1/K: soft, and
-//                                                      passive on a fixed wall with no ledger
-//   capped            any of them, with K ≤ what the device pays for (design/stiffness_budget.hpp)
-//   eased             any of them, whose force does not step when the environment has news
+//                                                      passive on a fixed wall without a ledger
+//   capped            any of them, with K ≤ the device's budget (design/stiffness_budget.hpp)
+//   eased             any of them, with a force that does not step at updates of the surface
 //
 // Damping on the way in raises the force, and virtual damping costs passivity: Colgate's condition
-// is b > KT/2 + |D|. Only virtual_coupling has it. A law asks; it promises nothing.
+// is b > KT/2 + |D|. Only virtual_coupling has it. A law gives no guarantee; the bound does.
 
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// f* = K d [N], d > 0. (2.18)
+/// f* = K d [N] for d > 0, else 0. (2.18)
 struct spring {
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
 
@@ -38,7 +38,7 @@ struct spring {
     }
 
    private:
-    scalar stiffness_{};  ///< K [N/m], as the environment says
+    scalar stiffness_{};  ///< K of the environment [N/m]
   };
 };
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Dry friction of a contact: a bristle that bends while the surface holds the finger and slips when it
-// cannot any more.
+// Dry friction of a contact: an elastic bristle that bends while the device sticks, and slips at the friction limit.
 //
-//   stick_slip     |f_t| ≤ μ f_n,  μ from static to kinetic as it slips, and back as it sticks
-//   frictionless   f_t = 0, and no byte of it
+//   stick_slip     |f_t| ≤ μ f_n,  μ falls from static to kinetic as it slips, and rises as it sticks
+//   frictionless   f_t = 0, without any state
 //
-// One bristle for each contact, in its own cone: on the resultant of two walls it would creep along their
-// groove (docs/design/contacts.md).
+// Each contact has its own bristle and friction cone: a single one on the resultant of two walls would creep along
+// their groove (docs/design/contacts.md).
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/normal_interpolation/carry.hpp>
@@ -24,14 +23,14 @@ struct frictionless {
 ///     r = μ f_n/k_t;  |z| > r, slipping by s = |z| − r:   μ ← μ_d + (μ − μ_d)/(1 + s/D),  z ← r z/|z|
 ///                     else, sticking:                     μ ← μ + (μ_s − μ) dt/(dt + t_h)
 ///     f_t = −k_t z − B_t v_t,  shortened to μ f_n
-/// z returns when the finger does, so a finger that trembles stays where it is as long as the normal
-/// does; a normal that wobbles by α winds z up by the solid angle that it encloses, and the finger creeps.
-/// Passive without a ledger on a surface at rest for K, k_t ≤ 2b/T, and under the port's bound always.
+/// z returns with the device, so a trembling device does not creep if the normal is constant. A normal that moves on
+/// a closed path turns z by the solid angle of the path, and the device creeps. It is passive without a ledger on a
+/// surface at rest for K, k_t ≤ 2b/T, and with the port's bound always.
 struct stick_slip {
-  double static_coefficient = 0.6;   ///< μ_s
-  double kinetic_coefficient = 0.4;  ///< μ_d ≤ μ_s
-  double weakening = 2e-4;           ///< D, the slip that halves what is above μ_d [m]
-  double healing = 0.02;             ///< t_h, of sticking until μ_s is back [s]
+  double static_coefficient = 0.6;   ///< μ_s, static coefficient
+  double kinetic_coefficient = 0.4;  ///< μ_d ≤ μ_s, kinetic coefficient
+  double weakening = 2e-4;           ///< D, slip that halves μ − μ_d [m]
+  double healing = 0.02;             ///< t_h, time constant of μ → μ_s while sticking [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::not_negative(static_coefficient)) {
@@ -50,7 +49,7 @@ struct stick_slip {
   class bristle;
 };
 
-/// The coefficients in the scalar that computes.
+/// The parameters in the port's scalar.
 template <class Space>
 class stick_slip::on {
  public:
@@ -77,7 +76,7 @@ class stick_slip::bristle {
   using vector = typename Space::vector;
 
   constexpr void reset() noexcept { *this = {}; }
-  /// There is no contact.
+  /// Ends the contact.
   constexpr void let_go() noexcept { touching_ = false; }
 
   /// f_t [N] after the device has moved by `travel` [m] in dt [s], at `velocity` [m/s], under a normal force

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Is a device swinging, or is a hand moving it? What only swings is to be damped: a damper that a hand works
-// against is an error of the force, in every tick, however often the world is solved.
+// Decides whether a device swings or a hand moves it. Only a swing is to be damped: a damper against a hand's motion
+// is an error of the force, at any update rate of the environment.
 //
 //     V ← V + (v² − V) dt/τ,   A ← A + (a² − A) dt/τ,   τ = 0.1 s        the mean of v² and of a² = (Δv/dt)²
-//     q = A/(V W²)                                     (Ω/W)² of a motion at Ω [1/s]
+//     q = A/(V W²)                                     (Ω/W)² of a sinusoidal motion at Ω [1/s]
 //     g = 0 below q = ¼, then 4/3 (q − ¼), 1 from q = 1 on
 //     W² = min(20², K/4m) [1/s²]
 //     s ← s + (g − s) dt/τ_s,   τ_s = 20 ms
 //
-// s is the share of the speed v that is damped. It follows g late, because news of a surface kick a², and a damper that
-// changes within a tick is a step of the force. A contact begins with s = 1. A free mass on K, up to four times as heavy
-// as is told, swings at W or faster and is damped in full. A hand that goes to and fro once a second is braked by a
-// twentieth, near where it turns round, for the means are short. Source: ours; docs/design/contacts.md § 6.
+// s is the share of the speed v [m/s] that is damped. It lags behind g, because an update of the surface raises a²,
+// and a damper that changes within a tick is a step of the force. A contact begins with s = 1. A free mass on K, up to four
+// times the stated m, swings at W or faster and is fully damped. A hand that moves to and fro once a second is damped by
+// s = 1/20, near its turns, because the means are short. Source: ours; docs/design/contacts.md § 6.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -22,7 +22,7 @@ inline namespace v0 {
 template <class Scalar>
 class swing {
  public:
-  /// s v of a speed v [m/s] after a tick dt [s], on a contact whose K/m is `natural` [1/s²].
+  /// s v [m/s] of a speed v after a tick of dt [s], in a contact with K/m = `natural` [1/s²].
   [[nodiscard]] constexpr Scalar damped(Scalar v, Scalar natural, Scalar dt) noexcept {
     const Scalar W2 = kernels::smaller(Scalar(400), natural / Scalar(4));
     const Scalar change = v - last_;
@@ -43,7 +43,7 @@ class swing {
     share_ += (damps - share_) * (dt < Scalar(0.02) ? dt * Scalar(50) : Scalar(1));
     return v * share_;
   }
-  /// The contact is over.
+  /// Ends the contact.
   constexpr void stop() noexcept { *this = {}; }
 
  private:

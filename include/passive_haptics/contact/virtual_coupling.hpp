@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The contact law that a fixed wall needs no ledger for (the menu is in spring.hpp).
+// A contact law that is passive on a fixed wall without a ledger (the menu is in spring.hpp).
 
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// f* = max(0, K_f d − D_c v_out) [N], d > 0, with 1/K_f = 1/K_c + 1/K: a spring K_c and a damper
-/// D_c side by side between the device and a massless proxy that the wall K holds. With K_c
+/// f* = max(0, K_f d − D_c v_out) [N] for d > 0, with 1/K_f = 1/K_c + 1/K: a spring K_c and a damper
+/// D_c in parallel between the device and a massless proxy on the wall's spring K. With K_c
 /// infinite it is the Kelvin-Voigt wall K, D_c.
 ///
-/// Simplified. The proxy's own equation gives f/d = K (K_c + D_c s)/(K + K_c + D_c s): the same
-/// static stiffness, but a damping that falls from D_c (K/(K + K_c))² at low frequencies to
-/// nothing. Here D_c acts whole, whatever K is, which is exact on a rigid wall (K → ∞) and nowhere
-/// else.
+/// It is a simplification. The proxy's own equation gives f/d = K (K_c + D_c s)/(K + K_c + D_c s), with the
+/// same static stiffness, but a damping that falls from D_c (K/(K + K_c))² at low frequencies to zero at high
+/// ones. Here the damping is D_c for any K, which is exact on a rigid wall (K → ∞) only.
 ///
-/// Without any ledger it is passive on a surface that stays put, sampled every T and held, if
-///     K_f ≤ 2 (b − D_c)/T,      for which K_c ≤ 2 (b − D_c)/T is enough, whatever K is
-/// (§ 2(g); Colgate's condition). Nothing is asked of the hand. Ticks that vary, delay and a surface that moves
-/// break it: then the bound has to answer.
+/// Without a ledger it is passive on a fixed surface, sampled every T and held, with any passive hand, if
+///     K_f ≤ 2 (b − D_c)/T,      for which K_c ≤ 2 (b − D_c)/T is sufficient for any K
+/// (§ 2(g); Colgate's condition). The condition does not cover ticks that vary, delay and moving surfaces, for
+/// which the port needs a bound.
 struct virtual_coupling {
   double stiffness = std::numeric_limits<double>::infinity();  ///< K_c [N/m], may be infinite
   double damping{};                                            ///< D_c [N·s/m]
@@ -36,7 +35,7 @@ struct virtual_coupling {
     using scalar = typename Space::scalar;
 
     constexpr explicit on(const virtual_coupling& p) noexcept { set(p); }
-    /// A new stiffness counts from the next adopt() on.
+    /// A new stiffness takes effect at the next adopt().
     constexpr void set(const virtual_coupling& p) noexcept {
       stiffness_ = detail::number<scalar>(p.stiffness);
       damping_ = detail::number<scalar>(p.damping);
@@ -56,7 +55,7 @@ struct virtual_coupling {
       if (!(depth > scalar(0))) return scalar(0);
       return kernels::larger(felt_ * depth - damping_ * outward_speed, scalar(0));
     }
-    /// Zero for a force that the damper alone would give.
+    /// It is zero for a force that the damper alone would give.
     [[nodiscard]] constexpr scalar depth(scalar force, scalar outward_speed) const noexcept {
       if (!(force > scalar(0))) return scalar(0);
       return kernels::larger(kernels::depth_bound(force + damping_ * outward_speed, felt_),
