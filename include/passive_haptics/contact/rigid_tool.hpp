@@ -19,18 +19,17 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The spring of a tool, the coupling between the handle and its proxy,
+/// How a tool presses: the coupling between the handle and its proxy,
 ///     C⁻¹ = diag(k_v I, k_ω I),   k_v = min(K, κ m/T²),   k_ω = min(K ℓ², κ I_least/T²)
-/// which settles for any number of contacts: m and I_least are lower bounds at the handle point that hold together
-/// (rigid_inertia::at_handle), and many contacts together have at most κ/(1 − ε) of them (Theorem 4 of § 9). A point at
-/// r from the handle has the stiffness 1/(nᵀC n), with the row n = (n, r × n), below K because the handle turns.
+/// which settles however many contacts there are: m and I_least are of the handle point, both at once
+/// (rigid_inertia::at_handle), and many contacts together have κ/(1 − ε) of them. A point r off the handle is felt with
+/// 1/(nᵀC n), n its row (n, r × n): softer than K, because the handle gives way to a turn.
 struct tool_spring {
   double mass{};           ///< m, apparent mass of the handle [kg], a lower bound
   double least_inertia{};  ///< smallest moment of inertia about the handle [kg·m²], a lower bound
   double lever = 0.03;     ///< ℓ, a length of the tool [m]
   double stiffness_fraction = 0.1;  ///< κ, of m/T² and of I/T²
-  double softness =
-      0.1;  ///< ε, more than for a point, because points of a tool often have equal rows
+  double softness = 0.1;  ///< ε: more than for a point, since points of a tool are often alike
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = detail::sampled_fault(*this)) return fault;
@@ -79,7 +78,7 @@ class tool_spring::at {
   [[nodiscard]] constexpr Scalar yield(Scalar compliance) const noexcept {
     return kernels::larger(compliance * per_lever_, least_yield_);
   }
-  /// True if a surface of K [N/m] comes to rest with this spring (settles() in sampled_spring.hpp).
+  /// Does a surface of K [N/m] come to rest under this spring? (settles() in sampled_spring.hpp)
   [[nodiscard]] constexpr bool settles(Scalar K) const noexcept {
     const auto s = sampled(K);
     const Scalar turns = s.stiffness * yield(s.compliance) * inertia_;
@@ -168,7 +167,7 @@ struct body_frame {
     [[nodiscard]] scalar own(const row& r, scalar compliance) const noexcept {
       return compliance + space::dot(Body::angular(r), Body::angular(r)) * spring.yield(compliance);
     }
-    /// The largest K nᵀC n of a point over all directions of n, which is 1 at the handle.
+    /// K nᵀC n at most, whatever the direction.
     [[nodiscard]] scalar most_yield(const point& p, scalar compliance) const noexcept {
       return scalar(1) + space::dot(p, p) * spring.yield(compliance) / compliance;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How parts are composed: what bounds and shapers make of an effort, one after the other, and how
-// their parameters are changed while they work.
+// The composition of parts: bounds and shapers are applied to an effort in order, and parts take new parameters
+// between ticks.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -12,30 +12,30 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// A part that gives back the parameters that it was made of.
+/// Satisfied by a part that returns its parameters.
 template <class Part>
 concept has_parameters = requires(const Part part) {
   part.parameters();
 };
-/// A part that takes new parameters and keeps its state.
+/// Satisfied by a part that takes new parameters and keeps its state.
 template <class Part, class Parameters>
 concept takes_in_place = requires(Part part, const Parameters& p) {
   part.set(p);
 };
-/// A shaper says whether it needs a local model, either way; a bound has none to need.
+/// Satisfied by a shaper, which states needs_local_model; a bound does not.
 template <class Part>
 concept speaks_of_local_model = requires {
   { Part::needs_local_model } -> std::convertible_to<bool>;
 };
 
-/// Does a source or a law spend what an observer must have counted?
+/// True if a source or a law spends energy of the ledger.
 template <class Part>
 [[nodiscard]] constexpr bool spends_ledger() noexcept {
   if constexpr (requires { Part::needs_ledger; }) return Part::needs_ledger;
   return false;
 }
 
-/// T [s] or a parameter is another: what a source has made of them and of the latency, it makes anew.
+/// Lets a source recompute the numbers that depend on T [s], the latency or a parameter.
 template <class Source, class Scalar>
 constexpr void tell(Source& source, Scalar longest_tick, int late) noexcept {
   if constexpr (requires { source.adopt(longest_tick, late); }) {
@@ -45,20 +45,20 @@ constexpr void tell(Source& source, Scalar longest_tick, int late) noexcept {
   }
 }
 
-/// A contact law is for a stiffness K [N/m], ticks of T [s] and commands that are held `late` ticks later.
+/// Sets a contact law for a stiffness K [N/m], ticks of T [s] and a latency of `late` ticks.
 template <class Law, class Scalar>
 constexpr void tell(Law& law, Scalar K, Scalar T, int late) noexcept {
   if constexpr (requires { law.adopt(K, T, late); }) return law.adopt(K, T, late);
   law.adopt(K, T);
 }
 
-/// Does an observer book what is unsure of a turn?
+/// True if an observer books the possible error of the work of a turn.
 template <class Observer>
 [[nodiscard]] constexpr bool books_turns() noexcept {
   if constexpr (requires { Observer::turns; }) return Observer::turns;
   return false;
 }
-/// Does it book the work that a device reports?
+/// Satisfied by an observer that books the work that a device reports.
 template <class Observer, class P>
 concept books_work = requires(Observer o, const typename P::motion m, const reported_effort<P> f,
                               typename P::scalar s) {
@@ -66,7 +66,7 @@ concept books_work = requires(Observer o, const typename P::motion m, const repo
   requires noexcept(o.update(m, f, s));
 };
 
-/// Is none of them a shaper?
+/// True; a shaper among them does not compile.
 template <class... Bounds>
 [[nodiscard]] constexpr bool are_bounds() noexcept {
   static_assert(
@@ -76,14 +76,14 @@ template <class... Bounds>
   return true;
 }
 
-/// An effort, and whether it is another than the desired one.
+/// An effort, and whether it differs from the desired one.
 template <class P>
 struct bounded {
   typename P::effort force;
   bool limited;
 };
 
-/// A bound is shown the port, a shaper the contact and the port: what does it answer?
+/// The answer of a bound, which is given the port's state, or of a shaper, which is given the contact and the port.
 template <class Part, class P, class... States>
 [[nodiscard]] constexpr auto answer(Part& part, const typename P::effort& desired,
                                     const States&... states) noexcept {
@@ -106,7 +106,7 @@ template <class P, class Part, class... States>
     if constexpr (std::same_as<decltype(said), const share<typename P::scalar>>) {
       using scalar = typename P::scalar;
       if (said.factor >= scalar(1)) return {desired, false};
-      const scalar left = said.factor > scalar(0) ? said.factor : scalar(0);  // NaN is nothing
+      const scalar left = said.factor > scalar(0) ? said.factor : scalar(0);  // NaN counts as 0
       const typename P::effort force = desired * left;
       return {force, !(force == desired)};
     } else {
@@ -115,7 +115,7 @@ template <class P, class Part, class... States>
   }
 }
 
-/// Does it only reduce: is its answer a share, whatever it is asked?
+/// True if a part only reduces an effort, because its answer is always a share.
 template <class Spec, class P, class... States>
 [[nodiscard]] constexpr bool reduces() noexcept {
   using part = part_at<Spec, P>;
@@ -127,7 +127,7 @@ template <class Spec, class P, class... States>
     };
   }
 }
-/// Does it keep nothing from tick to tick?
+/// True if a part has no state from tick to tick.
 template <class Spec, class P, class... States>
 [[nodiscard]] constexpr bool keeps_nothing() noexcept {
   using part = part_at<Spec, P>;
@@ -144,7 +144,7 @@ template <class Spec, class P, class... States>
   }
 }
 
-/// How many parts of what `Spec` composes at a port take `Parameters`: one is the same struct.
+/// The number of parts in `Spec` at a port that take `Parameters`; it is 1 for the same struct.
 template <class Parameters, class Spec, class P>
 [[nodiscard]] constexpr int count_takers() noexcept {
   using part = part_at<Spec, P>;
@@ -159,7 +159,7 @@ template <class Parameters, class Spec, class P>
 template <class Parameters, class Spec, class P>
 inline constexpr int takers = count_takers<Parameters, Spec, P>();
 
-/// New parameters for a part; what it keeps from tick to tick stays.
+/// Sets new parameters of a part and keeps its state, if it has set().
 template <class Spec, class P, class Parameters>
 constexpr void take(part_at<Spec, P>& part, const Parameters& p) noexcept {
   if constexpr (!std::same_as<Parameters, Spec>) {
@@ -171,18 +171,18 @@ constexpr void take(part_at<Spec, P>& part, const Parameters& p) noexcept {
   }
 }
 
-/// A bound that knows what the motors hold.
+/// Satisfied by a bound that knows the limit of the motors.
 template <class Part, class Effort>
 concept says_what_it_holds = requires(const Part p, const Effort f) {
   { p.can_hold(f) } -> std::same_as<bool>;
 };
 
-/// Tells a part of an explanation, if it has something to say of it.
+/// Calls explain() of a part, if it has one.
 template <class Part, class... Facts>
 constexpr void explain(const Part& part, explanation& e, const Facts&... facts) noexcept {
   if constexpr (requires { part.explain(e, facts...); }) part.explain(e, facts...);
 }
-/// The size of a force [N], of a wrench without its torque.
+/// |f| [N] of an effort; for a wrench, of its force only.
 template <class P>
 [[nodiscard]] constexpr auto force_in(const typename P::effort& f) noexcept {
   if constexpr (requires { P::norm(f); }) {
@@ -193,18 +193,18 @@ template <class P>
     return P::geometry::norm(f);
   }
 }
-/// The longest effort that can_hold() lets pass.
+/// Satisfied by a bound with most_held(), the longest effort that can_hold() accepts.
 template <class Part>
 concept knows_most_held = requires(const Part p) {
   p.most_held();
 };
-/// A bound that looks whether the motion refutes what it rests on.
+/// Satisfied by a bound that tests its assumptions against the motion.
 template <class Part>
 concept looks_at_motion = requires(Part p) {
   { p.watching().seen() } -> std::same_as<event>;
 };
 
-/// Parts, one after the other: each is shown what those before it have left.
+/// Parts in order: each one is applied to the effort that the one before it returned.
 template <class... Parts>
 struct sequence {
   constexpr sequence() noexcept = default;
@@ -292,7 +292,7 @@ class sequence<First, Rest...>::on {
     }
   }
 
-  /// What all parts that know it say.
+  /// True if every part with a can_hold() accepts the effort.
   [[nodiscard]] constexpr bool can_hold(const effort& held) const noexcept
       requires(says_what_it_holds<part_at<First, P>, effort> ||
                says_what_it_holds<part_at<others, P>, effort>) {
@@ -301,13 +301,13 @@ class sequence<First, Rest...>::on {
     if constexpr (says_what_it_holds<part_at<others, P>, effort>) all &= rest_.can_hold(held);
     return all;
   }
-  /// What each of them makes of a stiffness.
+  /// Calls explain() of each part in order.
   constexpr void explain(explanation& e, const auto& damping, typename P::scalar T,
                          int late) const noexcept {
     detail::explain(first_, e, damping, T, late);
     detail::explain(rest_, e, damping, T, late);
   }
-  /// What the first that knows it says.
+  /// These three are answered by the first part that has them.
   [[nodiscard]] constexpr auto& watching() noexcept
       requires(looks_at_motion<part_at<First, P>> || looks_at_motion<part_at<others, P>>) {
     return first_if<looks_at_motion<part_at<First, P>>>(*this).watching();

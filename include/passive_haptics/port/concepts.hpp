@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The contract of each role, on one page. What a concept cannot say is a law in laws.hpp.
+// The concept of each role, on one page. Properties that a concept cannot check are laws in laws.hpp.
 //
 //   the port                                                       port/
 //     port                  pose, motion, effort, work             space.hpp, joint_space.hpp, ...
-//     damping               what the device pays with              damping.hpp
-//     inertia               what cannot turn round within a tick   inertia.hpp
-//     energy observer       counts the energy at the port          energy_observer/
+//     damping               the energy that the device dissipates  damping.hpp
+//     inertia               limits the motion within a tick        inertia.hpp
+//     energy observer       the ledger of the port's energy E1     energy_observer/
 //     force bound           how much force that energy allows      force_bound/
-//     motion estimator      where the device is and how fast       last_difference.hpp, ...
-//   what is asked of it
-//     source                an effort for every tick               local_contact, contacts, ...
+//     motion estimator      position and velocity of the device    last_difference.hpp, ...
+//   the desired effort
+//     source                a desired effort for every tick        local_contact, contacts, ...
 //   a contact                                                      contact/
-//     surface               a piece of the world: plane, quadric   constraint_geometry/
-//     constraint geometry   one that the local model follows       constraint_geometry/
-//     supply                who owns the constraint, who moves it  constraint_geometry/
+//     surface               a piece of a surface: plane, quadric   constraint_geometry/
+//     constraint geometry   a surface that a local model follows   constraint_geometry/
+//     supply                owns the constraint and moves it       constraint_geometry/
 //     normal interpolation  how fast the contact normal may turn   normal_interpolation/
 //     contact law           depth and speed to desired force       contact/
-//     shaper                what looks at the contact and the port shaper/
+//     shaper                changes the force by the contact       shaper/
 //   around it
 //     haptic device         position out, force in                 simulation/, falcon_hid.hpp
 //
 // A part is a struct of parameters with a template `on<Port>` that computes (parameter.hpp), or, where
 // it is written for one port, a struct that computes by itself. Every part is a plain value and never
-// throws. check() names the first parameter out of its range; a part that keeps something from tick to
-// tick has reset(), which puts it back. Only energy observers and force bounds state `passivity`.
+// throws. check() names the first parameter out of its range; a part with state has reset(), which restores
+// the initial state. Only energy observers and force bounds state `passivity`.
 
 #include <passive_haptics/base/event.hpp>
 #include <passive_haptics/base/explanation.hpp>
@@ -41,67 +41,67 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-// Besides its concept a part may have what stands here, and is asked for it by `if constexpr`:
+// Optional members of a part, which `if constexpr` looks for:
 //
-//   hook                    who may have it      who reads it          what it means if there is none
-//   parameters(), check()   any part             the port's check()    nothing of it can be out of range
-//   set(parameters)         any part             the port's set()      it is made anew: no state is lost
-//   takers<X>, take(x)      what has parts       the port's set()      no part of it takes parameters X
-//   reset()                 any part             the port's reset()    it keeps nothing from tick to tick
-//   turns                   port, observer       passive_port          false: every turn is a straight one
+//   member                  of which part        read by               default without it
+//   parameters(), check()   any part             the port's check()    it has no parameters
+//   set(parameters)         any part             the port's set()      it is constructed again, without its state
+//   takers<X>, take(x)      part with parts      the port's set()      none of its parts takes parameters X
+//   reset()                 any part             the port's reset()    it has no state
+//   turns                   port, observer       passive_port          false: the work of a turn is exact
 //   reports_work            port                 passive_port          false: the work is effort times motion
-//   geometry                port                 who measures lengths  joints: no length, no direction
+//   geometry                port                 parts with lengths    joints: a motion has no length
 //   angular(motion)         port                 rigid_… parts         it does not turn
-//   place(pose)             port                 guard                 the pose is where it is
+//   place(pose)             port                 guard                 the pose is the position
 //   moved(pose, motion)     port                 the laws              pose + motion
-//   unsure(Δx, f, dt)       damping              ledgers, port_state   paths are straight
+//   unsure(Δx, f, dt)       damping              ledgers, port_state   the work of a turn is exact
 //   friction_…, most_…      damping that rubs    dual_ledger           no friction is credited
-//   update(Δx, effort and   observer             passive_port          it fits no port that reports work
+//   update(Δx, effort and   observer             passive_port          it does not compile at a reported_work
 //     work, dt)
-//   travel_error()          observer, not exact  passive_port          the motion shown is exact
-//   overdrawn()             observer             passive_port, event   any value below zero is a debt
-//   disturbed()             observer             passive_port, at a    faults are nothing to it
+//   travel_error()          observer, not exact  passive_port          0: the measured motion is exact
+//   overdrawn()             observer             passive_port, event   a value below zero is a debt
+//   disturbed()             observer             passive_port, at a    it does not respond to faults
 //                                                refusal or a late tick
 //   remembers(), tells(e,   observer             passive_port, event   there is no wall_lost and no wall_back
 //     cut)
-//   can_hold(f)             bound                tick(device_sample)   any force that is a number may have been held
-//   explain(e, b, T, k)     bound                the port's explain()  it softens nothing
+//   can_hold(f)             bound                tick(device_sample)   every finite force may have been held
+//   explain(e, b, T, k)     bound                the port's explain()  it does not limit the stiffness
 //   explain(e, x, T, k)     source               passive_port          the port has no explain()
-//   softener                law                  local_contact         it is no softer than the surface
-//   unseen(seen, damping,   bound, beside one     passive_port, of what   any motion may have been
-//     f, t), most_held()      that says this      nobody saw
-//   watching()              bound                passive_port          what it rests on is not held against the
+//   softener                law                  local_contact         its stiffness is the surface's
+//   unseen(seen, damping,   bound, beside one    passive_port, after   every motion is possible
+//     f, t), most_held()    with most_held()     lost samples
+//   watching()              bound                passive_port          its assumptions are not tested against the
 //                                                                      motion (force_bound/watched.hpp)
-//   passivity               bound, on its port   passive_port          its `on<Port>` says it
-//   apply(f, states…)       sequence of parts    applied()             limit() or shape() answers
-//   only_reduces<States…>   sequence of parts    passive_port          what limit() or shape() returns says it
-//   stateless<States…>      sequence of parts    passive_port          it is, if that is const
-//   adopt(K, T, k)          law                  local_contact         it is called as adopt(K, T): latency is
-//                                                                      nothing to it
-//   adopt(T), adopt(T, k)   source               passive_port, when T  nothing that it keeps depends on T, on the
-//                                                or a parameter is new k ticks of latency or on a parameter
-//   update(effort)          source               tick(…, wanted)       there is no such tick
-//   needs_ledger            source, law          passive_port          false: spends nothing of the ledger
-//   depth                   result of a source   contacts, scope       there is no contact to be deep in
-//   travel, dt              estimate of motion   contact_set           a speed is asked of it axis by axis
+//   passivity               bound, or on<Port>   passive_port          the other one has it
+//   apply(f, states…)       sequence of parts    applied()             limit() or shape() is called
+//   only_reduces<States…>   sequence of parts    passive_port          true if limit() or shape() returns a share
+//   stateless<States…>      sequence of parts    passive_port          true if limit() or shape() is const
+//   adopt(K, T, k)          law                  local_contact         it is called as adopt(K, T), and does
+//                                                                      not depend on the latency
+//   adopt(T), adopt(T, k)   source               passive_port, when T  its state does not depend on T, on the
+//                                                or a parameter is new latency k or on a parameter
+//   update(effort)          source               tick(…, wanted)       that tick does not compile
+//   needs_ledger            source, law          passive_port          false: it needs no ledger
+//   depth                   result of a source   contacts, scope       it has no depth
+//   travel, dt              estimate of motion   contact_set           along() is called for each axis
 //   needs_local_model       law; every shaper    local_contact         false: the supply may be fixed
-//   shapers()               law                  local_contact         nothing shapes its force
+//   shapers()               law                  local_contact         it has no shapers
 //   kind                    surface              contact_set           faceted
-//   push()                  probe of a surface   contact_set, the laws its force acts along outward()
-//   around()                surface              the laws              they look about the origin
-//   prepare()               field                distance_field        there is nothing to prepare
+//   push()                  probe of a surface   contact_set, the laws its force is along outward()
+//   around()                surface              the laws              they try it within 1 m of the origin
+//   prepare()               field                distance_field        it needs no preparation
 //   set(freshness)          supply               the port's set()      it does not age
 
-/// A value that can be logged, sent and snapshotted: trivially copyable where the scalar is.
+/// A value that can be logged, sent and copied: trivially copyable if the scalar is.
 template <class V, class Port>
 concept plain_value = std::is_trivially_copyable_v<V> ||
     (!std::is_trivially_copyable_v<typename Port::scalar> &&
      std::is_nothrow_copy_constructible_v<V>);
 
-/// What a device is: effort times motion is energy. between() is the motion from one pose to another,
-/// work() what an effort did over it, squared() the square of its length or of its fastest joint.
-/// `stored_` types are the same at rest; a motion at rest is a stored_effort. Geometry is apart: a port in
-/// a space names it `geometry`. One whose poses are no vectors says by place() where they are.
+/// The coordinates of a device, in which effort times motion is energy [J]. between() is the motion from one pose to
+/// another, work() the work of an effort over it, squared() the square of its length or of its fastest joint.
+/// `stored_` types are for storing the same values; a motion is stored as a stored_effort. A port in a space names
+/// that space `geometry`. If poses are no vectors, place() returns their position.
 template <class P>
 concept port = requires(typename P::pose x, typename P::motion m, typename P::effort f, int i) {
   requires real<typename P::scalar>;
@@ -119,19 +119,19 @@ concept port = requires(typename P::pose x, typename P::motion m, typename P::ef
 };
 
 namespace detail {
-/// May a held torque have done other work than τ·θ? So it is where a port turns and nobody reports the work.
+/// True if the work of a held torque may differ from τ·θ: the port turns, and the work is not reported.
 template <class P>
 [[nodiscard]] constexpr bool turns() noexcept {
   if constexpr (requires { P::turns; }) return P::turns;
   return false;
 }
-/// Does a driver report what its motors did (reported_work.hpp)?
+/// True if the driver reports the work of its motors (reported_work.hpp).
 template <class P>
 [[nodiscard]] constexpr bool reports_work() noexcept {
   if constexpr (requires { P::reports_work; }) return P::reports_work;
   return false;
 }
-/// What was held over a tick: the effort, and at a port that reports it, the work.
+/// The effort held over a tick, with the reported work.
 template <class P>
 struct reported_effort {
   typename P::stored_effort force{};
@@ -151,11 +151,11 @@ template <class P>
 }
 }  // namespace detail
 
-/// dissipated(Δx, dt) [J] is never more than the device took; worst_outflow(f, T) [J] is the most that
-/// f can hand out in T, the conjugate of it; affordable(f, E, T) is the share of f that E covers.
-/// `rubs` says whether dry friction is credited; then dissipated() and worst_outflow() take it for rigid,
-/// and what it owes beside them is in friction_certificates.hpp. Where a port
-/// turns, unsure(Δx, f, dt) [J] is what a tick may have brought less than dissipated() − f·Δx.
+/// dissipated(Δx, dt) [J] is a lower bound of the energy that the device takes; worst_outflow(f, T) [J] is the most
+/// energy that f can give out in T, its convex conjugate; affordable(f, E, T) is the share of f that E covers. `rubs`
+/// is true if dry friction is credited; dissipated() and worst_outflow() then assume that it is rigid, and
+/// friction_certificates.hpp accounts for its elasticity. At a port that turns, the gain of a tick is at least
+/// dissipated() − f·Δx − unsure(Δx, f, dt) [J].
 template <class D, class P>
 concept damping_for = requires(const part_at<D, P> d, const typename P::motion m,
                                const typename P::effort f, typename P::scalar s) {
@@ -174,13 +174,12 @@ concept inertia_for = requires(const part_at<M, P> m, const typename P::effort f
   requires noexcept(m.norm(f));
 };
 
-/// update() books one tick: the motion, the effort held while it happened, its length [s]; false, and
-/// nothing is booked, when the energy would be no finite number. forfeit() writes off a tick whose
-/// motion is unknown and never raises the ledger; one that takes a third number [J] writes off no more than that,
-/// and update() with a fourth takes no more than that for hidden by a turn. value() is E1 [J]. `counts` is false for the one
-/// that counts nothing; `exact` is false for one that takes positions as known to a step only. One that
-/// also books the work that a device reports takes it with the effort; one that books what is unsure of a
-/// turn says `turns`.
+/// update() books one tick: the motion, the effort held during it, its length [s]. If the energy would not be finite,
+/// it books nothing and returns false. forfeit() writes off a tick whose motion is unknown and never raises the
+/// ledger; its optional third number [J] limits the loss, and an optional fourth number [J] of update() the error of
+/// the work of a turn. value() is E1 [J]. `counts` is false for no_observer; `exact` is false if positions are known
+/// to a step only. An observer for reported work takes it with the effort; one that books the possible error of a
+/// turn has `turns`.
 template <class O, class P>
 concept energy_observer_for = plain_value<part_at<O, P>, P> &&
     requires(part_at<O, P> o, const part_at<O, P> c, const typename P::motion m,
@@ -197,48 +196,48 @@ concept energy_observer_for = plain_value<part_at<O, P>, P> &&
   requires noexcept(c.value());
 };
 
-/// What a force bound needs. What is not stated is taken as the worst:
+/// The requirements of a force bound. A member that is not stated has the most cautious value:
 ///     static constexpr bound_traits traits{.needs_ledger = true, .latency = any_latency};
 struct bound_traits {
-  bool needs_ledger = false;   ///< it spends what an observer must have counted
-  bool exact_travel = true;    ///< it takes Δx as exact: not for encoders with steps
-  int latency = 0;             ///< most ticks of delay for which it holds
-  bool turns = false;          ///< it holds at a port that turns
-  bool reported_work = false;  ///< it reads nothing but the ledger: the work may be reported
+  bool needs_ledger = false;   ///< it spends energy that an observer has to count
+  bool exact_travel = true;    ///< it assumes exact Δx, so it is not for encoders with steps
+  int latency = 0;             ///< the largest latency for which it is proved [ticks]
+  bool turns = false;          ///< it is proved for a port that turns
+  bool reported_work = false;  ///< it reads the ledger only, so the work may be reported
 };
 inline constexpr int any_latency = kernels::largest<int>();
 
 namespace detail {
-/// Can motors that hold `most` have held a force of that size? Twice as much, for what is not known of them; no NaN.
+/// True if size ≤ 2 `most`, with a factor of 2 for the uncertainty of the motors' limit; false for NaN.
 template <class Scalar>
 [[nodiscard]] constexpr bool can_be_held(Scalar size, Scalar most) noexcept {
   return size * Scalar(0.5) <= most;
 }
-/// The longest force of which that is so, along some axis.
+/// The longest force for which that is true, along the first axis.
 template <class Space>
 [[nodiscard]] constexpr typename Space::effort longest_held(typename Space::scalar most) noexcept {
   typename Space::effort f = Space::zero();
   Space::component(f, 0) = typename Space::scalar(2) * most;
   return f;
 }
-/// A damping that any port has, for asking whether a bound fits.
+/// A damping for any port, for concepts.
 template <class P>
 using some_damping = typename diagonal_damping<P::dof>::template on<P>;
-/// The last tick that was seen, and what the motors hold.
+/// The last tick with a known motion, and the effort held.
 template <class P>
 struct seen_tick {
   typename P::scalar square;        ///< |Δx|² over it (P::squared)
   typename P::scalar dt;            ///< T₀ [s]
-  typename P::scalar travel_error;  ///< Δx is no farther from the true one than this
-  typename P::stored_effort held;   ///< no effort held then or since is longer
+  typename P::scalar travel_error;  ///< largest distance of the true Δx from the measured one
+  typename P::stored_effort held;   ///< at least as long as any effort held then or since
 };
-/// What a force can have done while nobody looked, at most.
+/// The most work that a force can have done between samples.
 template <class Scalar>
 struct unseen_work {
-  Scalar done;    ///< [J]
-  Scalar beside;  ///< by how much f·Ω may have been more than f·θ, where the port turns [J]
+  Scalar done;    ///< the work [J]
+  Scalar beside;  ///< the most by which f·Ω exceeds f·θ, at a port that turns [J]
 };
-/// A part that knows how far a device gets.
+/// Satisfied by a bound that limits the motion between samples.
 template <class Part, class P>
 concept knows_reach = requires(const Part p, const seen_tick<P> seen, const some_damping<P> d,
                                const typename P::effort f, typename P::scalar t) {
@@ -246,7 +245,7 @@ concept knows_reach = requires(const Part p, const seen_tick<P> seen, const some
 };
 }  // namespace detail
 
-/// One that promises nothing rests on nothing.
+/// The requirements of a bound; one without a guarantee has none.
 template <class Bound>
 [[nodiscard]] constexpr bound_traits assumptions_of() noexcept {
   bound_traits all = Bound::traits;
@@ -260,7 +259,7 @@ template <class Bound>
   return all;
 }
 
-/// What a bound promises at a port. A chain knows it there, any other bound at once.
+/// Satisfied by a bound that states its guarantee, either itself or, as a chain does, at a port.
 template <class Bound, class P>
 concept promises = requires {
   part_at<Bound, P>::passivity;
@@ -279,13 +278,13 @@ requires promises<Bound, P>
 }
 
 namespace detail {
-/// An effort where axes are damped unequally, for then it turns; elsewhere one share for all.
+/// The answer of a bound: an effort if axes are damped unequally, because it turns then, else a share.
 template <class State, class P>
 using what_is_left = std::conditional_t<differs_by_axis<typename State::damping_type, P>,
                                         typename P::effort, share<typename P::scalar>>;
 }  // namespace detail
 
-/// limit() takes the desired effort and a port_state, and answers with the share that is left, or with an effort.
+/// limit() takes the desired effort and a port_state, and returns a share of that effort, or another effort.
 template <class B, class P, class State = port_state<P, detail::some_damping<P>>>
 concept force_bound_for = plain_value<part_at<B, P>, P> &&
     requires(part_at<B, P> b, const typename P::effort f, const State s) {
@@ -296,8 +295,8 @@ concept force_bound_for = plain_value<part_at<B, P>, P> &&
   requires noexcept(b.limit(f, s));
 };
 
-/// estimate() takes the pose shown, the motion, the effort held meanwhile, its length [s], and whether
-/// the motion is known at all; it returns `position` and, in a space, along(n), the speed along a unit
+/// estimate() takes the measured pose, the motion, the effort held during it, its length [s], and whether
+/// the motion is known; it returns `position` and, in a space, along(n), the speed along a unit
 /// vector [m/s].
 template <class M, class P>
 concept motion_estimator_for = plain_value<part_at<M, P>, P> &&
@@ -307,44 +306,44 @@ concept motion_estimator_for = plain_value<part_at<M, P>, P> &&
   requires noexcept(m.estimate(x, dx, f, s, true));
 };
 
-/// What a tick has come to, before its source makes its own result of it.
+/// The result of a tick, from which the source makes its own result.
 template <class P>
 struct port_result {
-  typename P::effort force;     ///< on the device [N]; joints: [N·m]
+  typename P::effort force;     ///< effort on the device [N]; joints: [N·m]
   typename P::scalar energy;    ///< E1 [J]
-  event what = event::nominal;  ///< the worst that happened
+  event what = event::nominal;  ///< the worst event of the tick
   bool limited = false;         ///< the bound changed the desired effort
 };
 
 namespace detail {
-/// What is to be said of a contact that was cut short: a start inside, if nothing was paid in, and nothing is left.
+/// The event of a contact whose force was reduced: started_inside, if the ledger is empty and the force zero.
 template <class P>
 [[nodiscard]] constexpr event cut_short(const port_result<P>& port) noexcept {
   const bool nothing = !(port.energy > typename P::scalar(0)) && port.force == P::zero();
   return nothing ? worse_yet(port.what, event::started_inside) : port.what;
 }
-/// Does the result of a source say how deep the contact is?
+/// Satisfied by the result of a source with the depth of a contact.
 template <class R>
 concept says_depth = requires(const R r) {
   r.depth;
 };
-/// Is there a tick that takes an effort of one's own?
+/// Satisfied by a source that takes a desired effort from the caller.
 template <class S, class P>
 concept takes_efforts = requires(S s, const typename P::effort f) {
   s.update(f);
 };
-/// Does a probe say along what a force acts, where that is not outward()?
+/// Satisfied by a probe with push(), the direction of its force, which differs from outward().
 template <class Probe>
 concept says_push = requires(const Probe p) {
   p.push();
 };
-/// The least that a motion estimator says, for asking whether a source fits.
+/// The least that a motion estimator returns, for concepts.
 template <class P>
 struct some_estimate {
   typename P::stored_pose position;
   [[nodiscard]] typename P::scalar along(const typename P::motion& n) const noexcept;
 };
-/// What an estimate says of the velocity [m/s], axis by axis where it has more to say than travel and time.
+/// The velocity of an estimate [m/s]: travel over dt, or axis by axis if the estimate has no travel.
 template <class P>
 [[nodiscard, gnu::always_inline]] constexpr typename P::vector velocity_of(
     const auto& motion) noexcept {
@@ -361,15 +360,15 @@ template <class P>
     return v;
   }
 }
-/// What stands where a part should, so that the compiler can say which part is missing.
+/// A placeholder for a missing part, by which the compiler names it.
 struct left_out {};
 }  // namespace detail
 
-/// ask<Shortcut>() is given the estimate of the motion, the port_state and the event so far, which it may
-/// make worse, and returns a request: `wanted`, an effort, and `nothing`, whether there is nothing to bound;
-/// with a Shortcut nothing is what a bound would leave of it. answered() gets the request back with what
-/// became of it, refused() a tick that nobody could believe, of length dt [s]; both return the result of the
-/// tick. `asks_for_numbers`: it never asks for NaN or an infinity, so the port need not look.
+/// ask<Shortcut>() takes the estimate of the motion, the port_state and the event so far, which it may make worse,
+/// and returns a request: `wanted`, the desired effort, and `nothing`, true if there is nothing to bound. With a
+/// Shortcut it may return early for a zero effort. answered() takes the request and the bounded effort, refused() a
+/// tick of length dt [s] whose sample was rejected; both return the result of the tick. `asks_for_numbers` is true if
+/// `wanted` is always finite, so that the port need not check it.
 template <class S, class P, class State = port_state<P, detail::some_damping<P>>>
 concept source_for = plain_value<part_at<S, P>, P> && requires {
   typename part_at<S, P>::request;
@@ -389,8 +388,8 @@ concept source_for = plain_value<part_at<S, P>, P> && requires {
   requires noexcept(s.refused(r, dt));
 };
 
-/// What a port has to know of its loop: `latency` in ticks, traits, what the guarantee is worth in it,
-/// and what looks at its samples; at a port, T [s].
+/// The limits of a loop: `latency` [ticks], traits, the guarantee in that loop, the type of guard and, at a port,
+/// T [s].
 template <class L, class P>
 concept limits_for = requires(const part_at<L, P> l) {
   { L::latency } -> std::convertible_to<int>;
@@ -401,8 +400,8 @@ concept limits_for = requires(const part_at<L, P> l) {
   { l.longest_tick } -> std::convertible_to<typename P::scalar>;
 };
 
-/// How the normal of a surface changes along it: not at all, evenly with its curvature, or in jumps.
-/// What is not stated is faceted: then no turn of the normal is taken for curvature.
+/// How the normal of a surface changes along it: not at all, smoothly with its curvature, or in jumps. The default is
+/// faceted, for which no turn of the normal counts as curvature.
 enum class surface_kind : std::uint8_t { flat, smooth, faceted };
 
 template <class G>
@@ -411,11 +410,10 @@ template <class G>
   return surface_kind::faceted;
 }
 
-/// A value that crosses threads: a piece of the world as the environment publishes it. prepare()
-/// normalises it and is false when it is unusable. at(x) probes it: `depth` [m], > 0 inside;
-/// outward(), the unit normal there; covered(), the edge test. Where depth is not the distance to the
-/// surface, its gradient is not the normal: then the probe has push(), −∇depth, along which a force
-/// K·depth must act so that it gives nothing out on closed paths (docs/design/contacts.md).
+/// A piece of a surface that the environment publishes, as a value that can be passed between threads. prepare()
+/// normalises it and returns false if it is unusable. at(x) returns a probe: `depth` [m], > 0 inside; outward(), the
+/// unit normal; covered(), the edge test. If depth is not the distance to the surface, its gradient is not the normal:
+/// then the probe has push() = −∇depth, and the force K·depth·push() is conservative (docs/design/contacts.md).
 template <class G, class Space>
 concept surface_for = plain_value<G, Space> && std::default_initializable<G> &&
     requires(G g, const G c, const typename Space::vector v, typename Space::scalar s) {
@@ -428,19 +426,19 @@ concept surface_for = plain_value<G, Space> && std::default_initializable<G> &&
   requires noexcept(c.at(v));
 };
 
-/// A surface that the local model of the thesis can follow: toward(target, x, n, d) is the same piece
-/// moved, and turned if it must be, so that x lies d [m] deep under the normal n, whatever unit vector n
-/// is. Its depth falls by s when x moves by s along n.
+/// A surface that the local model of the thesis can follow: toward(target, x, n, d) is the same piece, moved and
+/// turned so that x lies d [m] deep under the normal n, for any unit vector n. Its depth falls by s when x moves by
+/// s along n.
 template <class G, class Space>
 concept constraint_for = surface_for<G, Space> &&
     requires(const G c, const typename Space::vector v, typename Space::scalar s) {
   { c.toward(c, v, v, s) } -> std::same_as<G>;
 };
 
-/// local() is the constraint that is felt, target() the environment's newest. One that `moves` also
-/// takes news with update(), ends the contact with release(), and ages: weight() is how far the contact
-/// counts, in [0, 1], and last_weight() how far it did. A tick asks what is new, moves the local model with
-/// approach() or sync(), and says that it has seen(). (constraint_geometry/followed.hpp)
+/// local() is the constraint of the local model, target() the environment's newest. A supply that `moves` also takes
+/// updates with update(), ends the contact with release(), and ages: weight() is the factor of the force, in [0, 1],
+/// and last_weight() that of the last tick. A tick reads changed(), moves the local model with approach() or sync(),
+/// and ends with seen(). (constraint_geometry/followed.hpp)
 template <class S, class Space>
 concept supply_for = requires(part_at<S, Space> s, const part_at<S, Space> c,
                               const typename Space::vector v, typename Space::scalar d) {
@@ -487,20 +485,20 @@ concept contact_law_for = plain_value<part_at<L, Space>, Space> &&
   requires noexcept(c.depth(s, s));
 };
 
-/// What a shaper may look at beside the port.
+/// The state of a contact, which a shaper may read beside that of the port.
 template <class Space>
 struct contact_state {
-  typename Space::vector normal;  ///< outward, of the local model, along which the force will act
+  typename Space::vector normal;  ///< outward normal of the local model, the direction of the force
   typename Space::scalar stiffness;     ///< K of the target [N/m]
-  typename Space::scalar depth;         ///< in the local model, ≤ 0 outside [m]
-  typename Space::scalar target_depth;  ///< in the environment's newest constraint [m]
-  typename Space::scalar local_force;   ///< what the law gives at `depth`, along `normal` [N]
+  typename Space::scalar depth;         ///< depth in the local model, ≤ 0 outside [m]
+  typename Space::scalar target_depth;  ///< depth in the environment's newest constraint [m]
+  typename Space::scalar local_force;   ///< force of the law at `depth`, along `normal` [N]
   bool target_changed;                  ///< a new constraint arrived since the last tick
 };
 
-/// shape() takes the desired force, the contact and the port, and answers as a force bound does.
-/// `needs_local_model` says that it compares with a local model that can move, `needs_ledger` that it
-/// spends what an observer must have counted.
+/// shape() takes the desired force, the contact and the port, and returns a share or a force, as a bound does.
+/// `needs_local_model` is true if it needs a local model that can move, `needs_ledger` if it spends energy that an
+/// observer has to count.
 template <class H, class Space, class State = port_state<Space, detail::some_damping<Space>>>
 concept shaper_for = plain_value<part_at<H, Space>, Space> &&
     requires(part_at<H, Space> h, const typename Space::vector f, const contact_state<Space> c,
@@ -513,7 +511,7 @@ concept shaper_for = plain_value<part_at<H, Space>, Space> &&
 };
 
 namespace detail {
-/// What a frame asks of a spring.
+/// The functions of a spring that a frame uses, for concepts.
 template <class Scalar>
 struct some_spring {
   [[nodiscard]] Scalar yield(Scalar compliance) const noexcept;
@@ -563,7 +561,7 @@ concept frame_for = plain_value<typename F::stored, P> &&
   };
 };
 
-/// exchange() commands an effort and returns the newest sample. Simulated, replayed or real.
+/// exchange() commands an effort and returns the newest sample of a simulated, replayed or real device.
 template <class D, class P>
 concept haptic_device_for = requires(D d, const typename P::effort f) {
   { d.exchange(f) } -> std::same_as<device_sample<P>>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How old news may grow: what to do when whoever publishes a constraint or a force falls silent.
+// The age up to which a published constraint or force is used, and its fading after that.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -10,12 +10,12 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What was said counts in full for `stale_after`, then fades to nothing over `fade`:
+/// The weight of a published value, by which its force is multiplied:
 ///     weight(age) = 1 while age ≤ stale_after, then 1 − (age − stale_after)/fade, then 0
-/// For ever by default, because a world may have nothing to say.
+/// By default it is 1 for ever, because a surface at rest need not be published again.
 struct freshness {
-  double stale_after = std::numeric_limits<double>::infinity();  ///< [s]
-  double fade = 0.05;                                            ///< [s]
+  double stale_after = std::numeric_limits<double>::infinity();  ///< age of full weight [s]
+  double fade = 0.05;                                            ///< time of the fading [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(stale_after >= 0.0)) return {"stale_after", stale_after, "≥ 0 s"};
@@ -26,7 +26,7 @@ struct freshness {
   class on;
 };
 
-/// The rule, and the age of the newest news.
+/// The rule, and the age of the newest value.
 template <class Port>
 class freshness::on {
  public:
@@ -45,30 +45,30 @@ class freshness::on {
     said_ = word::nothing_yet;
   }
 
-  /// There is news.
+  /// Notes that a new value has come.
   constexpr void hear() noexcept {
     said_ = word::here;
     age_ = scalar(0);
   }
-  /// Its end is news, too: it fades from where it is, and nobody will call it stale.
+  /// Ends the value: it fades from its present weight, and is not stale.
   constexpr void release() noexcept {
     if (said_ != word::here) return;
     age_ = (scalar(1) - weight()) * fade_;
     said_ = word::gone;
   }
-  /// Time goes by [s].
+  /// Adds dt [s] to the age.
   constexpr void grow_older(scalar dt) noexcept { age_ += dt; }
 
-  /// Has there ever been news?
+  /// True if a value has ever come.
   [[nodiscard]] constexpr bool heard() const noexcept { return said_ != word::nothing_yet; }
-  /// It counts in full. Or it has not been renewed for too long, and fades.
+  /// current(): the weight is 1. stale(): the value is older than stale_after, and fades.
   [[nodiscard]] constexpr bool current() const noexcept {
     return said_ == word::here && !(age_ > stale_after_);
   }
   [[nodiscard]] constexpr bool stale() const noexcept {
     return said_ == word::here && age_ > stale_after_;
   }
-  /// How far it counts now, in [0, 1]; nothing before the first.
+  /// The present weight, in [0, 1]; 0 before the first value.
   [[nodiscard]] constexpr scalar weight() const noexcept {
     if (current()) return scalar(1);
     if (said_ == word::nothing_yet) return scalar(0);
@@ -80,7 +80,7 @@ class freshness::on {
   enum class word : std::uint8_t { nothing_yet, here, gone };
 
   scalar stale_after_{}, fade_{};
-  scalar age_{};  ///< since the last news, or since they were over [s]
+  scalar age_{};  ///< time since the last value, or since release() [s]
   word said_ = word::nothing_yet;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The guard of a port: believes a sample or refuses it, and keeps the efforts commanded, so that every
-// motion is paired with the effort that was held while it happened.
+// The guard of a port: accepts or rejects a sample, and stores the commanded efforts, so that every motion
+// is paired with the effort that was held during it.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -11,7 +11,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What every guard keeps from tick to tick. `Latency` as in late_loop_limits.
+/// The state of every guard. `Latency` is that of late_loop_limits [ticks].
 template <port P, int Latency>
 class last_tick {
  public:
@@ -21,13 +21,12 @@ class last_tick {
 
   constexpr last_tick() noexcept { commanded_.fill(P::zero()); }
 
-  /// Where the last good sample was, if there has been one.
+  /// The position of the last good sample; the origin before the first.
   [[nodiscard]] constexpr pose last() const noexcept { return position_; }
-  /// A good sample.
+  /// Takes the position of a good sample.
   constexpr void move_to(const pose& position) noexcept { position_ = position; }
 
-  /// All that were commanded and are not yet over, newest first; the last is held if the device does
-  /// as it is told.
+  /// The commands that are not over yet, newest first; the last one is held now if the device obeys.
   [[nodiscard]] constexpr const commands& commanded() const noexcept { return commanded_; }
   constexpr void command(const effort& f) noexcept {
     for (std::size_t j = commanded_.size() - 1; j > 0; --j) commanded_[j] = commanded_[j - 1];
@@ -50,7 +49,7 @@ class guard : public last_tick<P, Latency> {
 
   constexpr void reset() noexcept { *this = {}; }
 
-  /// Has there been a good sample?
+  /// True if there has been a good sample.
   [[nodiscard]] constexpr bool has_seen() const noexcept { return seen_; }
 
   template <class Limits>
@@ -60,7 +59,7 @@ class guard : public last_tick<P, Latency> {
     return is_possible(position, travel, dt, limits.top_speed) &&
            within(position, limits.workspace);
   }
-  /// A finite sample, no farther from the last good one than the device can have gone since.
+  /// True for a finite sample that is within top_speed · (time since the last good one) of it.
   [[nodiscard, gnu::always_inline]] constexpr bool is_possible(const pose& position,
                                                                const motion& travel, scalar dt,
                                                                scalar top_speed) const noexcept {
@@ -71,8 +70,8 @@ class guard : public last_tick<P, Latency> {
     const scalar square = P::squared(travel);
     return square + dt <= largest && square <= farthest * farthest;
   }
-  /// Positions in other units than the model's are soon outside. Joints may turn as often as they like. Of a
-  /// pose that turns, the place is asked.
+  /// True if |x| ≤ workspace [m], which finds positions in a wrong unit. The rule does not apply to joints; of a pose
+  /// it uses place().
   [[nodiscard, gnu::always_inline]] static constexpr bool within(const pose& position,
                                                                  scalar workspace) noexcept {
     if constexpr (requires { P::place(position); }) {
@@ -83,26 +82,26 @@ class guard : public last_tick<P, Latency> {
       return true;
     }
   }
-  /// Was the sample before this one a good one, so that the motion between them is known?
+  /// True if the sample before this one was good, so that the motion between them is known.
   [[nodiscard]] constexpr bool knows_motion() const noexcept {
     return seen_ && !(blind_ > scalar(0));
   }
-  /// The first good sample, or the first since bad ones.
+  /// Notes a good sample, which may be the first or the first after bad ones.
   constexpr void see_again() noexcept {
     seen_ = true;
     blind_ = scalar(0);
   }
-  /// A bad sample: `passed` [s] more since the last good one.
+  /// Notes a bad sample, `passed` [s] after the one before.
   constexpr void lose_sight(scalar passed) noexcept { blind_ += passed; }
-  /// The time that those took [s].
+  /// The time of the bad samples since the last good one [s].
   [[nodiscard]] constexpr scalar blind() const noexcept { return blind_; }
 
  private:
-  scalar blind_{};     ///< time since the last good sample that bad ones took [s]
-  bool seen_ = false;  ///< has there been a good sample?
+  scalar blind_{};     ///< time of the bad samples since the last good one [s]
+  bool seen_ = false;  ///< there has been a good sample
 };
 
-/// One per device, where somebody else answers for the samples: it believes them all.
+/// A guard that accepts every sample, one per device, for trusted_loop_limits.
 template <port P, int Latency>
 class trusting_guard : public last_tick<P, Latency> {
  public:
@@ -112,32 +111,32 @@ class trusting_guard : public last_tick<P, Latency> {
   [[nodiscard]] constexpr bool has_seen() const noexcept { return seen_; }
   [[nodiscard]] constexpr bool knows_motion() const noexcept { return seen_; }
   constexpr void see_again() noexcept { seen_ = true; }
-  /// After a number that is none the motion begins anew.
+  /// Notes a sample that was not finite; the motion to the next one is unknown.
   constexpr void lose_sight(typename P::scalar /*passed*/) noexcept { seen_ = false; }
 
  private:
   bool seen_ = false;
 };
 
-/// Holds a sample against the motion before it, where a bound knows what can change that: far_off(T₀, t, v) [m] is how far
-/// from going on a device may be t after a motion of T₀, of both of which v is the sum of the mean speeds [m/s]. A
-/// sample that is not believed doubles what is, unless it turns out to have been an outlier; that is forgotten slowly.
-/// (§ 13)
+/// Tests a sample against the motion before it, with a bound that limits accelerations. far_off(T₀, t, v) [m] is the
+/// largest distance from x + V t at a time t [s] after a motion of T₀ [s], v [m/s] the sum of the mean speeds of both.
+/// Each rejected sample doubles the accepted distance, and an outlier restores it; a larger distance that was right is
+/// kept, and shrinks by 0.2 % per tick. (ours, § 13)
 template <port P>
 class motion_check {
  public:
   using scalar = typename P::scalar;
   using motion = typename P::motion;
 
-  /// So little motion, in so much time, that no sample is far off.
+  /// True for a motion so small, in a tick so long, that no test is needed.
   [[nodiscard]] constexpr bool is_calm(scalar square, scalar dt) const noexcept {
     return square <= easy_ && dt >= least_;
   }
-  /// So little change of it.
+  /// True for a motion that differs so little from the last one that no test is needed.
   [[nodiscard]] constexpr bool is_easy(const motion& travel) const noexcept {
     return P::squared(P::difference(travel, motion(travel_))) <= easy_;
   }
-  /// `t` after the last good sample.
+  /// True if the travel is within the accepted distance, `t` [s] after the last good sample.
   [[nodiscard]] constexpr bool is_possible(const motion& travel, scalar t,
                                            const auto& far_off) const noexcept {
     return !(off(travel, t, far_off) > width_);
@@ -160,7 +159,7 @@ class motion_check {
     easy_ = change * change;
     least_ = change / top_speed;
   }
-  /// The next sample is neither calm nor easy.
+  /// Requires the full test of the next sample.
   constexpr void think() noexcept { easy_ = scalar(-1); }
   /// |Δx|² [m²] and the time [s] of the last motion.
   [[nodiscard]] constexpr std::array<scalar, 2> last() const noexcept {
@@ -169,7 +168,7 @@ class motion_check {
   }
 
  private:
-  /// In parts of what is possible; time stamps may be off by a quarter.
+  /// The distance from x + V t over the possible one, where time stamps may be wrong by a quarter.
   [[nodiscard]] constexpr scalar off(const motion& travel, scalar t,
                                      const auto& far_off) const noexcept {
     if (!(dt_ > scalar(0))) return scalar(0);
@@ -179,15 +178,15 @@ class motion_check {
            (far_off(dt_, t, (step + P::norm(travel)) / t) + step / scalar(4));
   }
 
-  typename P::stored_effort travel_ = P::zero();  ///< of the last motion that was believed
-  scalar dt_{};                                   ///< and its time [s]; 0: there was none
+  typename P::stored_effort travel_ = P::zero();  ///< the last accepted motion
+  scalar dt_{};                                   ///< its time [s]; 0: there was none
   scalar easy_ = scalar(-1), least_{};            ///< [m²], [s]
-  scalar width_{1}, kept_{1};  ///< of what is possible; the same before samples not believed
+  scalar width_{1},
+      kept_{1};  ///< accepted distance over the possible one; the same before rejections
 };
 
-/// Looks for a sensor that is slower than the loop. It shows the same place again and then jumps on,
-/// time after time, and a mass does not start that fast: over a 25th of top_speed within a tick.
-/// Nothing is counted where a loop is not `watched`.
+/// Detects a sensor that is slower than the loop: it repeats a position and then jumps by more than top_speed · dt/25
+/// [m], which a mass at rest cannot do in one tick. It does nothing if the loop is not `watched`.
 template <port P, bool Watched>
 class sensor_watch {
  public:
@@ -203,7 +202,7 @@ class sensor_watch<P, true> {
  public:
   using scalar = typename P::scalar;
 
-  /// True for every such jump from the fourth on.
+  /// True for every such jump after a repeated position, from the fourth on.
   [[nodiscard]] constexpr bool repeats(const typename P::motion& travel, scalar dt,
                                        scalar top_speed) noexcept {
     const scalar square = P::squared(travel);
@@ -219,7 +218,7 @@ class sensor_watch<P, true> {
  private:
   static constexpr std::uint8_t suspicious = 4;
   bool stood_still_ : 1 = false;  ///< the last sample showed no motion at all
-  std::uint8_t jumps_ : 3 = 0;    ///< from a standstill, up to suspicious
+  std::uint8_t jumps_ : 3 = 0;    ///< jumps after a repeated position, at most `suspicious`
 };
 
 }  // namespace v0

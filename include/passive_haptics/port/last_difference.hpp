@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Motion estimators: where the device is and how fast it moves, from what the encoders show.
+// Motion estimators: position [m] and velocity [m/s] of the device from encoder positions.
 //
 //   last_difference   x̂ and Δx̂/dt                       the default; for fine encoders
-//   mass_observer     a mass under the force held,       for encoders whose steps are felt; needs
-//                     kept within the step shown         the mass; settles on ideal devices
-//   edge_observer     surely known at the edges of a     for the same with dry friction, which it
-//                     step, going on in between          spends least of
+//   mass_observer     a mass under the held force,       for coarse encoders; needs the mass;
+//                     clamped to the measured step       settles without friction
+//   edge_observer     exact at the edges of a step,      for coarse encoders with dry friction;
+//                     extrapolated in between            costs the ledger least
 //
-// Geometry and contact law look at the estimate. Ledger and bound never do: they count what was
-// measured, so no estimate, however wrong, costs the guarantee.
+// Geometry and contact law use the estimate. Ledger and bound never do: they use the measured
+// motion, so no error of an estimate affects the guarantee.
 
 #include <passive_haptics/port/concepts.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The position shown, and the speed between the last two.
+/// The measured position x̂, and the velocity Δx̂/dt between the last two.
 struct last_difference {
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
 
@@ -28,9 +28,9 @@ struct last_difference {
     using motion = typename P::motion;
 
     struct seen {
-      const pose& position;  ///< [m]
-      const motion& travel;  ///< [m]
-      scalar dt;             ///< [s]
+      const pose& position;  ///< x̂ [m]
+      const motion& travel;  ///< Δx̂ [m]
+      scalar dt;             ///< length of the tick [s]
       /// Speed along a unit vector [m/s].
       [[nodiscard]] constexpr scalar along(const motion& n) const noexcept {
         return P::dot(travel, n) / dt;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The loop around a port: what it has to keep to.
+// The limits of the loop around a port, on which the guarantee rests.
 //
-//   loop_limits               a command is held from the moment it is given
-//   late_loop_limits<k>       it is held k ticks later, as every device that talks in packets does
-//   watched_loop_limits<k>    the same, and a sensor that is slower than the loop is reported
-//   learning_loop_limits<k>   the longest tick is the longest so far, tenfold at most at once: conditional
-//   trusted_loop_limits<k>    somebody else answers for every sample: conditional, half the code
+//   loop_limits               a force is held from its command on
+//   late_loop_limits<k>       it is held k ticks later, as with every device that communicates in packets
+//   watched_loop_limits<k>    the same; a sensor that is slower than the loop is reported
+//   learning_loop_limits<k>   T is the longest tick so far, growing tenfold at most in one tick: conditional
+//   trusted_loop_limits<k>    samples are not checked, because the caller has: conditional, half the code
 //
-// The delay is a property of the loop, so it is stated once, here. Every force bound honours it, or is
-// refused for it. measure_latency.hpp and measure_ticks.hpp find the numbers of a loop.
+// The latency is a property of the loop, so it is stated once, here. A force bound either covers it or does not
+// compile with it. identification/measure_latency.hpp and measure_ticks.hpp measure the numbers of a loop.
 
 #include <passive_haptics/port/guard.hpp>
 
@@ -18,35 +18,35 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What a loop has besides its numbers, known to the compiler.
+/// Properties of a loop that are known at compile time.
 struct loop_traits {
-  bool watched = false;  ///< event::repeated_sample tells of a sensor that is slower than the loop
-  bool learns = false;   ///< the longest tick is the longest so far, tenfold at most at once
+  bool watched = false;  ///< event::repeated_sample reports a sensor that is slower than the loop
+  bool learns = false;   ///< T is the longest tick so far, growing tenfold at most in one tick
 };
 
-/// A guarantee holds while the loop keeps to these; a tick that does not is reported. What a late tick
-/// cost is known, since its force was held to its end: the ledger books it, and shows a debt at worst.
-/// It is known no longer where a driver drops a force by itself: state the `watchdog` then.
+/// A guarantee holds while the loop keeps these limits; a tick that does not is reported. The cost of a late tick is
+/// known, because its force was held to its end: the ledger books it, which leaves a debt at worst. If the driver may
+/// drop the force by itself, the cost is not known, and `watchdog` has to be stated.
 ///
-/// `Latency` counts whole ticks from a command to the first instant it is held, no more and no fewer, because the
-/// ledger pairs each motion with the force that was there (§ 3). A sample that is one tick old when it arrives counts
-/// as one, too. Told wrong, either way, joules are drawn: measure_latency.hpp finds the number.
+/// `Latency` is the exact number of whole ticks from a command to the first instant at which it is held, because the
+/// ledger pairs each motion with the force held during it (§ 3). A sample that is one tick old on arrival adds one. With
+/// a number that is too small or too large a hand can draw energy; measure_latency.hpp measures it.
 template <int Latency, loop_traits Traits = loop_traits{}>
 struct late_loop_limits {
   static_assert(Latency >= 0,
                 "passive_haptics: late_loop_limits: Latency counts ticks and cannot be negative");
   static constexpr int latency = Latency;
   static constexpr loop_traits traits = Traits;
-  /// A tick longer than all before it comes with a force that was bounded for a shorter one.
+  /// A loop that learns is conditional, because the force of a new longest tick was bounded for a shorter T.
   static constexpr guarantee passivity = Traits.learns ? guarantee::conditional : guarantee::strict;
   template <class Port>
-  using guard_type = guard<Port, Latency>;  ///< what looks at the samples
+  using guard_type = guard<Port, Latency>;  ///< checks the samples
   static constexpr double never = std::numeric_limits<double>::infinity();
 
   double longest_tick{};    ///< T [s], > 0: the worst tick of YOUR loop
-  double top_speed = 5.0;   ///< faster than this is a sensor fault [m/s]; joints: [rad/s]
-  double workspace = 2.0;   ///< farther from the origin is no position [m]; joints: not asked
-  double watchdog = never;  ///< the driver drops a force that long after its command [s]
+  double top_speed = 5.0;   ///< a faster sample is rejected [m/s]; joints: [rad/s]
+  double workspace = 2.0;   ///< largest distance from the origin [m]; not for joints
+  double watchdog = never;  ///< time after a command when the driver drops the force [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(longest_tick)) {
@@ -77,18 +77,17 @@ struct late_loop_limits {
               .workspace = static_cast<double>(workspace),
               .watchdog = static_cast<double>(watchdog)};
     }
-    /// How long a force may have been held in a tick that took `dt` [s].
+    /// The longest time [s] for which a force may have been held in a tick of `dt` [s].
     [[nodiscard]] constexpr scalar held_for(scalar dt) const noexcept {
       return kernels::clamped(dt, longest_tick, watchdog);
     }
   };
 };
 
-/// A loop whose samples somebody else has looked at, whose ticks a timer makes and whose end a watchdog
-/// sees: the ledger, the bound and their rounding are all that is left to a tick. No sample is doubted, so a
-/// jump of the sensor is booked as the work of a hand, and a tick that is lost or late goes unnoticed: the
-/// guarantee is conditional on samples that are good, one a tick. What is no number is refused still, since
-/// no ledger takes it, but what the force before it has done is not written off.
+/// A loop with checked samples, ticks from a timer and a watchdog: a tick consists of the ledger, the bound and their
+/// rounding only. No sample is checked, so a jump of the sensor is booked as work of the hand, and a lost or late tick
+/// is not noticed: the guarantee is conditional on one good sample per tick. A sample that is not finite is still
+/// rejected, because no ledger can book it, but the outflow of the force before it is not written off.
 template <int Latency = 0>
 struct trusted_loop_limits {
   static constexpr int latency = late_loop_limits<Latency>::latency;

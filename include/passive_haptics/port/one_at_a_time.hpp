@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Two threads that call one port at once: a debug build finds them, and with NDEBUG nobody looks.
+// Finds two threads that call one port at the same time, in debug builds; with NDEBUG it does nothing.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -14,11 +14,11 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// Lives as long as a call of a port: tick, set, reset, update, release. A second one meanwhile is an assertion that
-/// fails, since neither could answer with a force that the other has not spoiled.
+/// Lives as long as a call of a port: tick, set, reset, update, release. A second call meanwhile fails an assertion,
+/// because both calls change the same state.
 ///
-/// `busy` is a byte of padding in any build, so that objects compiled with NDEBUG and without agree on what a port
-/// looks like. Where a core has no atomic swap of a byte nobody looks.
+/// `busy` is a byte of padding in every build, so that a port has the same layout with and without NDEBUG. A core
+/// without an atomic swap of a byte is not checked.
 struct one_at_a_time {
 #if !defined(NDEBUG) && defined(__cpp_lib_atomic_ref)
   constexpr explicit one_at_a_time(std::uint8_t& byte) noexcept : busy(byte) {

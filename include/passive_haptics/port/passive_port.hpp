@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The passive port: one guard, one ledger, one bound for everything that pushes on one device.
+// The passive port: one guard, one ledger and one bound for all contacts and forces of one device.
 //
 //  sample ─▶ GUARD ─▶ LEDGER ─▶ SOURCE.ask ─▶  BOUND  ─▶ SOURCE.answered ─▶ hold ─▶ force
 //           finite?   E1 += …   wanted effort  |f| ≤     local model to       pairs the next
 //           dt > 0?             (N, N·m)       f(E1)     where the force says motion
 //
-// ONE PER DEVICE. Two ports on one device are two ledgers that spend the same damping: both types would
-// say `strict`, and the hand would be fed. Several contacts are one source (contact/contacts.hpp).
+// ONE PER DEVICE. Two ports on one device have two ledgers that spend the same damping: both types would be
+// `strict`, and the hand could draw energy. Several contacts are one source (contact/contacts.hpp).
 //
-// ONE THREAD calls a port, or several in turns, for none of its calls may overlap: debug builds look
-// (one_at_a_time.hpp). Others hand over and read through an `exchange` (base/exchange.hpp).
+// ONE THREAD calls a port, or several in turns, because its calls must not overlap; debug builds check that
+// (one_at_a_time.hpp). Other threads use an `exchange` (base/exchange.hpp).
 //
-// The order is the thesis's (Fig. 2.7, A27). What is rare is kept out of line, so that the compiler sees
-// the ordinary tick as one piece. In a tick: no exception, heap, lock, clock, virtual call, I/O or
+// The order is that of the thesis (Fig. 2.7, A27). Rare cases are not inlined, so that the compiler optimises
+// the ordinary tick as a whole. In a tick: no exception, heap, lock, clock, virtual call, I/O or
 // recursion.
 
 #include <passive_haptics/base/no_unique_address.hpp>
@@ -31,8 +31,8 @@ inline namespace v0 {
 ///     ph::passive_port device{scene{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03},
 ///                             ph::strict_bound{}, ph::loop_limits{.longest_tick = 0.0011}};
 ///     motors.command(device.tick(position, ph::seconds{dt}, wanted).force);
-/// After the limits comes, where the default does not fit, a motion estimator. One that is default
-/// constructed ticks with force zero until another is assigned to it.
+/// A motion estimator may follow the limits; the default is last_difference. A default-constructed port ticks with
+/// force zero until another is assigned to it.
 template <port P, class Source, class Observer, class Bound, class Limits = loop_limits,
           class Motion = last_difference>
 class passive_port {
@@ -102,7 +102,7 @@ class passive_port {
       "passive_haptics: this port reports the work of its motors, and this bound takes it from "
       "the motion: use strict_bound");
 
-  /// The weakest of what counts, what bounds, and what the loop is known by.
+  /// The weakest guarantee of ledger, bound and loop limits.
   static constexpr guarantee passivity =
       (std::min)({Observer::passivity, promise_of<Bound, P>(), Limits::passivity});
 
@@ -115,7 +115,7 @@ class passive_port {
     begin();
   }
 
-  /// The first parameter that is out of its range, if any. Such a port ticks with force zero.
+  /// The first parameter that is out of its range, if any. A port with such a fault ticks with force zero.
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = detail::fault_in(limits_)) return fault;
     if (const auto fault = detail::fault_in(observer_)) return fault;
@@ -124,7 +124,7 @@ class passive_port {
     return detail::fault_in(source_);
   }
 
-  /// New parameters for the part whose they are; the ledger and all else is kept. A fault changes nothing:
+  /// Sets new parameters of one part; the ledger and all other state is kept. If they have a fault, nothing changes:
   ///     if (const auto fault = touch.set(ph::actuator_limit{.most = 6.0})) …
   template <class Parameters>
   constexpr parameter_fault set(const Parameters& p) noexcept {
@@ -147,8 +147,8 @@ class passive_port {
     return {};
   }
 
-  /// Puts everything but the parameters back to the start, the loan included, for a device that has stopped.
-  /// The world has said nothing then: a first target that was given to `followed` is to be told again.
+  /// Resets everything but the parameters, with the loan, for a device that has stopped. There is no surface then: a
+  /// first target that was given to `followed` has to be passed again.
   constexpr void reset() noexcept {
     [[maybe_unused]] const auto alone = one_call();
     detail::restart(source_);
@@ -161,9 +161,9 @@ class passive_port {
     begin();
   }
 
-  /// Says that the driver drops all forces, as with motors off. Until it is said that they are on, ticks answer
-  /// event::forces_off and force zero, and the ledger waits: the last effort is written off as in a lost sample, and no
-  /// motion is paid for. Then surfaces are met anew, an effort of your own is back at once (docs/events.md).
+  /// States that the driver drops all forces, as with motors off. Until they are stated to be on, ticks return force
+  /// zero and event::forces_off, and the ledger books no motion; the outflow of the last effort is written off as with a
+  /// lost sample. After that surfaces are treated as new; an effort of your own returns at once (docs/events.md).
   constexpr void enable_forces(bool on) noexcept {
     if (!on && stopped_ <= event::rejected_parameters) stopped_ = event::forces_off;
     if (!on || stopped_ != event::forces_off) return;
@@ -172,8 +172,8 @@ class passive_port {
     begin();
   }
 
-  /// One tick: the device is at `position`, `dt` after the last one, a std::chrono::duration or
-  /// ph::seconds{…}. The effort of the last tick is taken to have been held exactly.
+  /// One tick, with the device at `position`, `dt` after the last one (a std::chrono::duration or ph::seconds{…}). It
+  /// assumes that the device held the commanded effort exactly.
   [[nodiscard, gnu::flatten]] constexpr result_type tick(const pose& position,
                                                          seconds<scalar> dt) noexcept {
     static_assert(!detail::reports_work<P>(),
@@ -196,7 +196,7 @@ class passive_port {
       return advance(sample.position, sample.dt, sample.held);
     }
   }
-  /// The same two with an effort of your own making for this tick, from a source that takes one.
+  /// The same two with a desired effort for this tick, for a source that takes one.
   template <class Own = source_type>
   requires detail::takes_efforts<Own, P>
   [[nodiscard, gnu::flatten]] constexpr result_type tick(const pose& position, seconds<scalar> dt,
@@ -211,7 +211,7 @@ class passive_port {
     source_.update(wanted);
     return tick(sample);
   }
-  /// A number where dt belongs could be a position or a force as well: this does not compile.
+  /// Does not compile: a bare number as dt could as well be a position or a force.
   template <std::convertible_to<scalar> Number, class Last = effort>
   constexpr result_type tick(const pose& /*position*/, const Number& /*dt*/,
                              const Last& /*wanted*/ = {}) noexcept {
@@ -219,7 +219,7 @@ class passive_port {
     return tick(device_sample<P>{});
   }
 
-  /// How stiff a surface is shown now, why no stiffer, and what keeps the last force below that.
+  /// The displayed stiffness of the surface, its reason, and the reason for a smaller last force.
   template <class Own = source_type>
   requires requires(const Own s, explanation e, pose x, scalar T) { s.explain(e, x, T, 0); }
   [[nodiscard]] constexpr explanation explain() const noexcept {
@@ -244,9 +244,9 @@ class passive_port {
   }
 
   [[nodiscard]] constexpr scalar energy() const noexcept { return observer_.value(); }  ///< E1 [J]
-  /// T [s], as stated, or as a loop that learns has come to know it.
+  /// T [s], as stated, or the longest tick so far of a loop that learns.
   [[nodiscard]] constexpr scalar longest_tick() const noexcept { return limits_.longest_tick; }
-  /// Of the last good sample, if there has been one.
+  /// The position of the last good sample, if there has been one.
   [[nodiscard]] constexpr pose position() const noexcept { return guard_.last(); }
   [[nodiscard]] constexpr bool has_position() const noexcept { return guard_.has_seen(); }
   [[nodiscard]] constexpr source_type& source() noexcept { return source_; }
@@ -256,7 +256,7 @@ class passive_port {
   [[nodiscard]] constexpr const bound_type& bound() const noexcept { return bound_; }
 
  protected:
-  /// Held by every call that changes the port.
+  /// A lock for the time of a call that changes the port, in debug builds only.
   [[nodiscard]] constexpr detail::one_at_a_time one_call() noexcept {
     return detail::one_at_a_time(busy_);
   }
@@ -266,12 +266,12 @@ class passive_port {
   using guard_type = typename Limits::template guard_type<P>;
   using held_type = detail::held_at<P>;
 
-  /// A guard that trusts the loop leaves out what is asked of a sample, and what a bad one costs.
+  /// True for trusted_loop_limits: samples are not checked, and a bad one is not written off.
   static constexpr bool trusting = guard_type::trusting;
-  /// A bound that only reduces, and remembers nothing, has no say where nothing is asked.
+  /// True if the bound only reduces and has no state, so that it need not be called for zero effort.
   static constexpr bool zero_stays_zero =
       detail::reduces<Bound, P, state_type>() && detail::keeps_nothing<Bound, P, state_type>();
-  /// The bound knows how far the device gets without being seen, and the ledger takes that into account.
+  /// True if the bound limits the motion between samples, and the ledger uses that.
   static constexpr bool reaches = !trusting && detail::knows_reach<bound_type, P> &&
                                   detail::knows_most_held<bound_type> &&
                                   requires(observer_type o, const effort f, scalar s) {
@@ -283,22 +283,22 @@ class passive_port {
     o.update(m, f, s, s);
   };
   struct unasked {};
-  /// What is asked for is finite, and the bound makes it no larger: nobody has to look again.
+  /// True if the desired effort is finite and the bound only reduces it, so that the result need not be checked.
   static constexpr bool always_numbers =
       source_type::asks_for_numbers && detail::reduces<Bound, P, state_type>();
   static constexpr bool looks = detail::looks_at_motion<bound_type>;
-  /// It also knows how far a sample may be from the last motion.
+  /// True if the bound also limits the distance of a sample from the last motion.
   static constexpr bool doubts = looks && reaches && detail::has_geometry<P>;
   struct last_seen {
     scalar square = kernels::largest<scalar>(), dt{1};
     [[nodiscard]] constexpr last_seen last() const noexcept { return *this; }
   };
-  /// Of the last tick that was seen; of any square before there was one.
+  /// The last tick with a known motion; its square is the largest number before the first.
   using what_was_seen =
       std::conditional_t<doubts, motion_check<P>, std::conditional_t<reaches, last_seen, unasked>>;
-  /// The observer makes amends for faults, and says what that means for what is touched.
+  /// True if the observer recovers from faults and reports wall_lost and wall_back (forgiving.hpp).
   static constexpr bool mends = requires(observer_type o) { o.tells(event::nominal, false); };
-  /// Does the source say by itself that nothing is asked?
+  /// True if the source itself states that there is no desired effort.
   static constexpr bool says_nothing = zero_stays_zero && !detail::takes_efforts<source_type, P>;
 
   [[nodiscard, gnu::always_inline, gnu::flatten]] constexpr result_type advance(
@@ -383,7 +383,7 @@ class passive_port {
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
   }
 
-  /// Shows the bound what its assumptions can be held against, before anything else of this tick.
+  /// Passes the last tick to a bound that tests its assumptions, before anything else of this tick.
   [[gnu::noinline]] constexpr void look(typename P::stored_pose position, scalar dt,
                                         typename P::stored_effort held) noexcept {
     if constexpr (looks) {
@@ -399,10 +399,10 @@ class passive_port {
                                                        held, dt, observer_);
       if (bound_.watching().seen() > event::outside_force) stopped_ = bound_.watching().seen();
       if (doubted && bound_.watching().forgives())
-        disturbed();  // a hand has sunk in, which nobody paid
+        disturbed();  // the hand has sunk in without paying energy in
     }
   }
-  /// Is this sample possible after those before it?
+  /// True if this sample is possible after those before it.
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool thought_about(
       typename P::stored_effort travel, scalar dt) noexcept {
     if constexpr (doubts) {
@@ -421,7 +421,7 @@ class passive_port {
       }
     };
   }
-  /// Nobody knows what moved since the last good sample, so it counts as the worst; returns no motion.
+  /// Writes off the unknown motion since the last good sample as the worst one; returns no motion.
   [[nodiscard, gnu::always_inline]] constexpr motion resume([[maybe_unused]] const motion& travel,
                                                             const typename P::stored_effort& held,
                                                             scalar dt) noexcept {
@@ -432,7 +432,7 @@ class passive_port {
     guard_.see_again();
     return P::zero();
   }
-  /// What is to be said of a tick that was booked.
+  /// The event of a tick that was booked.
   [[nodiscard, gnu::always_inline]] constexpr event booked_as(const motion& travel, scalar dt,
                                                               [[maybe_unused]] bool late) noexcept {
     if constexpr (!trusting) {
@@ -445,7 +445,7 @@ class passive_port {
     if constexpr (mends && Observer::exact) return event::nominal;  // amend() says it
     return observer_.value() < scalar(0) && overdrawn() ? event::debt : event::nominal;
   }
-  /// What an observer that makes amends has to say of the tick, a debt included.
+  /// The event of an observer that recovers from faults, a debt included.
   [[gnu::always_inline]] constexpr void amend([[maybe_unused]] event& what,
                                               [[maybe_unused]] bool cut) noexcept {
     if constexpr (mends) {
@@ -453,12 +453,12 @@ class passive_port {
         what = observer_.tells(what, cut);
     }
   }
-  /// Has the hand been fed? A ledger that begins below zero, for what elastic friction may hold, says so itself.
+  /// True if the ledger is in debt. A ledger that begins below zero, for elastic friction, has overdrawn() for it.
   [[nodiscard]] constexpr bool overdrawn() const noexcept {
     if constexpr (requires { observer_.overdrawn(); }) return observer_.overdrawn();
     return true;
   }
-  /// What the bound leaves; nothing, and an event, if that is no number.
+  /// The bounded effort; zero, and an event, if it is not finite.
   [[nodiscard, gnu::always_inline]] constexpr detail::bounded<P> bounded(const effort& wanted,
                                                                          const state_type& state,
                                                                          event& what) noexcept {
@@ -472,7 +472,7 @@ class passive_port {
     return allowed;
   }
 
-  /// One tick into the ledger; false if its energy is no number.
+  /// Books one tick; returns false if its energy is not finite.
   [[nodiscard, gnu::always_inline]] constexpr bool book(const motion& travel, const held_type& held,
                                                         scalar dt) noexcept {
     if constexpr (!trusting) {
@@ -483,14 +483,14 @@ class passive_port {
     }
     return observer_.update(travel, held, dt);
   }
-  /// What lemma C cannot tell of a long turn, the inertia may.
+  /// The work that a long turn may hide, which the inertia may limit more than lemma C.
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_late(typename P::stored_effort travel,
                                                                    held_type held,
                                                                    scalar dt) noexcept {
     if constexpr (knows_hidden) return observer_.update(travel, held, dt, unseen(held, dt).beside);
     return observer_.update(travel, held, dt);
   }
-  /// The most that an effort can have done in the `dt` after the tick seen last that nobody saw.
+  /// The most work that an effort can have done in a time `dt` [s] without samples, after the last known tick.
   [[nodiscard]] constexpr detail::unseen_work<scalar> unseen(const effort& held,
                                                              scalar dt) const noexcept {
     if constexpr (reaches) {
@@ -501,7 +501,7 @@ class passive_port {
       return {kernels::largest<scalar>(), kernels::largest<scalar>()};
     }
   }
-  /// A tick that nobody saw costs what `held` can have done in it; where a bound reaches, that is found out of line.
+  /// Writes off the largest outflow of `held` in a tick of unknown motion, not inlined if the bound limits it.
   [[gnu::always_inline]] constexpr void write_off(const typename P::stored_effort& held,
                                                   scalar dt) noexcept {
     if constexpr (reaches) return write_off_reach(held, dt);
@@ -514,9 +514,9 @@ class passive_port {
       observer_.forfeit(held, limits_.held_for(dt), unseen(held, blind).done);
     }
   }
-  /// The watchdog may have dropped the force part of the way, or not yet: the tick counts as the worse of the two, and
-  /// what only one of them covers, a ledger that is more than a number forgets (§ 3). Vectors by value and at rest, so
-  /// that the ordinary tick keeps its own in registers.
+  /// Books a tick in which the watchdog may or may not have dropped the force, as the worse of both cases; a ledger
+  /// with more state than a number drops the state that only one of them covers (§ 3). Vectors are passed by value as
+  /// stored types, so that the ordinary tick keeps its own in registers.
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_cut_short(
       typename P::stored_effort travel, held_type held, scalar dt) noexcept {
     observer_type dropped = observer_;
@@ -532,7 +532,7 @@ class passive_port {
     return true;
   }
 
-  /// Where the device is taken to be: within a step of encoders the estimator knows better than they do.
+  /// The estimated position of the device, which within an encoder step is better than the measured one.
   [[nodiscard]] constexpr pose where() const noexcept {
     if constexpr (requires { motion_.position(); }) {
       return motion_.position();
@@ -557,7 +557,7 @@ class passive_port {
     const bool possible = guard_.is_possible(position, travel, dt, limits_.top_speed);
     return refuse(possible ? event::outside_workspace : event::rejected_sample, dt);
   }
-  /// No effort; the motion since the last good sample is unknown and written off.
+  /// Returns no effort, and writes off the unknown motion since the last good sample.
   [[gnu::cold, gnu::noinline]] constexpr result_type refuse(event why, scalar dt) noexcept {
     const bool lasted = dt > scalar(0) && kernels::is_finite(dt);
     const scalar passed = lasted ? dt : limits_.longest_tick;
@@ -571,30 +571,30 @@ class passive_port {
     return source_.refused({P::zero(), observer_.value(), why, false}, passed);
   }
 
-  /// There was a fault: for an observer that mends what it has done.
+  /// Reports a fault to an observer that recovers from faults.
   constexpr void disturbed() noexcept {
     if constexpr (requires { observer_.disturbed(); }) observer_.disturbed();
   }
-  /// A force that the device may have held: finite, and no more than motors can, where the bound knows that.
+  /// True if the device can have held a force: it is finite and within the motors' limit, if the bound knows one.
   [[nodiscard]] constexpr bool can_hold(const effort& held) const noexcept {
     if constexpr (requires { bound_.can_hold(held); }) {
-      // What was commanded was possible, whatever set() has made of the motors since.
+      // A commanded effort was possible, even if set() has lowered the limit since.
       return bound_.can_hold(held) || held == effort(guard_.commanded().back());
     } else {
       return P::is_finite(held);
     }
   }
-  /// The longest tick is the longest so far, up to what the driver lets a force be held for.
+  /// Raises T to the longest tick so far, at most to the watchdog's time.
   [[gnu::cold, gnu::noinline]] constexpr void learn(scalar dt) noexcept {
     limits_.longest_tick = limits_.held_for(dt);
     detail::tell(source_, limits_.longest_tick, latency);
   }
-  /// The parameters may be others.
+  /// Recomputes everything that depends on parameters.
   constexpr void begin() noexcept {
     if (stopped_ <= event::rejected_parameters) {
       stopped_ = check() ? event::rejected_parameters : event::nominal;
     }
-    if constexpr (reaches) seen_ = {};  // other motors may have held more
+    if constexpr (reaches) seen_ = {};  // the former limit of the motors may have been larger
     detail::tell(source_, limits_.longest_tick, latency);
   }
 
@@ -605,14 +605,14 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
-  bool is_cut_ = false;             ///< the bound let less through than was last asked for
-  event stopped_ = event::nominal;  ///< why there is no force until set(), or until reset()
-  std::uint8_t busy_ = 0;           ///< a call is not over yet; debug builds only
+  bool is_cut_ = false;             ///< the bound has reduced the last desired effort
+  event stopped_ = event::nominal;  ///< the reason for force zero until set() or reset()
+  std::uint8_t busy_ = 0;           ///< true during a call; debug builds only
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
   what_was_seen seen_;
 };
 
-/// One that lacks its limits, so that the compiler says so.
+/// The deduction guide for a port without limits, so that the compiler names what is missing.
 template <class P, class Source, class Observer, class Bound>
 passive_port(P, Source, Observer, Bound)
     -> passive_port<P, Source, Observer, Bound, detail::left_out>;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a force bound may look at, and what it answers.
+// The input and the output of a force bound.
 //
-//   port_state   the port and its ledger: no normal, no depth, no stiffness
-//   tick_fate    whether the last tick was on time, late or lost; judged here and nowhere else
-//   share        how much of the desired effort is left, from a bound that only reduces
+//   port_state   the state of the port and its ledger, without normal, depth and stiffness of a contact
+//   tick_fate    whether the last tick was on time, late or lost; decided here only
+//   share        the factor of the desired effort, returned by a bound that only reduces
 //
-// Whatever looks at the contact is a shaper and stands on the contact's side (contact/shaped.hpp).
+// A part that reads the contact is a shaper, and acts before the bound (contact/shaped.hpp).
 
 #include <passive_haptics/base/ledger.hpp>
 
@@ -18,8 +18,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A factor in [0, 1], where NaN counts as 0: the desired effort keeps its direction. A bound that adds
-/// force, or turns it, answers with another effort instead.
+/// A factor in [0, 1] of the desired effort, whose direction is kept; NaN counts as 0. A bound that adds force, or
+/// turns it, returns an effort instead.
 template <class Scalar>
 struct share {
   Scalar factor;
@@ -27,20 +27,20 @@ struct share {
 template <class Scalar>
 share(Scalar) -> share<Scalar>;
 
-/// What became of the last tick. The port judges it, once; whoever has to know reads it in port_state.
+/// The fate of the last tick. The port decides it once, and other parts read it in port_state.
 enum class tick_fate : std::uint8_t {
   on_time,  ///< no longer than the longest tick, and its motion is known
-  late,     ///< longer than that: the force that was held in it was bounded for less
-  lost      ///< the sample before it was none, or a bad one: its motion is unknown
+  late,     ///< longer than T, so that its force was bounded for a shorter one
+  lost      ///< the sample before it was missing or rejected, so its motion is unknown
 };
-/// The rule for late ticks: of a tick of dt [s], where T [s] was the longest that was allowed for.
+/// The rule for late ticks: a tick of dt [s] is late if dt > T, the longest tick [s] that the bound assumed.
 template <class Scalar>
 [[nodiscard]] constexpr bool is_late(Scalar dt, Scalar T) noexcept {
   return dt > T;
 }
 
 namespace detail {
-/// A damping that says how much less than its ends show a turn may have brought.
+/// Satisfied by a damping that bounds the error of the work of a turn.
 template <class D, class P>
 concept knows_turns = requires(const D d, const typename P::motion m, const typename P::effort f,
                                typename P::scalar s) {
@@ -49,7 +49,7 @@ concept knows_turns = requires(const D d, const typename P::motion m, const type
 };
 }  // namespace detail
 
-/// The port in one tick. Motions [m], efforts [N], energies [J], times [s]; of joints [rad], [N·m].
+/// The state of a port in one tick, in m, N, J and s; for joints rad and N·m.
 template <class Port, class Damping, int Latency = 0, bool Exact = true>
 struct port_state {
   using port_type = Port;
@@ -57,21 +57,21 @@ struct port_state {
   using scalar = typename Port::scalar;
   using effort = typename Port::effort;
   using motion = typename Port::motion;
-  static constexpr int latency = Latency;  ///< ticks from a command to its holding
-  static constexpr bool exact = Exact;     ///< the true Δx is the one shown
-  /// Commanded and not yet held, newest first; after them comes the one that was held.
+  static constexpr int latency = Latency;  ///< ticks from a command until it is held
+  static constexpr bool exact = Exact;     ///< the measured Δx is exact
+  /// The commands that are not yet held, newest first, and after them the one that was held.
   using commands = std::array<typename Port::stored_effort, static_cast<std::size_t>(Latency) + 1>;
 
-  const Damping& damping;  ///< of the device, as the observer knows it
+  const Damping& damping;  ///< damping of the device, as stated to the observer
   const commands& commanded;
-  scalar energy;                             ///< E1(n), this tick's motion included
+  scalar energy;                             ///< E1(n), with the last tick booked
   scalar dt;                                 ///< length of the last tick
-  scalar longest_tick;                       ///< T, bound on the length of the next
-  const typename Port::stored_effort& held;  ///< over the last tick
-  motion travel;                             ///< Δx over the last tick, as shown
-  scalar travel_error;                       ///< the true Δx is no farther from it than this
-  bool motion_known;  ///< false: the last sample was lost, Δx is unknown and given as zero
-  bool late;          ///< dt is longer than was allowed for
+  scalar longest_tick;                       ///< T, upper bound of the next tick
+  const typename Port::stored_effort& held;  ///< effort held over the last tick
+  motion travel;                             ///< measured Δx over the last tick
+  scalar travel_error;                       ///< largest distance of the true Δx from it
+  bool motion_known;  ///< false if the last sample was lost; Δx is then given as zero
+  bool late;          ///< dt was longer than T
 
   /// The command that is held in the j-th coming tick, 1 ≤ j ≤ Latency.
   [[nodiscard]] constexpr const typename Port::stored_effort& coming(int j) const noexcept {
@@ -82,8 +82,8 @@ struct port_state {
     return late ? tick_fate::late : tick_fate::on_time;
   }
 
-  /// ¼ Σ fᵀB⁻¹f over the commands that are still on their way to the motors [J], rounded up (§ 3), with
-  /// what elastic friction may hold back meanwhile.
+  /// ¼ Σ fᵀB⁻¹f over the commands that are not yet held [J], rounded up (§ 3), plus the energy that elastic
+  /// friction may store meanwhile.
   [[nodiscard]] constexpr scalar in_flight() const noexcept {
     scalar promised = held_back();
     for (std::size_t j = 0; j < static_cast<std::size_t>(Latency); ++j) {
@@ -91,8 +91,7 @@ struct port_state {
     }
     return promised * (scalar(1) + kernels::rounding<scalar>());
   }
-  /// What friction that is counted on may hold back while those commands are held, 2 c p in each tick [J]
-  /// (§ 6).
+  /// The energy that elastic friction may store while those commands are held, 2 c p in each tick [J] (§ 6).
   [[nodiscard]] constexpr scalar held_back() const noexcept {
     if constexpr (Latency > 0 && Damping::rubs) return scalar(4 * Latency) * damping.most_stored();
     return scalar(0);
@@ -102,7 +101,7 @@ struct port_state {
     if constexpr (Latency == 0) return energy;
     return energy - in_flight();
   }
-  /// What the last tick brought, Δxᵀ(b/dt)Δx − f_held·Δx [J], rounded down, at least.
+  /// Δxᵀ(b/dt)Δx − f_held·Δx [J], the least energy gained in the last tick, rounded down.
   [[nodiscard]] constexpr scalar gain() const noexcept {
     scalar brought = detail::sure_gain<Port>(damping.dissipated(travel, dt), held, travel);
     if constexpr (detail::knows_turns<Damping, Port>) {
