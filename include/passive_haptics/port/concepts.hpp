@@ -45,7 +45,7 @@ inline namespace v0 {
 //
 //   member                  of which part        read by               default without it
 //   parameters(), check()   any part             the port's check()    it has no parameters
-//   set(parameters)         any part             the port's set()      it is constructed again, without its state
+//   set(parameters)         any part             the port's set()      it is constructed again: it has no state
 //   takers<X>, take(x)      part with parts      the port's set()      none of its parts takes parameters X
 //   reset()                 any part             the port's reset()    it has no state
 //   turns                   port, observer       passive_port          false: the work of a turn is exact
