@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// `event` says what happened in a tick; `guarantee` says what passivity a type promises.
+// `event` says what happened in a tick; `guarantee` is the passivity that a type guarantees.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -26,7 +26,7 @@ enum class event : std::uint8_t {
   untold_latency,       ///< the device holds forces later or sooner than stated: zero until reset()
   wrong_sign,           ///< the device holds the opposite of the command: force zero until reset()
   started_inside,       ///< in contact from the start, with no energy in the ledger: force zero
-  forces_off,           ///< enable_forces(false): force zero, and the ledger is not changed
+  forces_off,           ///< enable_forces(false): force zero, and the ledger books no motion
   wall_lost,  ///< a fault has emptied the ledger: the force is reduced until it is refilled (forgiving.hpp)
   wall_back,  ///< the first tick after wall_lost in which the ledger is refilled
 };
@@ -75,7 +75,7 @@ namespace detail {
 /// How far a policy, or a composition, is passive at the device port.
 ///   strict       E1 ≥ 0 for every motion, every environment, every schedule of updates
 ///   conditional  the same under assumptions named where the policy is defined
-///   none         no promise; the header shows the loss
+///   none         no guarantee; the header shows the energy that it may create
 enum class guarantee : std::uint8_t { none, conditional, strict };
 
 [[nodiscard]] constexpr const char* to_string(guarantee g) noexcept {

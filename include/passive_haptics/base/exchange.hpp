@@ -9,7 +9,7 @@
 // It is wait-free for one writer and one reader (two threads, or an interrupt and main()): neither waits, retries
 // or touches a slot that the other is using. Its four words are loaded and stored but never swapped, so a core
 // without atomic swaps (Cortex-M0, RISC-V without A) needs no library for it.
-// What happens when nothing new comes, port/freshness.hpp decides. The way back needs a second exchange.
+// port/freshness.hpp limits the age of a value. The opposite direction needs a second exchange.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -79,7 +79,7 @@ class exchange {
   /// until the next take().
   [[nodiscard]] const Payload* take() noexcept {
     const unsigned slot = order_.newest();
-    if (slot == held_) return nullptr;  // nobody has written there since
+    if (slot == held_) return nullptr;  // the writer has not written there since
     held_ = slot;
     return &slots_[slot];
   }

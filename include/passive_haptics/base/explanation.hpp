@@ -17,14 +17,14 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What keeps a stiffness, or a force, below what was asked for.
+/// The reason why a stiffness, or a force, is below the desired one.
 enum class softened_by : std::uint8_t {
   nothing,
   parameters,        ///< a parameter is out of its range: force zero
   refuted,           ///< the motion has refuted a stated parameter: force zero until reset()
   no_surface,        ///< no surface was set by update(), or release() ended it
   mass_and_tick,     ///< κ m/T², the largest stiffness at which a sampled mass settles (§ 9)
-  damping_and_tick,  ///< 2b/((k + 1) T), what a strict bound shows of an empty ledger (L4)
+  damping_and_tick,  ///< 2b/((k + 1) T), a strict bound's limit for an empty ledger (L4)
   encoder_steps,     ///< the stiffness whose encoder steps dry friction and damping pay for
   coupling,          ///< the law's own spring stands in series with the surface
   news,     ///< the surface moved, or appeared around the device: force follows at a limited rate

@@ -283,8 +283,8 @@ template <real S>
   const S fastest = (v + a * since) / (S(1) - r * since);
   return t * (v + (a + r * fastest) * (T0 + t) / S(2)) * (S(1) + rounding<S>());
 }
-/// An upper bound of |Ω − θ| [rad] if the orientation has moved along a path of length L [rad] from θ = 0 to θ:
-/// L²/4 + L³/29 for L ≤ π, and L + π beyond. (§ 2(a″))
+/// An upper bound of |Ω − θ| [rad], as in unseen_turn, of a turn along any path of length L [rad]: L²/4 + L³/29 for
+/// L ≤ π, and L + π beyond. (§ 2(a″))
 template <real S>
 [[nodiscard]] constexpr S unseen_arc(S L) noexcept {
   return L <= S(3.125) ? L * L * (S(0.25) + L / S(29)) : L + S(3.1875);

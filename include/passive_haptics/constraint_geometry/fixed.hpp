@@ -32,7 +32,7 @@ class fixed {
 
   constexpr fixed() noexcept = default;
   constexpr explicit fixed(const Constraint& c) noexcept : constraint_(c) {
-    static_cast<void>(constraint_.prepare());  // check() says what prepare() refuses
+    static_cast<void>(constraint_.prepare());  // check() reports the fault
   }
   [[nodiscard]] constexpr const Constraint& local() const noexcept { return constraint_; }
   [[nodiscard]] constexpr const Constraint& target() const noexcept { return constraint_; }

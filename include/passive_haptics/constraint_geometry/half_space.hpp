@@ -7,7 +7,7 @@
 //   segment      two nodes                               Dof 2
 //   triangle     three nodes, with edge tests            Dof 3; the local model of the thesis
 //   sphere       a centre and a radius, solid or hollow  any Dof
-//   quadric      a point, a normal, two curvatures       Dof 3; what a smooth mesh publishes
+//   quadric      a point, a normal, two curvatures       Dof 3; for smooth meshes
 //   shell        all points within r of a point, segment, box or triangle: balls, capsules, round edges
 //   patch        up to M triangles, the closest feature  Dof 3; dents and ridges of a mesh
 //   distance_brick, distance_field     a signed distance, sampled (Dof 3) or a function (any Dof)

@@ -4,7 +4,7 @@
 // felt and follows it at a limited rate. The device's own motion is never limited:
 //
 //   update        the own depth d [m] is kept; the lag ℓ [m] becomes the difference          d = d_target − ℓ
-//   appears       d is the largest depth at which the contact's force is λ = 0 beside the other contacts
+//   appears       d is at most the depth up to which the contact's force is λ = 0 beside the other contacts
 //   every tick    |ℓ| falls by ρ dt, or as fast as removes ℓ within t_c if that is more; the own normal turns
 //                 with the target's as the device slides along it, and catches up with the turn of an update
 //                 at turn_rate, or within t_c if that is faster
@@ -280,7 +280,7 @@ class pursued {
       return before;
     }
   }
-  /// Begins a surface that has just appeared with the largest depth at which λ = 0 for any speed (S2).
+  /// Begins a surface that has just appeared with at most the depth up to which λ = 0 for any speed (S2).
   constexpr void meet(const felt& here, scalar most, const pursuit::on<Space>& pace) noexcept {
     if (most > scalar(0)) most = most / scalar(inward_limit);
     keep(here.depth - kernels::smaller(here.depth, most), here.normal);

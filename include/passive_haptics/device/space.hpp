@@ -55,8 +55,8 @@ template <class P, int First>
 
 /// The algebra of vectors of `Dof` components, specialised here for Dof = 1 and in eigen_space.hpp for more.
 ///   scalar        a number
-///   vector        what is computed with: Scalar for Dof 1, Eigen::Matrix<Scalar, Dof, 1> above
-///   coordinates   what is stored and sent: trivially copyable, converts to and from vector
+///   vector        for computing: Scalar for Dof 1, Eigen::Matrix<Scalar, Dof, 1> above
+///   coordinates   for storing and sending: trivially copyable, converts to and from vector
 template <real Scalar, int Dof>
 struct vectors {
   static_assert(

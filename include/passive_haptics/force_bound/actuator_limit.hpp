@@ -2,8 +2,8 @@
 #pragma once
 // Limits that need no ledger.
 //
-//   actuator_limit    |f| ≤ what the motors give        every device with motors needs one
-//   motor_limits      |fᵢ| ≤ what motor i gives         for joints, or motors along the axes
+//   actuator_limit    |f| ≤ limit of the motors         every device with motors needs one
+//   motor_limits      |fᵢ| ≤ limit of motor i           for joints, or motors along the axes
 //   thermal_limit     |f| ≤ peak, RMS ≤ continuous      thermal_limit.hpp
 //   no_bound          f = f*                            for comparison, and for worlds passive by another proof
 

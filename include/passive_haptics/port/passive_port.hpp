@@ -4,7 +4,7 @@
 //
 //  sample ─▶ GUARD ─▶ LEDGER ─▶ SOURCE.ask ─▶  BOUND  ─▶ SOURCE.answered ─▶ hold ─▶ force
 //           finite?   E1 += …   wanted effort  |f| ≤     local model to       pairs the next
-//           dt > 0?             (N, N·m)       f(E1)     where the force says motion
+//           dt > 0?             (N, N·m)       f(E1)     the depth f/K        motion
 //
 // ONE PER DEVICE. Two ports on one device have two ledgers that spend the same damping: both types would be
 // `strict`, and the hand could draw energy. Several contacts are one source (contact/contacts.hpp).
@@ -442,7 +442,7 @@ class passive_port {
         return event::late_tick;
       }
     }
-    if constexpr (mends && Observer::exact) return event::nominal;  // amend() says it
+    if constexpr (mends && Observer::exact) return event::nominal;  // amend() sets the event
     return observer_.value() < scalar(0) && overdrawn() ? event::debt : event::nominal;
   }
   /// The event of an observer that recovers from faults, a debt included.
