@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A mesh under the finger, with memory: no plate, edge or vertex lets the finger through, whatever the mesh does
-// between news. The menu:
+// Contact of a point with a mesh, by a proxy that no triangle, edge or vertex lets through, for any motion of the
+// mesh between updates. The menu:
 //
 //   mesh/surface.hpp        mesh::surface      triangles, a tree of boxes, news of nodes and poses; 1 to 5e7
 //   mesh/material.hpp       mesh::material     stiffness, friction and viscosity, of a mesh or triangle by triangle
-//   mesh/proxy.hpp          mesh::proxy        a ball that is drawn to the device and passes through nothing:
-//                                              by itself, for a renderer, an engine, another language
+//   mesh/proxy.hpp          mesh::proxy        a ball that is drawn to the device and does not pass through the mesh;
+//                                              usable alone, for a renderer, an engine, another language
 //   mesh/mesh_contact.hpp   mesh_contact       the same as the source of a port, with spring and damper
 //
-// Points against meshes; collisions between bodies are not in. docs/design/meshes.md has proofs and figures.
+// Collisions between bodies are not included. docs/design/meshes.md has proofs and measurements.
 
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/mesh/mesh_contact.hpp>
@@ -19,8 +19,8 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A mesh, felt with a device of these facts: port.source().touch(surface), then port.tick(sample). It is no stiffer
-/// than what comes to rest and, on encoders, than what dry friction pays for. E ≥ 0 as of make_guard.
+/// A port for contact with a mesh: port.source().touch(surface), then port.tick(sample). Its stiffness is limited to one
+/// that comes to rest and, on encoders, that dry friction pays for. The guarantee is that of make_guard.
 ///     auto touch = ph::make_mesh_touch<scene>(device, hand, {.stiffness = 1500});
 template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
           detail::stated_hand Hand = known_hand>
@@ -35,7 +35,7 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
                       detail::eyes_of(device)};
 }
 
-/// What it returns, for members of a class.
+/// The type that make_mesh_touch returns, for members of a class.
 template <class Space, class Limits = loop_limits, class Device = exact_device,
           class Hand = known_hand>
 using mesh_touch = decltype(make_mesh_touch<Space, Limits>(Device{}, Hand{}));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The haptic loop for whoever has none: a thread, its pace, and its newest state for another thread.
+// A haptic loop: a thread with a fixed period, and its newest state for another thread.
 //
 //   haptic thread, 1 kHz    wait ─▶ controller ─▶ force ─▶ device.exchange ─▶ sample ─┐
-//                             ▲        what is due       zero if it is no number       ├─▶ news, wait-free
+//                             ▲                          zero if not finite            ├─▶ state, wait-free
 //                             └────────────────────────────────────────────────────────┘
 //   your thread             touch.take()
 //
@@ -14,10 +14,10 @@
 //     if (const auto done = touch.start({.priority = 80, .lock_memory = true}); !done) …
 //     …  touch.stop();
 //
-// In a tick of the loop nothing is allocated or locked. Its force goes out in the next exchange() and its
-// sample came from the last one. So where an exchange does not wait for the force to be held, the loop is a
-// tick late, late_loop_limits<1>; identification/measure_latency.hpp finds out. lateness.hpp tells how long
-// the ticks were and which longest_tick to state, realtime.hpp what is asked of the computer.
+// A tick of the loop neither allocates nor locks. Its force is sent in the next exchange() and its sample came from
+// the last one. So if an exchange does not wait until the force is held, the loop is one tick late,
+// late_loop_limits<1>; identification/measure_latency.hpp measures that. lateness.hpp has the lengths of the
+// ticks and the longest_tick to state, realtime.hpp the requests to the operating system.
 
 #include <passive_haptics/base/exchange.hpp>
 #include <passive_haptics/base/no_unique_address.hpp>
@@ -49,17 +49,17 @@ enum class loop_end : std::uint8_t {
   controller_threw,  ///< error() has the exception
 };
 
-/// How a start went. Converts to true when the loop runs.
+/// The result of start(). It converts to true if the loop runs.
 struct [[nodiscard]] loop_start {
   enum class code : std::uint8_t { ok, unplugged, no_thread, bad_period };
   code what = code::ok;
-  int error = 0;              ///< the system's error number, if it gave no thread
+  int error = 0;              ///< the system's error number, if there is no thread
   realtime_report granted{};  ///< which realtime requests were granted and which refused
 
   constexpr explicit operator bool() const noexcept { return what == code::ok; }
 };
 
-/// What happened and what to do about it.
+/// One sentence on the result, with the remedy.
 [[nodiscard]] constexpr const char* to_string(loop_start::code c) noexcept {
   switch (c) {
     case loop_start::code::ok:
@@ -74,9 +74,9 @@ struct [[nodiscard]] loop_start {
   return "unknown code";
 }
 
-/// While it runs, the device belongs to its thread: touch it again after stop(). Whatever ends the loop,
-/// stop(), an unplug or an exception of the controller, the last that the device is sent is zero force, up to
-/// three times until a valid sample answers.
+/// While it runs, only its thread may use the device; use it again after stop(). At the end of the loop, by stop(), an
+/// unplugged device or an exception of the controller, zero force is sent, up to three times until a valid sample
+/// is returned.
 template <haptic_device Device, class Controller, pace Pace = steady_pace>
 requires controller_for<Controller, port_of_device<Device>>
 class runner {
@@ -87,8 +87,8 @@ class runner {
   using reading_type = decltype(detail::reading_of(std::declval<const Device&>()));
 
   struct news {
-    sample_type sample{};                       ///< the newest
-    typename port_type::stored_effort force{};  ///< what was commanded for it
+    sample_type sample{};                       ///< the newest sample
+    typename port_type::stored_effort force{};  ///< the force commanded for it
     loop_counts counts{};
     PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS reading_type reading{};  ///< Device::latest(), if it has that
   };
@@ -142,9 +142,9 @@ class runner {
   /// The newest state since the last take(), or null. One thread only.
   [[nodiscard]] const news* take() noexcept { return box_.take(); }
 
-  // The rest is for while it does not run.
+  // The following functions may be called only while it does not run.
   [[nodiscard]] loop_end ended() const noexcept { return end_; }
-  /// What the controller threw, or null.
+  /// The exception of the controller, or null.
   [[nodiscard]] std::exception_ptr error() const noexcept { return error_; }
   /// The tick lengths and the counts of the last run.
   [[nodiscard]] const loop_timing& timing() const noexcept { return timing_; }
