@@ -4,7 +4,7 @@
 // that is not in its formula. If you write a loop of your own, this header is all you need.
 //
 //   damping_per_tick, worst_outflow, strict_force_bound, strict_scale, depth_bound    the strict force bound (2.5 to 2.27)
-//   outward_reach, reachable_force_bound, reachable_outflow     the travel of the next tick, bounded by the mass (L6, § 2(a′))
+//   outward_reach, reachable_force_bound, reachable_outflow     the travel that a mass admits (L6, § 2(a′))
 //   reachable_share, reachable_work, later_reach                the same bound in joules, for any port
 //   longest_path, unseen_arc                                    the longest motion between two samples (§ 2(a″))
 //   coning, coning_share, unseen_turn                           the error of a turn known by its end poses (lemma C)

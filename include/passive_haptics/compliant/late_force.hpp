@@ -9,8 +9,8 @@
 //     ph::passive_port{scene{}, ph::given_force{}, ph::split_tick{ph::reduced_energy{.damping = 0.1}, 0.3, 0.4, 1e-3},
 //                      ph::strict_bound{}, ph::loop_limits{.longest_tick = 1e-3}}
 //
-// With a force φ(t) of mean φ̄ within a tick, the energy gained is at least b Δ²/T − φ̄·Δ less T/(4b) times the variance of φ, and
-// some motion with the same Δ attains that (ours; Theorem D, docs/design/mathematics.md § 14). These ledgers book just that.
+// With a force φ(t) of mean φ̄ within a tick, the energy gained is at least b Δ²/T − φ̄·Δ less T/(4b) times the variance
+// of φ, and some motion with the same Δ attains that (ours; Theorem D, mathematics.md § 14). The ledgers book just that.
 
 #include <passive_haptics/energy_observer/dual_ledger.hpp>
 #include <passive_haptics/energy_observer/reduced_energy.hpp>

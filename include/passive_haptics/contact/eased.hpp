@@ -14,8 +14,8 @@ inline namespace v0 {
 /// The law, with a limited rate at which a local_contact follows updates of a pressed surface: a new position, another
 /// stiffness, a surface that appears under the device or vanishes (lag.hpp). Otherwise it is the law itself, except
 /// that its damper acts on a swinging device and not on a hand's motion (swing.hpp). On a device held still the force
-/// steps by at most (K|u| + R_most) dt [N], u [m/s] the surface's velocity. The contact ends at once if the surface ceases to
-/// cover the device.
+/// steps by at most (K|u| + R_most) dt [N], u [m/s] the surface's velocity. The contact ends at once if the surface
+/// ceases to cover the device.
 template <class Law>
 struct eased {
   Law law{};

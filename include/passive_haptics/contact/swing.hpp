@@ -10,9 +10,9 @@
 //     s ← s + (g − s) dt/τ_s,   τ_s = 20 ms
 //
 // s is the share of the speed v [m/s] that is damped. It lags behind g, because an update of the surface raises a²,
-// and a damper that changes within a tick is a step of the force. A contact begins with s = 1. A free mass on K, up to four
-// times the stated m, swings at W or faster and is fully damped. A hand that moves to and fro once a second is damped by
-// s = 1/20, near its turns, because the means are short. Source: ours; docs/design/contacts.md § 6.
+// and a damper that changes within a tick is a step of the force. A contact begins with s = 1. A free mass on K, up to
+// four times the stated m, swings at W or faster and is fully damped. A hand that moves to and fro once a second is
+// damped by s = 1/20, near its turns, because the means are short. Source: ours; docs/design/contacts.md § 6.
 
 #include <passive_haptics/base/parameter.hpp>
 

@@ -2,8 +2,8 @@
 #pragma once
 // joint_space<Scalar, Joints>: the port of a device whose samples are joint positions, a gripper's included.
 //
-// A pose holds angles [rad] or travels [m], an effort torques [N·m] or forces [N], joint by joint. Between two samples the motors hold their
-// torques, so τ·Δq is their work exactly, whatever the mechanism (lemma J, docs/design/mathematics.md).
+// A pose holds angles [rad] or travels [m], an effort torques [N·m] or forces [N]. The motors hold their torques between
+// two samples, so τ·Δq is exactly their work in any mechanism (lemma J, docs/design/mathematics.md).
 // A joint_space has neither geometry nor length of a vector, because a radian and a metre do not add up:
 // constraints, directions and limits of a force in newtons need a space. Its damping is diagonal_damping,
 // with a number for each joint.
