@@ -59,11 +59,11 @@ class columns_of_file {
 template <std::floating_point Scalar = float>
 using compliance_table = patch_compliance<columns_of_file<Scalar>>;
 
-/// The answer of load_table(): one of its two members is there.
+/// The answer of load_table(): exactly one of its two members has a value.
 template <std::floating_point Scalar>
 struct loaded_table {
   std::optional<compliance_table<Scalar>> table;
-  std::optional<table_error> fault;  ///< the first thing wrong, with file and remedy
+  std::optional<table_error> fault;  ///< the first fault, with file and remedy
 };
 
 /// Maps the table of a body with this fingerprint and this many nodes, and checks every block.
@@ -89,7 +89,7 @@ template <std::floating_point Scalar = float>
 
 struct table_options {
   int threads = 0;        ///< 0: as many as the machine has
-  on_progress tell = {};  ///< asked after each round of blocks; false throws stopped_by_caller
+  on_progress tell = {};  ///< called after each round of blocks; false throws stopped_by_caller
 };
 
 /// Computes the table of a patch and leaves it under `path`. The table is written to `path`.part, block by

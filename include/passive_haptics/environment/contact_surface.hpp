@@ -4,10 +4,10 @@
 //
 //   quadric_at   the smooth surface through its nodes, with its curvatures    for bodies that bulge
 //   patch_at     its triangles around the contact, unchanged                  for dents and edges
-//   yielding     any of them as it is under no load, and as soft as the body under it: between news it gives way
-//                with the finger as the body will
+//   yielding     any of them at rest, with the stiffness K/(1 + K C) of spring and body in series, so that it gives
+//                way under the finger between two updates as the body does
 //
-// Both return plain values for a supply's update(), which prepares them and refuses one that cannot be used:
+// All return plain values for a supply's update(), which prepares them and refuses one that cannot be used:
 //     touch.update(env::quadric_at(body, {.thickness = 0.005}))
 
 #include <passive_haptics/constraint_geometry/half_space.hpp>
@@ -34,7 +34,7 @@ namespace environment {
 
 struct quadric_options {
   double thickness = 0.005;  ///< deepest contact [m]
-  double reach = 0.02;  ///< how far along the surface the quadric counts [m]; about a mesh edge
+  double reach = 0.02;  ///< how far along the surface the quadric counts [m], about a mesh edge
 };
 
 /// The quadric at a point of the surface, of stiffness `stiffness` [N/m]. Its curvatures are limited to
@@ -139,7 +139,7 @@ template <std::size_t M = 16, class Surface>
       if (!fits(surface[static_cast<std::size_t>(i)])) return;
       const auto candidate = point_on(triangles_of(surface), nodes, i, on.point);
       if (!candidate || candidate->distance > shortest) return;
-      if (candidate->distance == shortest && i > next) return;  // so that the order does not matter
+      if (candidate->distance == shortest && i > next) return;  // so the order does not matter
       shortest = candidate->distance;
       next = i;
     });
@@ -176,22 +176,22 @@ template <std::size_t M = 16, touched_body Body>
                      body.contact().stiffness, thickness);
 }
 
-/// The tangent plane at the last contact; before the first one that every supply refuses.
+/// The tangent plane at the last contact; before the first contact a plane that every supply refuses.
 template <touched_body Body>
 [[nodiscard]] half_space<space<double, 3>> plane_at(const Body& body) {
   if (body.contact().triangle < 0) return {};
   return {body.contact().point, body.contact().normal, body.contact().stiffness};
 }
 
-/// A surface of a body that gives way between news as the body will. The body was solved under a force F₀ [N]; under a
+/// A surface that gives way between two updates as its body does. The body was solved under a force F₀ [N]; under a
 /// force f its surface lies C (f − F₀) deeper, where C is the compliance of the body [m/N]. With d [m] the depth in the
-/// surface as it was told, the law
+/// surface of the last update, the law
 ///
 ///     f = K (d − C (f − F₀))    is the same as    f = K/(1 + K C) · (d + C F₀)
 ///
 /// and d + C F₀ is the depth in the surface at rest. So the surface at rest is returned with the stiffness K/(1 + K C).
-/// It does not move when it is pressed harder, so late news of the force do no harm, and the loop of force and surface
-/// that deformable_body.hpp describes does not arise.
+/// That surface does not depend on the force, so a late update does no harm, and the loop of force and surface that
+/// deformable_body.hpp describes does not arise.
 ///     touch.update(env::yielding(env::plane_at(body), body.contact()));
 template <class Surface>
 [[nodiscard]] Surface yielding(Surface surface, const surface_contact& contact) {

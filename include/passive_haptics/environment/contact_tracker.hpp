@@ -40,7 +40,7 @@ class contact_tracker {
     return held_or(surface.closest_point(nodes, x, triangle_), surface.triangles(), nodes, x);
   }
   /// The same, but searched from the present triangle over its neighbours, and by the tree if there is no present
-  /// one. So a contact is followed, and a part of the surface that comes close elsewhere is not seen. before(i) is
+  /// one. So it follows a contact, and misses a part of the surface that comes close elsewhere. before(i) is
   /// called before triangle i is looked at, and may still move its nodes.
   template <class Before>
   [[nodiscard]] std::optional<surface_point> follow(const surface_search& surface, nodes_view nodes,

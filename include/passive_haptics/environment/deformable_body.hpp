@@ -5,13 +5,13 @@
 //     deformable_body body{ball(0.05), {.young = 2e4, .poisson = 0.3}, ball_fixed_nodes(), {}};
 //     every 20-50 ms:  contact = body.update(device position, force on the device)
 //
-// For 10⁴ nodes and more state what is touched and how wide the fingertip is, and move nodes near it only.
+// For 10⁴ nodes and more, state the nodes that are touched and the fingertip's radius [m], and move nodes near it only.
 //
 //     deformable_body body{mesh, tetrahedral_fem(mesh, m, fixed, {.touched = patch}),
 //                          {.radius = 0.005, .moved = moved_nodes::around}};
 //
-// The loop of local model (stiffness K_LM) and body (K_VE) has the eigenvalue −K_LM/K_VE: with equal
-// stiffness the surface swings for ever under a device that stands still (A12). `relaxation` decides:
+// The loop of local model (stiffness K_LM) and body (K_VE) has the eigenvalue −K_LM/K_VE from update to update: with
+// equal stiffness the surface swings for ever under a device that stands still (A12). `relaxation` decides:
 //   dead_beat   F ← F + w (F_LM − F), w = K_VE/(K_VE + K_LM): settles in one update
 //   none        F ← F_LM, the thesis: only for K_LM well below K_VE
 
@@ -51,10 +51,10 @@ enum class force_relaxation : std::uint8_t { none, dead_beat };
 
 /// Which nodes an update moves.
 enum class moved_nodes : std::uint8_t {
-  all,     ///< all nodes move, and the contact is the closest point of the whole body
-  around,  ///< only nodes that the contact is followed over and two rings around it move: for large
-  ///< bodies. The contact goes from triangle to triangle, and a part of the body that comes close
-  ///< elsewhere is not seen; all other nodes of nodes() are at rest
+  all,  ///< all nodes move, and the contact is the closest point of the whole body
+  around,  ///< for large bodies: only the nodes that the contact passes, and two rings around it, move.
+  ///< The contact goes from triangle to triangle, so it misses a part of the body that comes close
+  ///< elsewhere; all other nodes of nodes() are at rest
 };
 
 struct body_options {
@@ -66,7 +66,7 @@ struct body_options {
   double local_stiffness = 0.0;  ///< K_LM [N/m]; 0: the local model uses the stiffness reported
   double max_stiffness = 1e6;    ///< largest stiffness reported [N/m]: a fixed face is rigid
   moved_nodes moved = moved_nodes::all;
-  on_progress tell = {};  ///< asked while the body is factorised; false throws stopped_by_caller
+  on_progress tell = {};      ///< called while K is factorised; false throws stopped_by_caller
   double memory_limit = 0.0;  ///< for the factor [B]; 0: what the system has (memory_limit.hpp)
 };
 
@@ -233,7 +233,7 @@ class basic_deformable_body {
     if (options_.radius > 0.0) {
       area_.gather(search_, rest_, t, on.weights, options_.radius);
       solid_.press(area_.nodes(), area_.shares());
-      solid_.load(n);  // the middle of the area gives way more than its mean
+      solid_.load(n);  // the contact point moves farther than the mean that press() returns
       double give = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {
         give += on.weights[static_cast<Eigen::Index>(k)] * n.dot(solid_.displacement(t.nodes[k]));
@@ -309,7 +309,7 @@ class basic_deformable_body {
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< of mass, at rest [m]
   double extent_ = 0.0;                               ///< largest distance from centre_ [m]
   std::vector<int> moving_;                           ///< nodes that can move
-  std::vector<int> moving_triangles_;                 ///< triangles of theirs
+  std::vector<int> moving_triangles_;                 ///< triangles with a node that can move
   std::vector<Eigen::Vector3d> rest_;
   std::vector<Eigen::Vector3d> nodes_;
   std::vector<Eigen::Vector3d> next_;  ///< becomes nodes_ if the update is good

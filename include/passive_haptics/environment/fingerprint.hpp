@@ -2,8 +2,8 @@
 #pragma once
 // A fingerprint of 64 bits of a body or of a block of a file. It guards against mistakes, not against malice.
 //
-// Words of 8 bytes in four lanes, each xored and multiplied as in FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo),
-// so that a table of 36 MB is checked in some milliseconds.
+// Words of 8 bytes go to four lanes in turn, and are xored and multiplied there as in FNV-1a (G. Fowler,
+// L. C. Noll, K.-P. Vo). The lanes do not wait for each other, so a table of 36 MB takes some milliseconds.
 
 #include <passive_haptics/environment/tetrahedral_stiffness.hpp>
 
@@ -55,7 +55,7 @@ class fingerprint {
   std::array<std::uint64_t, 4> lanes_{1, 2, 3, 4};
 };
 
-/// The fingerprint of an elastic body: mesh, material and fixed nodes. Another order of nodes is another body.
+/// The fingerprint of an elastic body: mesh, material and fixed nodes. Another order of nodes gives another one.
 [[nodiscard]] inline std::uint64_t fingerprint_of(const tetrahedral_mesh& mesh, const material& m,
                                                   std::span<const int> fixed_nodes) {
   fingerprint all;

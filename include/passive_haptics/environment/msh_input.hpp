@@ -131,7 +131,7 @@ class msh_input {
     return 0;
   }
 
-  /// In a text file a fault unless the line is used up; in a binary file, which has no lines, nothing.
+  /// Reports a fault if a text file has words left on the line. A binary file has no lines, so it passes.
   void end_of_record() {
     if (const auto left = trimmed(rest_); !binary() && !left.empty()) {
       fail(sentence("has more on the line than expected: ", quoted(left)), damaged);

@@ -169,7 +169,7 @@ class msh_content {
     std::size_t node;    ///< in nodes_
     std::int64_t place;  ///< in the file
   };
-  /// By their tags, each of which is there once. No hash: a file may be made so that all of its tags have one.
+  /// Sorts the tags, and reports one that is there twice. A hash table could be slowed down by a hostile file.
   void sort_tags(msh_input& in) {
     const auto below = [](const tagged& a, const tagged& b) {
       return std::tie(a.tag, a.node) < std::tie(b.tag, b.node);
@@ -183,7 +183,7 @@ class msh_content {
     in.fail_at((twice + 1)->place, sentence("defines node ", twice->tag, " again"),
                "give every node its own number");
   }
-  /// The node of a tag, in nodes_; none beyond them.
+  /// The index of the node with this tag in nodes_, or nodes_.size() if there is none.
   [[nodiscard]] std::size_t node_of(std::int64_t tag) const {
     const auto first = tags_.empty() ? 0 : tags_.front().tag;
     const auto guess = static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(first);
@@ -373,7 +373,7 @@ class msh_reader {
                "the count does not match what follows: save the mesh again");
     }
   }
-  /// The same in a text file; in a binary file, whose numbers have no lines, nothing.
+  /// Calls line() for a text file. The numbers of a binary file have no lines, so it does nothing there.
   void record(std::string_view what, std::int64_t i, std::int64_t total) {
     if (!in_.binary()) line(what, i, total);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// K = L Lᵀ by dense fronts along a nested dissection, and the parts of K⁻¹ [m/N] that a contact needs.
+// Cholesky's K = L Lᵀ [N/m] by dense fronts along a nested dissection, and the parts of K⁻¹ [m/N] that a contact needs.
 //
 //   solve          b ← K⁻¹b, over every front twice
 //   press          Y = L⁻¹B of unit forces B at a point, over the fronts from there to the root: BᵀK⁻¹B = YᵀY
@@ -42,8 +42,8 @@ class multifrontal {
     return static_cast<std::size_t>(tree_.peak_bytes);
   }
 
-  /// Factorises K [N/m] of the graph that was analysed, three rows per node. It asks `tell` at least after every
-  /// 10⁹ operations; if that stops it, it keeps nothing.
+  /// Factorises K [N/m] of the graph that was analysed, three rows per node. It calls `tell` at least after every
+  /// 10⁹ operations; if that returns false, no factor is kept.
   [[nodiscard]] factor_result factorise(const Eigen::SparseMatrix<double>& stiffness,
                                         const on_progress& tell = {}) {
     factorised_ = false;
@@ -58,7 +58,7 @@ class multifrontal {
   [[nodiscard]] bool factorised() const noexcept { return factorised_; }
   [[nodiscard]] const elimination_tree& tree() const noexcept { return tree_; }
 
-  /// b ← K⁻¹b for one column, without allocating. Without a factor b stays.
+  /// b ← K⁻¹b for one column, without allocating. Without a factor b does not change.
   void solve(Eigen::VectorXd& b) {
     if (!factorised_) return;
     for (std::size_t k = 0; k < node_at_.size(); ++k) {
@@ -138,7 +138,7 @@ class multifrontal {
     Eigen::Matrix<double, Eigen::Dynamic, 3> half;  ///< Y, 3N rows in the order of elimination
     Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero();  ///< YᵀY of the point [m/N]
   };
-  /// The displacements under one force, as far as they have been asked for.
+  /// The displacements under one force, of the fronts that were solved so far.
   struct answer {
     Eigen::VectorXd u;         ///< 3N, in the order of elimination [m]
     marks solved;              ///< fronts whose u is known
@@ -181,7 +181,7 @@ class multifrontal {
     }
   }
 
-  /// Forgets the displacements, because the force changes.
+  /// Forgets the displacements. Call it whenever the force changes.
   static void forget(answer& of) { of.solved.clear(); }
   /// u [m] of a node under `force` [N] at the pressed point. A second call before forget() costs nothing.
   [[nodiscard]] Eigen::Vector3d displacement(answer& of, const pressed& at,

@@ -26,7 +26,7 @@ struct node_graph {
   std::vector<int> begin;  ///< N + 1 places in `neighbours` at which those of a node begin
   std::vector<int> neighbours;
   std::vector<int> touched =
-      {};  ///< nodes that contacts will be on: a solver may keep them at hand
+      {};  ///< nodes that contacts will press: multifrontal eliminates them last
 
   [[nodiscard]] int size() const noexcept { return static_cast<int>(points.size()); }
   [[nodiscard]] std::span<const int> neighbours_of(int node) const {

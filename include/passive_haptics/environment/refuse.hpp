@@ -22,7 +22,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
-/// The parts one after the other as text, numbers in the "C" locale whatever the application has set.
+/// Joins the parts to one text. Numbers are written in the "C" locale, whatever locale the application has set.
 template <class... Parts>
 [[nodiscard]] std::string sentence(const Parts&... parts) {
   std::ostringstream text;

@@ -3,8 +3,8 @@
 // Several contacts at once on one elastic body, each of which gives way to the forces of all.
 //
 //   G_ij = nᵢᵀ C(pᵢ, pⱼ) nⱼ               the capacitance matrix of the contacts [m/N], from a compliance_table
-//   f ≥ 0,  G f ≥ d,  f·(G f − d) = 0     each f [N] pushes, none pulls, and no contact penetrates; d [m] is the
-//                                         depth of each in the body at rest
+//   f ≥ 0,  G f ≥ d,  f·(G f − d) = 0     no contact pulls, none penetrates, and a force f [N] acts only where the
+//                                         gap G f − d is zero; d [m] is the depth of each in the body at rest
 //
 // For elastic tips add 1/k [m/N] to the diagonal of G. D. L. James, D. K. Pai, SIGGRAPH 1999. The complementarity
 // problem is solved by K. G. Murty's least-index pivoting, which ends for every positive definite G (1974).
@@ -80,7 +80,7 @@ template <class Table>
     const auto is_right = [&](Eigen::Index i) {
       return pushes[static_cast<std::size_t>(i)] ? force[i] * g(i, i) >= -noise : gap[i] >= -noise;
     };
-    Eigen::Index wrong = 0;  // the first that pulls, or is penetrated
+    Eigen::Index wrong = 0;  // the first contact that pulls or penetrates
     while (wrong < count && is_right(wrong)) ++wrong;
     if (wrong == count) return force.cwiseMax(0.0);
     pushes[static_cast<std::size_t>(wrong)] = !pushes[static_cast<std::size_t>(wrong)];

@@ -30,7 +30,7 @@ using on_progress = std::function<bool(double done)>;
 
 struct factor_result {
   double smallest_pivot =
-      0.0;               ///< over its diagonal entry of K; of the size of rounding if K is singular
+      0.0;               ///< least pivot over its diagonal entry of K; about 1e-16 if K is singular
   bool stopped = false;  ///< on_progress has ended the factorisation: there is no factor
 };
 

@@ -140,7 +140,7 @@ template <class ForEach>
   return vector_of(sum);
 }
 
-/// The closest point, on that one of the triangles touching it which faces x most squarely.
+/// The same point, on that triangle, of all that touch it, whose |depth| is largest with the sign of the pseudo-normal.
 template <class ForEach>
 [[nodiscard]] surface_point facing(surface_view surface, nodes_view nodes, const Eigen::Vector3d& x,
                                    const surface_point& found, const ForEach& for_each) {
@@ -159,8 +159,8 @@ template <class ForEach>
   return best;
 }
 
-/// The point of the surface closest to x [m]. On an edge or a node it belongs to several triangles, and the one
-/// that faces x most squarely is named; so depth > 0 inside the body and < 0 outside, at edges and nodes too.
+/// The point of the surface closest to x [m]. On an edge or a node it belongs to several triangles, and the one of
+/// the largest |depth| is returned; so depth > 0 inside the body and < 0 outside, at edges and nodes too.
 /// There is none if x is not finite or every triangle is degenerate.
 [[nodiscard]] inline std::optional<surface_point> closest_point(surface_view surface,
                                                                 nodes_view nodes,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Where a body is touched, and how it gives way there: what a deformable_body says and contact_surface.hpp reads.
+// The contact of a deformable_body: place, normal, depth [m], stiffness [N/m]. contact_surface.hpp reads it.
 
 #include <passive_haptics/environment/surface.hpp>
 
@@ -27,7 +27,7 @@ struct surface_contact {
   bool fresh = false;  ///< false: an older contact, because the last input could not be used
 };
 
-/// A body that says where it was touched last, and the surface and the nodes [m] that it was touched at: a
+/// A body with its last contact, and the surface and the positions of the nodes [m] of that update: a
 /// deformable_body, or your own.
 template <class B>
 concept touched_body = requires(const B& body) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A surface that knows which triangles meet at each of its nodes: what curvature.hpp and contact_surface.hpp ask
-// around a contact, and what surface_search.hpp puts its tree of boxes on.
+// The triangles of a surface, and for every node the triangles that meet there. curvature.hpp and contact_surface.hpp
+// look for neighbours in it; surface_search.hpp adds a tree of boxes.
 
 #include <passive_haptics/environment/node_graph.hpp>
 #include <passive_haptics/environment/surface.hpp>

@@ -53,7 +53,7 @@ class surface_search : public surface_graph {
     std::optional<surface_point> best;
     if (likely >= 0 && likely < static_cast<int>(size())) offer(best, nodes, x, likely);
     const mesh::triple at = triple_of(x);
-    // By rounding errors of the positions a box may seem farther than its triangles.
+    // Positions are rounded, so a box may seem farther than its triangles by up to `slack` [m], 90 roundings of 2⁻⁵³.
     const double slack =
         1e-14 * (mesh::length(boxes_[0].low) + mesh::length(boxes_[0].high) + x.norm());
     tree_.walk([&](int b) { return boxes_[slot(b)].squared_distance(at); },
@@ -110,7 +110,7 @@ class surface_search : public surface_graph {
     }
   };
 
-  /// best ← triangle `number` if closer, or as close and of a lower number: the search order has no effect.
+  /// Takes triangle `number` for `best` if it is closer, or as close with a lower number, so the order does not matter.
   void offer(std::optional<surface_point>& best, nodes_view nodes, const Eigen::Vector3d& x,
              int number) const {
     const auto found = point_on(triangles(), nodes, number, x);

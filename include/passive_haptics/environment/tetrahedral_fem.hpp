@@ -48,10 +48,10 @@ class singular_stiffness : public std::runtime_error {
 };
 
 struct fem_options {
-  on_progress tell = {};      ///< asked while it factorises; false throws stopped_by_caller
+  on_progress tell = {};      ///< called while K is factorised; false throws stopped_by_caller
   double memory_limit = 0.0;  ///< [B]; 0: what the system has (memory_limit.hpp)
-  /// Nodes of the mesh that contacts will be on, from patch_around() for example. A contact among M of them reads
-  /// 36 M² bytes and nothing else of the body. A contact elsewhere is right as well, and slower.
+  /// Nodes of the mesh that contacts will press, from patch_around() for example. A contact among M of them reads
+  /// the triangle of a 3M × 3M matrix, 36 M² bytes. A contact elsewhere gives the same result, but takes longer.
   std::span<const int> touched = {};
 };
 
@@ -101,7 +101,7 @@ class point_load {
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
 };
 
-/// The same for a pressing_solver.
+/// The same for a pressing_solver, which solves for the nodes asked for only.
 template <pressing_solver Solver>
 class point_load<Solver> {
  public:
@@ -161,7 +161,7 @@ class basic_tetrahedral_fem {
       refuse_argument(
           "tetrahedral_fem: every node is fixed, nothing can move; leave at least one free");
     }
-    const double matrix_bytes =
+    const double matrix_bytes =  // 9 entries of 8 + 4 bytes for each block of K
         108.0 * static_cast<double>(graph.neighbours.size() + graph.points.size());
     const double bytes = matrix_bytes + static_cast<double>(solver_->analyse(graph));
     check_memory("tetrahedral_fem", bytes, options.memory_limit, graph.points.size());
