@@ -11,18 +11,18 @@
 //     rocking_motion        rocks across an encoder step for false credit, then is greedy (§ 3)
 //     restless_motion       all of these in turn, and multiples of the worst Δx
 //   adversary_encoders.hpp  motions smaller than the device can see or its friction resists
-//     in_step_motion        inside an encoder step, or a presliding displacement, in phase with the force
+//     in_step_motion        in phase with the force, inside an encoder step or a presliding displacement
 //     worst_step_motion     presses, then leaves by the cheapest of a dozen steps
-//     dither_motion         forward 2, back 1 within p, on the way to a wall that it leaves greedily
+//     dither_motion         2 a forward, a back, with a ≤ p, before a wall that it leaves as greedy_motion does
 //   adversary_hands.hpp     force-limited, for the exact device
-//     striking_hand         taps the surface, or pushes where it is told to
+//     striking_hand         taps the surface, or pushes with the force that its caller sets
 //   adversary_worlds.hpp    surfaces, clocks and sensors
 //     jumping_surface       the surface moves by up to ±2 mm every 20-50 ms
 //     switching_stiffness   K low, K high, K low, ... every 20-50 ms
 //     erratic_surface       jumps, any normal (the opposite one too) and any stiffness, at random
 //     erratic_clock         periods of 0.5 to 1 longest ticks, and overruns of 2 to 20
 //     erratic_sensor        samples that never arrive, one or several in a row
-//     noisy_sensor          positions that are off, at random or as it suits a motion
+//     noisy_sensor          positions with a bounded error, random or in phase with the force
 //
 //     motion.move_to(adversary.next({x, normal, depth, force, dt, b}, random));
 //     sample = motion.exchange(force);

@@ -54,9 +54,9 @@ struct in_step_motion {
   }
 };
 
-/// Presses for 20 of 300 ticks; in the others it takes the cheapest of twelve steps by price(): to either end
-/// of its room, by up to 3 presliding displacements, or anywhere at speeds from 1 µm/s to 1 m/s. As the
-/// price counts the memory of the friction, the motion knows that, too.
+/// Presses for 20 of 300 ticks. In each other tick it takes that one of twelve steps, or none, whose price() [J] is
+/// least: to either end of its room, by up to 3 presliding displacements, or anywhere at speeds from 1 µm/s to
+/// 1 m/s. price() computes with the memory of the friction, so the motion uses that memory, too.
 template <class Space>
 struct worst_step_motion {
   using vector = typename physical<Space>::vector;
@@ -100,9 +100,9 @@ struct worst_step_motion {
   }
 };
 
-/// Goes to and fro before the surface by "forward 2 a, back a" with a ≤ p. From that a friction without a memory
-/// of reversals takes as little as c/3 for each metre gained, where a ledger credits c. Then it spends the credit
-/// as greedy_motion does.
+/// Goes to and fro before the surface, 2 a forward and a back, with a ≤ p. For each metre gained a friction without
+/// a memory of reversals takes as little as c/3 [J/m], where a ledger credits c. Then it spends the credit as
+/// greedy_motion does.
 template <class Space>
 struct dither_motion {
   using vector = typename physical<Space>::vector;

@@ -11,7 +11,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// All that an adversary knows when it moves. It knows the force that will be held before it chooses.
+/// All that an adversary knows when it chooses its move, the force that will be held during that move included.
 template <class Space>
 struct adversary_view {
   using vector = typename physical<Space>::vector;
@@ -22,8 +22,8 @@ struct adversary_view {
   double dt = 1e-3;       ///< length of the move [s]
   double damping = 0.03;  ///< b of the device [N·s/m]
 
-  /// How far it may go along each axis, either way, without the sensors showing it: to the end of the encoder's
-  /// step, or of the noise; ≥ 0 [m].
+  /// The ways [m], ≥ 0, along each axis, down and up, that the sensors do not show: they end where the encoder's step
+  /// or the band of the noise ends.
   typename physical<Space>::coordinates room_below{}, room_above{};
   double presliding = 0.0;  ///< p of the device's friction [m]
 

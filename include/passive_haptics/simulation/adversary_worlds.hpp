@@ -54,7 +54,7 @@ struct surface_state {
   }
 };
 
-/// What an erratic surface does at an update, and how often.
+/// The changes that an erratic surface makes at an update, and their pace.
 struct surface_habits {
   bool jumps = false;  ///< it moves along its normal to within ±jump of where it started
   bool flips = false;  ///< any normal, often the opposite, at a depth within ±jump of the device
@@ -142,13 +142,13 @@ struct erratic_sensor {
   }
 };
 
-/// How the error of a noisy sensor behaves. A ledger may assume of all of them that they are bounded, no more.
+/// How the error of a noisy sensor behaves. A ledger may assume only that the error is bounded.
 enum class noise_habit : std::uint8_t {
   uniform,        ///< drawn anew for each sample and axis
   hiding,         ///< the position shown stays where it is for as long as it can
   alternating,    ///< from one end to the other in each sample
-  with_force,     ///< at the end to which the force has changed
-  against_force,  ///< at the other end
+  with_force,     ///< at that end to which the force has changed
+  against_force,  ///< at the end away from which the force has changed
 };
 
 /// A sensor whose positions are off by at most `width`/2 [m] on each axis.
@@ -194,7 +194,7 @@ class noisy_sensor {
     started_ = true;
     return e;
   }
-  /// How far [m] the next position may lie below or above this one on axis i while the sensor shows the same.
+  /// The way [m] that the next position may lie below or above this one on axis i while the sensor shows the same.
   [[nodiscard]] double room_below(int i) const noexcept { return half_ - component(error_, i); }
   [[nodiscard]] double room_above(int i) const noexcept { return half_ + component(error_, i); }
 

@@ -79,7 +79,7 @@ run_outcome play(const subject<Space>& model, Device& device, erratic_surface<Sp
   return {seen.least_energy, seen.largest_force};
 }
 
-/// The surface at the start of a run: the model's own if that never moves, otherwise one through the origin.
+/// The surface at the start of a run: the model's own if it never moves, otherwise one through the origin.
 template <class Space>
 [[nodiscard]] surface_state<Space> first_surface(const subject<Space>& model,
                                                  const circumstances& world,

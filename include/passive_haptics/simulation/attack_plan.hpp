@@ -33,7 +33,7 @@ struct plan {
   bool jitter = false, overruns = false, dropouts = false;
 };
 
-/// The plan of an adversary. The seed chooses what the surface does besides.
+/// The plan of an adversary. The seed chooses the further changes of the surface.
 [[nodiscard]] constexpr plan plan_of(adversary by, std::uint64_t seed) noexcept {
   const bool even = seed % 2 == 0;
   const bool second = seed / 2 % 2 == 0;
@@ -147,7 +147,7 @@ struct priced {
   }
 };
 
-/// Finds how far the device may go on each axis while the sensors show the same.
+/// Finds the ways [m] that the device may go on each axis while the sensors show the same.
 template <class Space>
 void find_room(adversary_view<Space>& view, const circumstances& world,
                const noisy_sensor<Space>& noise) noexcept {
@@ -165,7 +165,7 @@ void find_room(adversary_view<Space>& view, const circumstances& world,
   }
 }
 
-/// A velocity source acts: it chooses the next position, and in an overrun the one at which the force is dropped.
+/// Lets a velocity source choose the next position, and in an overrun the one at which the watchdog drops the force.
 template <class Space, class Friction>
 void act(prescribed_motion<Space, Friction>& device, any_motion<Space>& motion,
          const surface_state<Space>& surface, const typename Space::vector& command, double period,
@@ -198,7 +198,7 @@ struct intention {
   typename physical<Space>::coordinates force{};  ///< last force of the model [N]
 };
 
-/// A force-limited hand presses, and trembles along the force where it has grown, against it where it has fallen.
+/// The force of a hand that presses and trembles: along the model's force where that has grown, against it where it fell.
 template <class Space>
 void tremble(striking_hand<Space>& hand, intention<Space>& mind,
              const surface_state<Space>& surface, const typename physical<Space>::vector& force,

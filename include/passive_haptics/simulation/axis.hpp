@@ -26,8 +26,8 @@ namespace simulation {
 ///     Δx   = v h φ₁(z) + a h² φ₂(z)         φ₂(z) = (1 − φ₁)/z
 ///     ∫v²  = A (v + C a)² + D a²            A = h φ₁(2z),  C = h φ₁/(1 + e⁻ᶻ),
 ///                                           D = h³ (ψ − φ₁³/(2 + 2e⁻ᶻ)),  ψ = (φ₂ − φ₁²/2)/z
-/// Rounding acts on the change of v and not on the factor e⁻ᶻ, so the errors of a million steps stay
-/// random. The integral is a sum of squares, so it is never negative, and its form is well conditioned
+/// Rounding acts on the change of v and not on the factor e⁻ᶻ, so the errors of many steps do not add up
+/// to a drift. The integral is a sum of squares, so it is never negative, and its form is well conditioned
 /// for all z (2 × 2 Hilbert matrix at z = 0): unlike F Δx − ½ m Δ(v²) it does not cancel.
 class flow {
  public:
@@ -84,7 +84,7 @@ struct axis_state {
 };
 
 /// Δx [m] and the energy [J] that went into the damper (∫ b v² dt), into dry friction (here ∫ f_c|v| dt)
-/// and into the end stops, each ≥ 0, and into the springs of elastic friction, which is < 0 if they hand it back.
+/// and into the end stops, each ≥ 0, and into the springs of elastic friction; that part is < 0 if they give it back.
 ///     F Δx = Δ(½ m v²) + damping + friction + stops + stored
 struct axis_motion {
   double displacement = 0.0;
@@ -130,7 +130,7 @@ struct axis {
  private:
   [[nodiscard]] double kinetic(double v) const noexcept { return mass * v * v / 2.0; }
 
-  /// Moves up to the next event or the end of `ahead`; returns the time that took [s].
+  /// Moves up to the next event or the end of `ahead`; returns the time that this takes [s].
   double advance_to_event(axis_state& s, double force, double left, flow ahead,
                           axis_motion& done) const noexcept {
     const bool resting = s.velocity == 0.0;

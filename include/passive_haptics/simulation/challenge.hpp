@@ -7,17 +7,17 @@
 //     }
 //     double E = sim::replay(model, v.by, {}, v.worst_seed, [](const auto& now) { ... });
 //
-// Five more adversaries move less than the device can tell. They are for encoders with steps or noise, and for
-// dry friction that is elastic before it slips.
+// Five more adversaries move less than an encoder step, the noise or a presliding displacement. They are for encoders
+// with steps or noise, and for dry friction that is elastic before it slips.
 //     sim::challenge_encoders(model, {.friction = 0.2, .presliding = 15e-6, .quantum = 60e-6});
 //
-// Any passive port will do. If it has not just one contact, state how a surface is laid on it:
+// The model may be any passive port. For a port with several contacts or none, give a function that lays a surface on it:
 //     sim::challenge_all(corner, {}, 1000, 1, [](auto& port, const auto& surface) { ... });
 //
 // The judge is the exact port energy of the simulation, dry friction included, and never the model's
-// own observer. Seeds make every run repeatable. A model that survives has survived these runs only: this
-// is a test, and the proof is in its bound. Of the twelve, two are hands of limited force. No force can stop
-// the other ten, and a `conditional` bound does not promise to survive those.
+// own observer. Seeds make every run repeatable. A model that loses nothing has lost nothing in these runs only:
+// they are a test, and the proof belongs to its bound. Two of the twelve adversaries are hands of limited force. No
+// force can stop the other ten, and a `conditional` bound gives no guarantee against those.
 
 #include <passive_haptics/simulation/attack.hpp>
 
@@ -28,7 +28,7 @@ inline namespace v0 {
 namespace simulation {
 
 /// The result of `runs` runs. Each run counts by its least port energy [J], which is NaN if the
-/// circumstances are impossible or a force was commanded that is no number.
+/// circumstances are impossible or a commanded force was not finite.
 struct verdict {
   adversary by{};
   int runs = 0;

@@ -21,7 +21,7 @@ struct channel_parameters {
   double jitter = 0.0;       ///< most additional delay, uniform, drawn for each copy [s]
   double loss = 0.0;         ///< probability that a copy never arrives
   double duplication = 0.0;  ///< probability that a packet is sent twice
-  bool in_order = false;     ///< a queue: no packet overtakes one that was sent before it
+  bool in_order = false;     ///< true: no packet overtakes one that was sent before it
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(delay >= 0.0) || !kernels::is_finite(delay)) return {"delay", delay, "finite and ≥ 0 s"};

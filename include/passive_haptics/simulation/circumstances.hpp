@@ -4,7 +4,7 @@
 //
 //   adversary       one of the twelve of all_adversaries, or of the five of encoder_adversaries, which
 //                   move less than an encoder step; to_string, is_force_limited
-//   circumstances   the true device, clock and encoders, and how wild the world is
+//   circumstances   the true device, clock and encoders, and the bounds of what the surface does
 
 #include <passive_haptics/simulation/driver.hpp>
 #include <passive_haptics/simulation/friction_kind.hpp>
@@ -31,9 +31,9 @@ enum class adversary : std::uint8_t {
   random_tapping,   ///< the same hand, anywhere and at any moment
   kitchen_sink,     ///< everything but the hands, at once
   in_step,          ///< inside an encoder step, or within the noise, in phase with the force
-  presliding,       ///< the same, no farther than friction is elastic
-  worst_step,       ///< presses, leaves by the cheapest of a dozen small steps
-  dither,           ///< forward 2, back 1 within p, then greedy
+  presliding,       ///< the same, by up to 2 p, over which friction is elastic
+  worst_step,       ///< presses, leaves by that of a dozen small steps that costs least energy
+  dither,           ///< 2 a forward and a back, a ≤ p, then greedy
   trembling,        ///< a force-limited hand, in phase with the force
 };
 
@@ -43,8 +43,8 @@ inline constexpr std::array all_adversaries{
     adversary::overruns,        adversary::rocking,         adversary::dropouts,
     adversary::tapping,         adversary::random_tapping,  adversary::kitchen_sink};
 
-/// The adversaries that move less than a device with steps, noise or elastic friction can tell. Without any of
-/// these they move by some micrometres.
+/// The adversaries that move less than an encoder step, the noise or the presliding displacement. On a device with
+/// none of these they move by some micrometres.
 inline constexpr std::array encoder_adversaries{adversary::in_step, adversary::presliding,
                                                 adversary::worst_step, adversary::dither,
                                                 adversary::trembling};
@@ -95,7 +95,7 @@ inline constexpr std::array encoder_adversaries{adversary::in_step, adversary::p
   return by == adversary::tapping || by == adversary::random_tapping || by == adversary::trembling;
 }
 
-/// The truth about the device, and how wild the world is. The model under test must state at most this damping,
+/// The true device, clock and encoders, and the bounds of what the surface does. The model under test must state at most this damping,
 /// mass and friction, at least this hand force, longest tick, presliding and quantum + noise, and exactly this
 /// latency and watchdog.
 struct circumstances {
@@ -112,7 +112,7 @@ struct circumstances {
   double force_limit = infinity;  ///< largest force of the actuators [N]
   double longest_tick = 1e-3;     ///< the period, unless the adversary varies it [s]
   int latency = 0;                ///< ticks from a command to its holding
-  bool watchdog = true;           ///< the driver drops a force after longest_tick: tell the model
+  bool watchdog = true;           ///< the driver drops a force after longest_tick
   double softest = 2e3;           ///< least stiffness of a surface [N/m]
   double stiffest = 22e3;         ///< largest stiffness of a surface [N/m]
   double jump = 2e-3;             ///< farthest the surface jumps, either way [m]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A simulated device whose transmission gives: a motor with its encoder, a cable, and the handle behind it; or more
-// masses in a row.
+// A simulated device with an elastic transmission: a motor with its encoder, a cable, and the handle behind it, as two
+// to four masses in a row.
 //
 //   command ─▶ held for T ─▶ rotor m_r, b ──(k_c, d_c)── load m_L ◀── hand
 //                              └─▶ encoder, meter        (of one mass, or of two or three with springs between)
@@ -20,24 +20,24 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace simulation {
 
-/// Along every axis the same masses: m_r = share·mass and m_L = mass − m_r, μ = m_r m_L/mass, and between them
-///     k_c = μ ω²      d_c = 2 ζ ω μ      ω = 2π mode
-/// The load is `masses` − 1 equal ones, and each two of them, by themselves, ring with `inner_mode` and the same ζ.
+/// Along every axis a rotor m_r = share·mass and a load m_L = mass − m_r, with μ = m_r m_L/mass, and between them
+///     k_c = μ ω² [N/m]      d_c = 2 ζ ω μ [N·s/m]      ω = 2π mode [1/s]
+/// The load is `masses` − 1 equal masses, and two neighbours alone would ring with `inner_mode` and the same ζ.
 template <class Space>
 struct compliant_parameters {
-  double mass = 0.1;          ///< of both together [kg]
-  double share = 0.5;         ///< of it that moves with the encoder, in (0, 1)
+  double mass = 0.1;          ///< of rotor and load [kg]
+  double share = 0.5;         ///< share of the mass that moves with the encoder, in (0, 1)
   double mode = 100.0;        ///< frequency of the free resonance [Hz]
-  double loss = 0.03;         ///< ζ of it
-  int masses = 2;             ///< the rotor's included, 2 to 4
-  double inner_mode = 300.0;  ///< of two neighbours within the load [Hz]
+  double loss = 0.03;         ///< ζ, damping ratio of the resonances, in [0, 1)
+  int masses = 2;             ///< number of masses with the rotor, 2 to 4
+  double inner_mode = 300.0;  ///< resonance of two neighbours within the load [Hz]
   double damping = 0.1;       ///< b, on the rotor [N·s/m]
-  double friction = 0.0;  ///< dry, on the rotor and per axis; it falls linearly below 0.1 mm/s [N]
+  double friction = 0.0;      ///< dry, on the rotor, per axis [N]; proportional to v below 0.1 mm/s
   double force_limit = std::numeric_limits<double>::infinity();  ///< most ‖f‖ [N]
   double quantum = 0.0;                                          ///< of the encoder [m]
   typename physical<Space>::coordinates start{};                 ///< [m]
   double period = 1e-3;                                          ///< T [s]
-  int substeps = 60;  ///< times per period the hand is asked; ω T/substeps ≤ 0.5
+  int substeps = 60;  ///< steps of integration per period T; 2π mode T/substeps ≤ 0.5
   int latency = 0;    ///< periods from a command to its holding
 
   [[nodiscard]] parameter_fault check() const noexcept {
@@ -53,13 +53,13 @@ struct compliant_parameters {
     }
     return as_driver().check();
   }
-  /// Of mass i, the rotor's first [kg]; of the spring from it to the next [N/m], and of that spring's damper [N·s/m].
+  /// Mass i [kg], 0 being the rotor, and the spring [N/m] and the damper [N·s/m] between it and mass i + 1.
   [[nodiscard]] double mass_of(int i) const noexcept {
     return i == 0 ? share * mass : (1.0 - share) * mass / (masses - 1);
   }
   [[nodiscard]] double spring_of(int i) const noexcept { return reduced(i) * omega(i) * omega(i); }
   [[nodiscard]] double loss_of(int i) const noexcept { return 2.0 * loss * omega(i) * reduced(i); }
-  /// What a stiff device has as well.
+  /// The parameters that a rigid device has as well.
   [[nodiscard]] device_parameters<Space> as_driver() const noexcept {
     device_parameters<Space> p;
     p.mass = mass;
@@ -83,9 +83,9 @@ struct compliant_parameters {
   }
 };
 
-/// Models haptic_device_for<Space>. Leapfrog: what acts within a step does so at its middle, so each step has one
-/// acceleration, and the rotor's travel and what its damper takes are exact for it. energy() is that of the port, which
-/// is the motor's: E = ∫ b v_r² dt − Σ f·Δx_r.
+/// Models haptic_device_for<Space>. In each step the springs and the hand act with the positions of its middle, dampers
+/// and friction with the speeds of its beginning. So the acceleration is constant, and ∫ b v_r² dt and Δx_r are exact for
+/// it. energy() is that of the port, which is the motor's: E = ∫ b v_r² dt − Σ f·Δx_r [J].
 template <class Space, class Hand = no_hand<Space>>
 class compliant_device {
  public:
@@ -103,7 +103,7 @@ class compliant_device {
     speed_.fill(physical<Space>::zero());
   }
 
-  /// As device::exchange().
+  /// Does what device::exchange() does.
   device_sample<Space> exchange(const vector& force) noexcept {
     if (!sound_) return {};
     const vector held = driver_.next(force);
@@ -125,7 +125,7 @@ class compliant_device {
     return hand_.check();
   }
   [[nodiscard]] state position() const noexcept { return at_[0]; }  ///< of the rotor [m]
-  /// Of the last mass, which the hand holds [m].
+  /// The position of the last mass, which the hand holds [m].
   [[nodiscard]] state handle() const noexcept { return at_[last()]; }
   [[nodiscard]] double time() const noexcept { return time_; }
   [[nodiscard]] Hand& hand() noexcept { return hand_; }
@@ -133,11 +133,11 @@ class compliant_device {
   [[nodiscard]] double minimum() const noexcept {
     return minimum_;
   }  ///< the least of it so far [J]
-  /// The most that the transmission has pulled on the rotor [N], and the fastest that it has changed [N/s].
+  /// The largest force of the transmission on the rotor [N], and its largest rate of change [N/s].
   [[nodiscard]] double most_pull() const noexcept { return most_pull_; }
   [[nodiscard]] double most_slew() const noexcept { return most_slew_; }
-  /// All that moves and is bent, less what came through the port and from the hand, and what was lost: zero to rounding
-  /// and to the squares of the steps [J].
+  /// Kinetic and elastic energy, less the work of motor and hand, plus the losses in dampers and friction [J]. It is zero
+  /// but for rounding and an error of second order in the step.
   [[nodiscard]] double residual() const noexcept {
     double stored = 0.0;
     for (int i = 0; i < p_.masses; ++i) {

@@ -105,7 +105,7 @@ class device {
   [[nodiscard]] double kinetic() const noexcept {
     return moving_mass_ * physical<Space>::dot(velocity_, velocity_) / 2.0;
   }
-  /// The energy missing from the balance [J]: zero up to rounding, or the simulation is wrong.
+  /// The energy missing from the balance [J]. It is zero up to rounding; if not, the simulation is wrong.
   [[nodiscard]] double residual() const noexcept { return meter_.residual(kinetic()); }
 
  private:
@@ -171,7 +171,7 @@ class device {
   flow coasting_;  ///< one hold of the hand's force after that
   scalar period_{};
   compensated_sum<double> time_;
-  bool sound_ = false;  ///< check() names no fault
+  bool sound_ = false;  ///< true if check() names no fault
 };
 
 static_assert(haptic_device_for<device<space<float, 1>>, space<float, 1>>);

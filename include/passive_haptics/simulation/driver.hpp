@@ -3,7 +3,7 @@
 // The parameters of a simulated device, and the driver between a command and its motors.
 //
 //   device_parameters   every number of the device, with its unit and default
-//   driver              refuses a force that is no number, saturates, delays: returns the force REALLY held
+//   driver              refuses a force that is not finite, saturates and delays it: returns the force that is held
 //   driven_time         how much of a period the force lasts before the watchdog drops it
 
 #include <passive_haptics/base/parameter.hpp>
@@ -39,9 +39,9 @@ struct device_parameters {
   double period = 1e-3;                              ///< T [s]
   coordinates start{};                               ///< position [m]
   coordinates start_velocity{};                      ///< [m/s]
-  int substeps = 20;                                 ///< how often per period the hand is asked
-  int latency = 0;                                   ///< periods from a command to its holding
-  double watchdog = infinity;                        ///< a force is held no longer than this [s]
+  int substeps = 20;           ///< computations of the hand's force per period
+  int latency = 0;             ///< periods from a command to its holding
+  double watchdog = infinity;  ///< a force is held no longer than this [s]
 
   [[nodiscard]] parameter_fault check() const noexcept {
     const auto finite = [](double x) { return kernels::is_finite(x); };

@@ -40,7 +40,7 @@ class friction_step {
         free_(ahead.displacement(from.velocity, force / along.mass)),
         ease_(ahead.displacement(0.0, 1.0 / along.mass)) {}
 
-  /// Solves for Δ by regula falsi, in a bracket that is opened from the first friction met, and moves the memory.
+  /// Solves for Δ by regula falsi, in a bracket that begins at the friction of the first trial, and moves the memory.
   [[nodiscard]] slid solve(typename Model::state& memory) const noexcept {
     const double first = free_ - ease_ * mean(memory, free_ < 0.0 ? -tiny : tiny);
     const double accepted = 4.0 * epsilon * (std::abs(free_) + std::abs(first));
@@ -63,7 +63,7 @@ class friction_step {
         a = b;
         at_a = at_b;
       } else {
-        at_a /= 2.0;  // Illinois: the end that stays counts for less
+        at_a /= 2.0;  // Illinois rule: the value at the end that stays is halved
       }
       b = next;
       at_b = at_next;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Frictions without a memory of reversals; the menu is in friction.hpp.
-// They are controls: a dither lowers the energy that they take, so they claim() nothing and no ledger covers them.
+// They are negative controls: a dither lowers the energy that they take, so no ledger is right and they claim() none.
 
 #include <passive_haptics/simulation/friction_model.hpp>
 
@@ -17,8 +17,8 @@ namespace simulation {
 /// damper σ₁ it is not passive by itself; without one the dissipated energy is never negative.
 ///
 /// Near c the deflection hardly grows on the way forward, and falls by up to twice the way on the way back.
-/// So "forward 2 a, back a" with a much smaller than p hovers where 2 (1 − z/p) = 1 + z/p, at z = p/3, and
-/// takes c/3 [J] for each metre gained. A spring and a slider takes c.
+/// So a dither of 2 a forward, a back, a ≪ p, settles where 2 (1 − z/p) = 1 + z/p, at z = p/3, and takes c/3 [J] for
+/// each metre gained. A spring and a slider take c.
 struct lugre_friction {
   using state = double;  ///< z [m]
 

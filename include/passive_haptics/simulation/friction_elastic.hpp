@@ -15,8 +15,8 @@ namespace simulation {
 
 namespace detail {
 
-/// The work [J] of moving a spring k [N/m] by `way` [m] behind a slider that slips at the deflection `most` [m].
-/// It is exact, and does not cancel for short ways.
+/// The work [J] of pulling a slider by `way` [m] through a spring k [N/m]; it slips at the deflection `most` [m].
+/// It is exact, and loses no digits by cancellation for short ways.
 [[nodiscard]] inline friction_work pull_slider(double& deflection, double k, double most,
                                                double way) noexcept {
   const double sign = way < 0.0 ? -1.0 : 1.0;
@@ -85,7 +85,7 @@ using slider_and_spring = maxwell_slip<1>;
 ///     α = ½ + ½ sin(π (|z| − (p + z_ba)/2)/(p − z_ba)) up to p
 /// with σ₀ = c/z_ba [N/m]; slipping, it takes c p/z_ba ≥ c [N]. Dupont, Hayward, Armstrong, Altpeter (2002),
 /// with a steady level that does not depend on speed. Its force has no corner, unlike that of a spring and a
-/// slider. Under an oscillation within z_ba it returns to where it was, which LuGre's does not. The
+/// slider. After an oscillation within z_ba it is at the same z again, unlike LuGre's friction. The
 /// differential equation is integrated by Runge and Kutta's fourth-order rule in steps of (p − z_ba)/16.
 struct dupont_friction {
   using state = double;  ///< z [m]

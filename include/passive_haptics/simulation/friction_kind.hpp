@@ -4,7 +4,7 @@
 //
 //     sim::friction_like{sim::friction_kind::dupont, 0.26, 15e-6}      c = 0.26 N, p = 15 µm
 //
-// A kind that claims something claims that level and displacement; dahl and lugre have them and claim nothing.
+// All claim() this level and this displacement but dahl and lugre, which have them and claim nothing.
 
 #include <passive_haptics/simulation/friction_bristle.hpp>
 #include <passive_haptics/simulation/friction_elastic.hpp>
@@ -77,7 +77,7 @@ namespace detail {
   return ask(maxwell_slip<3>{{c, 0.0, 0.0}, {p, p, p}, start});
 }
 
-/// The part that a model uses of a memory for any friction.
+/// The state of one model within a memory that serves all models.
 template <class Model>
 [[nodiscard]] auto& memory_of(const Model& /*model*/, std::array<double, 3>& any) noexcept {
   if constexpr (std::same_as<typename Model::state, double>) {

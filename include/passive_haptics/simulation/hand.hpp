@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Hands that push on the simulated device.
-// A hand is a force [N], asked `substeps` times per period and held in between, and a mass [kg] that moves along.
+// A hand is a force [N], computed `substeps` times per period and held in between, and a mass [kg] on the device.
 //
 //   no_hand           0                                             the device alone
 //   constant_hand     F, at most `limit`                            a steady press
@@ -79,8 +79,8 @@ struct constant_hand {
 
 /// F = k (x_h(t) − x) + b_h (v_h − v), ‖F‖ ≤ limit, with x_h(t) = target + v_h (t − target_time).
 /// The caller may move the target at any time. `own_mass` is held rigidly, so the device moves with the
-/// apparent mass m + own_mass. As it is asked every h = T/substeps, the hand is stable for
-/// b_h h + k h² < 2 m, which is so for any human hand.
+/// apparent mass m + own_mass. The force is computed every h = T/substeps, so the hand is stable for
+/// b_h h + k h² < 2 m, which a human hand fulfils.
 template <class Space>
 struct impedance_hand {
   using vector = typename physical<Space>::vector;

@@ -3,10 +3,10 @@
 // The loop of a simulation, written once, for tests, challenges and benchmarks.
 //
 //   world(now) ──▶ model ──▶ hand(now) ──▶ device ──▶ meter ──▶ watch(now) ──▶ world(now) …
-//   the surface    a force   it is known   holds it             what has
-//   moves, a       for the   now: whither  for a                become of it
-//   sample is      sample    does the hand period
-//   lost                     go?
+//   moves the      computes  chooses its   holds the            reads the
+//   surface or     a force   motion, with  force for            next sample
+//   loses the      from the  the force     one period           and the energy
+//   sample         sample    known
 //
 //     const auto seen = sim::run(device, model, 3000, [&](auto& now) {
 //       if (now.tick % 40 == 0) model.update(surface_at(now.time));
@@ -39,7 +39,7 @@ concept simulated_device = requires(D d, const D c, const typename D::space_type
   { c.meter() } -> std::convertible_to<const port_energy_meter&>;
 };
 
-/// One tick of a run. A step finds the fields that are known by then.
+/// One tick of a run. Each step finds those fields set that are known when it is called.
 template <class Space, class Answer>
 struct turn {
   int tick = 0;
@@ -141,7 +141,7 @@ run_result<typename Device::space_type> run(
     ++result.ticks;
     const port_energy_meter& meter = device.meter();
     const double least = meter.rubbed() ? meter.with_friction() : meter.minimum();
-    if (!(least >= result.least_energy)) result.least_energy = least;  // so written, NaN counts
+    if (!(least >= result.least_energy)) result.least_energy = least;  // also if least is NaN
     result.largest_force =
         kernels::larger(result.largest_force, physical<Space>::norm(to_physical<Space>(now.force)));
     if (!detail::goes_on(watch, now)) break;

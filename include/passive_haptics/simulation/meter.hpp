@@ -21,7 +21,7 @@ inline namespace v0 {
 namespace simulation {
 
 /// Energies [J] of one interval: three sinks, each ≥ 0, the work of three sources on the device, and the energy
-/// that the friction's springs have taken up, which is < 0 if they handed some back.
+/// that the springs of the friction have taken up, which is < 0 if they gave some back.
 struct energy_flows {
   double damping = 0.0;   ///< ∫ b v² dt
   double friction = 0.0;  ///< lost in dry friction: ∫ f_c |v| dt where it is rigid
@@ -42,7 +42,7 @@ class port_energy_meter {
   void book(const energy_flows& flows) noexcept {
     port_ += flows.damping;
     port_ += -flows.actuator;
-    if (!(value() >= minimum_)) minimum_ = value();  // so written, NaN is a minimum and stays one
+    if (!(value() >= minimum_)) minimum_ = value();  // NaN is a minimum and stays one
     damping_ += flows.damping;
     friction_ += flows.friction;
     stops_ += flows.stops;

@@ -8,8 +8,8 @@
 //     meter.add(sample);                                   // in every tick, with what was held since the last
 //     assert(meter.least() >= 0);                          // the promise of a passive port
 //
-// E is what the hand has paid in, so −E is what it was given. Without the damper's share the sum −Σ f·Δx is
-// not what is promised: it reads some millijoules below zero at a port that keeps its promise.
+// E is the energy that the hand has paid in, and −E the energy that it was given. The sum −Σ f·Δx without the work of
+// the damper is no test: it falls some millijoules below zero at a port that is passive.
 
 #include <passive_haptics/base/ledger.hpp>
 #include <passive_haptics/device/device_sample.hpp>
@@ -24,8 +24,8 @@ class port_meter {
   /// The damping of the device [N·s/m], or less: then E is a lower bound.
   explicit port_meter(double damping) noexcept : damping_(damping) {}
 
-  /// The next sample: where the device is, what was held on the way there, and for how long. One that is not
-  /// valid, or whose dt is not positive, is passed over, and the motion to the next good one is not booked.
+  /// Adds a sample: the position [m], the force held on the way there [N] and the time dt [s]. One that is not
+  /// valid, or whose dt is not positive, is left out, and the motion to the next good one is not booked.
   void add(const device_sample<Port>& sample) noexcept {
     const double dt = static_cast<double>(sample.dt);
     const bool good = sample.valid && dt > 0.0 && Port::is_finite(sample.position) &&

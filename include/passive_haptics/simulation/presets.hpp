@@ -6,7 +6,7 @@
 //     sim::device<scene, sim::no_hand<scene>, sim::slider_and_spring> soft(
 //         sim::falcon_like.without_friction<scene>(), {}, sim::falcon_like.friction_of(15e-6));
 //
-// We have chosen their numbers in the range of such devices; none is measured. The known facts of the real ones
+// Their numbers are chosen by us in the range of such devices, and none is measured. Known facts of the real devices
 // are in identification/device_facts.hpp.
 
 #include <passive_haptics/simulation/driver.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Judges whether a device is quiet. Passivity does not say so: a device may ring for ever and draw no energy.
+// Judges whether a device is quiet. A passive port need not be: a device may ring for ever and draw no energy.
 //
-//     q1  force    rms of f − y over 100 ms,  ẏ = 2π 10 Hz (f − y)       ≤ 0.02 N      what is heard
-//     q2  motion   rms of max |n·v| over 100 ms, n of contacts that press  ≤ 1 mm/s    what is seen
-//     q3  step     largest |f(n) − f(n−1)| in 100 ms                     ≤ 0.02 N      what is felt
+//     q1  force    rms of f − y over 100 ms,  ẏ = 2π 10 Hz (f − y)       ≤ 0.02 N      the hand hears it
+//     q2  motion   rms of max |n·v| over 100 ms, n of contacts that press  ≤ 1 mm/s    the eye sees it
+//     q3  step     largest |f(n) − f(n−1)| in 100 ms                     ≤ 0.02 N      the hand feels it
 //
 //     sim::quiet_judge<scene> judge;
 //     judge.add(force, velocity, 1e-3, pressing);      // in every tick; the unit normals that press
@@ -107,7 +107,7 @@ requires(passive_haptics::detail::has_geometry<Port> ||
     placed_ = true;
     add(force, motion(travel * (scalar(1) / scalar(dt))), dt, pressing);
   }
-  /// From the window that is open on the bars are these: K q follows the stiffness that is shown.
+  /// Sets the bars from the present window on, because on encoders they follow the stiffness that is shown (K q).
   void judge_by(const quiet_bars& bars) noexcept { bars_ = bars; }
   /// Starts the judgement anew, because the hand or the world has changed.
   void news() noexcept {
@@ -152,7 +152,7 @@ requires(passive_haptics::detail::has_geometry<Port> ||
     double fastest = 0.0;
     for (const motion& n : pressing) {
       const double along = kernels::magnitude(static_cast<double>(Port::work(n, velocity).joules));
-      if (!(along <= fastest)) fastest = along;  // so written, a NaN stays
+      if (!(along <= fastest)) fastest = along;  // also if it is NaN
     }
     now_.force += high * high * dt;
     now_.speed += fastest * fastest * dt;

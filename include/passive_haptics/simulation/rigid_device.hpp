@@ -7,7 +7,7 @@
 //     E += ∫ (vᵀD v + ωᵀD_ω ω − w·(v, ω)) dt     true energy at the port, > 0: the hand has paid in
 //
 // Motion and energies are integrated by Runge and Kutta's fourth-order rule in equal steps. residual() is the
-// energy that the steps have lost or made, which shows how accurate E is.
+// energy error of the integration [J], which shows how accurate E is.
 
 #include <passive_haptics/device/device_sample.hpp>
 #include <passive_haptics/device/rigid_body.hpp>

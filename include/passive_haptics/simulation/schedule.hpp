@@ -5,7 +5,7 @@
 //
 //   random_source     uniform numbers and directions
 //   update_schedule   due(time): every 20-50 ms, at random (20-50 Hz), or at a fixed period
-//   one_update_late   answers with its input of one update ago, as a pipelined environment does
+//   one_update_late   returns the value that it was given one update ago, as a pipelined environment does
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/base/samples.hpp>
@@ -54,15 +54,15 @@ class random_source {
 };
 
 /// The first update is due at once, the next ones after periods drawn uniformly from
-/// [shortest, longest) [s]. Periods count from due instant to due instant, so the way the caller polls
-/// does not stretch them. Equal bounds give a fixed period.
+/// [shortest, longest) [s]. A period begins when an update was due, not when the caller polled, so late polls
+/// do not lengthen it. Equal bounds give a fixed period.
 class update_schedule {
  public:
   constexpr explicit update_schedule(std::uint64_t seed = 1, double shortest = 0.020,
                                      double longest = 0.050) noexcept
       : shortest_(shortest), longest_(longest), random_(seed) {}
 
-  /// True if an update is due at the virtual time `time` [s], once per update; late polls do not pile up.
+  /// True if an update is due at the virtual time `time` [s], once per update; a late poll skips the missed ones.
   [[nodiscard]] constexpr bool due(double time) noexcept {
     if (!(time >= next_)) return false;
     next_ += random_.uniform(shortest_, longest_);
@@ -85,7 +85,7 @@ class update_schedule {
   random_source random_;
 };
 
-/// Returns the value of the update before, as an environment does that computed with its input of then.
+/// Returns the value of the update before, like an environment that needs one update to compute.
 template <class T>
 class one_update_late {
  public:

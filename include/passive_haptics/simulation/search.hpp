@@ -20,14 +20,14 @@ namespace simulation {
 /// The worst cycle that a search has found.
 struct search_result {
   cycle_parameters parameters{};
-  double energy = 0.0;  ///< least port energy [J]; −∞: a force was no number; NaN: impossible world
+  double energy = 0.0;  ///< least port energy [J]; −∞: a force not finite; NaN: impossible world
   int evaluations = 0;
 };
 
 namespace detail {
 
-/// How bad a run was: by the energy lost, or while nothing is lost by the smallest share that was left of the
-/// energy of damper and friction, so that a search has a slope to descend.
+/// The objective of the search: the energy lost, or, as long as none is lost, the smallest share (port energy)/(energy
+/// that damper and friction have taken), so that the search has a slope to descend.
 struct damage {
   double least = 0.0;       ///< least port energy [J]
   double share_left = 1.0;  ///< in [0, 1]

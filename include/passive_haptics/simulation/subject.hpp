@@ -40,7 +40,7 @@ struct lay_constraint<half_space<Space>> {
   }
 };
 
-/// Small enough for a motion to leave it over an edge.
+/// The segment is so short that a motion can leave it over its end.
 template <class Space>
 struct lay_constraint<segment<Space>> {
   using vector = typename Space::vector;
