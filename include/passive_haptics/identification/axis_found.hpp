@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The numbers found of a device: bounds, each on the side that a promise needs.
+// The numbers found of a device, each as a bound on the side that the proofs of the ledgers need.
 //
-// A ledger may credit no more than the device takes, so mass, damping and friction are lower bounds. The numbers
-// that cost a ledger energy are upper bounds: presliding, step, noise, latency and the longest tick.
+// A ledger may credit no more energy than the device dissipates, so mass, damping and friction are lower bounds. The
+// numbers that reduce the credit are upper bounds: presliding, step, noise, latency and the longest tick.
 
 #include <passive_haptics/design/stiffness_budget.hpp>
 #include <passive_haptics/identification/trust.hpp>
@@ -32,7 +32,7 @@ struct axis_found {
   double breakaway_least[2]{};  ///< lower bounds of the break-away force, both ways [N]
   double breakaway_most[2]{};   ///< upper bounds of the break-away force, both ways [N]
 
-  // The most likely values, for people: no promise rests on them.
+  // The most likely values, for people to read: no bound is computed from them.
   double likely_mass = 0.0, likely_damping = 0.0, likely_friction = 0.0, likely_presliding = 0.0;
   double load = 0.0;       ///< constant force, such as a weight [N]
   double explained = 0.0;  ///< share of the changes of velocity that the model explains, ≤ 1
@@ -58,8 +58,8 @@ struct device_found {
     }
     return nullptr;
   }
-  /// The bounds that hold in every direction, damping and friction less the drift. The presliding of several axes is √Σ p², as that of their
-  /// deflections; longest_tick is 1.2 of the longest tick seen, to cover ticks that were not seen.
+  /// The bounds that hold in every direction: the least mass, damping and friction, the latter two less the drift, the
+  /// presliding √Σ p², as deflections add, or 0 without friction, and 1.2 times the longest tick seen.
   [[nodiscard]] encoder_device stated() const noexcept {
     encoder_device d{.mass = axes[0].mass,
                      .damping = axes[0].damping,

@@ -9,11 +9,11 @@
 // It makes three experiments, one after the other, and records the axis meanwhile:
 //
 //   swing_experiment.hpp        to and fro across the stroke: mass, damping, friction in motion, load, latency
-//   break_away_experiment.hpp   pushed until it slips, at several places: break-away force, presliding
-//   creep_experiment.hpp        a force that comes and goes below break-away: does the axis come back?
+//   break_away_experiment.hpp   a ramp of force until it slips, at several places: break-away force, presliding
+//   creep_experiment.hpp        a periodic force below break-away: the axis must not creep under it
 //   axis_record.hpp             position, velocity, ticks, steps and noise, missing samples
 //
-// This header has their order, and ends the identification on too few samples or beyond the workspace.
+// This class runs them in order, and ends the identification on too few samples or beyond the workspace.
 
 #include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/identification/axis_found.hpp>
@@ -55,7 +55,7 @@ class axis_identification {
     record_.commanded(force);
     return force;
   }
-  /// Does not compile: a bare number as the length could as well be a position.
+  /// Deleted: a bare number as the length could as well be a position.
   template <std::convertible_to<double> Number>
   double tick(double /*position*/, const Number& /*length*/) noexcept {
     passive_haptics::detail::refuse_bare_time<Number>();

@@ -4,16 +4,16 @@
 //
 //     g(t) = R t on friction, R = c/(0.5 s)        x = C g until it slips, p ≤ C × the largest break-away force
 //
-// with the friction c [N] and the load w [N] of the swing, w being balanced all the time (Canudas de Wit and
-// Lischinsky, 1997, find a bristle's stiffness so). friction_ramp.hpp evaluates a ramp. At each of several places:
+// with the friction c [N] and the load w [N] of the swing; the command balances w all the time. Canudas de Wit and
+// Lischinsky (1997) find the stiffness of a bristle in this way. friction_ramp.hpp evaluates a ramp. At each of several places:
 //
-//   kick        to and fro up to a place in the middle 0.6 of the stroke, another one each time
+//   kick        a swing, up to a place within ±0.6 of the stroke, another one each time
 //   park        parking.hpp brings the device to rest there; then four times, alternating the way:
-//   condition   0.4 s of a force below break-away that goes up and comes back, the other way: the slip takes the
-//               energy that still rings on friction's spring
+//   condition   0.4 s of a force against the coming ramp, up to 0.8 of the least break-away and back to zero, which
+//               damps what still rings on friction's spring
 //   rest        the position at rest is found
 //   push        g, until the device has gone 0.25 mm and two steps
-//   release     the force is held for up to 12 ticks, so that the device stops anywhere in a step; friction brakes
+//   release     0 to 11 more ticks of the largest break-away force, so that friction stops it anywhere in a step
 //
 // A device that does not rest, or is pushed back, is parked anew where it is.
 
@@ -103,14 +103,14 @@ class break_away_experiment {
     phase_.enter(phase::done);
     return 0.0;
   }
-  /// The n-th of a sequence in [0, 1) that is evenly spread and never repeats (golden ratio).
+  /// Number n of a sequence in [0, 1) that is evenly spread and never repeats (golden ratio).
   [[nodiscard]] static double golden(int n) noexcept {
     const double x = 0.6180339887498949 * n;
     return x - std::floor(x);
   }
 
   double kick(const axis_record& seen) noexcept {
-    const double share = golden(place_ + 1);  // places that no period of gears or cables meets
+    const double share = golden(place_ + 1);  // places in phase with no gear or cable
     const double wanted = (1.2 * share - 0.6) * p_.stroke;
     const bool there = (seen.x() - wanted) * (seen.before() - wanted) <= 0.0;
     if ((relay_.sweeps() - kicked_from_ >= 2 && there) || phase_.lasted() > 3.0) {

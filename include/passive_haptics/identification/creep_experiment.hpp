@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Third experiment: a force that comes and goes below break-away.
-// A spring and a slider come back to where they were; friction that creeps does not, and no ledger covers
-// that (Dahl's and LuGre's drift: Dupont, Hayward, Armstrong, Altpeter, 2002).
+// Third experiment: a periodic force below break-away.
+// A spring and a slider return to the same place after each cycle. Friction that creeps does not (Dahl's and LuGre's
+// drift: Dupont, Hayward, Armstrong, Altpeter, 2002), and no ledger is right for it.
 //
 //     g(t) = s G (1 − cos 2πνt)/2 on friction,        G = the least of
 //         0.95 (1 − 1.25 r) c         friction in motion, r being the share by which it varies    [N]
 //         the least break-away        force of any ramp                                           [N]
 //
-// with s falling from 1 to 0.25, until the mean positions over some cycles at the beginning and at the end agree
-// to within a step. ν is a quarter of the frequency 1/(2π √(m C)) of the mass m on a spring of friction's
+// with s falling in seven levels from 1 to 0.25, until the mean positions over some cycles at the beginning and at the
+// end agree to within 1.05 steps. ν is a quarter of the frequency 1/(2π √(m C)) of the mass m on a spring of friction's
 // compliance C, and at most 50 Hz.
 //
-// Dupont's friction creeps above 0.6 of the force at which it slips, by about 3.2 (s − 0.6)³ p in a cycle. If all
-// cycles together would have crept by less than 1.6 steps, the encoder cannot show that, and the share of Dupont's
-// friction, 0.6, is stated untested. If a lower level than s = 1 was the first to come back, 0.7 of it is stated.
+// Dupont's friction creeps above 0.6 of the force at which it slips, by about 3.2 (s − 0.6)³ p [m] in a cycle. If that
+// is less than 1.6 steps over all cycles, the encoder cannot show it, and the untested share 0.6 is stated. If the
+// first level without creep is lower than s = 1, 0.7 of that level is stated, as a margin.
 
 #include <passive_haptics/identification/break_away_experiment.hpp>
 
@@ -81,7 +81,7 @@ class creep_experiment {
     [[nodiscard]] double mean() const noexcept { return count > 0 ? sum / count : 0.0; }
   };
   static constexpr double pi = 3.14159265358979323846;
-  static constexpr double untold = 0.6;  // share of friction up to which no creep is assumed
+  static constexpr double untold = 0.6;  // share of friction that is stated untested
   static constexpr std::array levels{1.0, 0.85, 0.72, 0.61, 0.52, 0.4, 0.25};
 
   double give_up(const char* why) noexcept {

@@ -28,7 +28,7 @@ template <class... Numbers>
   return (up ? std::ceil(x / unit - 1e-9) : std::floor(x / unit + 1e-9)) * unit;
 }
 
-/// By hand: steps are felt and no dry friction pays for them, so nothing stiff is sure to last.
+/// The composition of a device with steps q [m] but without dry friction to pay for them, so the wall stays soft.
 [[nodiscard]] inline std::string on_steps_alone(double m, double b, double F, double q, double T,
                                                 int latency, double hand) {
   return text(

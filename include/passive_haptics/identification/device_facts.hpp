@@ -3,18 +3,18 @@
 // What is known of haptic devices that can be bought, each number with its source.
 //
 //     constexpr auto touch = design::devices::touch;
-//     static_assert(touch.friction && !touch.friction.verified());       // remembered, not looked up
-//     if (!touch.damping) ...                                            // nobody publishes it
+//     static_assert(touch.friction && !touch.friction.verified());       // quoted from memory
+//     if (!touch.damping) ...                                            // it is not published
 //
 //   evidence       measured, a data sheet, a paper, the source of a program; or unverified
 //   fact           a number that may be missing
-//   device_facts   what a device's maker, users and drivers say of it
+//   device_facts   the numbers that the maker, users and drivers of a device state
 //   devices::      falcon, touch, omni, desktop, premium_1_5, premium_3_0, omega, delta_3, sigma_7,
 //                  lambda_7, inverse3, virtuose_6d, maglev_200, smart_knob; all of them in a list
 //
 // Viscous damping and presliding are published for none of them, mass and friction for few, and CHAI3D's
-// "maximum damping" is what it recommends to a controller, not what the device has. Identify whatever a
-// promise rests on on your own device; a fact is a place to begin.
+// "maximum damping" is the largest for a controller, not a property of the device. Identify on your own device
+// the numbers that your composition states; these facts are first values only.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -31,7 +31,7 @@ enum class evidence : std::uint8_t {
   datasheet,   ///< a data sheet of its maker
   paper,       ///< published and reviewed
   software,    ///< in the source of a program that drives it
-  unverified,  ///< a data sheet as we remember it: look it up before anything rests on it
+  unverified,  ///< a data sheet, from memory: look it up before you use it
 };
 
 [[nodiscard]] constexpr const char* to_string(evidence from) noexcept {
@@ -99,7 +99,7 @@ namespace detail {
 namespace devices {
 
 /// Its three encoders have one count to 5.13/140.8 of a degree (falcon/kinematics.hpp): 38 µm at the hinge
-/// of a thigh of 60 mm. What that is at the grip depends on where the grip is.
+/// of a thigh of 60 mm. The step at the grip depends on its position.
 inline constexpr device_facts falcon{
     .name = "Novint Falcon",
     .quantum = detail::alike({63.5e-6, evidence::datasheet,

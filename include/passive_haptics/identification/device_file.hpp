@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a composition is made of, as a file: an exact_device or an encoder_device, and the hand on it, in JSON.
+// The parameters of a composition as a JSON file: an exact_device or an encoder_device, and the force of the hand.
 //
 //     {
 //       "passive_haptics_device": 1,
@@ -14,9 +14,9 @@
 //   const auto loaded = load_device("grip.json");          // loaded.fault is empty, or says what to mend
 //   std::visit([](const auto& device) { return ph::make_touch<scene>(device, hand); }, loaded.of.device)
 //
-// One object of numbers, texts and yes or no, by the names and in the units of described_device.hpp, in any order.
-// What is left out is as it is there by default; what is unknown, twice, of another version or out of range is
-// refused, with its line. Numbers are as short as reads back to the bit.
+// The file is one object of numbers, texts and booleans, with the names and units of described_device.hpp, in any order.
+// A key that is left out has its default value. A key that is unknown or repeated, another version or a value out of
+// range is refused with its line. Numbers have the fewest digits from which the same double is read back.
 
 #include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/identification/axis_found.hpp>
@@ -38,14 +38,14 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
 
-/// A device, by what kind it is, and the hand on it.
+/// A device of one of the two kinds, and the hand on it.
 struct device_description {
   std::string name;
   std::variant<exact_device, encoder_device> device{};
   double hand_force = 0.0;  ///< known_hand::force [N]; 0: it is not stated
 };
 
-/// `of` counts if `fault` is empty; else that is a sentence with the line, what stands there and the remedy.
+/// `of` is valid if `fault` is empty; otherwise `fault` is a sentence with the line, its content and the remedy.
 struct loaded_device {
   std::string fault;
   device_description of;
@@ -96,7 +96,7 @@ void for_each_entry(Description& d, Number number, Flag flag) {
   return all + '"';
 }
 
-/// One key of a file and what stands behind it.
+/// One key of a file and its value.
 struct device_entry {
   std::string key, value;
   int line = 0;
@@ -114,14 +114,14 @@ class device_reader {
   void refuse(int line, const std::string& why) {
     if (good()) fault_ = name_ + ':' + std::to_string(line) + ": " + why;
   }
-  /// Where it stands, or where it is missed.
+  /// The line of the key, or the line at which its absence is reported.
   [[nodiscard]] int line_of(std::string_view key) const noexcept {
     for (const auto& e : entries_) {
       if (e.key == key) return e.line;
     }
     return line_;
   }
-  /// The value of a key, and the key is known then; null if it is not there.
+  /// The value of a key, which is marked as known; null if the key is missing.
   [[nodiscard]] const device_entry* take(std::string_view key) {
     for (auto& e : entries_) {
       if (e.key != key) continue;
@@ -352,7 +352,7 @@ class device_reader {
   return {};
 }
 
-/// What was found of a device: with encoders, if their steps were seen. One that turns is to be told so.
+/// The description of an identified device: an encoder_device if steps were seen. Set `rotary` for a joint.
 template <int Dof>
 [[nodiscard]] device_description described(const device_found<Dof>& found, const std::string& name,
                                            double hand_force = 0.0) {
@@ -366,8 +366,8 @@ template <int Dof>
                        .latency = d.latency},
           hand_force};
 }
-/// What the catalogue knows of a device, to be completed: what nobody publishes is left out of its text, and a reader
-/// asks for it by name. A wall is to rest on half of the mass and the friction that a data sheet has.
+/// The description of a device of the catalogue, to be completed: numbers that are not published are left out of its
+/// text, and read_device() asks for them by name. For a wall, state half of the mass and friction of a data sheet.
 [[nodiscard]] inline device_description described(const design::device_facts& facts) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const auto value = [](const design::fact& f) { return f ? f.value : unknown; };

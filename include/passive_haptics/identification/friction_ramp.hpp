@@ -2,10 +2,10 @@
 #pragma once
 // Break-away force and presliding displacement, from a force g [N] that grows slowly until the device slips.
 //
-// Up to break-away the device gives way elastically, x = C g, and p = C times the break-away force. The slip is
-// seen late, when the device has gone some steps: under a force R t beyond friction a mass m goes R t³/(6 m), and
-// against a damper alone R t²/(2 b). The growth of g in the sum of both times is subtracted, so the break-away
-// force is a lower bound; with a Stribeck curve the device goes faster, and even less would have to be subtracted.
+// Up to break-away the device gives way elastically, x = C g [m], and p = C times the break-away force. The slip is
+// detected late, when the device has gone some steps: under a force R t beyond friction a mass m goes R t³/(6 m) [m],
+// and against a damper alone R t²/(2 b). The growth of g in the sum of both times is subtracted, so the break-away
+// force is a lower bound; with a Stribeck curve the device goes faster, so it is lower still.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -20,7 +20,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
 
-/// The numbers that decide how late a slip is seen.
+/// The numbers that determine how late a slip is detected.
 struct slip_detection {
   double rate = 0.0;     ///< R [N/s]
   double mass = 0.0;     ///< m [kg]
@@ -52,8 +52,8 @@ class friction_ramp {
     ++b.count;
     return gone > distant ? state::broken : gone < -distant ? state::backwards : state::holding;
   }
-  /// Ends a ramp whose slip was seen at g [N] and `distant` [m]. `counts` says whether its displacement counts:
-  /// only after a slip, because a device parked by a control rests near the edges of the steps.
+  /// Ends a ramp whose slip was detected at g [N] and `distant` [m]. If `counts`, its displacement is used for C: only
+  /// after an earlier slip, because a device parked by a controller rests near the edges of the steps.
   void conclude(double g, double distant, bool counts, const slip_detection& by) noexcept {
     double low = kernels::larger(g - gained(by, distant + by.step), 0.0);
     const double softness =
@@ -97,8 +97,8 @@ class friction_ramp {
     return worst;
   }
   /// C [m/N]: its mean, and a bound three deviations above that for positions known to `step` [m]. Where friction
-  /// rises along the way the device creeps up that slope before it breaks away; so the smaller of the C of small
-  /// and of large forces counts, though the steps hide more of small forces.
+  /// rises along the way the device moves before it breaks away, and the C of large forces is too large. So the smaller
+  /// of the C of small and of large forces is taken, although steps disturb the former more.
   [[nodiscard]] double compliance() const noexcept {
     return kernels::larger(kernels::smaller(early_.mean(), late_.mean()), 0.0);
   }

@@ -8,8 +8,8 @@
 //     else std::cout << identification::composition_of(found);        // describe.hpp
 //
 // It takes about a minute for each axis. Meanwhile a soft damped spring keeps each other axis where it began. The
-// last command is always a force of zero, also if it is stopped or has a problem: hold the device by then. In a
-// loop of your own call axis_identification::tick() instead.
+// last command is always a force of zero, also if it is stopped or has a problem, so hold the device then. In a loop of
+// your own call axis_identification::tick() instead.
 
 #include <passive_haptics/identification/axis_identification.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -55,7 +55,7 @@ struct no_force_at_the_end {
 
 }  // namespace detail
 
-/// Identifies every axis of `device`, one after the other. It asks stop() once a tick; true ends it.
+/// Identifies every axis of `device`, one after the other. It calls stop() once a tick and ends if that is true.
 template <port P, haptic_device_for<P> Device, class Stop>
 [[nodiscard]] device_found<P::dof> identify(Device& device, const identification_parameters& p,
                                             Stop&& stop) {

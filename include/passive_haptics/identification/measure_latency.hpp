@@ -36,7 +36,7 @@ struct latency_parameters {
 
 struct latency_found {
   int ticks = 0;           ///< from a command to its holding, to the nearest tick
-  double exactly = 0.0;    ///< the same with its fraction: 0.5 is a force that changes in mid-tick
+  double exactly = 0.0;    ///< the same with its fraction: 0.5 for a change in mid-tick
   double explained = 0.0;  ///< share of the motion that the force explains, a load aside, in [0, 1]
   int sensor_ticks = 1;    ///< ticks for which the sensor shows the same place
   const char* problem = nullptr;  ///< a sentence if the numbers are not reliable, else null
@@ -64,7 +64,7 @@ class latency_fit {
     for (std::size_t d = 0; d < u.size(); ++d) u[d] = triangle(commands_, d);
     const double damped = triangle(moved_, 0);
     const double rubbed = triangle(turned_, 0);
-    const double load = window * window;  // the answer to a load of 1 N, but for T²/m
+    const double load = window * window;  // y under a load of 1 N, in units of T²/m
     yy_ += y * y;
     for (std::size_t d = 0; d + 1 < longest; ++d) {
       const std::array<double, causes> of{u[d], u[d + 1], damped, rubbed, load};
@@ -117,7 +117,7 @@ class latency_fit {
     }
     return sum;
   }
-  /// Gauss's elimination; a cause that depends on the others is left out.
+  /// Gaussian elimination; a cause that depends linearly on the others is left out.
   [[nodiscard]] static bool solve(normal_equations a, shares& share) noexcept {
     for (std::size_t i = 0; i < causes; ++i) {
       if (!(a[i][i] > 0.0)) continue;

@@ -11,9 +11,8 @@
 //     Σ φ Δv = (1/m) (Σ φ f h − b± Σ φ Δx − c Σ φ sgn h + w Σ φ h − k Σ φ x h)
 //
 // With this φ the left side is that of a least-squares parabola through the N + 1 positions. The tick lengths h
-// [s] are the measured ones, so ticks that vary cost nothing. The error of the steps is on the left alone, so
-// ordinary least squares has no bias from it. Only windows count in which the device goes one way, and faster
-// than the low-speed part of friction. The latency d is the shift of the commands that explains the left side
+// [s] are the measured ones, so ticks may vary. The error of the steps is on the left alone, so ordinary least squares
+// has no bias from it. Only windows count in which the device goes one way, faster than the Stribeck part of friction. The latency d is the shift of the commands that explains the left side
 // best. The deviation is that of the jackknife, which leaves out one of twelve stretches of time after the other
 // (Miller, 1974) and needs no white errors.
 
@@ -50,7 +49,7 @@ class motion_regression {
   static constexpr int longest_window = 96;  ///< [ticks]
   static constexpr int groups = 12;          ///< of the jackknife
 
-  /// `elastic` is the way after a turn that does not count, because friction gives there [m].
+  /// `elastic` [m] is the way after a turn that is left out, because friction is elastic there.
   explicit motion_regression(double elastic = 0.4e-3) noexcept : elastic_(elastic) {}
 
   /// Adds the position [m] at the end of a tick of that length [s].
@@ -103,7 +102,7 @@ class motion_regression {
       z(turned) += phi * changed;
     }
     z *= std::pow(static_cast<double>(ticks),
-                  1.5);  // so that windows of all lengths are equally sure
+                  1.5);  // gives windows of all lengths equal variance
     sums_[static_cast<std::size_t>(group % groups)] += z * z.transpose();
     ++windows_;
     return true;
@@ -204,7 +203,7 @@ class motion_regression {
       const double way = sign * (at(to).position - at(from).position);
       if (!(way > slowest * lasted + step)) return 0;
     }
-    const int last = ticks / 8 > 2 ? ticks / 8 : 2;  // its end, where it may have begun to turn
+    const int last = ticks / 8 > 2 ? ticks / 8 : 2;  // ticks at its end, where it may turn
     double lasted = 0.0;
     for (int j = newest_ - last; j < newest_; ++j) lasted += at(j).length;
     const double way = sign * (at(newest_).position - at(newest_ - last).position);

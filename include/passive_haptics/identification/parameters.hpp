@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The limits of what a device does while it is identified.
+// The limits of force [N] and motion [m] of a device while it is identified.
 
 #include <passive_haptics/identification/trust.hpp>
 
@@ -18,7 +18,7 @@ struct identification_parameters {
   double sweep_time = 8.0;        ///< time of the swing for mass, damping, friction and latency [s]
   int places = 8;                 ///< number of places where it is pushed until it slips
   int creep_cycles = 150;         ///< cycles of a force below break-away, at each level tried
-  identification::trust trust{};  ///< how much of what is found may be stated
+  identification::trust trust{};  ///< margins from the estimates to the bounds
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!passive_haptics::detail::positive(force)) return {"force", force, "finite and > 0 N"};

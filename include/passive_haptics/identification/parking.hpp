@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Brings the device to rest at a place, and leaves it there to its friction alone.
+// Brings the device to rest at a place, where its friction alone then holds it.
 //
 //     park      f = −w − m ω² (x − target) − 1.6 m ω v      until it has been at rest for 0.1 s
 //     balance   f comes back to −w within 60 ms             until it has been at rest for 0.2 s
@@ -66,7 +66,7 @@ class parking {
   void begin_here(const axis_record& seen) noexcept {
     begin(std::clamp(seen.x(), -0.5 * stroke_, 0.5 * stroke_));
   }
-  /// The same for a device that did not stay; returns the force of the next tick [N].
+  /// Parks a device again that has moved on; returns the force of the next tick [N].
   double begin_again(const axis_record& seen) noexcept {
     if (++slipped_ > 8) return give_up();
     begin_here(seen);
@@ -117,7 +117,7 @@ class parking {
     }
     return force;
   }
-  /// Lets the spring of park() go, so that friction alone holds the device, or does not.
+  /// Takes the spring of park() away over 60 ms, and waits whether friction alone holds the device.
   double balance(const axis_record& seen) noexcept {
     const double share = (std::min)(phase_.lasted() / 0.06, 1.0);
     const double force = balanced((1.0 - share) * (parked_force_ + load_));

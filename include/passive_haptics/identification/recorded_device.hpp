@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The numbers of a device out of a recording of it that nobody held: m, b, c, w, the latency and p.
+// The numbers m, b, c, w, d and p of a device, from a recording during which nobody held it.
 //
 //     m ẍ = f(t − d) − b± ẋ − c sgn ẋ + w        in motion: motion_regression.hpp
-//     m ẍ = f(t − d) − b ẋ − (c/p) z + w         turns as well, for p, z that of a spring and a slider, |z| ≤ p
+//     m ẍ = f(t − d) − b ẋ − (c/p) z + w         also at turns, for p; z [m] of a spring and slider, |z| ≤ p
 //
-// Both are multiplied by φ(u) = (1 − u²)² over windows and summed, so no position is differentiated. The p of the least
-// residual is the one sought; every deviation is that of the jackknife over twelve stretches of time. What may be
-// stated of it is stated_of(), and replay.hpp tries that on a recording.
+// Both are multiplied by φ(u) = (1 − u²)² over windows and summed, so no position is differentiated. The estimate
+// of p is that of the least residual; every deviation is that of the jackknife over twelve stretches of time.
+// stated_of() makes bounds of the estimates, and replay.hpp tries to refute them on a recording.
 
 #include <passive_haptics/design/described_device.hpp>
 #include <passive_haptics/identification/motion_regression.hpp>
@@ -25,9 +25,9 @@ struct recorded_device {
   estimate presliding{};        ///< p [m]
   estimate elastic_friction{};  ///< c of the fit that has p [N]
   double quantum = 0.0;         ///< q, noise included [m]
-  double tick = 0.0;            ///< the longest that is no gap [s]
-  double top_force = 0.0;       ///< of the recording [N]
-  std::string problem;          ///< a sentence if the recording bears no numbers, else empty
+  double tick = 0.0;            ///< the longest tick that is no gap [s]
+  double top_force = 0.0;       ///< largest force of the recording [N]
+  std::string problem;          ///< a sentence if the recording gives no numbers, else empty
 };
 
 namespace detail {
@@ -70,7 +70,7 @@ class slider_fit {
                        : std::numeric_limits<double>::infinity();
     };
     if (!(whole.friction > 0.0)) return;
-    // What the grid of places and the steps hide, as well.
+    // The grid of trial values and the steps of the encoder limit p, too [m].
     const double hidden = 0.3 * (place(1) / place(0) - 1.0) * whole.place + 0.3 * found.quantum;
     found.presliding = {whole.place,
                         std::hypot(spread([](const answer& a) { return a.place; }), hidden)};
@@ -203,7 +203,7 @@ class slider_fit {
     return found;
   }
 
-  // Turns and rest count for p, so windows are short, and any of them counts.
+  // For p the turns and rests matter, so the windows are short, and all of them are used.
   const int width = std::clamp(window / 2, 6, 24);
   const double least = (std::max)(0.1 * step, 1e-7 * s.span);
   detail::slider_fit fit(least, (std::max)(0.02 * s.span, 20.0 * least));
@@ -245,7 +245,7 @@ class slider_fit {
   return found;
 }
 
-/// The bounds that the recording bears, on the side that a ledger needs: `trust` says at which confidence, and how
+/// The bounds that follow from the recording, on the side that a ledger needs. `trust` has their confidence, and how
 /// far friction and damping may fall until the next recording.
 [[nodiscard]] inline encoder_device stated_of(const recorded_device& of,
                                               const trust& how = {}) noexcept {
@@ -258,7 +258,7 @@ class slider_fit {
       .mass = sure(m.mass),
       .damping = how.kept() * kernels::smaller(sure(m.damping[0]), sure(m.damping[1])),
       .friction = how.kept() * sure(m.friction),
-      .presliding = 1.25 * how.at_most(of.presliding),  // several springs give farther than one
+      .presliding = 1.25 * how.at_most(of.presliding),  // a fit of one spring to several is short
       .quantum = of.quantum,
       .force_limit = of.top_force,
       .longest_tick = 1.2 * of.tick,

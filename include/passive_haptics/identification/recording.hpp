@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A recording of one axis: time, position and the motor's force, row by row, as somebody else has logged it.
+// A recording of one axis, logged by any program: time [s], position [m] and force of the motor [N], row by row.
 //
 //     const auto r = identification::load_recording("log.csv", {});        // recording_file.hpp
 //     if (!r.fault.empty()) std::puts(r.fault.c_str());                     // names the row and the remedy
@@ -22,13 +22,13 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
 
-/// Seconds, metres and newtons; radians and newton metres if it is that of a joint.
+/// Columns in seconds, metres and newtons; for a joint in radians and newton metres.
 struct recording {
   std::vector<double> time, position, force;
   bool rotary = false;
 
   [[nodiscard]] std::size_t size() const noexcept { return time.size(); }
-  /// The rows from `first` up to `last`, without that one.
+  /// The rows from `first` up to but not including `last`.
   [[nodiscard]] recording part(std::size_t first, std::size_t last) const {
     last = (std::min)(last, size());
     first = (std::min)(first, last);
@@ -38,7 +38,7 @@ struct recording {
     };
     return {cut(time), cut(position), cut(force), rotary};
   }
-  /// The same as an encoder of the step q [m] would have shown it.
+  /// The same recording as an encoder of step q [m] would have shown it.
   [[nodiscard]] recording with_steps(double q) const {
     recording coarse = *this;
     if (!(q > 0.0)) return coarse;
@@ -47,19 +47,19 @@ struct recording {
   }
 };
 
-/// What the samples are like, before anything rests on them.
+/// Statistics of the samples, to judge a recording before it is used.
 struct recording_statistics {
   std::size_t rows = 0;
   double tick = 0.0;       ///< the median time from row to row [s]
-  double jitter = 0.0;     ///< 90 % of the ticks differ from that by no more than this share of it
-  double longest = 0.0;    ///< of the ticks that are no gaps [s]
+  double jitter = 0.0;     ///< 90 % of the ticks differ from `tick` by at most this share of it
+  double longest = 0.0;    ///< longest tick that is no gap [s]
   std::size_t gaps = 0;    ///< ticks longer than five median ones
   std::size_t gap = 0;     ///< row after the first gap
-  double repeated = 0.0;   ///< share of the rows that show the position before once more, under way
+  double repeated = 0.0;   ///< share of the rows in motion that repeat the position before
   double quantum = 0.0;    ///< the step of the position [m]; 0: none seen
-  double noise = 0.0;      ///< beside the steps, end to end [m]
+  double noise = 0.0;      ///< width of the noise, end to end [m]; 0 if there are steps
   double span = 0.0;       ///< from the least to the largest position [m]
-  double top_speed = 0.0;  ///< over sixteen ticks [m/s]
+  double top_speed = 0.0;  ///< largest mean speed over sixteen ticks [m/s]
   double top_force = 0.0;  ///< the largest size of the force [N]
 };
 
@@ -73,13 +73,13 @@ namespace detail {
 [[nodiscard]] inline std::string in_row(std::size_t row) {
   return "row " + std::to_string(row) + ": ";
 }
-/// The element below which a share of all of them lies; `all` is not empty, and is put in another order.
+/// The quantile `share` of `all`, which must not be empty and is reordered.
 [[nodiscard]] inline double quantile(std::vector<double>& all, double share) {
   const auto at = static_cast<std::size_t>(share * static_cast<double>(all.size() - 1));
   std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(at), all.end());
   return all[at];
 }
-/// How rough a column is: the mean square of its second difference over `ticks` rows, as a share of its variance.
+/// The roughness of a column: the mean square of its second difference over `ticks` rows over its variance.
 [[nodiscard]] inline double roughness(const std::vector<double>& x, std::size_t ticks) {
   if (x.size() < 3 * ticks) return 0.0;
   double mean = 0.0, spread = 0.0, bent = 0.0;
@@ -94,7 +94,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// A sentence that names the first row that cannot be and the remedy; empty if all rows can be. Rows count from 1.
+/// A sentence with the first impossible row and the remedy; empty if there is none. Rows are counted from 1.
 [[nodiscard]] inline std::string fault_of(const recording& r) {
   using detail::in_row, detail::printed;
   const std::size_t n = r.size();
@@ -160,7 +160,7 @@ namespace detail {
   s.span = *most - *least;
   s.quantum = steps.step();
   s.noise = steps.has_step() ? 0.0 : steps.noise();
-  // Under way is a row that is sixteen steps from the one sixteen rows before: its position cannot repeat by itself.
+  // A row is in motion if it is 32 steps or more from the row 16 before: at that speed no position repeats by itself.
   for (std::size_t i = reach; i < r.size(); ++i) {
     if (std::abs(r.position[i] - r.position[i - reach]) <
         2.0 * reach * (s.quantum + 1e-3 * s.noise))
@@ -173,7 +173,7 @@ namespace detail {
   return s;
 }
 
-/// A sentence if the numbers are surely a slip of units or columns, which no row shows by itself; empty if not.
+/// A sentence if units or columns are certainly wrong, which no single row shows; empty if not.
 [[nodiscard]] inline std::string doubt_of(const recording& r, const recording_statistics& s) {
   using detail::printed;
   const char* metre = r.rotary ? "rad" : "m";

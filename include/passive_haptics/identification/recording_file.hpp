@@ -7,8 +7,8 @@
 //     load_recording("log.npz", {.time = "", .tick = 1e-3, .position = "x", .force = "f", .force_scale = 35.0})
 //
 // A column is found by its name, or by its number from 1 on. A heading may end in a unit, as time_ms, "x [mm]" or
-// torque(N.m); its scale is known then, and multiplies the one that is stated. Without a column of the time, the
-// tick is stated. What cannot be read is refused by a sentence with the row, the value and the remedy.
+// torque(N.m); its scale then multiplies the one that is stated. For a file without a column of time, state the tick
+// [s]. A value that cannot be read is refused by a sentence with the row, the value and the remedy.
 //
 // Formats: MAT-File Format, The MathWorks, level 5; NEP 1, "A Simple File Format for NumPy Arrays"; APPNOTE 6.3 of
 // PKWARE for the archive that an .npz is.
@@ -29,7 +29,7 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
 
-/// Which columns of a file are which, and how many SI units one of theirs is.
+/// The names of the columns of a file, and the SI units in one unit of each.
 struct recording_columns {
   std::string time = "time", position = "position", force = "force";
   double time_scale = 1.0, position_scale = 1.0, force_scale = 1.0;
@@ -160,7 +160,7 @@ struct heading_unit {
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const auto value = to_decimal(cells[i]);
-      // A cell of a column that nobody names may hold a word; fault_of() finds it where it is named.
+      // A column that is not used may hold words; in a column that is used fault_of() reports them.
       all.columns[i].push_back(value ? *value : std::numeric_limits<double>::quiet_NaN());
     }
   }
@@ -206,7 +206,7 @@ class byte_reader {
   bool good_ = true;
 };
 
-/// Numbers of one kind in a row: signed (i) or unsigned (u) integers, or floating (f), of that many bytes each.
+/// Reads consecutive numbers of one kind, signed (i), unsigned (u) or floating (f), of `size` bytes each.
 [[nodiscard]] inline bool numbers_of(std::string_view bytes, char kind, std::size_t size,
                                      std::vector<double>& out) {
   const auto all = [&]<class Number>(Number) {
@@ -233,7 +233,7 @@ class byte_reader {
   return false;
 }
 
-/// Adds a matrix whose columns follow one another; one of a single column or row has its own name, else name:1, ….
+/// Adds a matrix stored by columns. A single column or row is called `name`, several are called name:1, name:2, ….
 inline void add_matrix(named_columns& all, const std::string& name,
                        const std::vector<double>& values, std::size_t rows, std::size_t count,
                        bool by_columns) {
@@ -264,7 +264,7 @@ inline void add_matrix(named_columns& all, const std::string& name,
             ? "it comes from a big-endian machine: save it again by save('file.mat', '-v6')"
             : "it is no MAT file of level 5: save it by save('file.mat', '-v6')");
   }
-  // An element has type, size and data, padded to 8 bytes; a small one has all of it within 8 bytes.
+  // An element has type, size and data, padded to 8 bytes; a small one has all three within 8 bytes.
   struct element {
     std::uint32_t type = 0;
     std::string_view data;
@@ -472,14 +472,14 @@ inline void read_npy(named_columns& all, std::string_view bytes, const std::stri
   return all;
 }
 
-/// The file by its first bytes, whatever it is called.
+/// The columns of a file, whose format is known by its first bytes and not by its name.
 [[nodiscard]] inline named_columns read_columns(std::string_view bytes) {
   if (bytes.starts_with("PK")) return read_npz(bytes);
   if (bytes.starts_with("MATLAB") || bytes.starts_with("\x89HDF")) return read_mat(bytes);
   if (bytes.starts_with("\x93NUMPY")) {
     named_columns all;
     read_npy(all, bytes, "array");
-    // An array without names has its columns' numbers.
+    // The columns of an array without names are called by their numbers.
     for (std::size_t i = 0; i < all.names.size(); ++i) {
       if (all.names[i].starts_with("array:")) all.names[i] = std::to_string(i + 1);
     }

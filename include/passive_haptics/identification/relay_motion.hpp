@@ -38,7 +38,7 @@ class relay_motion {
     }
     return (braking_ ? -way_ : way_) * force;
   }
-  /// Moves the change-over for a new size of force, on a device of that friction and load [N].
+  /// Moves the points of change-over for a force `to` instead of `from` [N], on a device of that friction and load [N].
   void change(double from, double to, double friction, double load, double stroke) noexcept {
     const double share = stroke * (1.0 / to - 1.0 / from);
     over_[1] = std::clamp(over_[1] + share * (friction - load), -0.9 * stroke, 0.7 * stroke);
@@ -61,7 +61,7 @@ class relay_motion {
   }
 
  private:
-  static constexpr double lead = 3e-3;  // rough delay by a latency and the estimate of v [s]
+  static constexpr double lead = 3e-3;  // delay of latency and of the estimate of v, roughly [s]
 
   std::array<double, 2> over_{}, reached_{};
   double way_ = 1.0, peak_ = 0.0, turned_at_ = 0.0;

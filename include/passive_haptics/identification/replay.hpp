@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The falsifier: where nobody holds the device, a ledger that says more than the motor put in was told too much.
+// Tries to refute stated numbers of a device by a recording during which nobody held it.
 //
-// A ledger told b, c, p and q keeps a lower bound L(n) of what friction and damper have taken less what the motor gave.
-// Hands off, that is also what the device's motion and height have lost:
+// With b, c, p and q stated, a ledger keeps a lower bound L(n) [J] of the energy that friction and damper have taken, less
+// the work of the motor. Without a hand this is also the kinetic and potential energy that the device has lost:
 //
 //     L(n) ≤ ½ m v(k)² − ½ m v(n)² + w (x(n) − x(k)) + ½ c p       from any row k to any later row n
 //
-// with w a constant load and ½ c p what the springs of the friction may hold at the start, as the ledger's promise
-// has it. So a ledger above ½ m v(k)² + w (x(n) − x(k)) + ½ c p refutes what it was told, whatever the device is. One that is never
-// above is not proved by that, and `credited` says how much of the loss it has seen. (Ours; mathematics.md § 6)
+// with w a constant load [N] and ½ c p [J] the most that the springs of the friction hold at the start. So a ledger above
+// ½ m v(k)² + w (x(n) − x(k)) + ½ c p refutes the stated numbers, whatever the device is. A ledger that stays below proves
+// nothing, and `credited` has the part of the loss that it has seen. (Ours; docs/design/mathematics.md § 6)
 
 #include <passive_haptics/device/space.hpp>
 #include <passive_haptics/energy_observer/dual_ledger.hpp>
@@ -21,16 +21,16 @@ namespace identification {
 
 struct replayed {
   double overstated =
-      0.0;  ///< the most that the ledger said beyond what can be [J]; ≤ 0 refutes nothing
-  std::size_t row = 0;    ///< where that was, from 1 on
-  double lost = 0.0;      ///< what friction and damper took from the first row to the last [J]
-  double credited = 0.0;  ///< what the ledger has seen of that [J]
+      0.0;              ///< most by which the ledger was above its limit [J]; ≤ 0 refutes nothing
+  std::size_t row = 0;  ///< row of `overstated`, counted from 1
+  double lost = 0.0;    ///< energy that friction and damper took in the whole recording [J]
+  double credited = 0.0;  ///< part of `lost` that the ledger has credited [J]
   [[nodiscard]] bool refuted() const noexcept { return overstated > 0.0; }
   [[nodiscard]] double share() const noexcept { return lost > 0.0 ? credited / lost : 0.0; }
 };
 
-/// What the recording shows besides what the ledger is told: mass [kg], load w and dry friction [N], 3 deviations off on
-/// the side that is asked for, and the latency [ticks].
+/// The numbers of the recording that the limit needs: mass [kg], load w and dry friction [N], each with 3 deviations on
+/// the safe side, and the latency [ticks].
 struct hands_off {
   double mass = 0.0, least_mass = 0.0, load = 0.0, load_error = 0.0, friction = 0.0;
   int latency = 0;
@@ -48,8 +48,8 @@ struct hands_off {
 
 namespace detail {
 
-/// The most that the speed of a row can be [m/s], by the means over k ticks on both sides, the steps, and what the
-/// forces can change it by meanwhile; the least of that for k = 1, 4 and 16.
+/// An upper bound of the speed at a row [m/s]: a mean over k ticks, plus the error of the steps, plus the change that the
+/// largest force makes in that time; the least of this for k = 1, 4 and 16.
 [[nodiscard]] inline double speed_at_most(const recording& r, std::size_t i, double q,
                                           const hands_off& shown) {
   double least = std::numeric_limits<double>::infinity();
@@ -71,7 +71,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// A sentence if the description contradicts itself or the recording, before it is tried; else empty.
+/// A sentence if the stated numbers contradict themselves or the mass of the recording; else empty.
 [[nodiscard]] inline std::string fault_of_told(const encoder_device& told,
                                                const recorded_device& found) {
   using detail::printed;
@@ -91,8 +91,8 @@ namespace detail {
   return {};
 }
 
-/// Lets the ledger of the device `told` go through the recording, from the slowest row of each of `starts` parts of it
-/// on. `trace`, if given, takes its value of each row, from the first start on [J], and what it may be at most.
+/// Runs the ledger of the device `told` over the recording, from the slowest row of each of its `starts` parts to the end.
+/// `trace`, if given, gets the value of the first of these runs and its limit for each row [J].
 [[nodiscard]] inline replayed replay(const recording& r, const encoder_device& told,
                                      const hands_off& shown, int starts = 8,
                                      std::vector<std::array<double, 2>>* trace = nullptr) {
@@ -127,7 +127,7 @@ namespace detail {
     double given = 0.0, value = ledger.value();
     for (std::size_t i = start + 1; i < n; ++i) {
       const double dx = r.position[i] - r.position[i - 1], dt = r.time[i] - r.time[i - 1];
-      if (dt > 5.0 * usual) break;  // nobody knows what the motor did meanwhile
+      if (dt > 5.0 * usual) break;  // the force in a gap is unknown
       const double f = r.force[i - 1 - late];
       if (!ledger.update(dx, f, dt)) break;
       value = ledger.value();

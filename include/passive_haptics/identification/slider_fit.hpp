@@ -6,9 +6,9 @@
 //     if (found.refused != nullptr) std::puts(found.refused);          // found.row says where
 //     for (int k = 0; k < found.count; ++k) use(found.slider[k].level, found.slider[k].presliding);
 //
-// Real friction gives way over its first micrometres, and most of it much sooner than the last of it: a list of
-// sliders cₖ [N], each behind a spring of its own that gives way by pₖ [m], says how much of the loss is there for
-// motions that are smaller than the largest pₖ (Prandtl; Iwan, 1966; docs/design/mathematics.md § 6). The recording is a
+// Real friction is elastic over its first micrometres, and slips part by part. A list of sliders cₖ [N], each behind
+// a spring that gives way by pₖ [m], describes the loss of motions smaller than the largest pₖ, too (Prandtl; Iwan,
+// 1966; docs/design/mathematics.md § 6). The recording is a
 // slow ramp of the motors' force both ways, with small reversals in it.
 
 #include <passive_haptics/base/kernels.hpp>
@@ -26,33 +26,33 @@ namespace identification {
 /// A row of the recording.
 struct slow_row {
   double position = 0.0;  ///< x as shown [m]; joints: [rad]
-  double force = 0.0;     ///< what the motors push with, inertia and damping small or taken off [N]
+  double force = 0.0;     ///< force of the motors, less inertia and damping if not small [N]
 };
 struct slider {
   double level = 0.0;       ///< c [N]
-  double presliding = 0.0;  ///< p [m], with the step of the positions
+  double presliding = 0.0;  ///< p [m], the step of the positions added
 };
 struct slider_fit_settings {
   double step = 0.0;   ///< q of the positions shown [m]
-  int most = 10;       ///< sliders, 1 to 10; sixteen have been seen to overfit
+  int most = 10;       ///< largest number of sliders, 1 to 10, because 16 overfit
   double drift = 0.0;  ///< share by which friction may fall with warmth and wear, 0 to 1
 };
 struct slider_fit {
   std::array<slider, 10> list{};  ///< from the stiffest on
   int count = 0;
   double offset =
-      0.0;  ///< force that goes with no slip: weight, or friction that differs by direction [N]
-  double left = 0.0;              ///< share of the fitted levels that the falsifier has left
+      0.0;  ///< constant force of the fit: weight, or friction that differs by direction [N]
+  double left = 0.0;              ///< share of the fitted levels that sure_share() leaves
   double credited = 0.0;          ///< share of the loss of this recording that the list credits
-  const char* refused = nullptr;  ///< why there is no list, and the remedy
-  std::size_t row = 0;            ///< the row that it is about
+  const char* refused = nullptr;  ///< the reason why there is no list, and the remedy; else null
+  std::size_t row = 0;            ///< row of that reason, counted from 0
 
   [[nodiscard]] double level() const noexcept {
     double sum = 0.0;
     for (const slider& s : list) sum += s.level;
     return sum;
   }
-  /// Σ cₖpₖ/Σ cₖ [m]: what one slider for all has to state.
+  /// Σ cₖpₖ/Σ cₖ [m], the presliding of one slider in place of all.
   [[nodiscard]] double mean_presliding() const noexcept {
     double sum = 0.0;
     for (const slider& s : list) sum += s.level * s.presliding;
@@ -67,8 +67,8 @@ namespace detail {
 }
 }  // namespace detail
 
-/// What the list takes of a motion, beyond what its springs hold, row by row; `each` is given the sum so far [J].
-/// Deflections begin at zero: 5/2 Σ cₖpₖ is the most that this and the springs can be wrong by.
+/// Computes the energy that the sliders dissipate, scale·Σ cₖ|Δx − Δzₖ| [J], and calls each(row, sum so far). The
+/// unknown deflections zₖ at the start are taken as zero.
 inline void loss_of(std::span<const slider> list, std::span<const slow_row> rows, double scale,
                     auto each) {
   std::array<double, 10> share{};
@@ -91,10 +91,9 @@ inline void loss_of(std::span<const slider> list, std::span<const slow_row> rows
   return (rows[n].force + rows[n - 1].force) / 2.0 * (rows[n].position - rows[n - 1].position);
 }
 
-/// The falsifier: where nobody holds the device, no window of a recording may show a loss that is larger than the motors'
-/// work in it and what the springs may hold. Returns the largest share of the levels that this leaves, 1 if nothing
-/// refutes them: friction that has fallen since it was stated, with warmth or wear, shows as a share below 1. A hand of
-/// the size of c hides it, so this is asked with hands off.
+/// The largest share of the levels that the recording does not refute, 1 if it refutes nothing. Without a hand the loss
+/// in any window is at most the work of the motors in it and Σ cₖpₖ (docs/design/mathematics.md § 6). Friction that has
+/// fallen since it was stated, with warmth or wear, gives a share below 1. A hand of the size of c would hide that.
 [[nodiscard]] inline double sure_share(std::span<const slider> list, std::span<const slow_row> rows,
                                        double step) {
   double springs = 0.0, level = 0.0, most = 0.0;
@@ -103,9 +102,9 @@ inline void loss_of(std::span<const slider> list, std::span<const slow_row> rows
     level += s.level;
   }
   for (const slow_row& r : rows) most = kernels::larger(most, std::abs(r.force));
-  const double ends = step * kernels::larger(level, most);  // a work is known to that
+  const double ends = step * kernels::larger(level, most);  // error of a work by the steps [J]
   const auto stands = [&](double scale) {
-    double worked = 0.0, least = 0.0;  // by the motors; the most that this was ahead of the loss
+    double worked = 0.0, least = 0.0;  // work of the motors; largest surplus over the loss [J]
     bool so = true;
     loss_of(list, rows, scale, [&](std::size_t n, double lost) {
       worked += n == 0 ? 0.0 : work_of(rows, n);
@@ -124,10 +123,9 @@ inline void loss_of(std::span<const slider> list, std::span<const slow_row> rows
   return sure;
 }
 
-/// Levels of sliders on a ladder of pₖ that explain the forces best, none below zero: the deflections of the
-/// ladder follow from the positions alone, so the forces are linear in the levels. Then the falsifier: where nobody
-/// holds the device, no window of the recording may show a loss that is larger than the motors' work in it and what
-/// the springs may hold; all levels are lowered by one share until that is so.
+/// Fits the levels cₖ ≥ 0 of sliders whose pₖ form a geometric series, by least squares of the forces. The deflections
+/// follow from the positions alone, so the forces are linear in the levels. Then all levels are lowered by the factor
+/// sure_share() (1 − drift).
 [[nodiscard]] inline slider_fit fit_sliders(std::span<const slow_row> rows,
                                             const slider_fit_settings& by) {
   slider_fit found;
@@ -156,7 +154,7 @@ inline void loss_of(std::span<const slider> list, std::span<const slow_row> rows
                   "The device has not moved by more than four steps: ramp on until it slips.");
   }
 
-  // The ladder, and from which row on each rung has slipped and so forgotten where it began.
+  // The series of pₖ, and the row at which each has slipped, from where on its unknown first deflection is gone.
   const auto rungs = static_cast<std::size_t>(by.most);
   const double finest = kernels::larger(by.step, span / 2000.0), widest = span / 4.0;
   std::array<double, 10> p{};
@@ -180,7 +178,7 @@ inline void loss_of(std::span<const slider> list, std::span<const slow_row> rows
                   "Nothing slips in the first half of the rows: ramp farther, both ways.");
   }
 
-  // Least squares of the levels and of an offset, by descent along one of them at a time.
+  // Least squares of the levels and of an offset, by coordinate descent.
   constexpr std::size_t most = 11;
   std::array<std::array<double, most>, most> H{};
   std::array<double, most> g{}, c{};

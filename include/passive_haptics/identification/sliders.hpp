@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A dry friction that gives way little by little: several sliders side by side, each behind a spring of its own.
+// Dry friction that begins to slip part by part: several sliders in parallel, each behind a spring of its own.
 //
 //     ph::basic_dual_ledger<ph::damping_and_sliders<3>> ledger{
 //         .damping = {.coefficient = 0.05, .sliders = {{{0.05, 4e-6}, {0.06, 15e-6}, {0.04, 60e-6}}}},
 //         .quantum = 5e-6};
 //
-// One slider with the mean presliding credits nothing of what motions within it lose; the stiff ones of a list are
-// crossed by a tremor and pay for it. slider_fit.hpp finds the list from a recording.
+// One slider with the mean presliding credits nothing for motions within that; of a list, the stiff sliders slip under
+// a tremor, too, and are credited. slider_fit.hpp finds the list from a recording.
 
 #include <passive_haptics/device/dry_friction.hpp>
 #include <passive_haptics/port/concepts.hpp>
@@ -17,17 +17,17 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// Takes at least c joules a metre of slip, which differs from the motion by a deflection of p at most.
+/// Dissipates at least c joules for each metre of slip, which is the motion less a deflection of at most p.
 struct friction_slider {
   double coulomb{};                        ///< c [N], ≥ 0, a lower bound
   double presliding = detail::not_stated;  ///< p [m], ≥ 0, an upper bound
 };
 
 namespace detail {
-/// Beside the ledger's own choice u = 0 each slider k may count on a uₖ, |uₖ| ≤ cₖ, that opposes the motion since it
-/// turned back by pₖ: it earns uₖ·Δx̂, and a change of it by d costs pₖ|d| and ½ Σ qᵢ|dᵢ|. As |Σ dₖ| ≤ Σ |dₖ|, what one of
-/// them earns is sure whatever the others do, so each is dropped by itself when it does not pay, and what it is ahead by
-/// when it does is the ledger's. A `lead` is how far A − |uₖ|²pₖ/(2cₖ) is ahead of the ledger's own A [J].
+/// Beside u = 0 the ledger may assume for each slider k a force uₖ [N], |uₖ| ≤ cₖ, that opposes the motion since it
+/// turned back by pₖ. It is credited uₖ·Δx̂ [J], and a change of it by d costs pₖ|d| + ½ Σ qᵢ|dᵢ|. As |Σ dₖ| ≤ Σ |dₖ|, the
+/// credit of a slider does not depend on the others, so each starts anew from u = 0 when that has the larger lead, and a
+/// positive lead is booked. `lead` is A − |uₖ|²pₖ/(2cₖ) less the A of the ledger [J] (docs/design/mathematics.md § 6).
 template <class P, std::size_t N>
 class slider_credits {
  public:
@@ -35,7 +35,7 @@ class slider_credits {
   using motion = typename P::motion;
   using effort = typename P::effort;
 
-  /// The device is seen to have moved, and the ledger has booked `elsewhere` [J] for that. Returns what it may book [J].
+  /// Adds a measured motion `shown` [m], for which the ledger has booked `elsewhere` [J]; returns the energy to book [J].
   [[nodiscard]] constexpr scalar slip(scalar elsewhere, const motion& shown, const auto& damping,
                                       const auto& steps) noexcept {
     scalar all(0);
@@ -46,7 +46,7 @@ class slider_credits {
       const scalar up = scalar(1) + kernels::rounding<scalar>();
       const scalar doubt = c * steps.travel_error() / scalar(2) * up,
                    spring = c * p / scalar(2) * up;
-      const scalar anew = -(doubt + scalar(3) * spring);  // it may begin again from u = 0
+      const scalar anew = -(doubt + scalar(3) * spring);  // lead of a new start from u = 0
       one.lead = kernels::larger(one.lead, anew);
 
       effort trail = effort(one.trail) + shown;
@@ -80,8 +80,7 @@ class slider_credits {
  private:
   struct slider {
     typename P::stored_effort friction = P::zero();  ///< uₖ [N]
-    typename P::stored_effort trail =
-        P::zero();  ///< how far the device is from what it drags along [m]
+    typename P::stored_effort trail = P::zero();     ///< x less the point that x drags along [m]
     scalar lead{};
   };
   std::array<slider, N> sliders_{};
@@ -128,7 +127,7 @@ class damping_and_sliders<N>::on : public damping_and_friction::on<Space> {
 
  public:
   using typename one::scalar;
-  using credits = detail::slider_credits<Space, count>;  ///< what a dual_ledger keeps of them
+  using credits = detail::slider_credits<Space, count>;  ///< their state in a dual_ledger
 
   constexpr explicit on(const damping_and_sliders& p) noexcept : one(p.as_one()), stated_(p) {}
   [[nodiscard]] constexpr damping_and_sliders parameters() const noexcept { return stated_; }

@@ -60,7 +60,7 @@ class step_finder {
   }
   /// q [m], an upper bound; 0 if there is no lattice.
   [[nodiscard]] double step() const noexcept { return has_step() ? least_ + blur_ : 0.0; }
-  /// The width of the error of a position beside its step, from end to end [m].
+  /// The width of the error of a position besides its step, from end to end [m].
   [[nodiscard]] double noise() const noexcept {
     if (has_step()) return kernels::larger(largest_turn_ - 2.0 * least_, 0.0);
     return kernels::larger(largest_turn_, 7.2 * deviation());

@@ -5,16 +5,16 @@
 //
 //     m ẍ = f(t − d) − b± ẋ − c sgn ẋ + w − k (x − x₀)            motion_regression.hpp
 //
-//   settle   1 to 4 s with the largest force allowed, until the swing has come to the stroke
+//   settle   at least 1 s and 12 sweeps with the largest force allowed, until both turns are beyond half the stroke
 //   sweep    sweep_time with a force of at most that, and of the largest of
 //                3 |w| + 2.5 c             so that load and friction do not stop it
 //                2 m stroke/(40 ms)²       so that it gets across in some tens of milliseconds
 //                a fifth of the largest force allowed
-//            The force is 1.5 times that in every other six sweeps, and the stroke is 0.6 of itself in every other
-//            twelve, because one force, or one stroke, would not tell damping from friction.
+//            In every other six sweeps the force is 1.5 times that, and in every other twelve the stroke is 0.6 of the
+//            stated one, because a single force or stroke does not separate damping from friction.
 //
-// A relay moves the device (relay_motion.hpp; Åström and Hägglund, 1984). A bound is three deviations of the
-// jackknife (Miller, 1974) and 5 % away from the estimate, unless trust.hpp is told another confidence.
+// A relay moves the device (relay_motion.hpp; Åström and Hägglund, 1984). By default a bound is three deviations of
+// the jackknife (Miller, 1974) and 5 % away from the estimate (trust.hpp).
 
 #include <passive_haptics/identification/measure_latency.hpp>
 #include <passive_haptics/identification/motion_regression.hpp>
@@ -94,7 +94,7 @@ class swing_experiment {
     regression_.book(window_, group, slowest, seen.step(), relay_.motion().turned_at());
   }
 
-  /// Swings with the largest force, until the swing has come to the stroke, and chooses the force of the sweeps.
+  /// Swings with the largest force, until both turns are beyond half the stroke, and chooses the force of the sweeps.
   double settle(const axis_record& seen) noexcept {
     const double force = relay_.tick(seen, p_.stroke);
     const int sweeps = relay_.sweeps();

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How much of what was identified may be stated: bounds at a confidence, and how far a device drifts.
+// The bounds that may be stated from estimates: their confidence, a margin, and the drift of a device.
 //
 //     stated = (1 − drift) margin (value − confidence · deviation)        of damping and of friction, from below
 //     stated = margin (value − confidence · deviation)                    of mass, from below
 //     stated = (value + confidence · deviation)/margin                    of presliding, latency, steps, from above
 //
 // Friction and damping fall as a device warms and wears, so a drift of 30 % is the default. Mass does not; and
-// presliding falls with friction, whose springs stay, so its upper bound needs no drift. A device that was warm when
-// it was identified, and is identified again each year, may be told less drift.
+// presliding p = c/k falls with friction c at constant stiffness k, so its upper bound needs no drift. A device that was
+// warm when it was identified, and is identified again each year, may have less drift.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -33,9 +33,8 @@ struct estimate {
 };
 
 struct trust {
-  double confidence =
-      3.0;  ///< standard deviations: 3 is one axis in 740 on that side, were they normal
-  double margin = 0.95;  ///< for errors that no statistics shows
+  double confidence = 3.0;  ///< in deviations; of normal errors one in 740 is beyond 3 on that side
+  double margin = 0.95;     ///< for systematic errors, in (0.5, 1]
   double drift =
       0.3;  ///< share of damping and friction that may be lost by warmth and wear, in [0, 1)
 
