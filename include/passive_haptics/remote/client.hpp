@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The device's end of a session: it asks, and keeps the last good answer. It knows no socket; bytes go in
-// and out, and the clock is yours.
+// The client of a session, at the device: it sends the position and keeps the last valid answer, a surface. It has
+// no socket and no clock: the caller carries the datagrams and passes the time.
 //
 //     environment thread                                          haptic thread, 1 kHz
 //       socket.send(client.ask(probe, now), server)               if (const auto* plane = inbox.take())
@@ -10,7 +10,7 @@
 //         inbox.publish(half_space_of<scene>(news->content));
 //
 // Nothing that is received is credited to a ledger: the ledger of the local model books the force that was
-// held over the motion that was measured. What crosses the network only decides which force is wanted.
+// held over the motion that was measured. The network determines the wanted force only.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/remote/content.hpp>
@@ -24,8 +24,8 @@ inline namespace v0 {
 namespace remote {
 
 struct client_settings {
-  double silence = 1.0;   ///< after so long without an answer the client says hello again [s]
-  double most_age = 0.5;  ///< an answer to an older question is refused [s]
+  double silence = 1.0;   ///< time without an answer after which the client says hello again [s]
+  double most_age = 0.5;  ///< largest age of a question whose answer is accepted [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(silence > 0.0)) return {"silence", silence, "> 0 s; longer than a round trip"};
@@ -50,8 +50,8 @@ struct news {
 
 /// The client accepts an answer that has its key, is of its session, is newer than the last one, echoes a
 /// stamp that was sent and is no older than the last that was answered, is young enough and can be used.
-/// Everything else is counted by its verdict, no surface comes of it, and it does not keep the session up: a
-/// server that only says what cannot be used is greeted anew after `silence`.
+/// Everything else is only counted by its verdict, and does not keep the session up: if no answer is usable, the
+/// client says hello again after `silence`.
 ///
 /// The stale rule is that of the local model (port/freshness.hpp) and begins anew with every update, so a
 /// surface fades at the latest when its question is `most_age` + `stale_after` old.
@@ -77,8 +77,8 @@ class client_with {
     return settings_.check();
   }
 
-  /// What to send now: a question, or a hello as long as nobody answers. Call it as often as you want answers,
-  /// 50 to 200 Hz.
+  /// The datagram to send now: a question, or a hello as long as there is no session. Call it at the rate of the
+  /// answers that you want, 50 to 200 Hz.
   [[nodiscard]] datagram ask(const probe& where, nanoseconds now) noexcept {
     if (state_ == state::talking && now - heard_ > detail::span_of(settings_.silence)) {
       greet_anew();
@@ -97,7 +97,7 @@ class client_with {
     return detail::encode_sealed(m, seal_);
   }
 
-  /// Takes any bytes that have come, and says what became of them.
+  /// Judges received bytes, which may be anything, and returns the verdict.
   verdict receive(received_bytes bytes, nanoseconds now) noexcept {
     return tally_.book(judged(bytes, now));
   }
@@ -114,7 +114,7 @@ class client_with {
   }
 
   [[nodiscard]] state where() const noexcept { return state_; }
-  /// How many sessions there have been: 2 when the server has been restarted once.
+  /// The number of sessions so far: 2 after one restart of the server.
   [[nodiscard]] std::uint32_t sessions() const noexcept { return sessions_; }
   [[nodiscard]] const tally& counted() const noexcept { return tally_; }
 
@@ -145,14 +145,14 @@ class client_with {
     greeted_ = (nanoseconds::max)();
   }
 
-  /// A welcome or a busy has to reply to a hello of this greeting, and to one that waits for a reply.
+  /// A welcome or a busy is accepted only as the reply to a hello that this client has sent and that is unanswered.
   [[nodiscard]] verdict judged_reply(const message& m) const noexcept {
     if (state_ == state::talking) return verdict::repeated;
     const bool is_true = m.stamp >= greeted_ && m.stamp <= asked_;
     return is_true ? verdict::accepted : verdict::untrue_stamp;
   }
 
-  /// A welcome to the same session goes on where that was, so what it has sent before stays old.
+  /// A welcome to the same session continues its sequence numbers, so its earlier datagrams stay old.
   verdict welcomed(const message& m, nanoseconds now) noexcept {
     if (m.session == 0) return verdict::malformed;
     if (const auto fits = judged_reply(m); fits != verdict::accepted) return fits;

@@ -7,7 +7,7 @@
 //   quadric_of<Space>      the quadric; of anything else, one that every local model refuses
 //   probe_of               the probe of a question, or of an answer that is a force
 //
-// Each end computes in a scalar of its own; on the way a number is a double.
+// Each end computes in its own scalar; in a datagram a number is a double.
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/constraint_geometry/half_space.hpp>
@@ -103,7 +103,7 @@ requires(Space::dof == 3)
           .energy = c.numbers[6]};
 }
 
-/// True if a local model in double would take the surface, and for a probe and for nothing at all.
+/// True for a surface that a local model in double accepts, for a probe, and for empty content.
 [[nodiscard]] inline bool usable(const content& c) noexcept {
   using scene = space<double, 3>;
   if (c.form == form::plane) return half_space_of<scene>(c).prepare();

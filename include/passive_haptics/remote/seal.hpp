@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Who may talk at all: a seal authenticates every datagram of a session, both ways.
+// A seal authenticates every datagram of a session, in both directions.
 //
 //     const remote::siphash_seal seal(remote::siphash_key{…, …});          // the same 128 bits at both ends
 //     remote::client_with client({}, remote::draw_number(), seal);
 //     remote::server_with server({}, remote::draw_number, seal);
 //
-// A seal of your own, of a library that encrypts, say, has a number of bytes that it adds, and two calls on all
-// of them: the first 152 are the datagram, the others are the seal's.
+// A seal of your own, for example one that encrypts, has the number of bytes that it adds, and two functions on all
+// bytes: the first 152 are the datagram, the others belong to the seal.
 //
 //     struct my_seal {
 //       static constexpr std::size_t size = 16;          // up to 64
-//       void seal(std::span<std::byte> bytes) noexcept;  // of the datagram: what is sent
-//       bool open(std::span<std::byte> bytes) noexcept;  // and back; false refuses what has come
+//       void seal(std::span<std::byte> bytes) noexcept;  // makes what is sent of a datagram
+//       bool open(std::span<std::byte> bytes) noexcept;  // inverse; false refuses the bytes
 //     };
 //
-// What is promised of somebody who
-//   cannot read the traffic      without: has to guess 64 bits.  With: those and the tag
-//   reads it                     without: can do anything.       With: can repeat it, which is refused
-//   reads it and stops it        without: can do anything.       With: can delay it and end it
+// An attacker who                without a seal                   with a seal
+//   cannot read the traffic      has to guess 64 bits             has to guess these and the tag
+//   reads it                     can do anything                  can repeat it, which is refused
+//   reads it and stops it        can do anything                  can delay it and end the session
 //
-// A seal need not refuse what is repeated: key, session, sequence and stamp, which it covers, do (session.hpp).
+// A seal need not refuse repeated datagrams, because key, session, sequence and stamp, which it covers, do that.
 
 #include <passive_haptics/remote/siphash.hpp>
 
@@ -31,14 +31,14 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace remote {
 
-/// What client_with and server_with ask of a seal.
+/// The contract of a seal of client_with and server_with.
 template <class Seal>
 concept datagram_seal = Seal::size <= longest_seal&& requires(Seal s, std::span<std::byte> bytes) {
   s.seal(bytes);
   { s.open(bytes) } -> std::same_as<bool>;
 };
 
-/// None: no byte, no time. `client` and `server` have it.
+/// No seal: it adds no byte and takes no time. `client` and `server` have it.
 struct no_seal {
   static constexpr std::size_t size = 0;
   static constexpr void seal(std::span<std::byte>) noexcept {}
@@ -46,8 +46,8 @@ struct no_seal {
 };
 
 /// SipHash-2-4 of the 152 bytes under a key that both ends have beforehand: a tag of 64 bits, little-endian.
-/// Whoever has not got the key is believed once in 2⁶⁴ datagrams. Nothing is encrypted, and whoever has the key
-/// may pose as either end. A key of which a half is 0, as of one that was never set, is refused: nothing opens.
+/// A datagram that is forged without the key is accepted once in 2⁶⁴ times. Nothing is encrypted, and the owner of the
+/// key can act as either end. A key of which a half is 0, for example one never set, is refused: open() is false.
 class siphash_seal {
  public:
   static constexpr std::size_t size = 8;

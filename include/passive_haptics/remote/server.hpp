@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The environment's end of a session: it hears where the device is and tells what the device touches. It knows
-// no socket; bytes go in and out, and the clock is yours.
+// The server of a session, at the environment: it receives the position of the device and answers with a surface. It
+// has no socket and no clock: the caller carries the datagrams and passes the time.
 //
 //     const auto heard = server.receive(bytes, from, now);
 //     if (heard.reply) socket.send(*heard.reply, from);         // welcome, lost, busy
@@ -19,7 +19,7 @@ inline namespace v0 {
 namespace remote {
 
 struct server_settings {
-  double silence = 1.0;  ///< after so long without a question another client may come [s]
+  double silence = 1.0;  ///< time without a question after which another client may come [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(silence > 0.0)) return {"silence", silence, "> 0 s"};
@@ -27,7 +27,7 @@ struct server_settings {
   }
 };
 
-/// Where the device was, and what an answer needs to name this question.
+/// The position of the device, and the stamp and session that an answer has to carry.
 struct question {
   remote::probe probe{};
   nanoseconds stamp{0};       ///< of the client's clock; an answer echoes it
@@ -37,18 +37,18 @@ struct question {
 /// A server has one client at a time; take one server object for each socket. While one client asks, others
 /// are told that the server is busy.
 ///
-/// It keeps nothing of a hello. The number of the session that its welcome offers is a cookie, a keyed hash of
-/// whom it goes to and when; a session begins with the first question that brings it back from there, within 4
-/// to 8 s. So whoever says hello under false addresses, however often, gets no further and is in nobody's way.
-/// Each session ends all other offers, so no number begins a session twice.
+/// It stores nothing of a hello. The session number that its welcome offers is a cookie, a keyed hash of client key,
+/// address and time; a session begins with the first question that returns the cookie from that address, within 4
+/// to 8 s. So hellos with forged addresses begin no session and take no memory. Each session ends all other offers,
+/// so no number begins a session twice.
 template <datagram_seal Seal = no_seal>
 class server_with {
  public:
   using datagram = std::array<std::byte, datagram_size + Seal::size>;
   using source = std::uint64_t (*)();
 
-  /// A server whose check() names a fault accepts nothing. `draw` is called twice, for the 128 bits of a secret:
-  /// nobody may guess them, and no server may have had them before. Throws only what `draw` throws.
+  /// A server whose check() names a fault accepts nothing. `draw` is called twice, for the 128 bits of a secret, which
+  /// must be unpredictable and new for each server. Throws only what `draw` throws.
   explicit server_with(const server_settings& settings = {}, source draw = draw_number,
                        const Seal& seal = Seal{})
       : settings_(settings), seal_(seal), secret_{draw(), draw()}, sound_(!check()) {}
@@ -62,11 +62,11 @@ class server_with {
 
   struct heard {
     verdict what = verdict::accepted;
-    bool asked = false;  ///< it was a question: answers go to its sender, and nobody else
+    bool asked = false;               ///< it was a question; send answers to its sender only
     std::optional<datagram> reply{};  ///< to be sent to the sender at once
   };
 
-  /// Takes any bytes that have come from there, and says what became of them.
+  /// Judges bytes received from `from`, which may be anything.
   heard receive(received_bytes bytes, const sender& from, nanoseconds now) noexcept {
     const heard found = judged(bytes, from, now);
     tally_.book(found.what);
@@ -80,8 +80,8 @@ class server_with {
     return &question_;
   }
 
-  /// What to send to the client: what there is to be touched, and for which question that was computed.
-  /// Call it as often as there is news, any number of times for a question.
+  /// The datagram for the client: a surface, with the stamp of the question for which it was computed. Call it for every
+  /// new surface, any number of times for a question.
   [[nodiscard]] datagram answer(const content& what, const question& of) noexcept {
     return sealed({.kind = kind::answer,
                    .key = client_.key,
@@ -135,7 +135,7 @@ class server_with {
   [[nodiscard]] static constexpr std::int64_t slot(nanoseconds now) noexcept {
     return now / std::chrono::seconds(4);
   }
-  /// The number of the session that this key at this place is offered in this slot of time.
+  /// The session number that is offered to this key at this address in time slot `when` of 4 s.
   [[nodiscard]] std::uint64_t cookie(std::uint64_t key, const sender& to,
                                      std::int64_t when) const noexcept {
     std::array<std::byte, 38> bytes{};
@@ -165,7 +165,7 @@ class server_with {
       number_ = 0;
       ++sessions_;
     }
-    // No reply: who has read the client's datagrams must not get a `lost` for it by sending one of them.
+    // There is no reply, so that a datagram copied from the client and sent from elsewhere provokes no `lost`.
     if (from != client_.place) return {verdict::stranger};
     if (m.content.form != form::probe) return {verdict::malformed};
     if (const auto order = order_.judge(m.sequence); order != verdict::accepted) return {order};

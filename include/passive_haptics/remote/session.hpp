@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Who talks to whom: what both ends of a session have in common.
+// The parts that both ends of a session share: random numbers, the order of datagrams, the counts of verdicts.
 //
 // The client draws 64 bits at random, the server hashes 64, and questions and answers carry both numbers, so
-// strays are refused, and datagrams of a sender who cannot see the numbers, too. But whoever can READ the traffic
-// can forge it, unless the datagrams are sealed (seal.hpp), and whoever can stop it can stop the session. Where
-// the network is not yours, seal them, or put both machines into an encrypted tunnel (WireGuard, IPsec).
+// stray datagrams are refused, and those of a sender who cannot see the numbers. But a reader of the traffic can
+// forge datagrams unless they are sealed (seal.hpp), and a router can stop the session. On a network that is not
+// yours seal them, or put both machines into an encrypted tunnel (WireGuard, IPsec).
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/remote/wire.hpp>
@@ -50,7 +50,7 @@ class tally {
 
 namespace detail {
 
-/// Lets each number pass once, and only upwards.
+/// Accepts each sequence number once, and only rising ones.
 class in_order {
  public:
   [[nodiscard]] constexpr verdict judge(std::uint32_t number) const noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A UDP socket that waits in wait() only. It is for POSIX systems; elsewhere every call fails with ENOTSUP,
+// A UDP socket whose only blocking call is wait(). It is for POSIX systems; elsewhere every call fails with ENOTSUP,
 // and client and server need another carrier of bytes.
 //
 //     remote::udp_socket line;
@@ -90,7 +90,7 @@ class endpoint {
     return {};
   }
 
-  /// Is there an address?
+  /// True if there is an address.
   [[nodiscard]] explicit operator bool() const noexcept {
     return family() != 0;
   }
@@ -101,7 +101,7 @@ class endpoint {
 #endif
     return 0;
   }
-  /// The same for a server, which knows no sockets; all zero where there is no address.
+  /// Address and port as a `sender`, for a server; all zero if there is no address.
   [[nodiscard]] operator sender() const noexcept {
     sender same{.port = port()};
 #ifdef PASSIVE_HAPTICS_HAS_SOCKETS
@@ -158,7 +158,7 @@ class endpoint {
 #endif
 };
 
-/// How a call went. Converts to true when all is well.
+/// The result of a call. It converts to true if the call succeeded.
 struct [[nodiscard]] udp_result {
   enum class call : std::uint8_t { none, open, send, receive, wait };
   call failed = call::none;
@@ -167,7 +167,7 @@ struct [[nodiscard]] udp_result {
   constexpr explicit operator bool() const noexcept { return failed == call::none; }
 };
 
-/// What to do about an error of the system; empty when there is nothing to say.
+/// The remedy of an error of the system; empty if there is none.
 [[nodiscard]] constexpr const char* remedy(const udp_result& r) noexcept {
   switch (r.error) {
     case EADDRINUSE:
@@ -249,7 +249,7 @@ class udp_socket {
     file_ = -1;
   }
 
-  /// Where it listens, with the port that the system has chosen.
+  /// Its own address, with the port that the system has chosen.
   [[nodiscard]] endpoint here() const noexcept {
     sockaddr_storage mine{};
     socklen_t length = sizeof mine;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What crosses the network between a device and its environment on another machine: datagrams of 152 bytes,
-// the same size for every kind and both ways, so that no reply is larger than what it replies to. A seal may
-// add bytes of its own at the end (seal.hpp), also the same number for every kind.
+// The datagrams between a device and its environment on another machine. They have 152 bytes for every kind and in
+// both directions, so that no reply is larger than its request (no amplification). A seal may add bytes at the end
+// (seal.hpp), also the same number for every kind.
 //
 //   offset  bytes
 //        0      4   'P' 'H' 'R' 'C'
@@ -11,10 +11,10 @@
 //        6      1   form of the content
 //        7      1   0
 //        8      8   key       drawn by the client, in every datagram
-//       16      8   session   the server's cookie for this client, in every datagram but a hello and its busy
+//       16      8   session   the server's cookie for this client, in every datagram but hello and busy
 //       24      4   sequence  counted by the sender from 1; 0 in what is neither question nor answer
 //       28      4   CRC-32 of the other 148 bytes (IEEE 802.3)
-//       32      8   stamp     the client's clock when it asked [ns]; whatever replies to that echoes it
+//       32      8   stamp     the client's clock when it asked [ns]; every reply echoes it
 //       40    112   content   14 numbers of binary64; those that a form does not use are 0
 //
 //   content       0-2        3-5          6             7-9      10   11   12         13
@@ -43,11 +43,11 @@ namespace remote {
 using nanoseconds = std::chrono::nanoseconds;
 
 inline constexpr std::size_t datagram_size = 152;
-inline constexpr std::size_t longest_seal = 64;  ///< a seal may add so many bytes
+inline constexpr std::size_t longest_seal = 64;  ///< most bytes that a seal may add
 using datagram = std::array<std::byte, datagram_size>;
 using received_bytes = std::span<const std::byte>;
 
-/// Whose datagram it is, as the carrier says: an IPv6 address, most significant byte first, or an IPv4 address
+/// The sender of a datagram, as its carrier reports it: an IPv6 address, most significant byte first, or an IPv4 address
 /// mapped into it (RFC 4291, 2.5.5.2), and a port. All zero on a carrier without addresses.
 struct sender {
   std::array<std::uint8_t, 16> address{};
@@ -58,14 +58,14 @@ struct sender {
 
 enum class kind : std::uint8_t {
   hello = 1,  ///< client: asks for a session under its key
-  welcome,    ///< server: offers a session; it begins when a question brings its number back
+  welcome,    ///< server: offers a session, which begins when a question returns its number
   question,   ///< client: says where the device is
   answer,     ///< server: says what the device touches
   lost,       ///< server: knows no such session; the client has to say hello again
   busy,       ///< server: has another client
 };
 
-/// What the content of an answer or a question is.
+/// The kind of content of an answer or a question.
 enum class form : std::uint8_t {
   nothing,  ///< there is nothing to be touched
   plane,    ///< half_space
@@ -92,7 +92,7 @@ struct message {
   bool operator==(const message&) const = default;
 };
 
-/// What became of some bytes, in the order of the checks. decode() makes those up to not_finite, a client or a
+/// The verdict on received bytes, in the order of the checks. decode() makes those up to not_finite, a client or a
 /// server the rest.
 enum class verdict : std::uint8_t {
   accepted,
@@ -105,11 +105,11 @@ enum class verdict : std::uint8_t {
   not_finite,     ///< a number is NaN or infinite
   misdirected,    ///< of a kind that this end sends itself
   stranger,       ///< without the key, or not of this session
-  repeated,       ///< it has come before
-  overtaken,      ///< older than one that has come
+  repeated,       ///< its sequence number was received before
+  overtaken,      ///< older than one that was received
   untrue_stamp,   ///< echoes a stamp never sent, or one older than the last that was answered
   too_old,        ///< answers a question of too long ago
-  unusable,       ///< a surface that no local model takes
+  unusable,       ///< a surface that no local model accepts
   turned_away,    ///< from another client, while the present one still asks
 };
 inline constexpr std::size_t verdicts = 16;
