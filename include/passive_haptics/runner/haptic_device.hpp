@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Any haptic device: a force goes in, a sample comes out. The type of exchange() tells the port.
+// The contract of a haptic device: exchange() takes a force and returns a sample. Its type determines the port.
 //
 //     struct my_device {
 //       ph::device_sample<scene> exchange(const scene::vector& force) noexcept {
 //         sdk_set_force(force(0), force(1), force(2));
 //         return {.position = sdk_position(), .held = force, .dt = watch_.lap(), .valid = sdk_ok()};
 //       }
-//       bool unplugged() const noexcept { return sdk_gone(); }   // if it can tell
+//       bool unplugged() const noexcept { return sdk_gone(); }   // optional
 //       ph::stopwatch watch_;
 //     };
 
@@ -31,7 +31,7 @@ struct exchanged<device_sample<P> (D::*)(Effort) noexcept> {
 
 struct no_reading {};
 
-/// latest() of a device that has it: what it tells beside its samples.
+/// The type of latest(), the readings of a device besides its samples, if it has that function.
 template <class D>
 [[nodiscard]] constexpr auto reading_of(const D& device) noexcept {
   if constexpr (requires { device.latest(); }) {
@@ -57,7 +57,7 @@ template <class D>
 using port_of_device = typename detail::exchanged<decltype(&D::exchange)>::port;
 
 /// haptic_device_for the port that its exchange() names. Optional are unplugged(), true once the device is
-/// gone until it is opened again, and latest(), which tells more than a sample.
+/// gone until it is opened again, and latest(), which has readings besides the sample.
 template <class D>
 concept haptic_device = requires {
   typename port_of_device<D>;

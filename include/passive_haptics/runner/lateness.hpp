@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How late is this loop, which longest_tick is to be stated for it, and what does that cost?
+// The distribution of the tick lengths of a loop, the longest_tick [s] to state, and the stiffest wall that this leaves.
 //
 //     const auto offer = ph::offer_longest_tick(touch.timing().lengths, 1e-4, device);
 //     std::puts(ph::describe(offer, text));   // longest_tick 1.114 ms: 6 of 60000 ticks were longer; …
 //     ph::loop_limits{.longest_tick = offer.longest_tick}
 //
-// A longest_tick T that every tick keeps is honest, but the wall may be soft: stiffness falls as 2 b/T or
-// faster. A T that some ticks exceed allows a stiffer wall. Each of those is an event::late_tick, and the
-// ledger books what the force did in it: at worst a debt. You choose the share of ticks that may be late.
+// The stiffness of a wall falls as 2 b/T [N/m] or faster with longest_tick T, so a T that no tick exceeds may leave it
+// soft, and a T that some ticks exceed allows a stiffer wall. Each of these is an event::late_tick, and the ledger
+// books the work of the force in it, which may be a debt. You choose the share of ticks that may be late.
 //
 // The histogram counts in buckets of 1/64 of the length and answers with the upper end of a bucket: never less
 // than what was measured, and at most 1.6 % more. It takes 16 kB and no heap.
@@ -113,8 +113,8 @@ struct tick_offer {
   [[nodiscard]] constexpr bool enough() const noexcept { return measured >= needed(); }
 };
 
-/// `share`, 0 to 1, of the ticks may be longer; the longest_tick of `device` is set by this. For a device of
-/// which only the viscous damping is known, state friction and quantum 0: the wall is 2 b/T then.
+/// Offers the longest_tick that at most `share`, 0 to 1, of the ticks exceed, and the wall of `device` with it. For a
+/// device of which only the viscous damping is known, state friction and quantum 0: then the wall is 2 b/T.
 [[nodiscard]] constexpr tick_offer offer_longest_tick(
     const duration_histogram& lengths, double share, design::stated_device device,
     const design::intended_use& use = {}) noexcept {

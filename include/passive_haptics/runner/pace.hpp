@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// When the next tick is due.
+// Waits until the next tick is due, and measures the time since the last [ns].
 //
 //   due      0        T        2T        3T                    wakes are measured, never assumed
 //   wake     │        │·       │··       │        ········│        │
@@ -28,7 +28,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// A clock that nobody sets, and a sleep until one of its instants.
+/// A monotonic clock, and a sleep until one of its instants.
 template <class C>
 concept pacing_clock = measuring_clock<C> && requires(C c, std::chrono::nanoseconds t) {
   c.sleep_until(t);

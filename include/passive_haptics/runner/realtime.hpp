@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a haptic thread asks of the computer, so that nothing else takes its turn:
+// Requests of a haptic thread to the operating system, so that its ticks are on time:
 //
 //   priority       SCHED_FIFO: the thread runs before all threads that have none
 //   memory         mlockall and a touched stack: no page has to be fetched in a tick
 //   core           the thread stays on one core; boot with isolcpus=N to keep others off it
 //
-// Each may be refused. The loop then runs all the same, with later ticks, and the report says what was
-// refused, why, and what to do. This is for Linux only; elsewhere the report says that nobody was asked. A
-// kernel without PREEMPT_RT is late by milliseconds now and then, whatever the priority.
+// Each may be refused. The loop then runs all the same, with later ticks, and the report has each refusal, its reason
+// and its remedy. This is for Linux only; elsewhere the report says `unsupported`. A kernel without PREEMPT_RT is late by
+// milliseconds now and then, whatever the priority.
 
 #include <passive_haptics/runner/text.hpp>
 
@@ -27,7 +27,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// What is asked for. The default asks for nothing.
+/// The requests; by default there are none.
 struct realtime_request {
   int priority = 0;          ///< priority of SCHED_FIFO, 1 to 99; 0 asks for none
   bool lock_memory = false;  ///< lock the memory of the process, for as long as it lives
@@ -36,7 +36,7 @@ struct realtime_request {
 
 enum class grant : std::uint8_t { not_asked, granted, refused, unsupported };
 
-/// What became of a request.
+/// The answer of the system to each request.
 struct realtime_report {
   struct answer {
     grant what = grant::not_asked;

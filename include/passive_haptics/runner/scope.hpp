@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A scope: the last N ticks, kept in the loop and looked at afterwards.
+// A scope: it keeps the last N ticks of a loop, to be read afterwards.
 //
 //     static ph::scope<scene, 4096> seen{ph::event::late_tick};   // freezes N/2 ticks after that event
 //     …  const auto out = wall.tick(sample);  seen.record(sample, out);        // in the loop
-//     …  seen.explain(wall.explain());         // before record(), where it is to be known why a force is what it is
+//     …  seen.explain(wall.explain());         // before record(), to record why the force is smaller than asked for
 //     …  if (seen.frozen()) ph::save(seen, "scope.csv");                       // elsewhere, afterwards
 //     gnuplot -e "file='scope.csv'" examples/scope.gp
 //
@@ -41,8 +41,8 @@ struct scope_row {
   typename Port::scalar energy{};         ///< E1 [J]
   double asked{}, shown{};                ///< stiffness, if the port explained itself [N/m]
   event what = event::nominal;
-  softened_by stiffness = softened_by::nothing;  ///< why less is shown than asked
-  softened_by now = softened_by::nothing;        ///< why the effort is less than that
+  softened_by stiffness = softened_by::nothing;  ///< reason why `shown` < `asked`
+  softened_by now = softened_by::nothing;        ///< reason why `given` < `shown`·`depth`
   bool limited = false;
   bool valid = false;  ///< the sample was valid
   bool has_wanted = false;
@@ -65,7 +65,7 @@ class scope {
   scope() noexcept = default;
   explicit scope(event least) noexcept : least_(least), armed_(true) {}
 
-  /// In the loop, after the tick. `out` is what it returned.
+  /// Adds a row. Call it in the loop after the tick, with the result `out` of that tick.
   template <class Result>
   void record(const device_sample<Port>& sample, const Result& out) noexcept {
     keep(sample.position, sample.dt, sample.valid, nullptr, out);
@@ -83,24 +83,24 @@ class scope {
               const effort& wanted) noexcept {
     keep(position, dt.count(), true, &wanted, out);
   }
-  /// A number where dt belongs could be a position as well: this does not compile.
+  /// Deleted: a bare number as dt could as well be a position.
   template <std::convertible_to<scalar> Number, class Result>
   void record(const pose& /*position*/, const Number& /*dt*/, const Result& /*out*/,
               const effort& /*wanted*/ = {}) noexcept {
     detail::refuse_bare_time<Number>();
   }
 
-  /// What the port says of itself, for the row that is recorded next. In the loop; explain() takes as long as some
-  /// ticks, so not in each where time is short.
+  /// Adds the explanation of the port to the row that is recorded next. Call it in the loop, but where time is short not
+  /// in every tick, because the port's explain() takes as long as some ticks.
   void explain(const explanation& e) noexcept {
     said_ = e;
     is_said_ = true;
   }
-  /// Triggers on anything that no event tells, such as a large force: in the loop, before record().
+  /// Triggers without an event, on a large force for example. Call it in the loop, before record().
   void trigger() noexcept {
     if (!triggered_) pull(written_);
   }
-  /// Clears the rows and the trigger. In the loop, or while it does not run.
+  /// Clears the rows and the trigger. Call it in the loop, or while no loop runs.
   void clear() noexcept {
     written_ = 0;
     time_ = 0.0;
@@ -108,7 +108,7 @@ class scope {
     frozen_ = false;
   }
 
-  /// True once nothing is recorded any more. Any thread may ask.
+  /// True once nothing is recorded any more. Any thread may call it.
   [[nodiscard]] bool frozen() const noexcept { return frozen_; }
   /// The number of rows, at most N.
   [[nodiscard]] std::size_t size() const noexcept {
@@ -118,7 +118,7 @@ class scope {
   [[nodiscard]] const row& operator[](std::size_t i) const noexcept {
     return rows_[static_cast<std::size_t>((written_ - size() + i) % N)];
   }
-  /// Whether it was triggered, and in which tick of the recording.
+  /// True if it was triggered; and the tick of the recording in which it was.
   [[nodiscard]] bool triggered() const noexcept { return triggered_; }
   [[nodiscard]] std::uint64_t triggered_at() const noexcept { return at_; }
 
@@ -310,7 +310,7 @@ void write_row(csv_line& line, const scope_row<Port>& r) {
 }  // namespace detail
 
 /// Writes a heading with units and a line for each row, the oldest first, with empty fields for what was not
-/// recorded. False if the file cannot be written. Not for the loop.
+/// recorded. Returns false if the file cannot be written. Do not call it in the loop.
 template <class Port, std::size_t N>
 bool save(const scope<Port, N>& seen, const char* path,
           const scope_units& units = detail::usual_units<Port>()) {

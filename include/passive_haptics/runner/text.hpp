@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Writes sentences into memory that the caller gives, cut off where it is too small.
+// Writes text into memory of the caller, and cuts it off at the end of that.
 
 #include <passive_haptics/base/language.hpp>
 
