@@ -3,7 +3,7 @@
 // CHAI3D: a passive port in front of a device, and the surface of a mesh for a local model. Needs CHAI3D's
 // src/ in the include path, 3.2 or later.
 //
-//   tool ─▶ passive_device ─▶ PORT ─▶ your device          whatever CHAI3D computes, the hand gains nothing
+//   tool ─▶ passive_device ─▶ PORT ─▶ your device          whatever CHAI3D computes, the hand gains no energy
 //              position, force in raw metres and newtons
 //
 //     chai3d::cGenericHapticDevicePtr falcon;
@@ -11,13 +11,13 @@
 //     auto device = ph::adapters::make_passive_device(falcon, ph::make_guard<scene>(facts, hand));
 //     tool->setHapticDevice(device);                      // instead of falcon; all else as it was
 //
-// The port counts what the device itself says, not what the tool makes of it: a workspace that is scaled by 5
-// gives positions that are five times too long, and a ledger on them loses joules. One that ticks on the
-// device's own is right at every scale.
+// The port uses the positions of the device in metres, not the scaled ones of the tool. In a workspace scaled by 5
+// those are five times too large, and a ledger computed from them is wrong by joules; with the positions of the
+// device it is right at every scale.
 //
-//   proxy_probe     where a mesh that deforms is now, as a plane for a local model: a finger proxy that is
-//                   older than the mesh has fallen through it, so each update sends a new one from outside
-//   facts_of        what CHAI3D knows of a device
+//   proxy_probe     the surface of a deforming mesh as a plane for a local model: a finger proxy from before the
+//                   deformation may lie behind the mesh, so each update starts a new one from outside
+//   facts_of        the specifications that CHAI3D has of a device
 
 #include <passive_haptics/adapters/poses.hpp>
 #include <passive_haptics/base/stopwatch.hpp>
@@ -50,13 +50,13 @@ namespace chai3d_types {
   return all;
 }
 
-/// What every passive_device is, whatever its port: how one knows another.
+/// The base of every passive_device, by which one is recognised whatever its port.
 class decorated : public ::chai3d::cGenericHapticDevice {};
 
 }  // namespace chai3d_types
 
-/// What CHAI3D's source says of a device. Its damping is what it recommends to a controller, not what the
-/// device has, so it is no fact here.
+/// The facts of a device in CHAI3D's source. Its damping is the largest for a controller, not that of the device, so
+/// it is left out.
 [[nodiscard]] inline design::device_facts facts_of(const ::chai3d::cHapticDeviceInfo& info) {
   constexpr const char* source = "CHAI3D, cHapticDeviceInfo";
   return {.peak_force = said_by(source, info.m_maxLinearForce),
@@ -66,14 +66,14 @@ class decorated : public ::chai3d::cGenericHapticDevice {};
 
 /// A device whose every force goes through a port; in all else it is the device that it decorates.
 ///
-/// `Port` is a passive_port at a given_force or a settled_force: of space<S, 3> or stylus, and then a torque is refused, or of
-/// rigid_body, and then force and torque are one wrench. The force of a gripper is refused: no port here has
-/// its work in the ledger. What is refused is not sent, and has_refused() says so.
+/// `Port` is a passive_port at a given_force or a settled_force. With space<S, 3> or stylus a torque is refused; with
+/// rigid_body force and torque are one wrench. The force of a gripper is always refused, because no ledger here books its
+/// work. A refused torque or force is not sent, and has_refused() is true.
 ///
-/// A device that takes no force, which its setForce… says by false, has to let go of the last one.
+/// A device whose setForce… returns false has refused the force, and must not go on holding the last one.
 ///
 /// The position is read again when the force is about to be sent, so that the motion between two sends is
-/// paired with the force that was held in between. `Clock` tells how long that was.
+/// paired with the force that was held in between. `Clock` measures that time.
 template <class Port, measuring_clock Clock = steady_time>
 requires hand_port<typename Port::port_type>
 class passive_device final : public chai3d_types::decorated {
@@ -90,9 +90,8 @@ class passive_device final : public chai3d_types::decorated {
     copy_state();
   }
 
-  /// What stands in the way, if anything does: no device, one that has a port already, a parameter of the
-  /// port, or, once it is open, a position that is none in metres. Such a device does not open, and is sent
-  /// no force.
+  /// The first fault, if any: no device, a device that has a port already, a parameter of the port, or, once it is
+  /// open, a position that cannot be in metres. A device with a fault does not open, and is sent no force.
   [[nodiscard]] parameter_fault check() const {
     if (fault_) return fault_;
     if (const auto fault = port_.check()) return fault;
@@ -102,7 +101,7 @@ class passive_device final : public chai3d_types::decorated {
   bool open() override {
     unit_fault_ = {};
     if (check() || !device_->open()) return false;
-    copy_state();  // a device knows what it is only now
+    copy_state();  // a device has its specifications only once it is open
     port_.reset();
     watch_.reset();
     if (vector3 x; device_->getPosition(x)) {
@@ -118,7 +117,7 @@ class passive_device final : public chai3d_types::decorated {
     return done;
   }
 
-  /// The wanted force [N], torque [N·m] and gripper force go in, what the port grants goes on to the device.
+  /// Passes the wanted force [N] and torque [N·m] through the port, and sends the result to the device.
   bool setForceAndTorqueAndGripperForce(const vector3& force, const vector3& torque,
                                         double gripper_force) override {
     if (fault_ || unit_fault_) return false;
@@ -126,18 +125,18 @@ class passive_device final : public chai3d_types::decorated {
     last_ = tick(force, torque);
     const auto [f, t] = split(last_.force);
     if (device_->setForceAndTorqueAndGripperForce(f, t, 0.0)) return true;
-    // What was commanded was not held, so the next motion counts as unknown.
+    // The command was not held, so the force during the next motion is unknown.
     last_ = port_.tick(device_sample<port_type>{.dt = scalar(1e-3), .valid = false});
     return false;
   }
 
-  /// Of the last tick: the event, the energy [J], whether the force was limited.
+  /// The result of the last tick: the event, the energy [J], whether the force was limited.
   [[nodiscard]] const result_type& last() const noexcept { return last_; }
-  /// Was there a torque or a gripper force in the last command that no ledger counts?
+  /// True if the last command had a torque or a gripper force that was refused.
   [[nodiscard]] bool has_refused() const noexcept { return refused_; }
   [[nodiscard]] const Port& port() const noexcept { return port_; }
 
-  // The device's own, every one of them.
+  // All other functions are those of the device.
   bool calibrate(bool force = false) override { return device_->calibrate(force); }
   bool getPosition(vector3& x) override { return device_->getPosition(x); }
   bool getLinearVelocity(vector3& v) override { return device_->getLinearVelocity(v); }
@@ -164,7 +163,7 @@ class passive_device final : public chai3d_types::decorated {
 
  private:
   using effort = typename port_type::effort;
-  /// Does a torque do work at this port?
+  /// True if the port books the work of a torque.
   static constexpr bool turns = port_type::dof == 6;
 
   [[nodiscard]] static parameter_fault fault_of(const ::chai3d::cGenericHapticDevice* device) {
@@ -215,12 +214,12 @@ class passive_device final : public chai3d_types::decorated {
     }
   }
 
-  parameter_fault fault_;                     ///< of the device, found when it was given
+  parameter_fault fault_;                     ///< fault of the device, found by the constructor
   ::chai3d::cGenericHapticDevicePtr device_;  ///< never null
   Port port_;
   basic_stopwatch<Clock> watch_{};
   result_type last_ = nothing_yet<result_type, port_type>();
-  parameter_fault unit_fault_{};  ///< of where it is, found when it is opened
+  parameter_fault unit_fault_{};  ///< fault of its position, found by open()
   bool refused_ = false;
 };
 
@@ -230,13 +229,13 @@ template <class Port>
   return std::make_shared<passive_device<Port>>(std::move(device), port);
 }
 
-/// From the device's metres to those of the scene: x' = o + R s x.
+/// The map of a position x [m] of the device to the scene: x' = o + R s x.
 struct workspace_map {
   double scale = 1.0;  ///< s
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< R
 
-  /// Of a tool, as it is now.
+  /// The present map of a tool.
   template <class Tool>
   [[nodiscard]] static workspace_map of(Tool& tool) {
     return {tool.getWorkspaceScaleFactor(), chai3d_types::vector(tool.getGlobalPos()),
@@ -257,8 +256,8 @@ struct workspace_map {
   }
 };
 
-/// The tangent plane at a proxy, seen from the device inside; none where they are at the same place, which is
-/// free space. Both positions in metres of one frame, the stiffness in newtons a metre of it.
+/// The tangent plane at a proxy outside, for a device inside the body; none if they are at the same place, as in free
+/// space. Both positions are in metres of one frame, the stiffness in N/m of it.
 template <real S = double>
 [[nodiscard]] std::optional<half_space<space<S, 3>>> tangent_plane(const Eigen::Vector3d& proxy,
                                                                    const Eigen::Vector3d& device,
@@ -271,10 +270,9 @@ template <real S = double>
                                  .stiffness = static_cast<S>(stiffness)};
 }
 
-/// Asks a world where the surface under the device is, with a new proxy that comes from outside along the
-/// last normal. A device just above the surface is told of it, too, or it would be let in until the next
-/// update. Call it once for each update of the mesh, in the thread that deforms it, and publish what it
-/// says:
+/// Finds the surface of a world under the device, by a new proxy that comes from outside along the last normal. It finds
+/// the surface for a device just above it, too, which else could enter the body until the next update. Call it
+/// once for each update of the mesh, in the thread that deforms it, and publish the result:
 ///     inbox.publish(probe.at(x, 800.0));                              // exchange<std::optional<plane>>
 ///     if (const auto* news = inbox.take()) { if (*news) touch.update(**news); else touch.release(); }
 template <real S = double>
@@ -282,8 +280,8 @@ class proxy_probe {
  public:
   using plane = half_space<space<S, 3>>;
 
-  /// The finger's radius, how far outside it begins and how far below it looks [m of the scene], and which
-  /// way out is at first.
+  /// `radius` is that of the finger, and the proxy starts `reach` outside of the device and goes `reach` below it [m of the
+  /// scene]. `outward` is the first normal.
   proxy_probe(::chai3d::cWorld* world, double radius, double reach, const workspace_map& map = {},
               const Eigen::Vector3d& outward = Eigen::Vector3d::UnitZ())
       : world_(world), radius_(radius), reach_(reach), map_(map), normal_(outward.normalized()) {}
@@ -298,14 +296,14 @@ class proxy_probe {
     return map_.check();
   }
 
-  /// `device` [m], its own; `stiffness` of the mesh [N/m of the scene]. The plane is the device's: in its
-  /// frame and metres, with scale times the stiffness. None where nothing is within reach, where a number is
-  /// none, and after a fault.
+  /// `device` is a position [m] in the frame of the device, `stiffness` that of the mesh [N/m of the scene]. The plane is
+  /// in the frame and metres of the device, with s times the stiffness. There is none if nothing is within reach, if a
+  /// number is not finite, and with a fault.
   [[nodiscard]] std::optional<plane> at(const Eigen::Vector3d& device, double stiffness) {
     if (check() || !device.allFinite() || !(stiffness >= 0.0)) return {};
     const Eigen::Vector3d here = map_.to_scene(device), start = here + reach_ * normal_;
     Eigen::Vector3d goal = here, there = stop(start, goal);
-    if (!((there - goal).norm() > 1e-9)) {  // nothing is in the way, so look where it may go next
+    if (!((there - goal).norm() > 1e-9)) {  // no surface up to the device, so search below it
       goal = here - reach_ * normal_;
       there = stop(start, goal);
     }
@@ -320,7 +318,7 @@ class proxy_probe {
   }
 
  private:
-  /// Where a proxy that comes from `start` stops on its way to `goal`.
+  /// The place [m] at which a proxy stops on its way from `start` to `goal`.
   [[nodiscard]] Eigen::Vector3d stop(const Eigen::Vector3d& start, const Eigen::Vector3d& goal) {
     ::chai3d::cAlgorithmFingerProxy proxy;
     proxy.initialize(world_, chai3d_types::vector(start));

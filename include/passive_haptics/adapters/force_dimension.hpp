@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Force Dimension's DHD: a haptic device that says what it held and how heavy it is. Needs dhdc.h in the
+// Force Dimension's DHD: a haptic device that reports the force that it held and its mass. Needs dhdc.h in the
 // include path.
 //
 //     ph::adapters::force_dimension<scene> omega;
@@ -10,10 +10,9 @@
 //       sample = omega.exchange(touch.tick(sample).force);                 // the call paces the loop
 //     }
 //
-// `held` in a sample is what the motors really did: where the SDK says that they saturated, it is asked for
-// the force it applied. A sample that its time guard repeated is asked for again: a position that is old
-// looks like a device that stands still. Forces that DRD's regulation adds are behind the port, and no ledger
-// sees them.
+// `held` in a sample is the force of the motors: if the SDK reports that they saturated, it is the force that the SDK
+// applied. A sample that the time guard of the SDK repeats is read again, because an old position looks like
+// a device at rest. Forces that DRD's regulation adds are behind the port, and no ledger books them.
 
 #include <passive_haptics/adapters/poses.hpp>
 #include <passive_haptics/device/rigid_body.hpp>
@@ -31,7 +30,7 @@ namespace adapters {
 
 /// The least apparent mass [kg] of a handle with this inertia [kg, kg·m, kg·m²], (velocity, turning rate) in
 /// that order, over all directions of its travel. A wrist that is free to turn makes it lighter: M_tt − M_tr
-/// M_rr⁻¹ M_rt. Zero if it is none.
+/// M_rr⁻¹ M_rt. Zero if the matrix is no inertia.
 [[nodiscard]] inline double least_apparent_mass(const Eigen::Matrix<double, 6, 6>& inertia) {
   Eigen::Matrix3d moving = inertia.topLeftCorner<3, 3>();
   const Eigen::Matrix3d turning = inertia.bottomRightCorner<3, 3>();
@@ -46,7 +45,7 @@ namespace adapters {
 }
 
 namespace dhd {
-/// The largest force that the SDK lets its motors hold [N]; older ones do not say, and this is 0.
+/// The largest force that the SDK lets its motors hold [N]; 0 for older SDKs, which do not report it.
 template <class Id>
 [[nodiscard]] double most_force(Id id) {
   if constexpr (requires { dhdGetMaxForce(id); }) {
@@ -100,8 +99,8 @@ class force_dimension {
   }
   [[nodiscard]] bool is_open() const noexcept { return id_ >= 0; }
 
-  /// Sends a force [N], and a torque [N·m], and says where the handle is then. The force of a gripper is
-  /// zero: no port counts it. A number that is none is sent as zero.
+  /// Sends a force [N] and a torque [N·m], and returns the position of the handle after that. The force of a gripper is
+  /// zero, because no port books it. A number that is not finite is sent as zero.
   [[nodiscard]] sample_type exchange(const effort& wanted) noexcept {
     const effort sent = Port::is_finite(wanted) ? wanted : effort(Port::zero());
     const int said = send(sent);
@@ -114,12 +113,12 @@ class force_dimension {
     return sample;
   }
 
-  /// Exchanges since open() in which the motors could not do what they were told, and those that the SDK refused.
+  /// Exchanges since open() in which the motors could not hold the command, and those that the SDK refused.
   [[nodiscard]] unsigned long saturated() const noexcept { return saturated_; }
   [[nodiscard]] unsigned long failed() const noexcept { return failed_; }
 
-  /// The least apparent mass where the handle is now [kg], 0 if the SDK does not say: ask at the corners of
-  /// the workspace too, and take the smallest.
+  /// The least apparent mass at the present pose [kg], 0 if the SDK has none. Call it at the corners of the workspace,
+  /// too, and take the smallest.
   [[nodiscard]] double least_mass() const {
     double joints[DHD_MAX_DOF] = {}, inertia[6][6] = {};
     if (!is_open() || dhdEnableExpertMode() < 0) return 0.0;
@@ -130,7 +129,7 @@ class force_dimension {
     return least_apparent_mass(matrix_of(inertia));
   }
 
-  /// What the SDK says of an open device. It knows of no damping and no friction.
+  /// The facts of an open device in the SDK, which has neither damping nor friction.
   [[nodiscard]] design::device_facts facts() const {
     if (!is_open()) return {};
     return {.name = dhdGetSystemName(id_),
@@ -161,7 +160,7 @@ class force_dimension {
       return dhdSetForceAndTorqueAndGripperForce(n(0), n(1), n(2), 0.0, 0.0, 0.0, 0.0, id_);
     }
   }
-  /// What saturated motors hold, or what they were told if the SDK does not say.
+  /// The force that saturated motors hold, or the command if the SDK does not report it.
   [[nodiscard]] effort applied(const effort& told) const noexcept {
     double f[3] = {}, t[3] = {}, g = 0.0;
     if (dhdGetForceAndTorqueAndGripperForce(&f[0], &f[1], &f[2], &t[0], &t[1], &t[2], &g, id_) <
@@ -175,7 +174,7 @@ class force_dimension {
     }
     return held;
   }
-  /// False: nothing new was to be had.
+  /// Reads the pose; returns false if there is no new one.
   bool read(typename Port::stored_pose& into) const noexcept {
     if (!is_open()) return false;
     Eigen::Vector3d x;

@@ -14,11 +14,11 @@
 //     if (const auto fault = touch.start()) return complain(fault);
 //     hdStartScheduler();                                               // yours: once, for all devices
 //
-// Whoever has a force already, from HLAPI's or their own renderer, has a make_guard, and a feed
-// that returns that force:  [&](auto& port, const auto& x) { return renderer.force(x); }.
+// For a force that is given already, by HLAPI or your own renderer, take make_guard, and a feed that returns that
+// force:  [&](auto& port, const auto& x) { return renderer.force(x); }.
 //
-// Each device has its own object: its frame makes it the current one. The driver is asked for the time of a
-// tick as a rate; hdGetSchedulerTimeStamp() tells the time WITHIN a tick and is of no use here. A force goes
+// Each device has its own object, whose frame makes it the current one. The length of a tick is the inverse of the
+// driver's rate, because hdGetSchedulerTimeStamp() is the time WITHIN a tick. A force goes
 // out at the end of its frame: measure the latency of your device (identification/measure_latency.hpp) before you state
 // it.
 
@@ -37,7 +37,7 @@ namespace adapters {
 
 /// `Port` is a passive_port or a local_model in space<S, 3>, or of a stylus; the torques of a gimbal are not
 /// pushed. `Feed` is called in the servo thread before each tick, with the port and the position [m] or pose:
-/// it publishes to the port and returns nothing, or returns the wanted force [N]. It must not throw, block or
+/// it updates the port and returns nothing, or returns the wanted force [N]. It must not throw, block or
 /// allocate.
 template <class Port, class Feed>
 requires hand_port<typename Port::port_type> &&(Port::port_type::dof == 3) class open_haptics {
@@ -92,19 +92,19 @@ requires hand_port<typename Port::port_type> &&(Port::port_type::dof == 3) class
     device_ = HD_INVALID_HANDLE;
   }
 
-  /// The driver's code for why it ended the callback, HD_SUCCESS while it runs. Any thread.
+  /// The driver's code of the error that ended the callback, HD_SUCCESS while it runs. Any thread may call it.
   [[nodiscard]] HDerror stopped_by() const noexcept { return stopped_by_; }
-  /// Ticks in which the driver reported an error and nothing was pushed, such as too large a force. Any
-  /// thread.
+  /// The number of ticks in which the driver reported an error, such as too large a force, and no force was held. Any
+  /// thread may call it.
   [[nodiscard]] unsigned long errors() const noexcept { return errors_; }
 
-  /// Of the last tick; in the servo thread, or after stop().
+  /// The result of the last tick. Call it in the servo thread, or after stop().
   [[nodiscard]] const result_type& last() const noexcept { return last_; }
-  /// To set its parameters before start(), or after stop(); in between in the feed only.
+  /// The port, to set its parameters before start() or after stop(); in between use it in the feed only.
   [[nodiscard]] Port& port() noexcept { return port_; }
 
-  /// What the driver says of an open device. Its damping is a controller's, not the device's, so it is no
-  /// fact here.
+  /// The facts of an open device in the driver. Its damping is one for a controller, not that of the device, so it is
+  /// left out.
   [[nodiscard]] design::device_facts facts() const {
     const auto ask = [](HDenum what, double unit) {
       HDdouble value = 0.0;
@@ -149,7 +149,7 @@ requires hand_port<typename Port::port_type> &&(Port::port_type::dof == 3) class
     const HDErrorInfo refused = hdGetError();
     if (HD_DEVICE_ERROR(failed)) return after_error(failed.errorCode);
     if (!HD_DEVICE_ERROR(refused)) return HD_CALLBACK_CONTINUE;
-    // What was commanded was not held, so the next motion counts as unknown.
+    // The command was not held, so the force during the next motion is unknown.
     last_ = port_.tick(device_sample<port_type>{.dt = dt, .valid = false});
     return after_error(refused.errorCode);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What adapters share: a pose and facts out of what an SDK gives, a length in metres.
+// Shared by the adapters: poses and facts from the values of an SDK, and the check that lengths are in metres.
 
 #include <passive_haptics/device/rotation.hpp>
 #include <passive_haptics/identification/device_facts.hpp>
@@ -23,8 +23,8 @@ concept turning_port = port<P> && requires {
 template <class P>
 concept hand_port = turning_port<P> ||(port<P>&& P::dof == 3 && detail::has_geometry<P>);
 
-/// The rotation of a matrix whose columns are the handle's axes in the world, or none if they are no
-/// right-handed frame of unit axes: one that is mirrored would turn the hand's torques round.
+/// The rotation of a matrix whose columns are the axes of the handle in the world, or none if they are no right-handed
+/// frame of unit axes, because a mirrored frame would reverse the torques.
 template <real S>
 [[nodiscard]] std::optional<quaternion<S>> rotation_of(const Eigen::Matrix3d& columns) noexcept {
   const Eigen::Matrix3d from_unit = columns.transpose() * columns - Eigen::Matrix3d::Identity();
@@ -33,8 +33,8 @@ template <real S>
   return quaternion<S>{S(q.w()), S(q.x()), S(q.y()), S(q.z())};
 }
 
-/// A pose of a port from what an SDK says [m], or none if its orientation is no rotation. One that has no
-/// orientation is not asked for it.
+/// The pose of a port from the position [m] and the axes of an SDK, or none if the axes are no rotation. A port without
+/// orientation ignores the axes.
 template <hand_port P>
 [[nodiscard]] std::optional<typename P::pose> pose_of(const Eigen::Vector3d& place,
                                                       const Eigen::Matrix3d& columns) noexcept {
@@ -48,7 +48,7 @@ template <hand_port P>
   }
 }
 
-/// What a port says before it has ticked.
+/// The result of a port before its first tick.
 template <class Result, port P>
 [[nodiscard]] Result nothing_yet() noexcept {
   Result r{};
@@ -56,13 +56,13 @@ template <class Result, port P>
   return r;
 }
 
-/// What the source of an SDK says of a device, if it says anything: zero and less is nothing.
+/// A fact from the source of an SDK; a value ≤ 0 means that the SDK does not know it.
 [[nodiscard]] constexpr design::fact said_by(const char* sdk, double value) noexcept {
   return value > 0.0 ? design::fact{value, design::evidence::software, sdk} : design::fact{};
 }
 
-/// Is a handle so far from the origin [m] in a workspace of this radius [m]? Ten times as far is no place
-/// of it: millimetres that were taken for metres, or a position of the scene instead of the device's.
+/// The fault of a handle farther from the origin than ten radii of the workspace [m]: its position is in millimetres, or
+/// in the scene instead of the device.
 [[nodiscard]] constexpr parameter_fault check_metres(double distance, double radius) noexcept {
   if (!(radius > 0.0) || distance <= 10.0 * radius) return {};
   return {"position", distance,
