@@ -3,14 +3,14 @@
 // Loads the program that makes a Falcon answer packets: the Falcon forgets its program at every power-off.
 //
 //   probe    1.5 MBd    packet ─▶                ◀─ packet          is a program running?
-//   hello    9600 Bd    DTR up, "\nC\r" ─▶       ◀─ "\nD,\r"        the monitor, perhaps a 0 first
+//   hello    9600 Bd    DTR up, "\nC\r" ─▶       ◀─ "\nD,\r"        the monitor, perhaps after a 0
 //   loader   143 kBd    DTR down, CTS?, 'A' ─▶   ◀─ 'A'             the ROM finds the baud rate
 //   image    143 kBd    62 bytes ─▶              ◀─ the same 62     every byte is echoed
 //   program  1.5 MBd    packet ─▶                ◀─ packet          it runs
 //
 // The sequence is that of the open drivers. Only one user has reported that CTS rises when the loader is ready, so
-// the driver waits for CTS for a while and goes on without it. Loading often fails in practice, and is then tried
-// again from the beginning. Every wait has a deadline.
+// the driver waits for CTS up to boot_options::clear_to_send and then goes on without it. Loading often fails, and
+// is then repeated from the beginning. Every wait has a deadline.
 //
 // The program is a boot stream for the ROM of the Falcon's TI C28x. The images are the maker's, and none is
 // shipped here: the user names a file, which is checked before a byte of it is sent:
@@ -88,7 +88,7 @@ class firmware {
     return sound;
   }
 
-  /// Empty until a load() went well.
+  /// The bytes of the image; empty until a load() has succeeded.
   [[nodiscard]] std::span<const byte> bytes() const noexcept {
     return std::span(bytes_).first(size_);
   }
@@ -100,9 +100,9 @@ class firmware {
 
 enum class firmware_policy : byte {
   probe_then_load,  ///< load only if nothing answers
-  always_load,      ///< do not probe, which is said to spoil the next load
+  always_load,      ///< do not probe, because a probe is reported to spoil the next load
   never_load,       ///< probe only
-  assume_running,   ///< do not even probe: for replays
+  assume_running,   ///< neither probe nor load: for replays
 };
 
 enum class boot_step : byte { probe, hello, loader, image, program };
@@ -119,7 +119,7 @@ struct boot_options {
   int hellos = 10;                                      ///< greetings in each attempt
   nanoseconds answer = std::chrono::milliseconds(100);  ///< longest wait for monitor and loader
   nanoseconds clear_to_send = std::chrono::milliseconds(200);  ///< longest wait for CTS
-  probing probe{};                                             ///< how a program is looked for
+  probing probe{};                                             ///< questions of the probe
 };
 
 struct boot_report {
@@ -127,7 +127,7 @@ struct boot_report {
   boot_step step = boot_step::probe;  ///< the last step taken
   int attempts = 0;                   ///< number of attempts to load
   std::size_t echoed = 0;             ///< bytes of the image echoed in the last attempt
-  bool clear_to_send = false;         ///< was CTS seen before the loader was called?
+  bool clear_to_send = false;         ///< CTS had risen before the loader was called
 };
 
 /// The default of Progress, which may be any callable bool(boot_step, done, all); false cancels the boot.

@@ -8,7 +8,7 @@
 //
 // A [1/m] is that of the last reply. The answer to a packet shows where the grip was when the force of that packet
 // BEGAN to be held, so a force computed from it is a tick late: compose with late_loop_limits<1>. `held` in a
-// sample is the force of the packet before, computed from the words really sent.
+// sample is the force of the packet before, computed from the words that were sent.
 // If an exchange ends without a usable position, the motors are sent zero at once.
 
 #include <passive_haptics/device/device_sample.hpp>
@@ -103,7 +103,7 @@ requires(Space::dof == 3) class device {
   }
 
   /// Commands a force [N] and returns the Falcon's answer as a sample. A sample that is not valid has no
-  /// usable position, and latest().what says why.
+  /// usable position, and latest().what has the reason.
   device_sample<Space> exchange(const vector& wanted) noexcept {
     if (!talks()) return nothing();
     if (!Space::is_finite(wanted)) (void)fail({code::force_not_finite});
@@ -126,7 +126,7 @@ requires(Space::dof == 3) class device {
     return locate(held, dt);
   }
 
-  /// fault → unhomed, and from there homed if the device still is. Forces ramp up again.
+  /// fault → unhomed, and → homed if the legs are still homed. Forces ramp up again.
   result recover() noexcept {
     if (now_.where != state::fault) return {};
     if (!talks()) return {now_.what};
@@ -224,7 +224,7 @@ requires(Space::dof == 3) class device {
     return how.what;
   }
 
-  /// Judges a reply and finds the position of the grip; returns ok, or why there is none.
+  /// Judges a reply and finds the position of the grip; returns ok, or the reason why there is none.
   [[nodiscard]] code look(const from_device& reply) noexcept {
     now_.received = reply;
     if (const code doubt = guard_.judge(reply, now_.stamp, setup_); doubt != code::ok) {

@@ -7,8 +7,8 @@
 //     word = −round(k τ) encode            if one is beyond ±4095, ONE factor shortens all three, so the
 //     τ = −word/k        decode            direction of the force is kept and no word wraps
 //
-// The gain k [DAC counts per N·m] has never been published. Hints lie between 2500 and 4000; with the 10 000 of
-// other drivers forces are about three times too strong. Calibrate it (docs/falcon.md).
+// The gain k [DAC counts per N·m] has never been published. Indirect values lie between 2500 and 4000; with the 10 000
+// of other drivers forces are about three times too large. Calibrate it (docs/falcon.md).
 
 #include <passive_haptics/falcon/kinematics.hpp>
 
@@ -44,7 +44,7 @@ template <real S>
 template <real S>
 [[nodiscard]] constexpr force<S> limited(const force<S>& f, S most) noexcept {
   if (!is_finite(f) || !(most > S(0))) return {};
-  const S largest = largest_in(f);  // divided out, so that no square overflows
+  const S largest = largest_in(f);  // f is scaled by it, so that no square overflows
   if (!(largest > S(0))) return f;
   const force<S> direction = S(1) / largest * f;
   const S length = norm(direction) * largest;

@@ -71,7 +71,7 @@ class sender {
   std::array<byte, capacity> bytes_{};
   std::size_t first_ = 0, count_ = 0;
   nanoseconds latency_ = std::chrono::milliseconds(16);
-  nanoseconds since_{0};  ///< since the last packet went out
+  nanoseconds since_{0};  ///< time since the last packet went out
   int event_ = -1;        ///< the character that sends a packet at once, −1: none
   bool due_ = false;      ///< that character has come
 };
@@ -144,7 +144,7 @@ class in_memory_transport {
   [[nodiscard]] ftdi::line_status lines() const noexcept { return lines_; }
   [[nodiscard]] nanoseconds now() const noexcept { return now_; }
 
-  /// Lets time pass with nobody reading.
+  /// Lets time pass without a read.
   void pass(nanoseconds passed) noexcept {
     now_ += passed;
     far_.elapse(passed);

@@ -138,7 +138,7 @@ struct pose_result {
   }
 };
 
-/// Poses of a larger condition (Frobenius) are refused, because solutions of the closure meet at the rim.
+/// Poses of a larger condition (Frobenius) are refused: at the rim of the workspace two solutions of the closure meet.
 template <real S>
 inline constexpr S largest_condition = S(12);
 
@@ -256,7 +256,7 @@ template <real S>
 [[nodiscard]] constexpr pose_result<S> forward(
     const angles<S>& theta, const point<S>& start = workspace<S>.centre) noexcept {
   constexpr S longest_step = S(0.020);
-  constexpr S last_step =  // a Newton step squares the error, so the rest is below rounding
+  constexpr S last_step =  // Newton squares the error, so after this step it is below rounding
       S(0.01) * kernels::square_root(std::numeric_limits<S>::epsilon());
   constexpr int most_steps = 24;
 

@@ -3,8 +3,8 @@
 // The real Falcon over libusb-1.0, by asynchronous transfers that the calling thread drives. Link usb-1.0.
 // Where libusb's header is not installed (Debian: libusb-1.0-0-dev) this header declares nothing.
 //
-// Two IN transfers are always in flight, so that no reply waits for the host. A write does not wait for
-// the bus, and the next call reports its fault. libusb itself may allocate when a transfer is submitted;
+// Two IN transfers are always in flight, so that no reply waits for the host. A write returns at once, and the
+// next call reports its fault. libusb itself may allocate when a transfer is submitted;
 // this transport does not.
 
 #include <passive_haptics/falcon/transport.hpp>
@@ -248,7 +248,7 @@ class libusb_transport {
     return detail::code_of(failed, code::unplugged);
   }
 
-  /// The reason why no call can go on, or ok. A fault that a transfer has reported is returned once.
+  /// ok, or the fault that ends the present call. A fault that a transfer has reported is returned once.
   [[nodiscard]] result trouble() noexcept {
     if (handle_ == nullptr) return {code::not_open};
     if (lost_) return {code::unplugged};

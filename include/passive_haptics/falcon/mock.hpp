@@ -5,8 +5,8 @@
 //   host ─▶ bytes ─▶ mock_processor ─▶ motor words ─▶ mock_mechanism ◀─ hand
 //   host ◀─ bytes ◀─ FTDI bridge    ◀─ counts     ◀─┘
 //
-// The whole driver runs on it unchanged, in virtual time. It behaves as the headers of falcon/ say that a Falcon
-// does. So it shows that the driver agrees with the headers, and not that they are right.
+// The whole driver runs on it unchanged, in virtual time. It simulates the Falcon that the headers of falcon/ describe.
+// So a test on it shows that the driver agrees with them, and not that they describe a real Falcon.
 
 #include <passive_haptics/falcon/mock_mechanism.hpp>
 #include <passive_haptics/falcon/mock_processor.hpp>
@@ -44,7 +44,7 @@ class mock {
   }
   [[nodiscard]] bool attached() const noexcept { return attached_; }
 
-  /// Pulls the cable only: the motors go on holding their last words, which is the worst that may happen.
+  /// Pulls the cable only: the motors go on holding their last words, as in the worst case.
   void unplug() noexcept { attached_ = false; }
   void plug_in() noexcept { attached_ = true; }
 

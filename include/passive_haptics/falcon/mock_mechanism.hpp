@@ -6,7 +6,7 @@
 //
 // The motors hold torques, but the body is pushed by forces. So over each step F is the force that does the
 // torques' work, F·Δp = τ·Δθ (force_over), and the energy meter of the body is exact for the motors. Mass,
-// damping and homing angles are invented, because nobody has published those of a Falcon.
+// damping and homing angles are our choice, because those of a Falcon are not published.
 
 #include <passive_haptics/base/ledger.hpp>
 #include <passive_haptics/base/parameter.hpp>
@@ -116,7 +116,7 @@ class mock_mechanism {
     return {f[0], f[1], f[2]};
   }
 
-  /// Makes one step; three trials find the way of the body and the force that does the work of the torques on it.
+  /// Makes one step. Three fixed-point iterations find Δp and the force F with F·Δp = τ·Δθ.
   void move() noexcept {
     const point<double> from = position_of(body_);
     const angles<double> before = theta_;

@@ -51,7 +51,7 @@ struct to_device {
 struct from_device {
   leg_words encoder{};  ///< counts
   byte buttons = 0;     ///< see pressed()
-  byte homed = 0;       ///< bit i: leg i knows where it is
+  byte homed = 0;       ///< bit i: leg i is homed, its counts are absolute
 
   static constexpr byte all_legs = 7;
   [[nodiscard]] constexpr bool is_homed() const noexcept { return homed == all_legs; }

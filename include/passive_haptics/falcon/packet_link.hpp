@@ -2,9 +2,9 @@
 #pragma once
 // Exchanges one packet for one answer, or reports a miss.
 //
-// Packets carry no number, so an answer that comes too late would be taken for the answer to the next packet, and
-// all later answers would be a tick old. Therefore bytes that came before the question are thrown away, and after
-// a miss the line must first be quiet for `silence`.
+// Packets carry no number, so a late answer would be taken for the answer to the next packet, and all later answers
+// would be a tick old. Therefore bytes that came before the question are discarded, and after a miss the next question
+// waits until the line has been quiet for `silence`.
 
 #include <passive_haptics/falcon/transport.hpp>
 
@@ -26,15 +26,15 @@ struct link_counts {
 struct [[nodiscard]] link_answer {
   result how{};
   from_device packet{};  ///< when ok
-  nanoseconds asked{};   ///< when the question was out: encoders are read and words held from then
-  nanoseconds stamp{};   ///< when the answer was there, or was given up
+  nanoseconds asked{};   ///< when the question was sent: encoders are read and words held from then
+  nanoseconds stamp{};   ///< when the answer had arrived, or the wait for it ended
 };
 
-/// How a program is looked for.
+/// The questions that find out whether a program runs.
 struct probing {
   int questions = 10;                                 ///< most questions to send
   nanoseconds reply = std::chrono::milliseconds(30);  ///< longest wait for each answer
-  bool flush_on_closing = false;  ///< '>' as event character: may exceed 1 kHz, never tried
+  bool flush_on_closing = false;  ///< '>' is the event character: may exceed 1 kHz, not tested
 };
 
 namespace detail {

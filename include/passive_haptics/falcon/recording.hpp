@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Records the cable of a session, call by call, and plays it again.
-// In a replay the same driver makes the same decisions, and a changed driver shows where it begins to differ.
+// In a replay the same driver makes the same calls, and for a changed driver first_divergence() is the first other one.
 //
 //     device<recording_transport<libusb_transport>> grip{gain, {}, 200'000};       // rows
 //     grip.line().record(true);  …  save("session.csv", grip.line().rows());

@@ -122,7 +122,7 @@ inline result save(const char* path, std::span<const wire_row> rows) noexcept {
 }
 
 struct loaded_log {
-  result how{};  ///< log_unreadable: `value` is the line at fault, 0 if there is no such file
+  result how{};  ///< ok, or log_unreadable with the line in `value`, 0 if there is no file
   std::vector<wire_row> rows;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // The result of a call to the Falcon. No call throws.
-// Each returns a code, which has a text that says what happened and, where the user can do something, a remedy.
+// Each returns a code. It has a text, and a remedy where the user can do something.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -27,7 +27,7 @@ enum class code : std::uint8_t {
   image_too_long,
   image_wrong_key,  ///< `value` is the first word, which is not 0x08AA
   image_truncated,  ///< a block, `value` bytes into the file, is longer than the rest of it
-  image_trailing,   ///< the stream ends `value` bytes into the file, which goes on
+  image_trailing,   ///< the stream ends `value` bytes into the file, before the file ends
   image_missing,
   no_hello,
   no_loader,
@@ -41,7 +41,7 @@ enum class code : std::uint8_t {
   encoder_jump,
   pose_refused,  ///< these angles fit no position, or one near a singular pose
   force_not_finite,
-  too_many_misses,  ///< settings::most_misses replies in a row did not come
+  too_many_misses,  ///< settings::most_misses replies in a row were missing
   bad_setting,      ///< a setting is out of its range: check() names it
   log_unreadable,   ///< line `value` of a recording is no row; 0: there is no such file
   log_unwritable,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The settings of a Falcon, the readings of its exchanges, and the test which replies are believed.
+// The settings of a Falcon, the readings of its exchanges, and the test of its replies.
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/falcon/force.hpp>
@@ -18,7 +18,7 @@ enum class state : byte {
   closed,   ///< nothing is connected
   open,     ///< the cable is ours; boot() comes next
   booting,  ///< loading the program
-  unhomed,  ///< packets flow; the legs are not homed, or have not been for long enough
+  unhomed,  ///< packets flow; the legs are not homed, or for less than `settle` replies
   homed,    ///< there are positions and forces
   fault,    ///< packets flow if they can, forces are zero until recover(): see reading::what
 };
@@ -36,7 +36,7 @@ struct settings {
   S tick = S(1e-3);        ///< nominal time between replies [s]; the ramp climbs no faster
   int largest_step = 300;  ///< counts per tick; more (about 10 m/s) is a fault of an encoder
   int settle = 50;         ///< good replies between homing, or a jump, and the first force
-  int most_misses = 20;    ///< so many misses in a row are a fault
+  int most_misses = 20;    ///< misses in a row that are a fault
   /// The longest wait for an answer, while the last words are held. State a loop_limits::longest_tick of at
   /// least this, or a lost answer may cost energy.
   nanoseconds reply = std::chrono::milliseconds(5);
@@ -64,7 +64,7 @@ struct settings {
 /// All results of an exchange. It is trivially copyable, for logs and other threads.
 template <real S>
 struct reading {
-  code what = code::not_open;  ///< ok, or why there is no position, or no force
+  code what = code::not_open;  ///< ok, or the reason why there is no position or force
   state where = state::closed;
   to_device sent{};
   from_device received{};  ///< the last reply
@@ -78,9 +78,9 @@ struct reading {
   ftdi::line_status lines{};
 };
 
-/// Judges which replies may be believed. Packets have no checksum, and homing moves the origin of the counts
-/// in one step, perhaps some replies after the homed bits. So after a jump, or a leg that is not homed,
-/// `settle` good replies must come first.
+/// Judges whether a reply is valid. Packets have no checksum, and homing moves the origin of the counts in one step,
+/// perhaps some replies after the homed bits. So after a jump, or a leg that is not homed, the first
+/// valid reply is the `settle`-th good one in a row.
 template <real S>
 class reply_guard {
  public:
@@ -99,7 +99,7 @@ class reply_guard {
   }
 
  private:
-  /// The counts that a leg may move in that time; in less than a tick as many as in a tick.
+  /// The largest motion of a leg in that time [counts]; for less than a tick that of a tick.
   [[nodiscard]] static constexpr S most(nanoseconds passed, const settings<S>& setup) noexcept {
     const S ticks = std::chrono::duration<S>(passed).count() / setup.tick;
     return kernels::larger(S(1), ticks) * S(setup.largest_step);

@@ -2,8 +2,8 @@
 #pragma once
 // The algebra of three legs: triples of numbers of one kind, 3 × 3 matrices, sine and cosine.
 // device/eigen_space.hpp does not serve here for three reasons: a microcontroller that turns counts into words
-// needs no Eigen (tests/falcon_firmware), every function is constexpr, and the kind is part of the type, so that
-// a point is no force and a torque no angle.
+// must not need Eigen (tests/falcon_firmware), every function is constexpr, and the kind is part of the type, so that
+// a point cannot be used as a force, nor a torque as an angle.
 
 #include <passive_haptics/base/kernels.hpp>
 
