@@ -111,7 +111,7 @@ enum ph_event {
   PH_OUTSIDE_FORCE = 10,   ///< it moves faster than the stated mass and hand allow: a strict bound
   PH_UNTOLD_LATENCY = 11,  ///< it holds a force later or sooner than stated: force zero
   PH_WRONG_SIGN = 12,      ///< it moves against the command: force zero until ph_reset
-  PH_STARTED_INSIDE = 13,  ///< it starts inside a surface, with no energy paid in: force zero
+  PH_STARTED_INSIDE = 13,  ///< a surface must push, and no energy is paid in yet: force zero
   PH_FORCES_OFF = 14,      ///< the forces are off: force zero, and the ledger pauses
   PH_WALL_LOST = 15,       ///< a fault has emptied the ledger: for a while less force than wanted
   PH_WALL_BACK = 16        ///< the energy is paid back: the first tick that is not PH_WALL_LOST
