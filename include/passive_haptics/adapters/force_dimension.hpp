@@ -71,8 +71,8 @@ class force_dimension {
   force_dimension& operator=(const force_dimension&) = delete;
   ~force_dimension() { close(); }
 
-  /// The device of that number, −1 for the first free one. The SDK lets nobody else open it then, so no two
-  /// ports of this kind share a device.
+  /// The device of that number, −1 for the first free one. The SDK opens no device twice, so no two
+  /// ports of this kind share one.
   [[nodiscard]] parameter_fault open(char id = -1) {
     close();
     const int opened = id < 0 ? dhdOpen() : dhdOpenID(id);

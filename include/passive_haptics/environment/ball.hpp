@@ -4,7 +4,7 @@
 //
 // A closed surface of 16 triangles has 16/2 + 2 = 10 vertices (Euler), so of 11 nodes exactly one
 // is inside, and 16 tetrahedra join it to the faces. The "2 interior nodes" that the thesis fixes
-// cannot exist; and two fixed nodes, wherever they are, leave the rotation about their line (A24).
+// cannot exist; and two fixed nodes, wherever they are, leave the rotation about their line (audit.md A24).
 
 #include <passive_haptics/environment/mesh.hpp>
 

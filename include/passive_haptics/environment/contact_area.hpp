@@ -4,10 +4,10 @@
 //
 //     wᵢ ∝ Aᵢ (1 − sᵢ²/r²)² for sᵢ < r,   Σ wᵢ = 1
 //
-// sᵢ is how far node i is from the contact at rest [m], Aᵢ a third of the triangles around it [m²]. A force on
-// a point has no displacement under it in a solid (J. Boussinesq, 1885: it is infinite), so a mesh that is
-// refined grows ever softer under a finger on three nodes; under an area it converges. Where the triangle is
-// larger than r, its longest edge is taken for r.
+// sᵢ [m] is the distance of node i from the contact at rest, Aᵢ [m²] a third of the area of the triangles around it.
+// Under a point force the displacement of a solid is infinite (J. Boussinesq, 1885), so under a finger on three nodes
+// a mesh grows softer without limit as it is refined; under an area it converges. If the longest edge of the triangle
+// is larger than r, it is taken for r.
 
 #include <passive_haptics/environment/marks.hpp>
 #include <passive_haptics/environment/surface_search.hpp>

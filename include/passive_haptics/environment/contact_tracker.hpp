@@ -4,7 +4,7 @@
 //
 // The closest triangle flips from one to its neighbour and back when the point trembles over their
 // common edge, and with it the normal of the force. The tracker holds on to the present triangle
-// until another is closer by more than a margin (A26).
+// until another is closer by more than a margin [m] (docs/design/audit.md A26).
 
 #include <passive_haptics/environment/surface.hpp>
 #include <passive_haptics/environment/surface_search.hpp>

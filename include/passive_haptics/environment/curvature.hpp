@@ -9,9 +9,9 @@
 //   shape_at             point, normal, principal curvatures of the smooth surface
 //
 // A curvature is a symmetric tensor C [1/m] with C n = 0: the normal turns by C δ along δ [m]. It is positive
-// where the body bulges, 1/r on a ball. Only triangles around the contact count. To find them, a surface_view
-// is searched from end to end; for a large surface take a surface_graph, which lists them for each node. No function keeps
-// positions, so the body may deform, and none allocates.
+// where the body bulges, 1/r on a ball. Only triangles around the contact count. To find them, a surface_view is
+// searched from end to end; for a large surface take a surface_graph, which lists them for each node. No function
+// keeps positions, so the body may deform, and none allocates.
 
 #include <passive_haptics/environment/surface.hpp>
 #include <passive_haptics/environment/surface_graph.hpp>

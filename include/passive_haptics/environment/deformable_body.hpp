@@ -11,7 +11,7 @@
 //                          {.radius = 0.005, .moved = moved_nodes::around}};
 //
 // The loop of local model (stiffness K_LM) and body (K_VE) has the eigenvalue −K_LM/K_VE from update to update: with
-// equal stiffness the surface swings for ever under a device that stands still (A12). `relaxation` decides:
+// equal stiffness the surface oscillates for ever under a device at rest (docs/design/audit.md A12). `relaxation`:
 //   dead_beat   F ← F + w (F_LM − F), w = K_VE/(K_VE + K_LM): settles in one update
 //   none        F ← F_LM, the thesis: only for K_LM well below K_VE
 
@@ -67,7 +67,7 @@ struct body_options {
   double max_stiffness = 1e6;    ///< largest stiffness reported [N/m]: a fixed face is rigid
   moved_nodes moved = moved_nodes::all;
   on_progress tell = {};      ///< called while K is factorised; false throws stopped_by_caller
-  double memory_limit = 0.0;  ///< for the factor [B]; 0: what the system has (memory_limit.hpp)
+  double memory_limit = 0.0;  ///< for the factor [B]; 0: available memory (memory_limit.hpp)
 };
 
 /// The elastic solid behind a body. press() chooses a point or an area and returns its compliance C [m/N];

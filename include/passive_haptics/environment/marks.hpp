@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A set of marked numbers below N, whose clear() takes the same time for any N.
+// A set of numbers below N whose clear() takes constant time, except once in 2³² calls.
 
 #include <passive_haptics/environment/node_graph.hpp>
 

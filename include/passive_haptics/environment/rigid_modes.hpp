@@ -5,7 +5,7 @@
 //   fixed nodes of one connected part     none   1   2 or any on a line   3 not on a line
 //   rigid motions left                     6     3           1                   0
 //
-// Parts that share no node move on their own, so each part needs three fixed nodes (A24).
+// Parts that share no node move on their own, so each part needs three fixed nodes (audit.md A24).
 
 #include <passive_haptics/environment/mesh.hpp>
 

@@ -79,7 +79,7 @@ struct surface_point {
   double depth = 0.0;                      ///< d = (p − x)·n [m], positive behind the triangle
 };
 
-/// The point of triangle `number` closest to x [m]; none if the triangle is degenerate (A17) or x is not
+/// The point of triangle `number` closest to x [m]; none if the triangle is degenerate (audit.md A17) or x is not
 /// finite.
 [[nodiscard]] inline std::optional<surface_point> point_on(surface_view surface, nodes_view nodes,
                                                            int number, const Eigen::Vector3d& x) {

@@ -3,7 +3,7 @@
 // An elastic body at rest under nodal forces: K u = f, K factorised once (thesis A.2, in 3 DOF).
 //
 //   displacements   u(f) [m], always from the REST positions: added to the current positions it would let
-//                   the body creep under a constant force (A13)
+//                   the body creep under a constant force (audit.md A13)
 //   stiffness       1/(nᵀCn) [N/m] that a finger feels at a point of the surface
 //   press, load, displacement     u of a few nodes under a force at one point, at a haptic rate
 //
@@ -49,7 +49,7 @@ class singular_stiffness : public std::runtime_error {
 
 struct fem_options {
   on_progress tell = {};      ///< called while K is factorised; false throws stopped_by_caller
-  double memory_limit = 0.0;  ///< [B]; 0: what the system has (memory_limit.hpp)
+  double memory_limit = 0.0;  ///< for the factor [B]; 0: available memory (memory_limit.hpp)
   /// Nodes of the mesh that contacts will press, from patch_around() for example. A contact among M of them reads
   /// the triangle of a 3M × 3M matrix, 36 M² bytes. A contact elsewhere gives the same result, but takes longer.
   std::span<const int> touched = {};

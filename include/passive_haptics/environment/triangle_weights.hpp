@@ -6,7 +6,7 @@
 //   barycentric  sⱼ = wⱼ           conserves force AND moment; dual of the linear displacement field
 //   by_distance  sⱼ ∝ 1/|P − xⱼ|   the thesis (appendix A.2), for comparison: conserves the force and
 //                                  moves its point of action by 0.10 edge in the mean, 0.19 at worst
-//                                  (A25)
+//                                  (docs/design/audit.md A25)
 
 #include <passive_haptics/base/language.hpp>
 #include <passive_haptics/mesh/triple.hpp>

@@ -4,8 +4,8 @@
 //
 //     g(t) = R t on friction, R = c/(0.5 s)        x = C g until it slips, p ≤ C × the largest break-away force
 //
-// with the friction c [N] and the load w [N] of the swing; the command balances w all the time. Canudas de Wit and
-// Lischinsky (1997) find the stiffness of a bristle in this way. friction_ramp.hpp evaluates a ramp. At each of several places:
+// with the friction c [N] and the load w [N] of the swing; the command balances w all the time (Canudas de Wit and
+// Lischinsky, 1997, for a bristle). friction_ramp.hpp evaluates a ramp. At each of several places:
 //
 //   kick        a swing, up to a place within ±0.6 of the stroke, another one each time
 //   park        parking.hpp brings the device to rest there; then four times, alternating the way:

@@ -59,7 +59,7 @@ struct fact {
   const char* source = "";
 
   constexpr explicit operator bool() const noexcept { return from != evidence::none; }
-  /// True if somebody has read the number in its source.
+  /// True if we have read the number in its source.
   [[nodiscard]] constexpr bool verified() const noexcept {
     return from != evidence::none && from != evidence::unverified;
   }

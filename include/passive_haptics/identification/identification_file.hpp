@@ -13,7 +13,7 @@
 //
 // save() writes a file beside it and renames that, so there is never half a file. load() refuses another version,
 // another unit, a line that is missing, repeated or out of place, a number that is not finite, and a file without
-// its end; the text of the fault has the line, what stands there and what is wanted.
+// its end; the text of the fault has the line, its content and the expected content.
 
 #include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/identification/axis_found.hpp>

@@ -12,9 +12,9 @@
 //
 // With this φ the left side is that of a least-squares parabola through the N + 1 positions. The tick lengths h
 // [s] are the measured ones, so ticks may vary. The error of the steps is on the left alone, so ordinary least squares
-// has no bias from it. Only windows count in which the device goes one way, faster than the Stribeck part of friction. The latency d is the shift of the commands that explains the left side
-// best. The deviation is that of the jackknife, which leaves out one of twelve stretches of time after the other
-// (Miller, 1974) and needs no white errors.
+// has no bias from it. Only windows count in which the device goes one way, faster than the Stribeck part of friction.
+// The latency d [ticks] is the shift of the commands that explains the left side best. The deviation is that of the
+// jackknife, which leaves out one of twelve stretches of time after the other (Miller, 1974) and needs no white errors.
 
 #include <passive_haptics/base/kernels.hpp>
 #include <passive_haptics/identification/trust.hpp>

@@ -2,8 +2,8 @@
 #pragma once
 // Tries to refute stated numbers of a device by a recording during which nobody held it.
 //
-// With b, c, p and q stated, a ledger keeps a lower bound L(n) [J] of the energy that friction and damper have taken, less
-// the work of the motor. Without a hand this is also the kinetic and potential energy that the device has lost:
+// With b, c, p and q stated, a ledger keeps a lower bound L(n) [J] of the energy that friction and damper have taken,
+// less the work of the motor. Without a hand this is also the kinetic and potential energy that the device has lost:
 //
 //     L(n) ≤ ½ m v(k)² − ½ m v(n)² + w (x(n) − x(k)) + ½ c p       from any row k to any later row n
 //

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// SipHash-2-4: 64 bits of any bytes under a key of 128 bits, which nobody without the key can tell from bits
-// drawn at random. J.-P. Aumasson and D. J. Bernstein, "SipHash: a fast short-input PRF", INDOCRYPT 2012,
+// SipHash-2-4: a hash of 64 bits under a key of 128 bits, which without the key cannot be distinguished from random
+// bits. J.-P. Aumasson and D. J. Bernstein, "SipHash: a fast short-input PRF", INDOCRYPT 2012,
 // LNCS 7668, 489-508. It needs 64-bit integers only: no sockets, no heap, no floating point.
 
 #include <passive_haptics/remote/wire.hpp>

@@ -150,7 +150,7 @@ struct loop_counts {
   std::chrono::nanoseconds longest{};  ///< the longest dt
 };
 
-/// How the ticks of a loop were spread over time.
+/// The distributions of the length and the lateness of the ticks of a loop.
 struct loop_timing {
   duration_histogram lengths;   ///< dt, from wake to wake
   duration_histogram lateness;  ///< from due to wake

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Adversaries: motions, hands and worlds that try to draw energy out of a controller.
+// Adversaries: motions, hands and surfaces that try to draw energy out of a controller at its port.
 // challenge.hpp exposes a model to all of them in one call; search.hpp tunes one for the largest loss. L and §
 // refer to docs/design/mathematics.md, A to audit.md.
 //

@@ -128,7 +128,7 @@ struct rocking_motion {
 };
 
 /// Acts as one of the others for 1 to 40 ticks, with amplitudes and speeds drawn anew, then as another; or
-/// moves by up to four times the worst Δx of L3, for bounds that are tight at the worst Δx only.
+/// moves by up to four times the worst Δx of lemma L3, for bounds that are tight at the worst Δx only.
 template <class Space>
 struct restless_motion {
   using vector = typename physical<Space>::vector;

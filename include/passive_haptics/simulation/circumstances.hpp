@@ -95,9 +95,9 @@ inline constexpr std::array encoder_adversaries{adversary::in_step, adversary::p
   return by == adversary::tapping || by == adversary::random_tapping || by == adversary::trembling;
 }
 
-/// The true device, clock and encoders, and the bounds of what the surface does. The model under test must state at most this damping,
-/// mass and friction, at least this hand force, longest tick, presliding and quantum + noise, and exactly this
-/// latency and watchdog.
+/// The true device, clock and encoders, and the bounds of what the surface does. The model under test must state at
+/// most this damping, mass and friction, at least this hand force, longest tick, presliding and quantum + noise, and
+/// exactly this latency and watchdog.
 struct circumstances {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -112,7 +112,7 @@ struct impedance_hand {
 };
 
 /// Pushes with `limit` towards the surface through `surface` with unit outward `normal`, and as hard
-/// away from it as soon as the device is inside: targeted tapping (A5).
+/// away from it as soon as the device is inside: targeted tapping (docs/design/audit.md A5).
 template <class Space>
 struct tapping_hand {
   using vector = typename physical<Space>::vector;

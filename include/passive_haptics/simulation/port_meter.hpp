@@ -2,7 +2,7 @@
 #pragma once
 // The energy at the port of a loop or a simulator that is not ours, in the same sense as here:
 //
-//     E = ∫ b v² dt − Σ f·Δx   [J]     f the force held during Δx; ∫ b v² dt ≥ Σ b|Δx|²/dt (lemma L1)
+//     E = ∫ b v² dt − Σ f·Δx   [J]     f the force held during Δx; ∫ b v² dt ≥ Σ b|Δx|²/dt (mathematics.md L1)
 //
 //     sim::port_meter<scene> meter{0.1};                   // b, of the device itself [N·s/m]
 //     meter.add(sample);                                   // in every tick, with what was held since the last

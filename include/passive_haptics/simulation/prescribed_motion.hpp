@@ -17,7 +17,7 @@ namespace simulation {
 /// Models haptic_device_for<Space>: each exchange travels from one position to the next at constant
 /// velocity while the force is held. The meter books exactly
 ///     E += b ‖Δx‖²/T − f·Δx   [J]
-/// which is lemma L1 with equality. In a period T longer than the watchdog w the force is zero after w, so it
+/// which is lemma L1 of mathematics.md with equality. In a period T longer than the watchdog w the force is zero after w, so it
 /// works over w/T of the way; move_via() chooses the position at that instant. Dry friction, f_c Σ|Δxᵢ|
 /// or the work against a model of friction.hpp, is booked beside E, as in device.
 ///

@@ -24,14 +24,14 @@
 // port has ticked, and the force in it is what must be commanded: zero, with an event, if anything was
 // wrong. Where no result can be written (NULL, a wrong size) the port has not ticked.
 //
-// A pointer that is not NULL must point to an object of its type, which lives as long as the call. A ph_port* is valid from the ph_create that wrote it until its first ph_destroy. Whatever is done with
-// it after that, a second ph_destroy included, is undefined behaviour and not detected: set your pointer to NULL
-// then, because every function accepts that.
+// A pointer that is not NULL must point to an object of its type, which lives as long as the call. A ph_port* is
+// valid from the ph_create that wrote it until its first ph_destroy. Any later use, a second ph_destroy included, is
+// undefined behaviour and not detected: set your pointer to NULL then, because every function accepts NULL.
 //
-// Threads: of one port, ph_publish* and ph_release belong to one thread; ph_tick*, ph_held*, ph_set, ph_reset,
-// ph_enable_forces and ph_explain to one, the same or another. Two threads in functions of one of these groups at once, or ph_destroy
-// while one is in any, are a data race, undefined as well; a debug build of the library stops at two that tick.
-// ph_guarantee_of is for any thread, and different ports share nothing.
+// Threads: call ph_publish* and ph_release of a port in one thread, and ph_tick*, ph_held*, ph_set, ph_reset,
+// ph_enable_forces and ph_explain in one thread, the same or another. Two threads in one of these groups at the same
+// time, or ph_destroy while a thread is in any function, are a data race and undefined; a debug build of the library
+// stops if two threads tick. ph_guarantee_of is for any thread, and different ports share nothing.
 //
 // Before 1.0 a minor version may change this interface, as it may the library's.
 
