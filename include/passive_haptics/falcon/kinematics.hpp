@@ -168,8 +168,8 @@ template <real S>
 /// The three legs at a position of the grip, with their thighs at given angles.
 template <real S>
 struct legs_state {
-  matrix<S> gradient;  ///< of the gaps: (cosθ2, cotθ3, sinθ2) of each leg, turned into the frame
-  triple<S, struct gap_kind> gap;  ///< (thigh's end to grip) − L [m], 0 when the loop is closed
+  matrix<S> gradient;  ///< of closed gaps: (cosθ2, cotθ3, sinθ2) of each leg, turned into the frame
+  triple<S, struct gap_kind> gap;  ///< (d² − L²)/(2 L) ≈ d − L [m], d from thigh's end to grip
   triple<S, struct swing_kind> swing;  ///< a sin(θ2 − θ1) [m]:  gradient·ṗ = swing θ̇1
   bool reachable = true;               ///< |v + f| < b on every leg
 

@@ -5,7 +5,7 @@
 // refer to docs/design/mathematics.md, A to audit.md.
 //
 //   adversary_motions.hpp   velocity sources, for prescribed_motion: no force can stop them
-//     nyquist_motion        in by δ, out by δ: loses (K − 2B) δ² [J] in two ticks on an unbounded wall (A5)
+//     nyquist_motion        in by δ, out by δ: gains (K − 2b/T) δ² [J] in two ticks on an unbounded wall (A5)
 //     random_walk           any direction at any speed up to a limit, near the surface
 //     greedy_motion         presses, then leaves by the worst Δx of the proof (L3)
 //     rocking_motion        rocks across an encoder step for false credit, then is greedy (§ 3)

@@ -127,8 +127,8 @@ struct rocking_motion {
   }
 };
 
-/// Acts as one of the others for 1 to 40 ticks, with amplitudes and speeds drawn anew, then as another; or
-/// moves by up to four times the worst Δx of lemma L3, for bounds that are tight at the worst Δx only.
+/// Acts for 1 to 40 ticks as one of the other motions, with a random amplitude or speed, then as another. One of its
+/// kinds presses, and leaves by up to four times the worst Δx of lemma L3, for bounds that are tight at that only.
 template <class Space>
 struct restless_motion {
   using vector = typename physical<Space>::vector;

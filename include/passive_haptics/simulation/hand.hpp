@@ -79,8 +79,8 @@ struct constant_hand {
 
 /// F = k (x_h(t) − x) + b_h (v_h − v), ‖F‖ ≤ limit, with x_h(t) = target + v_h (t − target_time).
 /// The caller may move the target at any time. `own_mass` is held rigidly, so the device moves with the
-/// apparent mass m + own_mass. The force is computed every h = T/substeps, so the hand is stable for
-/// b_h h + k h² < 2 m, which a human hand fulfils.
+/// apparent mass m_a = m + own_mass. The force is computed every h = T/substeps, so without other damping the hand
+/// is stable for k h/2 < b_h < 2 m_a/h: for 200 N/m, 0.1 kg and 50 µs from 0.005 to 4000 N·s/m.
 template <class Space>
 struct impedance_hand {
   using vector = typename physical<Space>::vector;

@@ -2,8 +2,8 @@
 #pragma once
 // A simulated handle that moves and turns: pose out, wrench in, one tick per exchange.
 //
-//     m v̇ = f + f_hand − D v          at the handle point, D per direction of the handle
-//     I ω̇ + ω × I ω = τ + …           about the centre of mass, which may be off the handle point
+//     m v̇_c = F,   F = f + f_hand − D v               v_c of the centre of mass, v of the handle point
+//     I ω̇ + ω × I ω = τ + τ_hand − D_ω ω − c × F      in the frame of the handle, c from its point to the centre
 //     E += ∫ (vᵀD v + ωᵀD_ω ω − w·(v, ω)) dt     true energy at the port, > 0: the hand has paid in
 //
 // Motion and energies are integrated by Runge and Kutta's fourth-order rule in equal steps. residual() is the
