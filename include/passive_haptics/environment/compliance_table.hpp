@@ -55,7 +55,7 @@ class columns_of_file {
   table_header header_;
 };
 
-/// An elastic_solid out of a table of float (1e-5 relative) or double.
+/// An elastic_solid of a table of float, with a relative error of 1e-5, or of double.
 template <std::floating_point Scalar = float>
 using compliance_table = patch_compliance<columns_of_file<Scalar>>;
 

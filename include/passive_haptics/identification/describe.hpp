@@ -81,7 +81,7 @@ template <class... Numbers>
   return all;
 }
 
-/// The composition that rests on these bounds, to be pasted, and its stiffness budget.
+/// The composition with these bounds, as code to be pasted, and its stiffness budget.
 template <int Dof>
 [[nodiscard]] std::string composition_of(const device_found<Dof>& found,
                                          const design::intended_use& use = {}) {

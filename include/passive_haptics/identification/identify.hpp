@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Identifies a device axis by axis, in a loop of its own, before a promise rests on its numbers.
+// Identifies a device axis by axis, in a loop of its own, before a composition states its numbers.
 //
 //     std::printf("let go of the device: it will push with up to %g N\n", p.force);
 //     const auto found = identification::identify<scene>(device, p, [&] { return stop.load(); });

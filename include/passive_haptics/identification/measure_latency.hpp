@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Measures how many ticks late a loop is, for any haptic device, before a promise rests on that number.
+// Measures the latency [ticks] from a command of a loop to its holding, for any haptic device.
 //
 //     const auto found = ph::measure_latency<scene>(device, {.force = 1.0});
 //     if (found.problem) std::puts(found.problem);
@@ -38,7 +38,7 @@ struct latency_found {
   int ticks = 0;           ///< from a command to its holding, to the nearest tick
   double exactly = 0.0;    ///< the same with its fraction: 0.5 for a change in mid-tick
   double explained = 0.0;  ///< share of the motion that the force explains, a load aside, in [0, 1]
-  int sensor_ticks = 1;    ///< ticks for which the sensor shows the same place
+  int sensor_ticks = 1;    ///< period of the sensor [ticks]: 1 if it is as fast as the loop
   const char* problem = nullptr;  ///< a sentence if the numbers are not reliable, else null
 };
 
@@ -46,8 +46,7 @@ namespace detail {
 
 /// For any velocity, a mass m [kg] answers to commands c(n) [N] that are held d ticks late by
 ///     y(n) = x(n) − 2x(n−W) + x(n−2W) = T²/m Σ w(j) c(n−1−j−d),     w the triangle of base 2W with cut corners
-/// A damper and dry friction answer in the same way to the velocity and to its sign, and a constant load adds a
-/// constant. The pair of d and d + 1 that explains y best by least squares is the latency; the shares of the two
+/// A damper adds the same sum over the velocity, dry friction over its sign, and a constant load adds a constant. The pair of d and d + 1 that explains y best by least squares is the latency; the shares of the two
 /// give its fraction.
 class latency_fit {
  public:
@@ -108,7 +107,7 @@ class latency_fit {
     for (std::size_t j = of.size() - 1; j > 0; --j) of[j] = of[j - 1];
     of[0] = newest;
   }
-  /// Σ w(j) of(n−1−j−d), of[0] being that of the tick that ended at n.
+  /// Σ w(j) of(n−1−j−d), where of[0] belongs to the tick that ended at n.
   [[nodiscard]] static double triangle(const line& of, std::size_t d) noexcept {
     double sum = 0.0;
     for (std::size_t j = 0; j < 2 * window; ++j) {
@@ -155,7 +154,7 @@ class sensor_clock {
       }
       ++intervals_;
     }
-    const bool is_first = !(place_ == place_);  // its time of arrival is unknown
+    const bool is_first = !(place_ == place_);  // its arrival may be earlier
     changed_ = is_first ? -1 : tick;
     place_ = place;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Measures the lengths of the ticks of a loop.
-// Run it with zero force for a minute, under the load that the loop will have, before a promise rests on them:
+// Run it with zero force for a minute, under the load that the loop will have, before you state longest_tick:
 //
 //     ph::tick_lengths ticks;
 //     while (ticks.count() < 60000) { device.exchange(0); ticks.book(clock.lap()); }

@@ -96,7 +96,7 @@ struct heading_unit {
   return text;
 }
 
-/// The column that is called `name`, with or without its unit, or is the one of that number; -1 if none is.
+/// The index of the column called `name`, with or without its unit, or of that number; -1 if there is none.
 [[nodiscard]] inline int column_called(const named_columns& of, const std::string& name,
                                        double& scale) {
   for (std::size_t i = 0; i < of.names.size(); ++i) {
@@ -167,7 +167,7 @@ struct heading_unit {
   return all;
 }
 
-/// Little-endian numbers out of a file, never beyond its end.
+/// Reads little-endian numbers of a file, never beyond its end.
 class byte_reader {
  public:
   explicit byte_reader(std::string_view bytes) noexcept : bytes_(bytes) {}

@@ -72,8 +72,8 @@ struct random_walk {
   }
 };
 
-/// Takes the move of the largest gain f·Δx − b ‖Δx‖²/dt [J], which is at Δx = f dt/(2b), shortened to what
-/// `speed` allows: the gain grows on the whole way there, so a shortened move is better than none. It
+/// Takes the move of the largest gain f·Δx − b ‖Δx‖²/dt [J], which is at Δx = f dt/(2b), shortened to
+/// `speed`·dt. The gain grows on the whole way to that Δx, so a shortened move gains, too. It
 /// presses in the share `press` of the ticks, and whenever the force is zero.
 template <class Space>
 struct greedy_motion {

@@ -164,7 +164,7 @@ class subject {
   explicit subject(under_test<Model, Lay>& tested) noexcept
       : tested_(&tested), verbs_(&verbs_of<Model, Lay>) {}
 
-  /// Puts the copy back to the model as it was given.
+  /// Sets the copy to the original model.
   void restart() const noexcept { verbs_->restart(tested_); }
   /// One tick of the model; returns the force commanded [N].
   [[nodiscard]] vector tick(const device_sample<Space>& sample) const noexcept {
