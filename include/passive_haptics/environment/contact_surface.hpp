@@ -34,7 +34,7 @@ namespace environment {
 
 struct quadric_options {
   double thickness = 0.005;  ///< deepest contact [m]
-  double reach = 0.02;  ///< how far along the surface the quadric counts [m], about a mesh edge
+  double reach = 0.02;       ///< radius in which the quadric is used [m], about a mesh edge
 };
 
 /// The quadric at a point of the surface, of stiffness `stiffness` [N/m]. Its curvatures are limited to

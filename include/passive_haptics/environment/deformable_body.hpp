@@ -59,7 +59,7 @@ enum class moved_nodes : std::uint8_t {
 
 struct body_options {
   double margin = 2e-4;                          ///< hysteresis of closest_point [m]
-  force_split split = force_split::barycentric;  ///< of the force at a point, among three nodes
+  force_split split = force_split::barycentric;  ///< rule for a force at a point, on three nodes
   double radius = 0.0;  ///< radius of a fingertip [m] (contact_area.hpp); 0: a point
   contact_selection selection = contact_selection::closest_point;
   force_relaxation relaxation = force_relaxation::dead_beat;

@@ -73,7 +73,7 @@ class sender {
   nanoseconds latency_ = std::chrono::milliseconds(16);
   nanoseconds since_{0};  ///< time since the last packet went out
   int event_ = -1;        ///< the character that sends a packet at once, −1: none
-  bool due_ = false;      ///< that character has come
+  bool due_ = false;      ///< true if that character was sent
 };
 
 }  // namespace ftdi

@@ -72,8 +72,8 @@ struct reading {
   force<S> commanded{};    ///< [N]
   force<S> held{};         ///< force held until this reply [N]
   S strength{};            ///< factor of the ramp, 0 … 1
-  nanoseconds asked{};     ///< when the question was out; dt is from one such time to the next
-  nanoseconds stamp{};     ///< when the reply was there
+  nanoseconds asked{};     ///< when the question was sent; dt is the time between two of these
+  nanoseconds stamp{};     ///< when the reply had arrived
   link_counts counts{};
   ftdi::line_status lines{};
 };

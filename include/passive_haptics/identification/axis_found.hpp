@@ -39,8 +39,8 @@ struct axis_found {
   double uneven = 0.0;     ///< share by which friction varies along the way, 0 to 1
   double creep = 0.0;      ///< share of the least friction up to which no creep is assumed, 0 to 1
 
-  const char* remark = nullptr;   ///< why friction was not found, or null
-  const char* problem = nullptr;  ///< why nothing was found, or null
+  const char* remark = nullptr;   ///< reason why friction was not found, or null
+  const char* problem = nullptr;  ///< reason why nothing was found, or null
 };
 
 /// All axes of a device, each measured by itself.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What is known of haptic devices that can be bought, each number with its source.
+// The known numbers of commercial haptic devices, each with its source.
 //
 //     constexpr auto touch = design::devices::touch;
 //     static_assert(touch.friction && !touch.friction.verified());       // quoted from memory
@@ -74,11 +74,11 @@ struct device_facts {
   fact friction{};                ///< dry friction that a hand overcomes in moving it [N]
   fact presliding{};              ///< p, over which that friction is elastic [m]
   std::array<fact, 3> quantum{};  ///< step of the position on each axis [m]
-  fact peak_force{};              ///< for a short time [N]
-  fact continuous_force{};        ///< without time limit [N]
-  fact stiffness{};               ///< largest that is recommended for a wall [N/m]
+  fact peak_force{};              ///< largest force, for a short time [N]
+  fact continuous_force{};        ///< largest force without time limit [N]
+  fact stiffness{};               ///< largest recommended stiffness of a wall [N/m]
   fact rate{};                    ///< highest rate of its loop [Hz]
-  fact latency{};                 ///< from a command until it is held [ticks]
+  fact latency{};                 ///< time from a command to its holding [ticks]
   fact workspace_radius{};        ///< radius of a sphere within its reach [m]
 };
 

@@ -31,7 +31,7 @@ class tick_lengths {
   }
 
   [[nodiscard]] constexpr std::uint64_t count() const noexcept { return count_; }
-  /// How often the clock stood still, stepped back, or gave no finite number.
+  /// The number of lengths that were not finite and > 0, because the clock stood still or stepped back.
   [[nodiscard]] constexpr std::uint64_t refused() const noexcept { return refused_; }
   [[nodiscard]] constexpr double longest() const noexcept {
     return longest_;

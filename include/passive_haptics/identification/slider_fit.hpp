@@ -38,7 +38,7 @@ struct slider_fit_settings {
   double drift = 0.0;  ///< share by which friction may fall with warmth and wear, 0 to 1
 };
 struct slider_fit {
-  std::array<slider, 10> list{};  ///< from the stiffest on
+  std::array<slider, 10> list{};  ///< in the order of rising p
   int count = 0;
   double offset =
       0.0;  ///< constant force of the fit: weight, or friction that differs by direction [N]

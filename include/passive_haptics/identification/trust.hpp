@@ -33,7 +33,7 @@ struct estimate {
 };
 
 struct trust {
-  double confidence = 3.0;  ///< in deviations; of normal errors one in 740 is beyond 3 on that side
+  double confidence = 3.0;  ///< standard deviations; 1 of 740 normal errors is beyond 3 on one side
   double margin = 0.95;     ///< for systematic errors, in (0.5, 1]
   double drift =
       0.3;  ///< share of damping and friction that may be lost by warmth and wear, in [0, 1)

@@ -200,7 +200,7 @@ inline constexpr std::size_t magic_at = 0, version_at = 4, kind_at = 5, form_at 
   return ~crc_on(before, bytes.subspan(crc_at + 4));
 }
 
-/// How many of the 14 numbers a form uses.
+/// The number of the 14 numbers that a form uses.
 [[nodiscard]] constexpr std::size_t numbers_of(form f) noexcept {
   constexpr std::array<std::size_t, 4> count{0, 7, 14, 7};
   return count[static_cast<std::size_t>(f)];
@@ -231,7 +231,7 @@ static_assert(content_at + 8 * std::tuple_size_v<decltype(content::numbers)> == 
   return bytes;
 }
 
-/// What decode() found. Converts to true when `value` is a whole message.
+/// The result of decode(). It converts to true if `value` is a valid message.
 struct [[nodiscard]] decoded {
   verdict what = verdict::accepted;
   message value{};

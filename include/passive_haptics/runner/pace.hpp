@@ -55,10 +55,10 @@ struct monotonic_clock : steady_time {
 #endif
 };
 
-/// How a tick began.
+/// The times at the beginning of a tick.
 struct wake {
-  std::chrono::nanoseconds dt{};    ///< since the wake before
-  std::chrono::nanoseconds late{};  ///< since it was due
+  std::chrono::nanoseconds dt{};    ///< time since the wake before
+  std::chrono::nanoseconds late{};  ///< time since it was due
   std::uint64_t lost = 0;           ///< whole periods that were given up
 
   [[nodiscard]] constexpr double seconds() const noexcept {  ///< dt [s]

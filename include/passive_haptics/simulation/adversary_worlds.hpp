@@ -145,10 +145,10 @@ struct erratic_sensor {
 /// How the error of a noisy sensor behaves. A ledger may assume only that the error is bounded.
 enum class noise_habit : std::uint8_t {
   uniform,        ///< drawn anew for each sample and axis
-  hiding,         ///< the position shown stays where it is for as long as it can
-  alternating,    ///< from one end to the other in each sample
-  with_force,     ///< at that end to which the force has changed
-  against_force,  ///< at the end away from which the force has changed
+  hiding,         ///< the position shown is constant as long as the width allows it
+  alternating,    ///< +width/2 and −width/2 in turn
+  with_force,     ///< ±width/2 with the sign of the last change of the force
+  against_force,  ///< ±width/2 with the opposite sign
 };
 
 /// A sensor whose positions are off by at most `width`/2 [m] on each axis.

@@ -18,7 +18,7 @@ inline namespace v0 {
 namespace simulation {
 
 enum class adversary : std::uint8_t {
-  nyquist,          ///< in by δ, out by δ
+  nyquist,          ///< in by δ, out by δ, in turn
   random_walk,      ///< anywhere, near the surface
   greedy,           ///< presses, leaves by the worst Δx
   jumping_surface,  ///< a slow hand on a surface that jumps and changes its stiffness

@@ -16,14 +16,14 @@ struct cycle_parameters {
   static constexpr int count = 11;
   using unit_cube = std::array<double, count>;
 
-  double depth = 1e-3;   ///< how deep it presses, 20 µm to 2 mm [m]
+  double depth = 1e-3;   ///< depth that it presses to, 20 µm to 2 mm [m]
   int press_ticks = 1;   ///< ticks in which it presses, 1 to 39
   int hold_ticks = 0;    ///< ticks in which it stays there, 0 to 40
   double retreat = 1.0;  ///< Δx of the way back as a multiple of f dt/(2b), 10⁻³ to 4
   double rest = 0.0;     ///< height of its turn above the surface, as a share of depth, −0.9 to 1
   int rest_ticks = 0;    ///< ticks in which it stays there, 0 to 40
   double lateral = 0.0;  ///< sideways step as a share of depth, 0 or 0.3 to 1; for 2 or 3 axes
-  double jump = 0.0;     ///< of the surface and back, once a cycle [m]
+  double jump = 0.0;     ///< jump of the surface and back, once a cycle [m]
   double phase = 0.0;    ///< time of the jump as a share of the cycle, 0 to 1
   double stiffness = 1e4;   ///< K before the jump [N/m]
   double after_jump = 1e4;  ///< K after the jump [N/m]

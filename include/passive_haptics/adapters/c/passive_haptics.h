@@ -117,7 +117,7 @@ enum ph_event {
   PH_WALL_BACK = 16        ///< the energy is paid back: the first tick that is not PH_WALL_LOST
 };
 
-/// How far a composition is passive, as in the library.
+/// The guarantee of passivity of a composition, as in the library.
 enum ph_guarantee {
   PH_NONE = 0,
   PH_CONDITIONAL = 1,  ///< for the device and the hand as stated
@@ -151,7 +151,7 @@ typedef struct ph_parameters {
   double kinetic_friction;  ///< ≤ static_friction; 0: the same
   double tip[3];            ///< of a stylus: from the gimbal to its tip, in its frame [m]
 
-  // Of a tool, which turns.
+  // The following members are for a tool, which turns.
   double least_inertia;    ///< smallest moment about the centre of mass, from below [kg·m²]
   double inertia_spread;   ///< between the largest moment and the smallest, from above [kg·m²]
   double inertia_offset;   ///< from the handle to the centre of mass, from above [m]
