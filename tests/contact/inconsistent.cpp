@@ -107,7 +107,7 @@ rest left_alone(const hand& held, const d3::vector& load, const auto& ask, const
 }  // namespace
 
 TEST_CASE("a corner without a free point holds a device between its walls, and is quiet",
-          "[inconsistent]") {
+          "[inconsistent][long]") {
   ph::laws::samples random(11);
   for (const double K : {500.0, 8000.0, 1e12}) {
     for (const impossible& scene : scenes(K)) {

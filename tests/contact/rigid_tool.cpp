@@ -322,7 +322,7 @@ struct pressed_peg {
 
 }  // namespace
 
-TEST_CASE("one late tick does not drop a peg, nor shake it", "[rigid_tool][faults]") {
+TEST_CASE("one late tick does not drop a peg, nor shake it", "[rigid_tool][faults][long]") {
   const pressed_peg right(0.02, 1);
   CHECK(right.deepest > 0.039);
   for (const int late : {10, 30, 100, 300}) {

@@ -79,7 +79,7 @@ outcome played(const Device& device, const Hand& hand, const session& how, int t
 }  // namespace
 
 TEST_CASE("an outlier of 0.2 to 5 mm is refused, and the sample after it believed",
-          "[port][motion_check]") {
+          "[port][motion_check][long]") {
   for (const double mm : {0.2, 0.3, 0.5, 1.0, 2.0, 4.0, 4.9}) {
     for (const double sign : {1.0, -1.0}) {
       CAPTURE(mm, sign);
@@ -100,7 +100,8 @@ TEST_CASE("an outlier of 0.2 to 5 mm is refused, and the sample after it believe
   CHECK(played(told, ph::trusted_hand{person}, {.off = -4e-3}).refused == 0);
 }
 
-TEST_CASE("no true sample is refused, of a device with encoders either", "[port][motion_check]") {
+TEST_CASE("no true sample is refused, of a device with encoders either",
+          "[port][motion_check][long]") {
   for (const double mass : {0.1, 0.3, 2.0}) {
     CHECK(played(told, person, {.mass = mass}, 20000).refused == 0);
     CHECK(played(stepped, person, {.mass = mass}, 20000).refused == 0);
