@@ -38,13 +38,6 @@ struct recording {
     };
     return {cut(time), cut(position), cut(force), rotary};
   }
-  /// The same recording as an encoder of step q [m] would have shown it.
-  [[nodiscard]] recording with_steps(double q) const {
-    recording coarse = *this;
-    if (!(q > 0.0)) return coarse;
-    for (double& x : coarse.position) x = q * std::floor(x / q);
-    return coarse;
-  }
 };
 
 /// Statistics of the samples, to judge a recording before it is used.
