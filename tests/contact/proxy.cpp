@@ -156,6 +156,14 @@ TEMPLATE_TEST_CASE("the sets arrive where the closed form is", "[proxy]", d3, f3
     exact.solve();
     by_sets.solve_by_sets();
     CHECK((by_sets.force() - exact.force()).norm() <= scalar(2e-4));
+    // Whatever pressed in the last tick: a λ that rounding has left of one stops no other.
+    const scalar least = std::numeric_limits<scalar>::denorm_min();
+    for (const scalar left : {least, scalar(9) * least, scalar(1e-30), scalar(1)}) {
+      auto from_there = by_sets;
+      for (std::size_t i = 0; i < 3; ++i) from_there.problem.pressed[i] = i == 0 ? left : 1;
+      from_there.solve_by_sets();
+      CHECK((from_there.force() - exact.force()).norm() <= scalar(2e-4));
+    }
   }
 }
 

@@ -103,14 +103,13 @@ class active_set {
       Scalar rest = half_[k];
       for (std::size_t m = k + 1; m < count_; ++m) rest -= root_[m][k] * goal[m];
       goal[k] = rest * inverse_[k];
-      const Scalar now = p_.pressed[in_[k]];
-      if (!(goal[k] > Scalar(0))) share = kernels::smaller(share, Scalar(now / (now - goal[k])));
+      if (!(goal[k] > Scalar(0))) share = kernels::smaller(share, zero_at(k, goal[k]));
     }
     std::size_t kept = 0;
     for (std::size_t k = 0; k < count_; ++k) {
       const std::size_t i = in_[k];
       const Scalar now = p_.pressed[i];
-      const bool stops = !(goal[k] > Scalar(0)) && !(now > share * (now - goal[k]));
+      const bool stops = !(goal[k] > Scalar(0)) && !(zero_at(k, goal[k]) > share);
       p_.pressed[i] = stops ? Scalar(0) : Scalar(now + share * (goal[k] - now));
       if (stops) {
         is_in_[i] = false;
@@ -131,6 +130,12 @@ class active_set {
   [[nodiscard]] constexpr bool has(std::size_t i) const noexcept { return is_in_[i]; }
 
  private:
+  /// The share of the way to `goal` ≤ 0 at which the k-th λ of S is 0. The least of them is the share itself, to the bit,
+  /// so that one leaves S: what rounding left of a λ, 4e-323 N, would stay in S and stop all others for ever.
+  [[nodiscard]] constexpr Scalar zero_at(std::size_t k, Scalar goal) const noexcept {
+    const Scalar now = p_.pressed[in_[k]];
+    return now / (now - goal);
+  }
   /// Appends a row to L and to L⁻¹d'.
   constexpr void append(auto between) noexcept {
     const std::size_t k = factored_, i = in_[k];
