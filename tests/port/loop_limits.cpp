@@ -61,6 +61,7 @@ TEST_CASE("a loop that learns its longest tick says so in its type, and goes by 
   }
   CHECK(learns.tick(0.0, 1500us, 0.0).what == ph::event::late_tick);
   CHECK(states.tick(0.0, 1500us, 0.0).what == ph::event::late_tick);
+  CHECK(learns.tick(0.0, 1500us, 0.0).what == ph::event::late_tick);  // the first is nobody's word
   CHECK(learns.tick(0.0, 1500us, 0.0).what == ph::event::nominal);
   CHECK(states.tick(0.0, 1500us, 0.0).what == ph::event::late_tick);
   CHECK(learns.tick(0.0, 1ms, 0.0).what == ph::event::nominal);
@@ -85,8 +86,36 @@ TEST_CASE("a loop learns from ticks up to ten times as long as its longest, and 
     CHECK(port.tick(0.0, ph::seconds{dt}, 0.0).what == ph::event::late_tick);
     CHECK(port.longest_tick() == 1e-3);
   }
-  CHECK(port.tick(0.0, 9ms, 0.0).what == ph::event::late_tick);
-  CHECK(port.longest_tick() == 9e-3);
+  for (const double T : {1e-3, 9e-3}) {
+    CHECK(port.tick(0.0, 9ms, 0.0).what == ph::event::late_tick);
+    CHECK(port.longest_tick() == T);
+  }
+}
+
+TEST_CASE("a loop learns from no long tick that stays alone, and forgets what is over",
+          "[loop_limits]") {
+  ph::passive_port port{d1{}, ph::given_force{}, thesis_ledger(), ph::strict_bound{},
+                        ph::learning_loop_limits<>{.longest_tick = 1e-3}};
+  const auto T_after = [&port](double seconds, double tick = 1e-3) {
+    for (double t = 0.5 * tick; t < seconds; t += tick) {
+      (void)port.tick(0.0, ph::seconds{tick}, 0.0);
+    }
+    return port.longest_tick();
+  };
+  for (const double dt : {1.5e-3, 10e-3, 5e-3}) {  // one by one, more than 10 s apart
+    CHECK(port.tick(0.0, ph::seconds{dt}, 0.0).what == ph::event::late_tick);
+    CHECK(T_after(10.1) == 1e-3);
+  }
+  CHECK(T_after(4e-3, 4e-3) == 1e-3);
+  CHECK(T_after(9.9) == 1e-3);
+  CHECK(T_after(3e-3, 3e-3) == 3e-3);  // the second is no accident
+  CHECK(T_after(20.0, 2e-3) == 3e-3);  // it is kept as long as there are others about as long
+  CHECK(T_after(9.9) == 3e-3);
+  CHECK(T_after(0.2) == 1e-3);
+  for (int n = 0; n < 20; ++n) {  // with a tick of 8 ms every 5 s it is late twice, and then never
+    CHECK((port.tick(0.0, 8ms, 0.0).what == ph::event::late_tick) == (n < 2));
+    (void)T_after(5.0);
+  }
 }
 
 TEST_CASE("the tick that a loop learns from is late for its bound, too", "[loop_limits]") {
@@ -137,7 +166,7 @@ void check_that_it_learns(const Source& source, auto tell, const Pose& outside,
   CHECK(told.longest_tick() == 2e-3);
   CHECK_FALSE(told.tick(inside, ph::seconds{1e-3}).force ==
               learns.tick(inside, ph::seconds{1e-3}).force);  // softer
-  (void)learns.tick(inside, ph::seconds{2e-3});
+  for (int k = 0; k < 2; ++k) (void)learns.tick(inside, ph::seconds{2e-3});
   for (int k = 0; k < 2000; ++k) {  // sets do not step there
     (void)told.tick(inside, ph::seconds{1e-3});
     (void)learns.tick(inside, ph::seconds{1e-3});

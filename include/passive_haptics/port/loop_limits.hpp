@@ -5,12 +5,13 @@
 //   loop_limits               a force is held from its command on
 //   late_loop_limits<k>       it is held k ticks later, as with every device that communicates in packets
 //   watched_loop_limits<k>    the same; a sensor that is slower than the loop is reported
-//   learning_loop_limits<k>   T is the longest tick so far, growing tenfold at most in one tick: conditional
+//   learning_loop_limits<k>   T is the longest tick but one of late, growing tenfold at most in one tick: conditional
 //   trusted_loop_limits<k>    samples are not checked, because the caller has: conditional, half the code
 //
 // The latency is a property of the loop, so it is stated once, here. A force bound either covers it or does not
 // compile with it. identification/measure_latency.hpp and measure_ticks.hpp measure the numbers of a loop.
 
+#include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/guard.hpp>
 
 #include <limits>
@@ -21,8 +22,36 @@ inline namespace v0 {
 /// Properties of a loop that are known at compile time.
 struct loop_traits {
   bool watched = false;  ///< event::repeated_sample reports a sensor that is slower than the loop
-  bool learns = false;   ///< T is the longest tick so far, growing tenfold at most in one tick
+  bool learns = false;   ///< T is the longest tick but one of late (detail::lessons)
 };
+
+namespace detail {
+/// What a loop that learns has been taught. One tick alone that is longer than T is late, and may be a debugger: nothing
+/// is learned from it. Of two within 10 s T becomes the shorter one. It is what was stated again once no tick has been
+/// longer than T/2 for 10 s.
+template <class Scalar>
+class lessons {
+ public:
+  constexpr explicit lessons(Scalar stated) noexcept : stated_(stated) {}
+  /// T after a tick of dt [s], where it was T before.
+  [[nodiscard]] constexpr Scalar after(Scalar dt, Scalar T) noexcept {
+    since_ += dt;
+    idle_ = dt > T / Scalar(2) ? Scalar(0) : idle_ + dt;
+    if (idle_ > memory) return stated_;
+    if (!(dt > T && dt <= Scalar(10) * T)) return T;  // above that it was no tick of a loop
+    const Scalar before = since_ > memory ? Scalar(0) : last_;
+    last_ = dt;
+    since_ = Scalar(0);
+    return kernels::larger(T, kernels::smaller(before, dt));
+  }
+
+ private:
+  static constexpr Scalar memory = Scalar(10);  // [s]
+  Scalar stated_;                               ///< [s]
+  Scalar last_{}, since_{};  ///< the last tick that was longer than T, and the time since [s]
+  Scalar idle_{};            ///< the time since the last one longer than T/2 [s]
+};
+}  // namespace detail
 
 /// A guarantee holds while the loop keeps these limits; a tick that does not is reported. The cost of a late tick is
 /// known, because its force was held to its end: the ledger books it, which leaves a debt at worst. If the driver may
@@ -61,16 +90,22 @@ struct late_loop_limits {
   template <class Port>
   struct on {
     using scalar = typename Port::scalar;
+    struct nothing {
+      constexpr explicit nothing(scalar /*stated*/) noexcept {}
+    };
     scalar longest_tick;
     scalar top_speed;
     scalar workspace;
     scalar watchdog;
+    PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
+    std::conditional_t<Traits.learns, detail::lessons<scalar>, nothing> taught;
 
     constexpr explicit on(const late_loop_limits& p) noexcept
         : longest_tick(detail::number<scalar>(p.longest_tick)),
           top_speed(detail::number<scalar>(p.top_speed)),
           workspace(detail::number<scalar>(p.workspace)),
-          watchdog(detail::number<scalar>(p.watchdog)) {}
+          watchdog(detail::number<scalar>(p.watchdog)),
+          taught(longest_tick) {}
     [[nodiscard]] constexpr late_loop_limits parameters() const noexcept {
       return {.longest_tick = static_cast<double>(longest_tick),
               .top_speed = static_cast<double>(top_speed),

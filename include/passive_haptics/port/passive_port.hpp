@@ -346,8 +346,9 @@ class passive_port {
     const bool late = is_late(dt, limits_.longest_tick);
     event what = booked_as(travel, dt, late);
     if constexpr (Limits::traits.learns) {
-      if (late && dt <= scalar(10) * limits_.longest_tick)
-        learn(dt);  // else it was no tick of a loop
+      const scalar T =
+          kernels::smaller(limits_.taught.after(dt, limits_.longest_tick), limits_.watchdog);
+      if (!(T == limits_.longest_tick)) learn(T);
     }
     const state_type state{.damping = observer_.damping(),
                            .commanded = guard_.commanded(),
@@ -584,9 +585,9 @@ class passive_port {
       return P::is_finite(held);
     }
   }
-  /// Raises T to the longest tick so far, at most to the watchdog's time.
-  [[gnu::cold, gnu::noinline]] constexpr void learn(scalar dt) noexcept {
-    limits_.longest_tick = limits_.held_for(dt);
+  /// Sets another T, of which the source is told.
+  [[gnu::cold, gnu::noinline]] constexpr void learn(scalar T) noexcept {
+    limits_.longest_tick = T;
     detail::tell(source_, limits_.longest_tick, latency);
   }
   /// Recomputes everything that depends on parameters.
