@@ -192,6 +192,20 @@ TEST_CASE("a fault that the port tells of is forgiven at once, and once in a row
   lost.disturbed();  // another row, which begins without a debt
   CHECK_THAT(lost.value(), WithinRel(A, 1e-9));
 
+  // Samples that are lost in a row are one fault: no more than A, then nor later, as long as half of it is there.
+  for (const double spent : {0.0, 0.4, 0.6}) {
+    auto blind = at<d1>(mild);
+    for (int n = 0; n < 300; ++n) {
+      blind.forfeit(0.0, T);
+      blind.disturbed();
+    }
+    CHECK(blind.value() == A);
+    (void)blind.update(spent * A / 9.0, 9.0, T);
+    const double left = blind.value();
+    rest(blind, 20.0);
+    CHECK(blind.value() == left);
+  }
+
   auto jumped = at<d1>(mild);
   (void)jumped.update(4e-3, 9.0,
                       T);  // a row that a debt began: not at once, whatever is told later
@@ -217,6 +231,7 @@ TEST_CASE("a debt of microjoules on encoders is no fault, and a long row gets it
   auto row = at<d1>(mild);
   double pause = 0.2;
   row.disturbed();
+  rest(row, T);
   for (; pause < 12.0; pause *= 2.0) {  // a fault in every amends
     row.disturbed();
     rest(row, pause + 0.01);
@@ -312,7 +327,7 @@ TEST_CASE("no single fault takes a wall away for longer than a second",
   // All of them, on seven compositions and at more moments: the preset `faults`.
   const auto pressed_by = [](const auto& hand) {
     return faults::subject{
-        "touch", {.mass = 0.1, .damping = 0.1}, 9.0, ph::amends_for(9.0), 0, [hand](double amends) {
+        "touch", {.mass = 0.1, .damping = 0.1}, 9.0, ph::amends_for(9.0), [hand](double amends) {
           auto port = ph::make_touch<d3>(
               ph::exact_device{.mass = 0.1, .damping = 0.05, .force_limit = 9.0, .longest_tick = T},
               hand);
