@@ -36,7 +36,6 @@ struct fault {
   std::function<void(sample&)> spoil = [](sample&) {};
   int held = 1;        ///< ticks for which the device holds its last command
   bool stuck = false;  ///< the device shows its position of before
-  double dt = T;       ///< length of the tick that the loop is told [s]
   int world = 0;       ///< what the world publishes meanwhile, 0: what is there (restarts())
   bool gives_way =
       false;  ///< it lets the finger go somewhere else, from where no passive port pushes it back
@@ -85,7 +84,6 @@ struct fault {
                      s.position = vector(x.x(), x.y(), flipped(x.z(), bit));
                    }});
     all.push_back({name + "dt", 1, [=](sample& s) { s.dt = flipped(s.dt, bit); }});
-    all.back().dt = flipped(T, bit);
     all.push_back({name + "held", 1, [=](sample& s) {
                      const vector f = s.held;
                      s.held = vector(f.x(), f.y(), flipped(f.z(), bit));
@@ -93,7 +91,6 @@ struct fault {
   }
   for (const int n : {2, 5, 20, 100, 300}) {
     all.push_back({"late " + std::to_string(n) + " ms", 1, [](sample&) {}, n});
-    all.back().dt = n * T;
   }
   return all;
 }
@@ -144,7 +141,6 @@ struct subject {
   sim::device_parameters<d3> device{};
   double limit = 9.0;   ///< largest force [N]
   double amends = 0.0;  ///< A of § 11 [J]
-  int learns = 0;       ///< the loop learns ticks of up to this length [T]
   std::function<controller(double amends)> make;
   bool world = false;        ///< somebody publishes to it
   double stiffness = 800.0;  ///< of the floor, and of the surfaces beside it [N/m]
