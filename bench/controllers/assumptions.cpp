@@ -3,6 +3,8 @@
 // while the statement holds, and what once it does not.
 #include "tables.hpp"
 #include <passive_haptics/compositions.hpp>
+#include <passive_haptics/contact/contact_set.hpp>
+#include <passive_haptics/knob.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 #include <passive_haptics/simulation/presets.hpp>
@@ -36,6 +38,12 @@ struct unreported {
 constexpr auto lay_on_contact = [](auto& loop, const auto& surface) {
   return loop.model.update({surface.point, surface.normal, surface.stiffness});
 };
+
+constexpr auto lay_on_set = [](auto& loop, const auto& surface) {
+  return loop.model.source().update(
+      0, ph::half_space<d1>{surface.point, surface.normal, surface.stiffness});
+};
+constexpr auto lay_on_nothing = [](auto& /*loop*/, const auto& /*surface*/) { return true; };
 
 /// The same of a guard, in front of a renderer of spring walls.
 template <class Guard>
@@ -278,6 +286,22 @@ std::vector<trial> trials() {
       {mass, damping, hand_force, limited_hand, motors_limit, longest_tick, latency,
        exact_positions});
 
+  const auto of_set = [](const char* name, auto port) {
+    return attacked(name, unreported<decltype(port)>{port}, lay_on_set, limited_hands);
+  };
+  const ph::slots<ph::half_space<d1>, 1> one{};
+  add(of_set("make_contacts", ph::make_contacts<d1>(ideal, person, one)), world,
+      {mass, damping, hand_force, limited_hand, motors_limit, longest_tick, latency,
+       exact_positions});
+  const auto detents = ph::make_detents<d1>(ideal, person, {.pitch = 5e-3, .stiffness = 2000.0});
+  add(attacked("make_detents", unreported<std::remove_const_t<decltype(detents)>>{detents},
+               lay_on_nothing, limited_hands),
+      world, {mass, damping, hand_force, limited_hand, longest_tick, latency, exact_positions});
+  const auto anybody = ph::make_touch<d1>(ideal, ph::any_hand);
+  add(attacked("make_touch, any_hand", unreported<std::remove_const_t<decltype(anybody)>>{anybody},
+               lay_on_contact, steady_adversaries()),
+      world, {damping, longest_tick, latency, exact_positions});
+
   auto strict_world = world;
   strict_world.force_limit = sim::circumstances::infinity;
   auto unlimited = ph::make_strict_guard<d1>(ideal.damping, ph::actuator_limit{1e6}, 1e-3);
@@ -303,6 +327,14 @@ std::vector<trial> trials() {
   add(encoders, stepped,
       {mass, friction, presliding, hand_force, limited_hand, encoder_step, longest_tick, latency});
   add(encoders, soft_and_restless(stepped), {motors_limit});
+  const ph::known_hand known{.force = 5.0 + stated.friction};
+  add(of_set("make_contacts, encoders", ph::make_contacts<d1>(stated, known, one)), stepped,
+      {mass, friction, presliding, hand_force, limited_hand, encoder_step, longest_tick, latency});
+  const auto guarded = ph::make_guard<d1>(stated, known);
+  add(attacked("make_guard, encoders", rendered<std::remove_const_t<decltype(guarded)>>{guarded},
+               lay_on_guard, limited_hands),
+      stepped,
+      {mass, friction, presliding, hand_force, limited_hand, encoder_step, longest_tick, latency});
   // Dry friction pays for so much that nothing is left for the damper to pay, unless there is much of it.
   const ph::encoder_device damped{.mass = 0.05,
                                   .damping = 4.0,
