@@ -3,6 +3,7 @@
 // Single faults of a haptic loop, and their effect on a wall that a hand is pressing.
 
 #include "../common/quiet.hpp"
+#include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
@@ -26,6 +27,7 @@ using d3 = ph::space<double, 3>;
 using vector = d3::vector;
 using sample = ph::device_sample<d3>;
 using hand = sim::impedance_hand<d3>;
+using plane = ph::half_space<d3>;
 
 inline constexpr double T = 1e-3;  // [s]
 
@@ -112,6 +114,18 @@ enum world : int { right, higher, lower, tilted, stiffer, other_order, none };
   restart("in another order", other_order);
   restart("with no numbers", none);
   return all;
+}
+
+/// A plane as a world says it.
+[[nodiscard]] inline plane told_as(int what, plane is) {
+  const vector n = is.normal;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  if (what == higher) is.point = vector(vector(is.point) + 5e-3 * n);
+  if (what == lower) is.point = vector(vector(is.point) - 5e-3 * n);
+  if (what == tilted) is.normal = vector(n + vector(1.03, 0, 0));
+  if (what == stiffer) is.stiffness *= 50.0;
+  if (what == none) is.point = vector(nan, nan, nan);
+  return is;
 }
 
 /// The answer of a loop to a sample.

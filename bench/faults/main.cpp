@@ -21,7 +21,6 @@
 namespace faults {
 
 namespace ex = experiments;
-using plane = ph::half_space<d3>;
 
 namespace {
 
@@ -52,17 +51,6 @@ controller loop_of(Port port, double amends, auto tell) {
             return answer{out.force, out.what};
           },
           [own, tell](int what) { tell(*own, what); }};
-}
-/// A plane as a world says it.
-plane told_as(int what, plane is) {
-  const vector n = is.normal;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  if (what == higher) is.point = vector(vector(is.point) + 5e-3 * n);
-  if (what == lower) is.point = vector(vector(is.point) - 5e-3 * n);
-  if (what == tilted) is.normal = vector(n + vector(1.03, 0, 0));
-  if (what == stiffer) is.stiffness *= 50.0;
-  if (what == none) is.point = vector(nan, nan, nan);
-  return is;
 }
 constexpr auto floor_of(double K) {
   return [K](auto& port, int what) {
@@ -280,7 +268,11 @@ int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop
     report.section("Every fault", "The same, one by one.");
     ex::show_rows(report, "single", rows);
 
+    const auto tools = rigid::rigid_subjects();
+    const std::vector<int> moments =
+        chosen.quick ? std::vector<int>{220} : std::vector<int>{150, 220, 450, 900};
     const auto worlds = restarts();
+    std::vector<rigid_row> turned_anew;
     std::vector<row> anew;
     for (const auto& s : who) {
       if (!s.world) continue;
@@ -295,21 +287,32 @@ int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop
                    at + "creates energy");  // ½ c p, where there is friction
       }
     }
+    for (const auto& s : tools) {
+      for (const auto& f : worlds) {
+        const rigid_row& r =
+            turned_anew.emplace_back(s.name, f.name, rigid::tried(s, {f}, moments));
+        const std::string at = s.name + ", " + f.name + ": ";
+        ex::expect(failed, r.found.finite, at + "a force is no number");
+        ex::expect(failed, r.found.largest <= s.limit * (1.0 + 1e-9), at + "over the limit");
+        ex::expect(failed, r.found.torque <= s.torque_limit * (1.0 + 1e-9), at + "over the limit");
+        ex::expect(failed, r.found.lost == 0 || f.gives_way, at + "not back within a second");
+        ex::expect(failed, r.found.created <= 2e-6, at + "creates energy");
+      }
+    }
     report.section(
         "A world that starts anew",
         "Its publisher begins again and says for 0.2 s what is not so, then what is. No ledger "
         "is wrong by that, so nothing is created. Where the surface gives way the finger goes "
         "with it, and no passive port brings it back before the hand does.");
     ex::show_rows(report, "restarts", anew);
+    report.section("A world that starts anew, in six degrees of freedom", "The same of the tools.");
+    ex::show_rows(report, "rigid_restarts", turned_anew);
 
-    const auto tools = rigid::rigid_subjects();
     const auto poses = rigid::rigid_faults();
     std::vector<std::pair<const rigid::rigid_subject*, const rigid::rigid_fault*>> turns;
     for (const auto& s : tools) {
       for (const auto& f : poses) turns.emplace_back(&s, &f);
     }
-    const std::vector<int> moments =
-        chosen.quick ? std::vector<int>{220} : std::vector<int>{150, 220, 450, 900};
     const auto turned = work.rows("rigid.csv", "six degrees", turns, [&moments](const auto& job) {
       return rigid_row{job.first->name, job.second->of.name,
                        rigid::tried(*job.first, *job.second, moments)};

@@ -14,7 +14,6 @@ namespace faults::rigid {
 using body = ph::rigid_body<double>;
 using triple = body::triple;
 using rigid_sample = ph::device_sample<body>;
-using floor_plane = ph::half_space<d3>;
 
 /// A fault of the whole pose.
 struct rigid_fault {
@@ -60,7 +59,10 @@ struct rigid_answer {
   body::effort wrench;
   ph::event what;
 };
-using rigid_controller = std::function<rigid_answer(const rigid_sample&)>;
+struct rigid_controller {
+  std::function<rigid_answer(const rigid_sample&)> tick;
+  std::function<void(int)> publish;  ///< what the world says of all surfaces: `world` of a fault
+};
 
 /// A tool and what it touches.
 struct rigid_subject {
@@ -119,7 +121,9 @@ struct rigid_course {
     } else {
       before = shown.position;
     }
-    const rigid_answer a = loop(shown);
+    if (f && f->of.world != right && n == at) loop.publish(f->of.world);
+    if (f && f->of.world != right && n == at + f->of.lasts) loop.publish(right);
+    const rigid_answer a = loop.tick(shown);
     const triple force = body::linear(a.wrench), torque = body::angular(a.wrench);
     all.finite = all.finite && force.allFinite() && torque.allFinite();
     all.largest = std::max(all.largest, force.norm());
@@ -188,14 +192,17 @@ struct rigid_harm {
 }
 
 template <class Port>
-rigid_controller loop_of(Port port, double amends) {
+rigid_controller loop_of(Port port, double amends, auto tell) {
+  tell(port, right);
   auto ledger = port.observer().parameters();
   ledger.amends = amends;
   (void)port.set(ledger);
-  return [own = std::make_shared<Port>(port)](const rigid_sample& s) {
-    const auto out = own->tick(s);
-    return rigid_answer{out.force, out.what};
-  };
+  const auto own = std::make_shared<Port>(port);
+  return {[own](const rigid_sample& s) {
+            const auto out = own->tick(s);
+            return rigid_answer{out.force, out.what};
+          },
+          [own, tell](int what) { tell(*own, what); }};
 }
 inline constexpr ph::rigid_device tool{.inertia = {.mass = 0.15, .least = 1e-4, .spread = 2e-4},
                                        .damping = {.linear = 0.015, .angular = 5e-5},
@@ -204,25 +211,28 @@ inline constexpr ph::rigid_device tool{.inertia = {.mass = 0.15, .least = 1e-4, 
                                        .torque_limit = 0.5,
                                        .longest_tick = T};
 
-/// A block of 20 mm by 20 mm by 40 mm that hangs from the handle, on a floor or in a hole that is 0.5 mm wider.
-template <int Slots>
-auto block(double K, bool hole, const ph::rigid_hand& hand) {
-  auto peg = ph::make_tool(tool, hand, ph::slots<floor_plane, Slots>{});
-  const double half = 0.01, length = 0.04, room = half + 0.00025;
-  int slot = 0;
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      for (const double z : {-length, 0.0}) {
-        const triple corner(half * x, half * y, z);
-        if (hole) {
-          peg.source().update(slot++, corner, floor_plane{{room * x, 0, 0}, {-x, 0, 0}, K});
-          peg.source().update(slot++, corner, floor_plane{{0, room * y, 0}, {0, -y, 0}, K});
+/// Tells a block of 20 mm by 20 mm by 40 mm that hangs from the handle what it may touch: a floor, or a hole that is
+/// 0.5 mm wider.
+[[nodiscard]] inline auto surroundings(double K, bool hole) {
+  return [K, hole](auto& port, int what) {
+    constexpr double half = 0.01, length = 0.04, room = half + 0.00025;
+    std::vector<std::pair<triple, plane>> all;
+    for (const double x : {-1.0, 1.0}) {
+      for (const double y : {-1.0, 1.0}) {
+        for (const double z : {-length, 0.0}) {
+          const triple corner(half * x, half * y, z);
+          if (hole) all.push_back({corner, plane{{room * x, 0, 0}, {-x, 0, 0}, K}});
+          if (hole) all.push_back({corner, plane{{0, room * y, 0}, {0, -y, 0}, K}});
+          if (z < 0) all.push_back({corner, plane{{0, 0, -length}, {0, 0, 1}, K}});
         }
-        if (z < 0) peg.source().update(slot++, corner, floor_plane{{0, 0, -length}, {0, 0, 1}, K});
       }
     }
-  }
-  return peg;
+    const std::size_t first = what == other_order ? 1 : 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto& [corner, is] = all[(i + first) % all.size()];
+      (void)port.source().update(static_cast<int>(i), corner, told_as(what, is));
+    }
+  };
 }
 [[nodiscard]] inline std::vector<rigid_subject> rigid_subjects() {
   const double A = ph::amends_for(tool.force_limit);
@@ -230,10 +240,14 @@ auto block(double K, bool hole, const ph::rigid_hand& hand) {
   std::vector<rigid_subject> all;
   for (const double K : {650.0, 2000.0}) {
     const std::string stiff = std::to_string(int(K)) + " N/m";
-    all.push_back({"tool on a floor, " + stiff, 9.0, 0.5, A, 4e-3,
-                   [=](double amends) { return loop_of(block<4>(K, false, hand), amends); }});
-    all.push_back({"peg in a hole, " + stiff, 9.0, 0.5, A, 4e-3,
-                   [=](double amends) { return loop_of(block<20>(K, true, hand), amends); }});
+    all.push_back({"tool on a floor, " + stiff, 9.0, 0.5, A, 4e-3, [=](double amends) {
+                     return loop_of(ph::make_tool(tool, hand, ph::slots<plane, 4>{}), amends,
+                                    surroundings(K, false));
+                   }});
+    all.push_back({"peg in a hole, " + stiff, 9.0, 0.5, A, 4e-3, [=](double amends) {
+                     return loop_of(ph::make_tool(tool, hand, ph::slots<plane, 20>{}), amends,
+                                    surroundings(K, true));
+                   }});
   }
   return all;
 }
