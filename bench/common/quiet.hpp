@@ -35,10 +35,16 @@ inline constexpr double probe_by = 1e-6;
   return std::isfinite(since) ? format("%.2f s", since)
                               : "no: " + std::string(sim::to_string(missed));
 }
-/// The bars for a wall of stiffness K [N/m] on a device with encoders of step `quantum` [m].
+/// What is displayed at most of a wall of stiffness K [N/m]: κ m/T², the stiffest that is sampled.
+[[nodiscard]] inline double sampled_at_most(double K, double mass) {
+  return std::min(K, 0.1 * mass / 1e-6);
+}
+/// The bars for such a wall on a device with encoders of step `quantum` [m], and their floor K q [N].
 [[nodiscard]] inline sim::quiet_bars quiet_on(double K, double quantum, double mass) {
-  const double most = 0.1 * mass / 1e-6;  // of κ m/T², the stiffest that is sampled
-  return sim::quiet_bars{}.on_encoders(quantum, std::min(K, most), mass);
+  return sim::quiet_bars{}.on_encoders(quantum, sampled_at_most(K, mass), mass);
+}
+[[nodiscard]] inline double floor_on(double K, double quantum, double mass) {
+  return sampled_at_most(K, mass) * quantum;
 }
 
 /// The unit normals of those of the first `count` slots that press.
@@ -183,5 +189,12 @@ inline constexpr const char* quiet_columns =
     "rest: the largest step of the force in a tick, and speed along what presses, of the last 0.1 "
     "s of "
     "all runs; asked, shown: the stiffness of the contact, of the run with the median share.";
+/// Of the captions of tables on encoders: whose bars are judged.
+inline constexpr const char* quiet_on_steps =
+    " On encoders of step q the bars are K q/2, q/2 (K/m)^0.5 and K q of the stiffness displayed, "
+    "where those are higher; floor: K q.";
+/// Of the captions of tables whose shown stiffness is that of a held_stiffness.
+inline constexpr const char* held_last_second =
+    " Shown: the mean force over the mean true depth of the last second.";
 
 }  // namespace experiments

@@ -136,6 +136,7 @@ wall_result drop(auto model, Device device, const wall_scene& scene, std::uint64
   result.quiet = quiet_in_time(judge_of_quiet);
   result.missed = judge_of_quiet.missed();
   result.still.add(judge_of_quiet, {scene.stiffness, held.shown()});
+  result.still.on_floor(floor_on(scene.stiffness, scene.quantum, scene.mass));
   result.force_error = in_contact > 0 ? error / in_contact : 0.0;
   return result;
 }

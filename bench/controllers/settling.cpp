@@ -150,9 +150,8 @@ struct settling_sum {
   settling_way way{};
   ex::wall_scene device{};
   int cases = 0, unsettled = 0, long_cycles = 0;
-  int quiet = 0;                ///< cases that are so at their end, by the floor of their steps
-  double slowest_quiet = 0.0;   ///< of them [s]
-  std::array<int, 5> missed{};  ///< of the others, by bar
+  ex::at_rest still{};          ///< of all cases, by the floor of their steps
+  std::array<int, 5> missed{};  ///< cases that are not quiet, by bar
   double longest = 0.0;         ///< cycle [m]
   double worst = 0.0;           ///< settle time of those that settle [s]
   double port_energy = 0.0, ledger = std::numeric_limits<double>::infinity();
@@ -163,12 +162,8 @@ struct settling_sum {
     unsettled += r.settled() ? 0 : 1;
     long_cycles += device.quantum > 0.0 && r.fell.last_swing > 10.0 * device.quantum ? 1 : 0;
     longest = std::max(longest, r.fell.last_swing);
-    if (std::isfinite(r.fell.quiet)) {
-      ++quiet;
-      slowest_quiet = std::max(slowest_quiet, r.fell.quiet);
-    } else {
-      ++missed[static_cast<std::size_t>(r.fell.missed)];
-    }
+    still.add(r.fell.still);
+    if (!std::isfinite(r.fell.quiet)) ++missed[static_cast<std::size_t>(r.fell.missed)];
     if (r.settled()) worst = std::max(worst, r.fell.settle);
     port_energy = std::min(port_energy, r.fell.port_energy);
     ledger = std::min(ledger, r.fell.ledger);
@@ -186,36 +181,35 @@ struct settling_sum {
 };
 
 ex::record record_of(const settling_sum& r) {
-  return {{"composition", std::string(r.way.name)},
-          {"step m", r.device.quantum},
-          {"friction N", r.device.friction},
-          {"force limit N", r.device.force_limit},
-          {"unsettled", r.unsettled},
-          {"longest cycle m", r.longest},
-          {"worst settle s", r.worst},
-          {"quiet", r.quiet},
-          {"slowest quiet s", r.slowest_quiet},
-          {"miss q1", r.missed[1]},
-          {"miss q2", r.missed[2]},
-          {"miss q3", r.missed[3]},
-          {"min port energy J", r.port_energy},
-          {"ledger J", r.ledger},
-          {"stiffness error", r.stiffness_error}};
+  return ex::with_floor({{"composition", std::string(r.way.name)},
+                         {"step m", r.device.quantum},
+                         {"friction N", r.device.friction},
+                         {"force limit N", r.device.force_limit},
+                         {"unsettled", r.unsettled},
+                         {"longest cycle m", r.longest},
+                         {"worst settle s", r.worst},
+                         {"miss q1", r.missed[1]},
+                         {"miss q2", r.missed[2]},
+                         {"miss q3", r.missed[3]},
+                         {"min port energy J", r.port_energy},
+                         {"ledger J", r.ledger},
+                         {"stiffness error", r.stiffness_error}},
+                        r.still);
 }
 
 /// The recommended compositions, for people.
 ex::record recommended(const settling_sum& r) {
   if (!r.way.counts_surely) return {};
-  return {{"composition", std::string(r.way.name)},
-          {"step, friction, force limit", r.called()},
-          {"not settled", std::to_string(r.unsettled) + " of " + std::to_string(r.cases)},
-          {"longest cycle", r.cycle()},
-          {"worst settle s", r.worst, "%.2f"},
-          {"quiet", std::to_string(r.quiet) + " of " + std::to_string(r.cases)},
-          {"slowest quiet s", r.slowest_quiet, "%.2f"},
-          {"least port energy J", r.port_energy},
-          {"ledger at the end mJ", r.ledger * 1e3, "%.1f"},
-          {"stiffness error", r.stiffness_error, "%.3f"}};
+  return ex::with_floor(
+      {{"composition", std::string(r.way.name)},
+       {"step, friction, force limit", r.called()},
+       {"not settled", std::to_string(r.unsettled) + " of " + std::to_string(r.cases)},
+       {"longest cycle", r.cycle()},
+       {"worst settle s", r.worst, "%.2f"},
+       {"least port energy J", r.port_energy},
+       {"ledger at the end mJ", r.ledger * 1e3, "%.1f"},
+       {"stiffness error", r.stiffness_error, "%.3f"}},
+      r.still);
 }
 
 /// What it failed to do.
@@ -268,10 +262,9 @@ std::vector<std::string> run_settling(const session& s) {
   s.out.show(all);
   s.out.section(
       "The recommended compositions",
-      "Quiet: by 5 s and from then on, by the bars of docs/design/settling.md with the floor of "
-      "the steps. "
       "Stiffness error: of the force held over the true depth, pressed at least 2 mm deeper, "
-      "against min(K, κ m/T², the budget); not measured where the motors saturate.");
+      "against min(K, κ m/T², the budget); not measured where the motors saturate." +
+          std::string(ex::quiet_columns) + ex::quiet_on_steps + ex::held_last_second);
   s.out.show(ex::table_of(sums, recommended));
   s.out.member("settling", ex::json_of(sums));
   return found;

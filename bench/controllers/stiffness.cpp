@@ -14,11 +14,15 @@ stiffness_row judge_on_stiffness(const controller& c, double stiffness) {
   double squares = 0.0;
   sim::quiet_judge<d1> quiet;
   constexpr std::array<double, 1> normal{-1.0};
+  ex::held_stiffness held;
   sim::run(device, wall, 5999, sim::idle, sim::idle, [&](const auto& now) {
     quiet.add(now.force, device.velocity(), 1e-3,
               std::span(normal).first(now.position > 0.0 ? 1 : 0));
+    if (now.tick >= 4999) held.add(-now.force, now.position);
     if (now.tick >= 3999) squares += device.velocity() * device.velocity();
   });
+  ex::at_rest still;
+  still.add(quiet, {stiffness, held.shown()});
   return {c.name,
           c.tag,
           stiffness,
@@ -27,15 +31,19 @@ stiffness_row judge_on_stiffness(const controller& c, double stiffness) {
           device.meter().total().actuator,
           std::sqrt(squares / 2000.0),
           ex::quiet_in_time(quiet),
-          quiet.missed()};
+          quiet.missed(),
+          still};
 }
 
 static ex::record record_of(const stiffness_row& r) {
-  return {{"controller", r.controller},        {"tag", to_string(r.tag)},
-          {"stiffness N/m", r.stiffness},      {"covered", r.covered},
-          {"out of port J", r.out_of_port},    {"out of wall J", r.out_of_wall},
-          {"rms speed m/s", r.rms_speed},      {"quiet s", r.quiet},
-          {"misses", sim::to_string(r.missed)}};
+  return ex::with({{"controller", r.controller},
+                   {"tag", to_string(r.tag)},
+                   {"stiffness N/m", r.stiffness},
+                   {"covered", r.covered},
+                   {"out of port J", r.out_of_port},
+                   {"out of wall J", r.out_of_wall},
+                   {"rms speed m/s", r.rms_speed}},
+                  r.still);
 }
 
 std::vector<std::string> run_stiffness(const session& s) {
@@ -44,6 +52,8 @@ std::vector<std::string> run_stiffness(const session& s) {
       s.rows("stiffness.csv", "stiffness", with_each(s.judged, swept),
              [](const auto& job) { return judge_on_stiffness(*job.first, job.second); });
   std::vector<std::string> heading{"out of port | of wall, mJ | quiet", "tag"}, found, line;
+  ex::at_rest still;
+  std::vector<ex::record> rests;
   for (const double K : swept) heading.push_back(ex::format("%g N/m", K));
   ex::table shown(heading);
   for (const auto& r : rows) {
@@ -52,7 +62,11 @@ std::vector<std::string> run_stiffness(const session& s) {
                              ex::format("%.3g", r.out_of_wall * 1e3) + " | " +
                              ex::quiet_since(r.quiet, r.missed);
     line.push_back(r.covered ? cell : "(" + cell + ")");
-    if (line.size() == heading.size()) shown.add(std::exchange(line, {}));
+    still.add(r.still);
+    if (line.size() == heading.size()) {
+      shown.add(std::exchange(line, {}));
+      rests.push_back(ex::with({{"controller", r.controller}}, std::exchange(still, {})));
+    }
     if (!r.covered || r.out_of_port <= 1e-12) continue;
     found.push_back(r.controller + ", tagged " + to_string(r.tag) + ", on a wall of " +
                     ex::format("%g", r.stiffness) + " N/m: gave the hand " +
@@ -65,10 +79,11 @@ std::vector<std::string> run_stiffness(const session& s) {
       "about: not above zero), then the sum of f·Δx at the end, which the damper of the device may "
       "have eaten: negative when the wall has kept energy; then since when it is quiet "
       "(docs/design/settling.md), or what it missed last, if not by 5 s. In brackets: not covered "
-      "by the "
-      "tag, "
-      "or the controller is built for a loop that is late.");
+      "by the tag, or the controller is built for a loop that is late. Below them the six walls of "
+      "each together." +
+          std::string(ex::quiet_columns) + ex::held_last_second);
   s.out.show(shown);
+  s.out.show(ex::table_of(rests));
   s.out.member("stiffness", ex::json_of(rows));
   return found;
 }

@@ -20,11 +20,11 @@ struct wall_row {
   std::string scene;
   int runs = 0;
   int settled = 0;
-  int quiet = 0;           ///< runs that are so in time
-  bool covered = false;    ///< the guarantee has to hold here
-  ex::wall_result mean{};  ///< settle, quiet: the worst; port_energy: the least; the rest: means
+  bool covered = false;             ///< the guarantee has to hold here
+  ex::wall_result mean{};           ///< settle: the worst; port_energy: the least; the rest: means
   ex::wall_result least{}, most{};  ///< of the runs, in peak_to_peak and force_error
   double displayed = 0.0;           ///< static stiffness [N/m]
+  ex::at_rest still{};              ///< of all runs
 };
 
 [[nodiscard]] std::vector<ex::wall_scene> wall_scenes();
@@ -124,6 +124,7 @@ struct stiffness_row {
   double rms_speed = 0.0;    ///< over the last 2 s [m/s]
   double quiet = 0.0;        ///< from then on (simulation/quiet.hpp) [s]; NaN: not in time
   sim::quiet_bar missed{};   ///< by the last window that was not
+  ex::at_rest still{};       ///< the same in columns
 };
 
 [[nodiscard]] stiffness_row judge_on_stiffness(const controller& c, double stiffness);

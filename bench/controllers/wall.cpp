@@ -38,7 +38,7 @@ wall_row judge_on_wall(const controller& c, const ex::wall_scene& scene, int see
                .covered = c.covers_prompt(scene.stiffness),
                .displayed = displayed_stiffness(c)};
   row.least.peak_to_peak = row.least.force_error = std::numeric_limits<double>::infinity();
-  row.mean.settle = row.mean.quiet = std::nan("");
+  row.mean.settle = std::nan("");
   for (int seed = 1; seed <= row.runs; ++seed) {
     const auto r = ex::drop(c.in<d1>()(known_of(scene)), scene, static_cast<std::uint64_t>(seed));
     for (const auto figure : {&ex::wall_result::peak_to_peak, &ex::wall_result::force_error}) {
@@ -51,12 +51,7 @@ wall_row judge_on_wall(const controller& c, const ex::wall_scene& scene, int see
     row.mean.port_energy = std::min(row.mean.port_energy, least);
     row.settled += std::isfinite(r.settle) ? 1 : 0;
     row.mean.settle = std::fmax(row.mean.settle, r.settle);
-    row.mean.quiet = std::fmax(row.mean.quiet, r.quiet);
-    if (std::isfinite(r.quiet)) {
-      ++row.quiet;
-    } else {
-      row.mean.missed = r.missed;
-    }
+    row.still.add(r.still);
   }
   return row;
 }
@@ -106,20 +101,18 @@ const std::vector<published>& section_5() {
 }
 
 static ex::record record_of(const wall_row& r) {
-  return {{"controller", r.controller},
-          {"scene", r.scene.c_str()},
-          {"runs", r.runs},
-          {"settled", r.settled},
-          {"peak to peak mm", r.mean.peak_to_peak * 1e3},
-          {"worst settle s", r.mean.settle},
-          {"quiet", r.quiet},
-          {"worst quiet s", r.mean.quiet},
-          {"misses", sim::to_string(r.mean.missed)},
-          {"covered", r.covered},
-          {"min port energy J", r.mean.port_energy},
-          {"mean force error N", r.mean.force_error},
-          {"rest mm", r.mean.rest * 1e3},
-          {"displayed stiffness N/m", r.displayed}};
+  return ex::with({{"controller", r.controller},
+                   {"scene", r.scene.c_str()},
+                   {"runs", r.runs},
+                   {"settled", r.settled},
+                   {"peak to peak mm", r.mean.peak_to_peak * 1e3},
+                   {"worst settle s", r.mean.settle},
+                   {"covered", r.covered},
+                   {"min port energy J", r.mean.port_energy},
+                   {"mean force error N", r.mean.force_error},
+                   {"rest mm", r.mean.rest * 1e3},
+                   {"displayed stiffness N/m", r.displayed}},
+                  r.still);
 }
 
 /// For people, beside what § 5 has.
@@ -129,20 +122,19 @@ static ex::record compared(const wall_row& r) {
     if (q.controller == r.controller && q.scene == r.scene) p = q;
   }
   const std::string energy = ex::format("%.2g", r.mean.port_energy);
-  return {
-      {r.scene, r.controller},
-      {"tag", to_string(r.tag)},
-      {"peak to peak mm", r.mean.peak_to_peak * 1e3, "%.3f"},
-      {"settled", std::to_string(r.settled) + " of " + std::to_string(r.runs)},
-      {"settle s", r.mean.settle, "%.2f"},
-      {"quiet", ex::quiet_since(r.quiet == r.runs ? r.mean.quiet : std::nan(""), r.mean.missed)},
-      {"min port energy J", r.covered ? energy : "(" + energy + ")"},
-      {"force error N", r.mean.force_error},
-      {"rest mm", r.mean.rest * 1e3, "%.2f"},
-      {"displays N/m", r.displayed, "%.4g"},
-      {"§ 5: mm", p.peak_to_peak_mm, "%.4g"},
-      {"§ 5: N", p.force_error, "%.4g"},
-      {"agrees", p.controller.empty() ? "-" : agreement(r, p)}};
+  ex::record row{{r.scene, r.controller},
+                 {"tag", to_string(r.tag)},
+                 {"peak to peak mm", r.mean.peak_to_peak * 1e3, "%.3f"},
+                 {"settled", std::to_string(r.settled) + " of " + std::to_string(r.runs)},
+                 {"settle s", r.mean.settle, "%.2f"},
+                 {"min port energy J", r.covered ? energy : "(" + energy + ")"},
+                 {"force error N", r.mean.force_error},
+                 {"rest mm", r.mean.rest * 1e3, "%.2f"},
+                 {"displays N/m", r.displayed, "%.4g"},
+                 {"§ 5: mm", p.peak_to_peak_mm, "%.4g"},
+                 {"§ 5: N", p.force_error, "%.4g"},
+                 {"agrees", p.controller.empty() ? "-" : agreement(r, p)}};
+  return ex::with(std::move(row), r.still);
 }
 
 std::string agreement(const wall_row& row, const published& p) {
@@ -171,15 +163,14 @@ std::vector<std::string> run_wall(const session& s) {
       "A device of 0.1 kg and 0.03 N·s/m falls 61 mm onto a wall of 10 kN/m. S0: ideal device, "
       "static wall. S1: the wall gives way, surface = F/K, at 20-50 Hz. S2: 9 N saturation and 0.2 "
       "N dry friction. S5: S1 with a hand that damps, 2 N·s/m. Settle time and energy are the "
-      "worst of the seeds that settled, the rest means. Quiet: since when all seeds are "
-      "(docs/design/settling.md), or what one missed last, if not by 5 s. The port energy is the "
-      "simulator's own, "
+      "worst of the seeds that settled, the rest means. The port energy is the simulator's own, "
       "with dry friction booked for controllers that credit it; in brackets it is not covered by "
       "the tag, or the controller is built for a loop that is late. Displays: static stiffness "
       "felt when pressed at 1 mm/s with an empty ledger, force over depth at 1 N or at 20 mm; the "
       "wall has 10 kN/m. § 5: docs/design/mathematics.md. Its rows \"thesis literal\", "
       "\"out-only\", "
-      "\"out-only + reset\" and \"PO/PC 2002 pairing\" are no compositions of the library.");
+      "\"out-only + reset\" and \"PO/PC 2002 pairing\" are no compositions of the library." +
+          std::string(ex::quiet_columns) + ex::held_last_second);
   for (const auto& scene : scenes) {
     s.out.show(ex::table_of(rows, [&scene](const wall_row& r) {
       return r.scene == scene.name ? compared(r) : ex::record{};

@@ -217,7 +217,7 @@ std::vector<std::string> run_endurance(const session& s) {
       "many seconds the budget's stiffness lasts, and the largest stiffness that lasts to "
       "the end, by bisection to 3 %; 0 if 30 N/m does not. After the run at the budget the hand "
       "holds still at 1.1 N for 6 s." +
-          std::string(ex::quiet_columns) + quiet_on_steps);
+          std::string(ex::quiet_columns) + ex::quiet_on_steps + ex::held_last_second);
   ex::show_rows(s.out, "endurance", rows);
   plot_budget(s, rows);
   return found;

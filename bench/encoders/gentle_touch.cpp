@@ -246,7 +246,7 @@ std::vector<std::string> run_gentle_touch(const session& s) {
       "and more. Buzz: largest swing of the device in the second half of a hold; own swing: on "
       "an ideal spring of that stiffness, seen exactly. Least energy: at the port, what friction "
       "took and stores included. A run, for the columns on quiet, is a hold of 0.3 to 1 s." +
-          std::string(ex::quiet_columns) + quiet_on_steps);
+          std::string(ex::quiet_columns) + ex::quiet_on_steps + ex::held_last_second);
   ex::show_rows(s.out, "gentle_touch", rows);
   int number = 0;
   for (const auto& preset : sim::all_presets) {

@@ -49,12 +49,6 @@ class rest_of_hold {
   ex::held_stiffness held_;
   int seen_ = 0;
 };
-/// Of the captions of these tables: whose bars are judged.
-inline constexpr const char* quiet_on_steps =
-    " On encoders of step q the bars are K q/2, q/2 (K/m)^0.5 and K q of the stiffness displayed, "
-    "where those are higher; floor: K q. Shown: the mean force over the mean true depth of the "
-    "last second.";
-
 [[nodiscard]] const std::vector<ex::section<session>>& sections();
 [[nodiscard]] std::vector<std::string> run_gentle_touch(const session& s);
 [[nodiscard]] std::vector<std::string> run_endurance(const session& s);

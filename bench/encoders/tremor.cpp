@@ -161,7 +161,7 @@ std::vector<std::string> run_tremor(const session& s) {
                 "1.9 N at 1 Hz, for a minute at the budget: what the worst second of six runs "
                 "(three hands, two offsets of the surface) leaves of the stiffness. Then the hand "
                 "holds still at 1.1 N for 6 s." +
-                    std::string(ex::quiet_columns) + quiet_on_steps);
+                    std::string(ex::quiet_columns) + ex::quiet_on_steps + ex::held_last_second);
   ex::show_rows(s.out, "tremor", rows);
   return found;
 }
