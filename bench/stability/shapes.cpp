@@ -222,7 +222,8 @@ std::vector<std::string> run_shapes(const session& s) {
 
   s.out.section("Attacks on slivers",
                 "Flipping normals and the kitchen sink against triangle + turn_limited + spring. "
-                "no_bound is the control: it must be seen losing.");
+                "no_bound is the control: it must be seen losing. These hands never hold still, so "
+                "nothing comes to rest.");
   const auto attacked = attacks_on_slivers(s.chosen.quick ? 30 : 1000);
   for (const auto& r : attacked) {
     const bool is_control = r.what.rfind("no_bound", 0) == 0;
