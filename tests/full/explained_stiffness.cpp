@@ -220,6 +220,7 @@ TEST_CASE("explain() says the floor K q under which nothing is quiet on encoders
       (void)touched::tick(port, 1e-3, 1e-3, K);
       CHECK_THAT(port.explain().floor, WithinRel(port.explain().shown * q, 1e-9));
       CHECK_THAT(port.explain().floor, WithinRel(port.force_step(K), 1e-9));
+      CHECK_FALSE(port.check());  // it refuses what cannot be, and every step has a floor
       const double at = -40 * q;  // two positions that are a step apart
       double rested[2]{};
       for (int side = 0; side < 2; ++side) {
