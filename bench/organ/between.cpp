@@ -6,6 +6,7 @@
 #include "../thesis_experiments/organ.hpp"
 #include "published.hpp"
 #include <passive_haptics/compositions.hpp>
+#include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
@@ -139,7 +140,32 @@ scene stroked(const std::string& name, const std::string& file, double unit, std
 struct felt {
   std::vector<vector> force;  ///< [N]
   double least = 0.0, tick = 0.0, answer = 0.0;
+  ex::at_rest still{};  ///< after it
 };
+
+/// Where a run has ended hand and world hold still: a device of 0.1 kg in a hand of 100 N/m and 1 N·s/m that presses
+/// as hard as the run did. The last news stay. Where nothing is pressed at the end there is nothing to judge.
+template <class Model>
+ex::at_rest held_after(Model model, const vector& at, const vector& force, const letter& last) {
+  using fingers = sim::impedance_hand<volume>;
+  ex::at_rest still;
+  if (!(force.norm() > 0.02)) return still;
+  const fingers hand{.stiffness = 100.0, .damping = 1.0, .target = vector(at - force / 100.0)};
+  sim::device<volume, fingers> device({.mass = 0.1, .damping = 0.03, .start = at}, hand);
+  sim::quiet_judge<volume> judge;
+  const std::array<vector, 1> normal{last.flat.normal};
+  sim::run(device, model, static_cast<int>(ex::quiet_watched / 1e-3), sim::idle, sim::idle,
+           [&](const auto& now) {
+             const bool presses = now.force.squaredNorm() > 0.0;
+             judge.add(now.force, device.velocity(), 1e-3,
+                       std::span(normal).first(presses ? 1 : 0));
+           });
+  const auto force_at = [copy = model](const vector& x) mutable {
+    return vector(copy.tick(x, ph::seconds{1e-3}).force);
+  };
+  still.add(judge, {model.explain().asked, ex::shown_by(force_at, vector(device.position()))});
+  return still;
+}
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -167,6 +193,7 @@ felt follow(const scene& s, Model model, const auto& tell, double rate, double l
   sim::prescribed_motion<volume> device({.damping = 0.03, .period = 1e-3, .start = s.hand(0.0)});
   sim::update_schedule schedule(1, 1.0 / rate, 1.0 / rate);
   std::deque<letter> under_way;
+  letter last;
   vector held = vector::Zero();
   int asked = 0;
   const auto world = [&](const auto& now) {
@@ -179,7 +206,8 @@ felt follow(const scene& s, Model model, const auto& tell, double rate, double l
       ++asked;
     }
     while (!under_way.empty() && under_way.front().made + late < t + 1e-9) {
-      tell(model, under_way.front(), t - under_way.front().made);
+      last = under_way.front();
+      tell(model, last, t - last.made);
       under_way.pop_front();
     }
   };
@@ -197,6 +225,7 @@ felt follow(const scene& s, Model model, const auto& tell, double rate, double l
   };
   const int ticks = static_cast<int>(s.to * 1e3 + 0.5);
   run.least = sim::run(device, timed, ticks, world, move).least_energy;
+  run.still = held_after(model, s.hand(1e-3 * ticks), held, last);
   run.tick = ex::median(ticks_took);  // a mean would be of the machine
   run.answer /= asked;
   return run;
@@ -216,6 +245,7 @@ void judge(between_row& row, const scene& s, const felt& run, const felt& truth)
   row.least = std::min(row.least, run.least);
   row.tick = std::max(row.tick, 1e9 * run.tick);
   row.work = std::max(row.work, 1e3 * run.answer * row.rate);
+  row.still.add(run.still);
 }
 
 template <class Surface>
@@ -319,11 +349,20 @@ void draw(ex::report& out, std::vector<between_row>& rows) {
 }  // namespace
 
 ex::record record_of(const between_row& r) {
-  return {{"scene", r.scene},   {"rate_Hz", r.rate},   {"late_ms", r.late},
-          {"by", r.by},         {"error_N", r.error},  {"of_bare", r.of_bare},
-          {"step_N", r.step},   {"own_step_N", r.own}, {"lost_ticks", r.lost},
-          {"least_J", r.least}, {"tick_ns", r.tick},   {"work_ms_per_s", r.work},
-          {"front", r.front}};
+  return ex::with({{"scene", r.scene},
+                   {"rate_Hz", r.rate},
+                   {"late_ms", r.late},
+                   {"by", r.by},
+                   {"error_N", r.error},
+                   {"of_bare", r.of_bare},
+                   {"step_N", r.step},
+                   {"own_step_N", r.own},
+                   {"lost_ticks", r.lost},
+                   {"least_J", r.least},
+                   {"tick_ns", r.tick},
+                   {"work_ms_per_s", r.work},
+                   {"front", r.front}},
+                  r.still);
 }
 
 std::vector<between_row> run_between(ex::report& out, const between_settings& chosen) {
@@ -349,16 +388,20 @@ std::vector<between_row> run_between(ex::report& out, const between_settings& ch
     }
     bar.step();
   }
-  out.section("Between news",
-              "Worlds that move or give way, told so many times a second and so late, to a plane "
-              "and a spring (bare) and to "
-              "make_touch: as planes, with what the news know of their motion, as quadrics, or as "
-              "they give way. Against the "
-              "same world asked at 10 kHz; each figure is the worst of three hands that go where "
-              "they want. own_step: of the "
-              "truth. least_J: with 0.03 N s/m of the device. Front: of the organ told at once, "
-              "nothing has less error for "
-              "as little work.");
+  out.section(
+      "Between news",
+      "Worlds that move or give way, told so many times a second and so late, to a plane "
+      "and a spring (bare) and to "
+      "make_touch: as planes, with what the news know of their motion, as quadrics, or as "
+      "they give way. Against the "
+      "same world asked at 10 kHz; each figure is the worst of three hands that go where "
+      "they want. own_step: of the "
+      "truth. least_J: with 0.03 N s/m of the device. Front: of the organ told at once, "
+      "nothing has less error for "
+      "as little work." +
+          std::string(ex::quiet_columns) +
+          " Then the world stops, the last news stay, and 0.1 kg in a hand of 100 N/m and 1 "
+          "N·s/m press as hard as the run did; where it ended in the air nothing is held.");
   draw(out, rows);
   ex::publish(out, "between", rows);
   if (chosen.mesh.empty())

@@ -3,6 +3,7 @@
 // What is felt between news: surfaces that move by themselves or give way, told 10 to 1000 times a second and late, to
 // a plane and a spring, and to what make_touch makes of the same news.
 
+#include "../common/quiet.hpp"
 #include "../common/rows.hpp"
 
 #include <string>
@@ -33,6 +34,7 @@ struct between_row {
   double tick = 0.0;     ///< of the model [ns]
   double work = 0.0;     ///< of the environment, for a second of touching [ms]
   bool front = false;    ///< nothing has less error for as little work in this scene, told at once
+  ex::at_rest still{};   ///< when hand and world hold still after the run
 };
 [[nodiscard]] ex::record record_of(const between_row& r);
 

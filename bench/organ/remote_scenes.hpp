@@ -7,6 +7,7 @@
 //   both_ends_count  two_port: position and force cross it, and the energy of each end
 //   bare_force       position and force, and nobody counts
 
+#include "../common/quiet.hpp"
 #include <passive_haptics/force_bound/strict_bound.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 #include <passive_haptics/remote.hpp>
@@ -129,10 +130,11 @@ struct outcome {
   double force = 0.0;         ///< on the hand, mean of the last second [N]
   double error =
       0.0;  ///< mean |f − f of the wall as it is now, at the true position|, from 2 s on [N]
-  double worst = 0.0;         ///< of these [N]
-  double age = 0.0;           ///< of a surface when it is told, mean [s]
-  std::uint64_t told = 0;     ///< surfaces, or forces
-  std::uint64_t dropped = 0;  ///< doubles and overtaken ones, at the client
+  double worst = 0.0;            ///< of these [N]
+  double age = 0.0;              ///< of a surface when it is told, mean [s]
+  std::uint64_t told = 0;        ///< surfaces, or forces
+  std::uint64_t dropped = 0;     ///< doubles and overtaken ones, at the client
+  experiments::at_rest still{};  ///< of a wall at rest, since the hand has come to press it
 };
 
 /// Measures the run at the hand.
@@ -142,13 +144,19 @@ class watcher {
 
   void see(double t, double z, double force, double both_ports) {
     seen_.created = std::max(seen_.created, -both_ports);
-    if (t > 5.0) seen_.force += force, ++late_;
+    if (t > 5.0) {
+      seen_.force += force, ++late_;
+      held_.add(force, wall_.height(t) - z);
+    }
+    quiet_.add_at(force, z, tick, std::span(normal_).first(z < wall_.height(t) ? 1 : 0));
     if (t <= 2.0) return;
     const double apart = std::abs(force - wall_.force(t, z));
     seen_.error += apart;
     seen_.worst = std::max(seen_.worst, apart);
     ++ticks_;
   }
+  /// The hand has a new goal.
+  void aimed() { quiet_.news(); }
   void told(double age) {
     seen_.age += age;
     ++seen_.told;
@@ -160,19 +168,25 @@ class watcher {
     r.error /= std::max(ticks_, 1);
     r.age /= static_cast<double>(std::max<std::uint64_t>(r.told, 1));
     r.dropped = counted.of(remote::verdict::repeated) + counted.of(remote::verdict::overtaken);
+    if (wall_.heave == 0.0) r.still.add(quiet_, {stiffness, held_.shown()});
     return r;
   }
 
  private:
   heaving_wall wall_;
+  static constexpr std::array<double, 1> normal_{1.0};
   outcome seen_;
+  sim::quiet_judge<ph::space<double, 1>> quiet_;
+  experiments::held_stiffness held_;
   int ticks_ = 0, late_ = 0;
 };
 
 constexpr int ticks_of_a_run = 6000;
 
-inline void press(auto& device, int n) {
-  if (n == 500) device.hand().aim(vector(0.0, 0.0, -0.02), vector::Zero(), device.time());
+inline void press(auto& device, watcher& eye, int n) {
+  if (n != 500) return;
+  device.hand().aim(vector(0.0, 0.0, -0.02), vector::Zero(), device.time());
+  eye.aimed();
 }
 
 /// The client asks every 10 ms; the wall answers every 17. `meddle(n, line)` comes before each tick.
@@ -185,7 +199,7 @@ outcome surface_at_hand(const sim::channel_parameters& way, const heaving_wall& 
   auto sample = device.exchange(scene::zero());
   for (int n = 0; n < ticks_of_a_run; ++n) {
     const double t = n * tick;
-    press(device, n);
+    press(device, eye, n);
     meddle(n, line);
     if (n % 10 == 0) line.ask({.position = sample.position, .force = sample.held}, t);
     line.carry(t);
@@ -219,7 +233,7 @@ inline outcome bare_force(const sim::channel_parameters& way, const heaving_wall
   vector force = scene::zero();
   for (int n = 0; n < ticks_of_a_run; ++n) {
     const double t = n * tick;
-    press(device, n);
+    press(device, eye, n);
     line.ask({.position = sample.position}, t);
     line.carry(t);
     if (line.asked) {
@@ -261,7 +275,7 @@ outcome both_ends_count(const sim::channel_parameters& way, const heaving_wall& 
   auto sample = device.exchange(scene::zero());
   for (int n = 0; n < ticks_of_a_run; ++n) {
     const double t = n * tick, z = wall.height(t);
-    press(device, n);
+    press(device, eye, n);
     meddle(n, line);
     const auto mine = hand_end.packet();
     line.ask({.position = mine.payload, .energy = mine.energy}, t);
