@@ -103,13 +103,14 @@ class active_set {
       Scalar rest = half_[k];
       for (std::size_t m = k + 1; m < count_; ++m) rest -= root_[m][k] * goal[m];
       goal[k] = rest * inverse_[k];
-      if (!(goal[k] > Scalar(0))) share = kernels::smaller(share, zero_at(k, goal[k]));
+      const Scalar now = p_.pressed[in_[k]];
+      if (!(goal[k] > Scalar(0))) share = kernels::smaller(share, Scalar(now / (now - goal[k])));
     }
     std::size_t kept = 0;
     for (std::size_t k = 0; k < count_; ++k) {
       const std::size_t i = in_[k];
       const Scalar now = p_.pressed[i];
-      const bool stops = !(goal[k] > Scalar(0)) && !(zero_at(k, goal[k]) > share);
+      const bool stops = !(goal[k] > Scalar(0)) && !(now > share * (now - goal[k]));
       p_.pressed[i] = stops ? Scalar(0) : Scalar(now + share * (goal[k] - now));
       if (stops) {
         is_in_[i] = false;
@@ -118,7 +119,11 @@ class active_set {
         in_[kept++] = i;
       }
     }
-    count_ = kept;
+    if (kept == count_ && share < Scalar(1)) [[unlikely]] {
+      leave(goal);
+    } else {
+      count_ = kept;
+    }
     return share == Scalar(1);
   }
   /// d' − Aλ of a contact outside of S [m]; > 0 if it has to press, too.
@@ -130,11 +135,19 @@ class active_set {
   [[nodiscard]] constexpr bool has(std::size_t i) const noexcept { return is_in_[i]; }
 
  private:
-  /// The share of the way to `goal` ≤ 0 at which the k-th λ of S is 0. The least of them is the share itself, to the bit,
-  /// so that one leaves S: what rounding left of a λ, 4e-323 N, would stay in S and stop all others for ever.
-  [[nodiscard]] constexpr Scalar zero_at(std::size_t k, Scalar goal) const noexcept {
-    const Scalar now = p_.pressed[in_[k]];
-    return now / (now - goal);
+  /// Takes the least λ whose `goal` is ≤ 0 out of S. What rounding left of it, 4e-323 N, would stop all others for ever.
+  [[gnu::cold, gnu::noinline]] constexpr void leave(
+      const std::array<Scalar, capacity>& goal) noexcept {
+    std::size_t least = count_;
+    for (std::size_t k = 0; k < count_; ++k) {
+      if (goal[k] > Scalar(0)) continue;
+      if (least == count_ || p_.pressed[in_[k]] < p_.pressed[in_[least]]) least = k;
+    }
+    if (least == count_) return;
+    p_.pressed[in_[least]] = Scalar(0);
+    is_in_[in_[least]] = false;
+    factored_ = least;
+    for (--count_; least < count_; ++least) in_[least] = in_[least + 1];
   }
   /// Appends a row to L and to L⁻¹d'.
   constexpr void append(auto between) noexcept {
