@@ -263,6 +263,7 @@ std::vector<std::string> run_passive(const session& s) {
     if (r.by == carried::one_ledger) {
       expect(found, r.least_energy >= -1e-12, name + ": loses energy");
       expect(found, r.largest_force > 0.1, name + ": never pushes");
+      expect(found, r.still.all_quiet(), name + ": quiet in " + r.still.share());
     } else {
       expect(found, r.least_energy < -1e-4, name + ": the control loses nothing");
     }

@@ -40,10 +40,11 @@ TEST_CASE("strict_bound with latency counts what is in flight (§ 3)", "[bound]"
     const two_ticks_late now{.energy = 0.01, .commanded = {newest, before, held}};
     return allowed(bound, -50.0, now);
   };
-  // f²/(4B) of each: 2 mJ and 4 mJ; the last is held already and in the ledger
-  CHECK_THAT(limit(std::sqrt(0.24), -std::sqrt(0.48), 9.0),
-             WithinRel(-std::sqrt(4 * 30 * 0.004), 1e-13));
-  CHECK(limit(std::sqrt(2.4), 0.0, 0.0) == 0.0);  // 20 mJ
+  // f²/(4B) of each: 3 mJ and 4 mJ; the last is held already and in the ledger
+  CHECK_THAT(limit(std::sqrt(0.36), -std::sqrt(0.48), 9.0),
+             WithinRel(-std::sqrt(4 * 30 * 0.003), 1e-13));
+  CHECK_THAT(limit(0.0, 0.0, 9.0), WithinRel(-std::sqrt(4 * 30 * 0.01 / 3), 1e-13));  // its share
+  CHECK(limit(std::sqrt(2.4), 0.0, 0.0) == 0.0);                                      // 20 mJ
 }
 
 TEST_CASE("strict_bound with friction is f_c + √(4 B E1), and the worst motion just empties it",

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// reachable_bound in loops that are 0 to 3 ticks late: what it promises there, and what it costs to
-// state another latency than the real one, in either direction.
+// reachable_bound in loops that are 0 to 3 ticks late: what it promises there, and what it costs to state another
+// latency than the real one, in either direction. And how calmly strict_bound cuts there.
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/simulation/challenge.hpp>
 #include <passive_haptics/simulation/search.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
 
 namespace sim = ph::simulation;
 using by = sim::adversary;
@@ -65,7 +68,95 @@ double tapped_and_lost(const Limits& limits, const auto& ledger, double quantum,
   return device.meter().minimum();
 }
 
+/// strict_bound as it was before it shared out: a command may spend all that the ledger has left.
+struct all_at_once : ph::strict_bound {
+  template <ph::port P>
+  struct on {
+    template <class... States>
+    static constexpr bool only_reduces = true;
+    constexpr explicit on(const all_at_once& /*p*/) noexcept {}
+    [[nodiscard]] constexpr auto limit(const typename P::effort& desired,
+                                       const auto& state) const noexcept {
+      return ph::share{
+          state.damping.affordable(desired, state.energy - state.in_flight(), state.longest_tick)};
+    }
+  };
+};
+
+/// What a hand that holds still feels of walls that are cut.
+struct cut_at_rest {
+  int not_quiet = 0;
+  double step = 0.0, least_energy = 0.0;
+  std::vector<double> shown{};  ///< force over depth of each [N/m]
+};
+
+/// 40 devices, masses, dampings, walls, hands and pushes drawn, in a loop so late, for 6 s each.
+template <int Late, class Bound>
+cut_at_rest held_still(const Bound& bound, std::uint64_t seed) {
+  cut_at_rest found;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    sim::random_source random(seed * 1000 + i);
+    const auto drawn = [&](double low, double high) {
+      return low * std::exp(random.uniform(0.0, std::log(high / low)));
+    };
+    const double mass = drawn(0.05, 0.5), b = mass / 1e-3 * drawn(1e-3, 0.03);
+    const double hand = random.chance(0.5) ? 100.0 : 400.0, held_by = hand == 100.0 ? 1.0 : 6.0;
+    const double goal = drawn(2e-3, 2e-2), load = random.uniform(0.1, 2.0);
+    const ph::late_loop_limits<Late> limits{.longest_tick = 1e-3, .top_speed = 100.0};
+    auto model = following_half_space<d1>(ph::damped_spring{.mass = mass},
+                                          ph::reduced_energy{.damping = b}, bound, limits);
+    REQUIRE(model.update(wall<d1>(drawn(300.0, 2e4))));
+    std::array<double, std::size_t{Late} + 1> due{};
+    double x = -2e-3, v = 0.0, last = 0.0, energy = 0.0, step = 0.0;
+    for (int n = 0; n < 6000; ++n) {
+      due.back() = model.tick(x, ph::seconds{1e-3}).force;
+      if (n >= 5000) step = std::max(step, std::abs(due.back() - last));
+      last = due.back();
+      for (int part = 0; part < 20; ++part) {  // of the tick that its force is held for
+        const double pushed = hand * (goal - x) + load - held_by * v;
+        const double before = v;
+        v += (due.front() + pushed - b * v) / mass * 5e-5;
+        const double way = (v + before) / 2.0 * 5e-5;
+        x += way;
+        energy += b * v * way - due.front() * way;
+        found.least_energy = std::min(found.least_energy, energy);
+      }
+      std::rotate(due.begin(), due.begin() + 1, due.end());
+    }
+    found.not_quiet += step <= 0.02 ? 0 : 1;
+    found.step = std::max(found.step, step);
+    found.shown.push_back(-last / x);
+  }
+  return found;
+}
+
 }  // namespace
+
+TEST_CASE("what strict_bound cuts in a late loop is cut alike in every tick", "[bound]") {
+  const auto look = [](auto late) {
+    constexpr int k = decltype(late)::value;
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      const cut_at_rest now = held_still<k>(ph::strict_bound{}, seed);
+      const cut_at_rest before = held_still<k>(all_at_once{}, seed);  // the control
+      CAPTURE(k, seed, now.step, before.not_quiet, before.step);
+      CHECK(now.not_quiet == 0);
+      CHECK(now.least_energy >= -1e-12);
+      CHECK(before.not_quiet > 5);
+      CHECK(before.step > 0.1);
+      double total = 0.0, total_before = 0.0;
+      for (std::size_t i = 0; i < now.shown.size(); ++i) {
+        total += std::log(now.shown[i]);
+        total_before += std::log(before.shown[i]);
+      }
+      CAPTURE(std::exp((total - total_before) / 40.0));
+      CHECK(total >
+            total_before - 40.0 * 0.1);  // and no wall is softer for it, by more than a tenth
+    }
+  };
+  look(std::integral_constant<int, 1>{});
+  look(std::integral_constant<int, 2>{});
+  look(std::integral_constant<int, 3>{});
+}
 
 TEMPLATE_TEST_CASE("reachable_bound told of it survives hands a tick late, untold it does not",
                    "[bound][law]", d1, d2, d3) {

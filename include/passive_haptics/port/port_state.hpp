@@ -96,10 +96,11 @@ struct port_state {
     if constexpr (Latency > 0 && Damping::rubs) return scalar(4 * Latency) * damping.most_stored();
     return scalar(0);
   }
-  /// The credit that a new effort may spend [J]: E1 less what is on its way already.
+  /// The credit that a new effort may spend [J]: E1 less what is on its way already, and no more than leaves as much to
+  /// each of the k after it. What is cut while the device rests is then cut alike in every tick (§ 3).
   [[nodiscard]] constexpr scalar credit() const noexcept {
     if constexpr (Latency == 0) return energy;
-    return energy - in_flight();
+    return kernels::smaller(energy - in_flight(), (energy - held_back()) / scalar(Latency + 1));
   }
   /// Δxᵀ(b/dt)Δx − f_held·Δx [J], the least energy gained in the last tick, rounded down.
   [[nodiscard]] constexpr scalar gain() const noexcept {
