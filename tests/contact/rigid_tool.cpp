@@ -65,6 +65,27 @@ TEMPLATE_TEST_CASE("a point of a tool presses with its force and its torque", "[
   CHECK(said.now == ph::softened_by::nothing);
 }
 
+TEST_CASE("explain() says whether the lever of a tool gives or its inertia", "[rigid_tool]") {
+  const auto why = [](const ph::tool_spring& spring, const vector& at, double K) {
+    ph::passive_port port{ph::rigid_body<double>{},
+                          ph::rigid_tool{spring, ph::pursuit{}, ph::slots<plane, 1>{}},
+                          ph::no_observer{}, ph::no_bound{}, thesis_loop};
+    REQUIRE(port.source().update(0, at, plane{vector(0, 0, at.z()), vector(0, 0, 1), K}));
+    for (const double z : {1e-3, -1e-3, -1e-3}) (void)port.tick({{0, 0, z}, {}}, ph::seconds{T});
+    return port.explain();
+  };
+  const vector tip(0.05, 0, 0);
+  ph::tool_spring pen{.mass = 0.15, .least_inertia = 1e-5, .lever = 0.05};  // κ I/T² = 1 N·m/rad
+  const auto slender = why(pen, tip, 10000.0);
+  CHECK(slender.stiffness == ph::softened_by::mass_and_tick);
+  CHECK_THAT(slender.shown, WithinRel(1.0 / (1e-4 + 0.05 * 0.05), 1e-3));
+  pen.least_inertia = 1e-3;  // 100 N·m/rad, more than K ℓ²
+  const auto stout = why(pen, tip, 10000.0);
+  CHECK(stout.stiffness == ph::softened_by::coupling);
+  CHECK_THAT(stout.shown, WithinRel(5000.0, 1e-3));
+  CHECK(why(pen, tip, 1e6).stiffness == ph::softened_by::mass_and_tick);
+}
+
 TEST_CASE("a tool is no stiffer with sixteen contacts than its coupling", "[rigid_tool][long]") {
   ph::laws::samples random(1);
   const double k = 1000.0 / 0.9, turns = 0.9 / 0.9;  // C⁻¹/(1 − ε)
@@ -189,7 +210,7 @@ TEST_CASE("every rough point of a tool pushes inside its cone, with the torque t
 namespace {
 
 /// The bristle of a contact of stiffness K at an arm r from the handle, one of `slots`:
-///     k = K/N / (1 + r² γ K),   γ = max(1/(K ℓ²), T²/(κ I)),   B = k min(2√(m/K), 2√(I γ), 5T)
+///     k = K/N / (1 + r² γ K),   γ = max(1/(K ℓ²), T²/(κ I)),   B = k min(2√s, ½ s/T),   s = min(m/K, I γ)
 /// so that all of them together are no stiffer at a point of the tool than one contact is there.
 struct stated_bristle {
   double stiffness{};  ///< [N/m]
@@ -199,8 +220,8 @@ stated_bristle bristle_of(const ph::tool_spring& s, double K, double arm_squared
   const double per_turn =
       std::max(1.0 / (K * s.lever * s.lever), T * T / (s.stiffness_fraction * s.least_inertia));
   const double k = K / slots / (1.0 + arm_squared * per_turn * K);
-  const double settles =
-      std::min(2.0 * std::sqrt(std::min(s.mass / K, s.least_inertia * per_turn)), 5.0 * T);
+  const double slowest = std::min(s.mass / K, s.least_inertia * per_turn);
+  const double settles = std::min(2.0 * std::sqrt(slowest), 0.5 * slowest / T);
   return {k, k * settles};
 }
 

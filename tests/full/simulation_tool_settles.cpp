@@ -303,3 +303,87 @@ TEST_CASE("a capped damper may feed the device, by no more than what it caps wou
   CHECK(fed > 100);   // so W proves nothing from anywhere
   CHECK(most > 0.8);  // and the bound is nearly reached
 }
+
+namespace {
+
+/// tool_spring as it was: a bristle damped by what the contact is, 5 T at most.
+struct briefly : ph::tool_spring {
+  template <class Scalar>
+  class at : public ph::tool_spring::at<Scalar> {
+   public:
+    constexpr explicit at(const briefly& p) noexcept : ph::tool_spring::at<Scalar>(p) {}
+    [[nodiscard]] constexpr briefly parameters() const noexcept {
+      return {ph::tool_spring::at<Scalar>::parameters()};
+    }
+    [[nodiscard]] static constexpr Scalar sliding(const ph::sampled_spring<Scalar>& s) noexcept {
+      return s.settling;
+    }
+  };
+};
+/// A rough tool of eight points with that spring.
+template <class Spring>
+struct rough_tool : ph::contact_parameters<Spring, ph::stick_slip, ph::slots<plane, 8>> {
+  using base = ph::contact_parameters<Spring, ph::stick_slip, ph::slots<plane, 8>>;
+  using base::base;
+  template <ph::port Body>
+  class on : public ph::detail::contact_engine<Body, ph::detail::body_frame, Spring, ph::stick_slip,
+                                               ph::slots<plane, 8>> {
+   public:
+    using engine = ph::detail::contact_engine<Body, ph::detail::body_frame, Spring, ph::stick_slip,
+                                              ph::slots<plane, 8>>;
+    constexpr explicit on(const rough_tool& p) noexcept : engine(p) {}
+    bool touch(int i, const vector& at, const plane& floor) { return this->put(i, at, floor); }
+  };
+};
+
+/// A box of 0.5 kg falls on a rough floor, as hard as that. When is it where it stays, to 0.5 mm [s]?
+template <class Spring>
+double sways(const Spring& spring, double K, const vector& turned, bool& quiet) {
+  ph::simulation::rigid_device_parameters is{.mass = 0.5, .moments = {1e-4, 2e-4, 2.5e-4}};
+  is.substeps = 2;
+  ph::passive_port port{
+      body{}, rough_tool<Spring>{spring, ph::pursuit{}, ph::stick_slip{}, ph::slots<plane, 8>{}},
+      ph::no_observer{}, ph::no_bound{}, ph::loop_limits{.longest_tick = 1e-3, .top_speed = 1e3}};
+  REQUIRE_FALSE(port.check());
+  for (int i = 0; i < 8; ++i) {
+    const vector point((i & 1) != 0 ? 0.03 : -0.03, (i & 2) != 0 ? 0.02 : -0.02,
+                       (i & 4) != 0 ? 0.01 : -0.01);
+    REQUIRE(port.source().touch(i, point, plane{vector(0, 0, 0), vector(0, 0, 1), K}));
+  }
+  ph::simulation::rigid_device device(is, {vector(0, 0, 0.06), ph::rotation::exp<double>(turned)});
+  device.push(body::join(vector(0, 0, -9.81 * is.mass), vector(0, 0, 0)));
+  std::vector<vector> track;
+  body::effort step = body::zero(), last = body::zero();
+  for (int n = 0; n < 20000; ++n) {
+    const body::effort now = port.tick(device.at(), ph::seconds{1e-3}).force;
+    step = now - last;
+    last = now;
+    static_cast<void>(device.exchange(now));
+    track.push_back(device.at().position);
+  }
+  quiet = vector(body::linear(step)).norm() < 0.02;
+  for (std::size_t n = track.size(); n > 0; --n) {
+    if ((track[n - 1] - track.back()).norm() > 0.5e-3) return 1e-3 * static_cast<double>(n);
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+TEST_CASE("what leans on its bristles on a soft rough floor stops swaying") {
+  draws draw(2503);
+  int swayed = 0;
+  for (int i = 0; i < 8; ++i) {
+    const ph::tool_spring told{.mass = 0.5, .least_inertia = 1e-4};
+    const double K = 300.0 * std::pow(3.0, draw.between(0, 1));
+    const vector turned = draw.between(0.3, 1.2) * draw.direction();
+    bool quiet = false, quiet_before = false;
+    const double now = sways(told, K, turned, quiet);
+    const double before = sways(briefly{told}, K, turned, quiet_before);
+    INFO(i << ": " << K << " N/m, " << now << " s, before " << before << " s");
+    CHECK(now < 5.0);
+    CHECK(quiet);
+    swayed += before > 5.0 ? 1 : 0;
+  }
+  CHECK(swayed >= 3);  // the control
+}

@@ -144,12 +144,9 @@ class contact_engine {
       const auto here = now.at(slot.point);
       const row r = now.row_of(here, slot.target().at(here.position).outward());
       const scalar K = slot.target().stiffness;
-      auto why = softened_by::mass_and_tick;
-      if constexpr (requires { spring_.softener(K); }) why = spring_.softener(K);
-      if (!(spring_.sampled(K).stiffness < K)) why = softened_by::coupling;
       explain_surface(e, slot.target(), here.position,
                       scalar(1) / frame::coupling(spring_).own(r, spring_.sampled(K).compliance),
-                      why, !(slot.lag() == scalar(0)), slot.stale());
+                      spring_.softener(K), !(slot.lag() == scalar(0)), slot.stale());
     });
   }
 
@@ -194,7 +191,7 @@ class contact_engine {
           rubbed = rubbed + now.row_of(here, bristles_[i].rub(friction_, lambda, all.normal[r],
                                                               now.travel(slot.point, here),
                                                               now.velocity(here), k,
-                                                              k * of.settling, port.dt));
+                                                              k * spring_.sliding(of), port.dt));
         } else {
           bristles_[i].let_go();
         }

@@ -94,6 +94,10 @@ class proxy_spring::at {
         rule_.mass() * (Scalar(1) - softness_);  // several have a stiffness of up to K/(1 − ε)
     return detail::comes_to_rest(sampled(K), least, sampled_every_, late_);
   }
+  /// τ of a bristle [s].
+  [[nodiscard]] static constexpr Scalar sliding(const sampled_spring<Scalar>& s) noexcept {
+    return s.settling;
+  }
   [[nodiscard]] constexpr Scalar softness() const noexcept { return softness_; }  ///< ε
 
  private:

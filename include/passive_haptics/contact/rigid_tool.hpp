@@ -85,15 +85,31 @@ class tool_spring::at {
     const Scalar least = kernels::smaller(rule_.mass(), turns) * (Scalar(1) - softness_);
     return detail::comes_to_rest(s, least, sampled_every_, late_);
   }
+  /// τ of a bristle [s], which has no other contact to agree with, so what sways on a soft floor is damped critically:
+  /// min(2√s, ½ s/T), s = min(m/k_v, I/k_ω); late, β of late_limits for ½.
+  [[nodiscard]] constexpr Scalar sliding(const sampled_spring<Scalar>& of) const noexcept {
+    const Scalar s = slowest(of.stiffness, Scalar(1) / yield(of.compliance));
+    const Scalar most = kernels::smaller(Scalar(0.5), detail::late_limits<Scalar>(late_).damping);
+    return kernels::smaller(Scalar(2) * kernels::square_root(s), most * s / sampled_every_);
+  }
+  /// Why a point off the handle is shown softer: K ℓ² gives way to a turn, or κ I_least/T² does.
+  [[nodiscard]] constexpr softened_by softener(Scalar K) const noexcept {
+    const auto s = sampled(K);
+    const bool gives = yield(s.compliance) > s.compliance * per_lever_ || s.stiffness < K;
+    return gives ? softened_by::mass_and_tick : softened_by::coupling;
+  }
   [[nodiscard]] constexpr Scalar softness() const noexcept { return softness_; }  ///< ε
   [[nodiscard]] constexpr Scalar lever() const noexcept { return lever_; }        ///< ℓ [m]
 
  private:
+  /// min(m/k_v, I/k_ω) [s²].
+  [[nodiscard]] constexpr Scalar slowest(Scalar k, Scalar turn) const noexcept {
+    return kernels::smaller(rule_.mass() / k, inertia_ / turn);
+  }
   /// τ = B/K = min(2√(m/k_v), 2√(I/k_ω), 5T) [s], for translation and rotation. In a loop k ticks late it is
   /// 2.25(k + 1) T instead of 5T.
   [[nodiscard]] constexpr Scalar settling_time(Scalar k, Scalar turn) const noexcept {
-    const Scalar slowest = kernels::smaller(rule_.mass() / k, inertia_ / turn);
-    return kernels::smaller(Scalar(2) * kernels::square_root(slowest),
+    return kernels::smaller(Scalar(2) * kernels::square_root(slowest(k, turn)),
                             detail::late_limits<Scalar>(late_).ticks * sampled_every_);
   }
   detail::sampled_mass<Scalar> rule_;
