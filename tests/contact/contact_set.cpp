@@ -398,10 +398,10 @@ struct stroked {
   double work = 0.0;          ///< that the finger got [J]
 };
 
-/// `path`(n) is where it is, `truth`(x) what pushes there, and `told`(n) the surface to publish, every 33 ms.
+/// `path`(n) is where it is, `truth`(x) what pushes there, and `told`(n) the surface to publish, every so many ms.
 template <class Surface>
 stroked stroke(const ph::pursuit& pace, int ticks, const auto& path, const auto& truth,
-               const auto& told) {
+               const auto& told, int every = 33) {
   ph::passive_port port{d3{},
                         ph::contact_set{ph::proxy_spring{.mass = 0.1, .damping_ratio = 0.0}, pace,
                                         ph::slots<Surface, 1>{}},
@@ -415,7 +415,7 @@ stroked stroke(const ph::pursuit& pace, int ticks, const auto& path, const auto&
   d3::vector last = d3::zero(), was = begin;
   for (int n = 0; n < ticks; ++n) {
     const d3::vector x = path(n);
-    if (n % 33 == 0) REQUIRE(port.source().update(0, told(n)));
+    if (n % every == 0) REQUIRE(port.source().update(0, told(n)));
     const d3::vector force = port.tick(x, 1ms).force, right = truth(x);
     const double off = std::atan2(d3::cross(force, right).norm(), force.dot(right));
     result.worst = std::max(result.worst, off);
@@ -446,8 +446,37 @@ TEST_CASE("a ball told by its tangent planes may be stroked fast", "[contact_set
   const auto felt = stroke<ph::half_space<d3>>({}, 1500, path, truth, told);
   CHECK(felt.worst < 0.18);  // 10 degrees
   CHECK(felt.largest_step < 0.05);
-  const auto control = stroke<ph::half_space<d3>>({.catch_up = 1e9}, 1500, path, truth, told);
+  const auto control =
+      stroke<ph::half_space<d3>>({.catch_up = 1e9, .edge = 1e3}, 1500, path, truth, told);
   CHECK(control.worst > 1.0);  // 4 rad/s, where 2 may be turned
+}
+
+TEST_CASE("a plane that is told anew in every tick of a stroke does not lag", "[contact_set]") {
+  constexpr double K = 500.0, speed = 0.2;
+  for (const double radius : {0.05, 0.02, 0.012}) {
+    for (const int every : {1, 4, 10}) {
+      const auto path = [&](int n) -> d3::vector {
+        const double angle = speed / radius * 1e-3 * n;
+        return (radius - 2e-3) * d3::vector(std::cos(angle), 0.0, std::sin(angle));
+      };
+      const auto truth = [&](const d3::vector& x) -> d3::vector {
+        return x.normalized() * (K * (radius - x.norm()));
+      };
+      const auto told = [&](int n) {
+        const d3::vector up = path(n).normalized();
+        return ph::half_space<d3>{d3::vector(up * radius), up, K};
+      };
+      const auto felt = stroke<ph::half_space<d3>>({}, 1000, path, truth, told, every);
+      // by then it has turned by as much since the last news, and a tick more
+      const double since = speed / radius * 1e-3 * (every + 1);
+      // the control: a wide round for its edges, so that the way explains next to nothing
+      const auto lags = stroke<ph::half_space<d3>>({.edge = 1e3}, 1000, path, truth, told, every);
+      CAPTURE(radius, every, since, felt.worst, felt.largest_step, lags.worst, lags.largest_step);
+      CHECK(felt.worst < since);
+      CHECK(lags.worst > since + 0.1);
+      CHECK(felt.largest_step < 0.05);
+    }
+  }
 }
 
 TEST_CASE("a ridge turns the force where the finger passes it, as if it were rounded",

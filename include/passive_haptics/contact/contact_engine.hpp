@@ -297,8 +297,9 @@ class contact_engine {
       const auto unfelt = [&](const vector& n) {
         return pressed_by_others(now, coupling, now.row_of(here, n), slot.spring().compliance);
       };
+      const auto way = [&] { return space_type::norm(now.travel(slot.point, here)); };
       felt_surface<space_type> own;
-      if (!slot.follow(here.position, along, dt, rests, unfelt, pace_, own)) return;
+      if (!slot.follow(here.position, along, dt, rests, unfelt, way, pace_, own)) return;
       if (!own.is_finite()) [[unlikely]] {
         what = unusable(what);
         return;

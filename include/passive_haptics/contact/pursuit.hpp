@@ -11,9 +11,10 @@
 //   vanishes      ℓ grows by ρ dt and by any increase of d_target, until λ = 0
 //
 // The own normal first turns with the target's, on any surface, so fast sliding counts as no update. Over an edge,
-// where the closest feature of a mesh changes, it turns as if the edge had the radius r, by |Δx|/r at most. Where the
-// turn along a curved surface is against the motion, the push is led by τ, as the depth is, which brakes a device
-// that rolls in a bowl. Source: ours; docs/design/contacts.md.
+// where the closest feature of a mesh changes, it turns as if the edge had the radius r, by |Δx|/r at most. A plane
+// may be the tangent of a curved surface, so an update of it turns it by |Δx|/(10 r) as well. Where the turn along a
+// curved surface is against the motion, the push is led by τ, as the depth is, which brakes a device that rolls in a
+// bowl. Source: ours; docs/design/contacts.md.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/contact/proxy.hpp>
@@ -197,9 +198,10 @@ class pursued {
   /// Updates the slot for a tick with the device at x, and writes its own surface into `own`; returns false if it is
   /// empty or ends. `along`(n) is the outward speed of the device [m/s], `rests` is true if no contact pressed in the
   /// last tick, and `unfelt`(push) is the largest depth [m] at which a contact with that push has λ = 0 beside the
-  /// others.
+  /// others. `way`() is the distance that the contact has moved in the tick [m].
   [[nodiscard, gnu::always_inline]] constexpr bool follow(const vector& x, const auto& along,
                                                           scalar dt, bool rests, const auto& unfelt,
+                                                          const auto& way,
                                                           const pursuit::on<Space>& pace,
                                                           felt& own) noexcept {
     const auto shown = target_.at(x);
@@ -228,7 +230,8 @@ class pursued {
     if (!(normal == goal)) {
       own.chases = true;
       own.normal = pace.turned(normal, goal, hurry_ * dt);
-      if constexpr (has_edges) own.normal = pace.turned_by(own.normal, goal, most);
+      if constexpr (!turns_along) most = way() / (scalar(10) * pace.edge());
+      if constexpr (!bends) own.normal = pace.turned_by(own.normal, goal, most);
       if (!(own.normal == goal)) own.push = carry<Space>(own.push, goal, own.normal);
     }
     if (!(before == own.normal)) normal_ = own.normal;
