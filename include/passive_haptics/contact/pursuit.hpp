@@ -12,9 +12,9 @@
 //
 // The own normal first turns with the target's, on any surface, so fast sliding counts as no update. Over an edge,
 // where the closest feature of a mesh changes, it turns as if the edge had the radius r, by |Δx|/r at most. A plane
-// may be the tangent of a curved surface, so an update of it turns it by |Δx|/(10 r) as well. Where the turn along a
-// curved surface is against the motion, the push is led by τ, as the depth is, which brakes a device that rolls in a
-// bowl. Source: ours; docs/design/contacts.md.
+// may be the tangent of a curved surface, so an update of it turns it by |Δx|/(10 r) if that is more. Where the turn
+// along a curved surface is against the motion, the push is led by τ, as the depth is, which brakes a device that
+// rolls in a bowl. Source: ours; docs/design/contacts.md.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/contact/proxy.hpp>
@@ -98,8 +98,10 @@ class pursuit::on {
   /// `from`, turned towards `to` by an angle at most [rad].
   [[nodiscard]] constexpr vector turned_by(const vector& from, const vector& to,
                                            scalar angle) const noexcept {
-    return turned(from, to, angle * per_rate_);
+    return turned(from, to, time_for(angle));
   }
+  /// The time that a turn by `angle` [rad] takes at the largest rate [s].
+  [[nodiscard]] constexpr scalar time_for(scalar angle) const noexcept { return angle * per_rate_; }
   [[nodiscard]] constexpr scalar edge() const noexcept { return edge_; }  ///< r [m]
   [[nodiscard]] constexpr bool stale(scalar age) const noexcept { return age > stale_after_; }
 
@@ -229,9 +231,12 @@ class pursued {
     const vector normal = along_the_target(before, goal, most, pace);
     if (!(normal == goal)) {
       own.chases = true;
-      own.normal = pace.turned(normal, goal, hurry_ * dt);
-      if constexpr (!turns_along) most = way() / (scalar(10) * pace.edge());
-      if constexpr (!bends) own.normal = pace.turned_by(own.normal, goal, most);
+      scalar time = hurry_ * dt;
+      if constexpr (!turns_along) {
+        time = kernels::larger(time, pace.time_for(way() / (scalar(10) * pace.edge())));
+      }
+      own.normal = pace.turned(normal, goal, time);
+      if constexpr (has_edges) own.normal = pace.turned_by(own.normal, goal, most);
       if (!(own.normal == goal)) own.push = carry<Space>(own.push, goal, own.normal);
     }
     if (!(before == own.normal)) normal_ = own.normal;
