@@ -201,9 +201,9 @@ TEST_CASE("a fault that the port tells of is forgiven at once, and once in a row
     }
     CHECK(blind.value() == A);
     (void)blind.update(spent * A / 9.0, 9.0, T);
-    const double left = blind.value();
+    const double kept = blind.value();
     rest(blind, 20.0);
-    CHECK(blind.value() == left);
+    CHECK(blind.value() == kept);
   }
 
   auto jumped = at<d1>(mild);
