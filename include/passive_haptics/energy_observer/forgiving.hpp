@@ -17,9 +17,10 @@ inline namespace v0 {
 /// a debt to zero, once, and then adds credit for τ = ½ s (ours, docs/design/mathematics.md § 11):
 ///     E1 += min(A dt/τ, A − E1)  where E1 < A
 /// If the first fault in 10 s is a rejected sample or a late tick, E1 = max(E1, A) at once instead. A fault is a
-/// rejected sample (several in a row are one fault), a late tick, or a debt (of A/64 where positions are known to a step only), because the bounds
-/// cause no debt unless a stated parameter is wrong. θ is 0.1 s, doubles with each fault after amends have begun, and
-/// is 0.1 s again after 10 s without a fault. With D [J] the debts that are set to zero, after t seconds of any faults
+/// rejected sample, a late tick, or a debt (of A/64 where positions are known to a step only), because the bounds
+/// cause no debt unless a stated parameter is wrong; samples rejected in a row are one fault while E1 ≥ A/2. θ is
+/// 0.1 s, doubles with each fault after amends have begun, and is 0.1 s again after 10 s without a fault. With D [J]
+/// the debts that are set to zero, after t seconds of any faults
 ///     E ≥ −D − A (8 + t/2.5 s)
 /// and without a fault the ledger's own guarantee holds.
 template <class Ledger = reduced_energy>
