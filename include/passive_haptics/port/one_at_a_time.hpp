@@ -21,7 +21,7 @@ namespace detail {
 /// without an atomic swap of a byte is not checked.
 struct one_at_a_time {
 #if !defined(NDEBUG) && defined(__cpp_lib_atomic_ref)
-  constexpr explicit one_at_a_time(std::uint8_t& byte) noexcept : busy(byte) {
+  constexpr explicit one_at_a_time(std::uint8_t& mark) noexcept : busy(mark) {
     [[maybe_unused]] const bool alone = swapped(1) == 0;
     assert(alone && "two threads call one port at once: passive_haptics, docs/guarantees.md");
   }
