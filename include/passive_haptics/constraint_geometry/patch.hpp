@@ -25,13 +25,12 @@ template <class Space>
 }
 }  // namespace detail
 
-/// Triangles that share whole edges, each counter-clockwise seen from outside. Depth is the distance from x
-/// to their closest point c [m], positive inside, and outward() there is along c − x. The sign follows from the
-/// pseudo-normal at c: the normal of the face, the mean of both normals at an edge, or the mean of all normals
-/// at a node, weighted by their angles (Bærentzen and Aanæs, IEEE TVCG 11(3), 2005). If c is on the rim of
-/// the patch, x is not covered, because the surface beyond is unknown. No point is covered twice and, unlike
-/// with single `triangle`s, none between two triangles is missed. Inside, the force direction jumps where
-/// another face, edge or node becomes the closest.
+/// Triangles that share whole edges, each counter-clockwise seen from outside. Depth is the distance from x to their
+/// closest point c [m], positive inside, and outward() there is along c − x. The sign follows from the pseudo-normal
+/// at c: the normal of the face, the mean of both normals at an edge, or the mean of all normals at a node, weighted
+/// by their angles (Bærentzen and Aanæs, IEEE TVCG 11(3), 2005). If c is on the rim of the patch, x is not covered,
+/// because the surface beyond is unknown. No point is covered twice and, unlike with single `triangle`s, none between
+/// two triangles is missed. Inside, the force direction jumps where another face, edge or node becomes the closest.
 template <class Space, std::size_t M = 16>
 requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
   using space_type = Space;
@@ -54,9 +53,8 @@ requires(Space::dof == 3 && 1 <= M && M <= 250) struct patch {
   std::array<std::array<std::uint8_t, 3>, M> neighbours{};  ///< across edge k, k + 1; by prepare()
   std::array<bool, node_capacity> on_rim{};                 ///< for each node; by prepare()
 
-  /// False for no triangle or too many, a node that does not exist or is not finite, a triangle whose
-  /// height is lost in rounding, an edge of three triangles or of two that face opposite sides,
-  /// stiffness or thickness ≤ 0.
+  /// False for no triangle or too many, a node that does not exist or is not finite, a triangle whose height is lost
+  /// in rounding, an edge of three triangles or of two that face opposite sides, stiffness or thickness ≤ 0.
   [[nodiscard]] bool prepare() noexcept {
     if (triangle_count < 1 || triangle_count > M || node_count > node_capacity) return false;
     if (!detail::usable_stiffness(stiffness) || !detail::usable_length(thickness)) return false;

@@ -119,11 +119,10 @@ class active_set {
         in_[kept++] = i;
       }
     }
-    if (kept == count_ && share < Scalar(1)) [[unlikely]] {
+    const bool stuck = kept == count_ && share < Scalar(1);
+    count_ = kept;
+    if (stuck) [[unlikely]]
       leave(goal);
-    } else {
-      count_ = kept;
-    }
     return share == Scalar(1);
   }
   /// d' − Aλ of a contact outside of S [m]; > 0 if it has to press, too.
@@ -143,7 +142,6 @@ class active_set {
       if (goal[k] > Scalar(0)) continue;
       if (least == count_ || p_.pressed[in_[k]] < p_.pressed[in_[least]]) least = k;
     }
-    if (least == count_) return;
     p_.pressed[in_[least]] = Scalar(0);
     is_in_[in_[least]] = false;
     factored_ = least;

@@ -15,9 +15,8 @@ inline namespace v0 {
 /// As the body turns at ω, the centrifugal force m ω × (ω × c) and the gyroscopic torque ω × Iω also act on it.
 /// Together they have a norm of at most |ω|² √(m|c|² + (I_max − I_min)²/(4I)).
 ///
-/// In no pose may the device's own inertia matrix at the handle be below that of this body. If the `mass`
-/// stated is below the true one, raise `offset` by the square root of their ratio, or more.
-/// (docs/design/six_dof.md § 4)
+/// In no pose may the device's own inertia matrix at the handle be below that of this body. If the `mass` stated is
+/// below the true one, raise `offset` by the square root of their ratio, or more. (docs/design/six_dof.md § 4)
 struct rigid_inertia {
   double mass{};    ///< m [kg], > 0
   double least{};   ///< I, the smallest principal moment about the centre of mass [kg·m²], > 0

@@ -60,7 +60,7 @@ struct strict_bound {
     template <class State>
     [[nodiscard]] constexpr detail::what_is_left<State, P> limit(
         const typename P::effort& desired, const State& state) const noexcept {
-      const auto credit = state.credit();
+      const auto credit = state.fair_credit();
       if constexpr (detail::differs_by_axis<typename State::damping_type, P>) {
         return detail::nearest_covered<P>(state.damping, desired, credit, state.longest_tick);
       } else {
@@ -111,9 +111,8 @@ struct memoryless_bound {
 };
 
 /// |fᵢ| ≤ √(4 Bᵢ Eᵢ) for each axis i of the frame that the damping is given in, each with a ledger
-/// of its own:  Eᵢ += (bᵢ/dt) Δxᵢ² − hᵢ Δxᵢ.  This is strict_bound on every axis (§ 2, per_axis_bound; form
-/// and proof are ours). The direction of the force is not kept, so in a chain it voids the guarantees of the
-/// bounds before it.
+/// of its own:  Eᵢ += (bᵢ/dt) Δxᵢ² − hᵢ Δxᵢ.  This is strict_bound on every axis (§ 2, per_axis_bound; form and proof
+/// are ours). The direction of the force is not kept, so in a chain it voids the guarantees of the bounds before it.
 ///
 /// It makes the assumptions of memoryless_bound, and assumes no latency and that no component of the held force is
 /// larger than commanded; one that is puts its axis into a debt, which is kept and repaid. Dry friction is

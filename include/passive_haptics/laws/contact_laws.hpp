@@ -103,9 +103,8 @@ template <class Space, class Law>
   return true;
 }
 
-/// After prepare() there is a unit normal at every point; depth falls by s when x moves by s along it, and
-/// changes by at most |x − y| from x to y; and toward(..., x, n, d) gives a constraint with the normal n in
-/// which x lies d deep.
+/// After prepare() there is a unit normal at every point; depth falls by s when x moves by s along it, and changes by
+/// at most |x − y| from x to y; and toward(..., x, n, d) gives a constraint with the normal n in which x lies d deep.
 template <class Space, class Constraint>
 [[nodiscard]] constexpr bool measures_depth(Constraint constraint, int ticks = 100) noexcept {
   using scalar = typename Space::scalar;

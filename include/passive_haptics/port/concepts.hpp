@@ -295,9 +295,8 @@ concept force_bound_for = plain_value<part_at<B, P>, P> &&
   requires noexcept(b.limit(f, s));
 };
 
-/// estimate() takes the measured pose, the motion, the effort held during it, its length [s], and whether
-/// the motion is known; it returns `position` and, in a space, along(n), the speed along a unit
-/// vector [m/s].
+/// estimate() takes the measured pose, the motion, the effort held during it, its length [s], and whether the motion
+/// is known; it returns `position` and, in a space, along(n), the speed along a unit vector [m/s].
 template <class M, class P>
 concept motion_estimator_for = plain_value<part_at<M, P>, P> &&
     requires(part_at<M, P> m, const typename P::pose x, const typename P::motion dx,

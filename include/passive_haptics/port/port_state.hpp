@@ -96,11 +96,15 @@ struct port_state {
     if constexpr (Latency > 0 && Damping::rubs) return scalar(4 * Latency) * damping.most_stored();
     return scalar(0);
   }
-  /// The credit that a new effort may spend [J]: E1 less what is on its way already, and no more than leaves as much to
-  /// each of the k after it. What is cut while the device rests is then cut alike in every tick (§ 3).
+  /// The credit that a new effort may spend [J]: E1 less what is on its way already.
   [[nodiscard]] constexpr scalar credit() const noexcept {
     if constexpr (Latency == 0) return energy;
-    return kernels::smaller(energy - in_flight(), (energy - held_back()) / scalar(Latency + 1));
+    return energy - in_flight();
+  }
+  /// The same, and as much left for each of the k efforts after it: at rest all are then cut alike (§ 3).
+  [[nodiscard]] constexpr scalar fair_credit() const noexcept {
+    if constexpr (Latency == 0) return energy;
+    return kernels::smaller(credit(), (energy - held_back()) / scalar(Latency + 1));
   }
   /// Δxᵀ(b/dt)Δx − f_held·Δx [J], the least energy gained in the last tick, rounded down.
   [[nodiscard]] constexpr scalar gain() const noexcept {
