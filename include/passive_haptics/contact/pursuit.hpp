@@ -95,11 +95,6 @@ class pursuit::on {
     const scalar angle = Space::norm(vector(goal - own));
     return kernels::larger(angle / catch_up_ * per_rate_, scalar(1));
   }
-  /// `from`, turned towards `to` by an angle at most [rad].
-  [[nodiscard]] constexpr vector turned_by(const vector& from, const vector& to,
-                                           scalar angle) const noexcept {
-    return turned(from, to, time_for(angle));
-  }
   /// The time that a turn by `angle` [rad] takes at the largest rate [s].
   [[nodiscard]] constexpr scalar time_for(scalar angle) const noexcept { return angle * per_rate_; }
   [[nodiscard]] constexpr scalar edge() const noexcept { return edge_; }  ///< r [m]
@@ -236,7 +231,7 @@ class pursued {
         time = kernels::larger(time, pace.time_for(way() / (scalar(10) * pace.edge())));
       }
       own.normal = pace.turned(normal, goal, time);
-      if constexpr (has_edges) own.normal = pace.turned_by(own.normal, goal, most);
+      if constexpr (has_edges) own.normal = pace.turned(own.normal, goal, pace.time_for(most));
       if (!(own.normal == goal)) own.push = carry<Space>(own.push, goal, own.normal);
     }
     if (!(before == own.normal)) normal_ = own.normal;
@@ -278,7 +273,7 @@ class pursued {
       [[maybe_unused]] const pursuit::on<Space>& pace) noexcept {
     if constexpr (has_edges) {
       const vector then = std::exchange(shown_, goal);
-      const vector there = pace.turned_by(then, goal, most);
+      const vector there = pace.turned(then, goal, pace.time_for(most));
       most = kernels::larger(most - Space::norm(vector(goal - then)), scalar(0));
       return carry<Space>(before, then, there);
     } else if constexpr (turns_along) {
