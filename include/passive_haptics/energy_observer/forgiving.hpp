@@ -85,7 +85,7 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
     return true;
   }
   /// The port calls this after a rejected sample, a late tick, or a failed window that `watched` has forgiven.
-  constexpr void disturbed() noexcept {
+  [[gnu::cold, gnu::noinline]] constexpr void disturbed() noexcept {
     const bool goes_on = paid_ && quiet_ <= scalar(0);  // samples that are lost in a row
     if (shaken_ && goes_on && this->value() >= amends_ / scalar(2)) return;
     const bool first = !shaken_ || (quiet_ <= scalar(0) && pause_ <= first_pause && !paid_);
