@@ -233,16 +233,19 @@ struct course {
 }
 
 /// The time [s] from the end of the fault until the wall feels for good as it does without the fault: force within
-/// a tenth plus 0.1 N, depth within 0.5 mm.
-[[nodiscard]] inline double back_after(const course& found, const course& right, int at,
-                                       const fault& f) {
+/// a tenth plus 0.1 N, depth within 0.5 mm and, of a tool, the turn within a degree.
+template <class Course>
+[[nodiscard]] double back_after(const Course& found, const Course& right, int at, const fault& f) {
   const int end = at + std::max(f.lasts, f.held);
   int last = end;
   for (int n = end; n < static_cast<int>(std::min(found.force.size(), right.force.size())); ++n) {
     const auto i = static_cast<std::size_t>(n);
-    const bool as_before =
+    bool as_before =
         std::abs(found.force[i] - right.force[i]) <= 0.1 * std::abs(right.force[i]) + 0.1 &&
         std::abs(found.depth[i] - right.depth[i]) <= 5e-4;
+    if constexpr (requires { found.turn; }) {
+      as_before = as_before && std::abs(found.turn[i] - right.turn[i]) <= 0.0175;
+    }
     if (!as_before) last = n + 1;
   }
   return (last - end) * T;
@@ -254,27 +257,33 @@ struct harm {
   double created = 0.0;    ///< at worst [J]
   double itself = 0.0;     ///< the same where nothing is forgiven: what the fault did [J]
   double largest = 0.0;    ///< [N]
+  double torque = 0.0;     ///< the same of a tool [N·m]
   double back = 0.0;       ///< at worst [s]
   ph::event worst = ph::event::nominal;
   bool finite = true;
-  experiments::at_rest still{};  ///< of the hands that hold still
+  experiments::at_rest still{};  ///< of the hands that hold still; not of tools
 };
-[[nodiscard]] inline harm tried(const subject& who, const fault& f, const std::vector<int>& when) {
+[[nodiscard]] inline const fault& plain(const fault& f) {
+  return f;
+}
+template <class Subject, class Fault>
+[[nodiscard]] harm tried(const Subject& who, const Fault& f, const std::vector<int>& when) {
   harm all;
   for (const bool taps : {false, true}) {
-    const course right = press(who, who.amends, taps, 0, nullptr);
+    const auto right = press(who, who.amends, taps, 0, nullptr);
     for (const int at : when) {
-      const course found = press(who, who.amends, taps, at, &f);
-      const double back = back_after(found, right, at, f);
+      const auto found = press(who, who.amends, taps, at, &f);
+      const double back = back_after(found, right, at, plain(f));
       ++all.runs;
       all.lost += back > 1.0;
       all.back = std::max(all.back, back);
       all.created = std::max(all.created, found.created);
       all.itself = std::max(all.itself, press(who, 0.0, taps, at, &f).created);
       all.largest = std::max(all.largest, found.largest);
+      if constexpr (requires { found.torque; }) all.torque = std::max(all.torque, found.torque);
       all.worst = ph::worse(all.worst, found.worst);
       all.finite = all.finite && found.finite;
-      all.still.add(found.still);
+      if constexpr (requires { found.still; }) all.still.add(found.still);
     }
   }
   return all;

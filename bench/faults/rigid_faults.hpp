@@ -20,6 +20,9 @@ struct rigid_fault {
   fault of;  ///< of the place, the force held and the time
   std::function<void(rigid_sample&)> turn = [](rigid_sample&) {};  ///< and of what only a pose has
 };
+[[nodiscard]] inline const fault& plain(const rigid_fault& f) {
+  return f.of;
+}
 
 /// Every fault of the table, on place, force and dt; then those of orientation and torque.
 [[nodiscard]] inline std::vector<rigid_fault> rigid_faults() {
@@ -73,9 +76,6 @@ struct rigid_subject {
   std::function<rigid_controller(double amends)> make;
 };
 
-/// How the hand holds the tool: stiffly, as it taps, or with a force that only the floor stops.
-enum class grip { still, taps };
-
 struct rigid_course {
   std::vector<double> force, depth, turn;  ///< upward [N], of the handle below its rest [m], [rad]
   double largest = 0.0, torque = 0.0;      ///< [N], [N·m]
@@ -96,7 +96,7 @@ struct rigid_course {
   return body::join(within(force, 5.0), within(torque, 0.1));
 }
 
-[[nodiscard]] inline rigid_course press(const rigid_subject& who, double amends, grip how, int at,
+[[nodiscard]] inline rigid_course press(const rigid_subject& who, double amends, bool taps, int at,
                                         const rigid_fault* f, int ticks = 3000) {
   sim::rigid_device device({.substeps = 4}, {.position = {0, 0, who.start}, .orientation = {}});
   const rigid_controller loop = who.make(amends);
@@ -132,8 +132,7 @@ struct rigid_course {
     double dt = 0.0;
     for (int left = f && n == at ? f->of.held : 1; left > 0; --left, ++n) {
       const double in = std::min(n, 250) / 250.0;
-      const double tap =
-          how == grip::taps && n > 400 ? 7e-3 * (1.0 - std::cos(6.2832e-3 * (n - 400))) : 0.0;
+      const double tap = taps && n > 400 ? 7e-3 * (1.0 - std::cos(6.2832e-3 * (n - 400))) : 0.0;
       device.push(held_by_hand(device, who.start - (who.start + 10e-3) * in + tap));
       s = device.exchange(a.wrench);
       dt += s.dt;
@@ -143,50 +142,6 @@ struct rigid_course {
       all.turn.push_back(ph::rotation::log(device.at().orientation).y());
     }
     s.dt = dt;
-  }
-  return all;
-}
-
-/// Force within a tenth and 0.1 N, depth within 0.5 mm, turn within 1 degree, for good.
-[[nodiscard]] inline double back_after(const rigid_course& found, const rigid_course& right, int at,
-                                       const rigid_fault& f) {
-  const int end = at + std::max(f.of.lasts, f.of.held);
-  int last = end;
-  for (int n = end; n < static_cast<int>(std::min(found.force.size(), right.force.size())); ++n) {
-    const auto i = static_cast<std::size_t>(n);
-    const bool as_before =
-        std::abs(found.force[i] - right.force[i]) <= 0.1 * std::abs(right.force[i]) + 0.1 &&
-        std::abs(found.depth[i] - right.depth[i]) <= 5e-4 &&
-        std::abs(found.turn[i] - right.turn[i]) <= 0.0175;
-    if (!as_before) last = n + 1;
-  }
-  return (last - end) * T;
-}
-
-struct rigid_harm {
-  int runs = 0, lost = 0;
-  double created = 0.0, itself = 0.0, largest = 0.0, torque = 0.0, back = 0.0;
-  ph::event worst = ph::event::nominal;
-  bool finite = true;
-};
-[[nodiscard]] inline rigid_harm tried(const rigid_subject& who, const rigid_fault& f,
-                                      const std::vector<int>& when) {
-  rigid_harm all;
-  for (const grip how : {grip::still, grip::taps}) {
-    const rigid_course right = press(who, who.amends, how, 0, nullptr);
-    for (const int at : when) {
-      const rigid_course found = press(who, who.amends, how, at, &f);
-      const double back = back_after(found, right, at, f);
-      ++all.runs;
-      all.lost += back > 1.0;
-      all.back = std::max(all.back, back);
-      all.created = std::max(all.created, found.created);
-      all.itself = std::max(all.itself, press(who, 0.0, how, at, &f).created);
-      all.largest = std::max(all.largest, found.largest);
-      all.torque = std::max(all.torque, found.torque);
-      all.worst = ph::worse(all.worst, found.worst);
-      all.finite = all.finite && found.finite;
-    }
   }
   return all;
 }
