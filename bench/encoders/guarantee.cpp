@@ -302,13 +302,10 @@ std::vector<std::string> run_guarantee(const session& s) {
                 "promises. No adversary holds still, so beside them stands what the composition "
                 "does in its world in a hand of 100 N/m and 1 N·s/m that does, on walls of 2 and "
                 "10 kN/m. The law of all but make_touch is a spring without a damper, the worst "
-                "that the bounds are "
-                "asked to hold: on 2 kN/m it rings, because the hold of a tick feeds it by K T/2, "
-                "1 N·s/m, which is "
-                "all that hand and device damp. make_touch has to be quiet where positions have "
-                "steps. Told of noise "
-                "of 60 µm as if it were a step, it is quiet where friction gives way by 5 µm, and "
-                "in one dimension not "
+                "that the bounds are asked to hold: on 2 kN/m it rings, because the hold of a tick "
+                "feeds it by K T/2, 1 N·s/m, which is all that hand and device damp. make_touch "
+                "has to be quiet where positions have steps. Told of noise of 60 µm as if it were "
+                "a step, it is quiet where friction gives way by 5 µm, and in one dimension not "
                 "where it does by 30." +
                     std::string(ex::quiet_columns) + ex::quiet_on_steps + ex::held_last_second);
   s.out.show(ex::table_of(worst_of_each(rows)));

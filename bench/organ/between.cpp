@@ -390,15 +390,12 @@ std::vector<between_row> run_between(ex::report& out, const between_settings& ch
   }
   out.section(
       "Between news",
-      "Worlds that move or give way, told so many times a second and so late, to a plane "
-      "and a spring (bare) and to "
-      "make_touch: as planes, with what the news know of their motion, as quadrics, or as "
-      "they give way. Against the "
-      "same world asked at 10 kHz; each figure is the worst of three hands that go where "
-      "they want. own_step: of the "
-      "truth. least_J: with 0.03 N s/m of the device. Front: of the organ told at once, "
-      "nothing has less error for "
-      "as little work." +
+      "Worlds that move or give way, told so many times a second and so late, to a plane and a "
+      "spring (bare) and to make_touch: as planes, with what the news know of their motion, as "
+      "quadrics, or as they give way. Against the same world asked at 10 kHz; each figure is the "
+      "worst of three hands that go where they want. own_step: of the truth. least_J: with 0.03 "
+      "N s/m of the device. Front: of the organ told at once, nothing has less error for as little "
+      "work." +
           std::string(ex::quiet_columns) +
           " Then the world stops, the last news stay, and 0.1 kg in a hand of 100 N/m and 1 "
           "N·s/m press as hard as the run did; where it ended in the air nothing is held.");

@@ -190,9 +190,8 @@ std::vector<std::string> run_soak(const session& s) {
       "promised what was not there. pressing: 3 Hz against the wall; waving: free half of "
       "the time; leeching: a bank filled once, then outward steps whose energy is below "
       "half of its last digit in float. A ledger that overstates fails the program; the "
-      "control, which only rounds to nearest, must. The hand never holds still, so nothing comes "
-      "to "
-      "rest.");
+      "control, which only rounds to nearest, must. The hand never holds still, so nothing "
+      "comes to rest.");
   ex::write_csv(s.out, "soak.csv", rows, "%.3g");
   std::vector<std::string> found;
   double caught = 0.0;

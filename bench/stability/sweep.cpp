@@ -243,11 +243,10 @@ std::vector<std::string> run_sweep(const session& s) {
       "zero than rounding explains, derived run by run. finite: every number that came out. event: "
       "one told of debt, lateness or refusal. holds: the tag covers the cell and nothing was lost. "
       "refused: check() names the parameter. told: a late tick, reported. outside: the tag does "
-      "not cover the cell, stability.csv says why. The last column fails the program. Whether a "
-      "cell "
-      "is quiet is not asked: its ticks last 10 us to 100 ms and a run has 600 of them, where "
-      "quiet "
-      "means 5 s (docs/design/settling.md); the tables of controllers say it of the same walls.");
+      "not cover the cell, stability.csv says why. The last column fails the program. Whether "
+      "a cell is quiet is not asked: its ticks last 10 us to 100 ms and a run has 600 of them, "
+      "where quiet means 5 s (docs/design/settling.md); the tables of controllers say it of the "
+      "same walls.");
   const auto by_controller = grouped(rows, [](const row& r) {
     return ex::record{
         {"controller", r.controller}, {"tag", to_string(r.tag)}, {"scalar", r.scalar}};
