@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "between.hpp"
 
-#include "../common/median.hpp"
 #include "../common/pareto.hpp"
 #include "../thesis_experiments/organ.hpp"
 #include "published.hpp"
@@ -14,6 +13,7 @@
 #include <chrono>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 
 namespace organ {
@@ -186,6 +186,22 @@ felt truth_of(const scene& s) {
   return run;
 }
 
+/// Seconds a tick, the samples of a run once more under its last news: the fastest of eight goes, because the others
+/// are the machine's.
+template <class Model>
+double time_of_a_tick(const Model& model, const std::vector<ph::device_sample<volume>>& samples) {
+  double fastest = std::numeric_limits<double>::infinity();
+  for (int go = 0; go < 8; ++go) {
+    Model copy = model;
+    vector sum = vector::Zero();
+    const double begin = seconds_now();
+    for (const auto& sample : samples) sum += vector(copy.tick(sample).force);
+    const double took = seconds_now() - begin;
+    if (sum.allFinite()) fastest = std::min(fastest, took);
+  }
+  return fastest / static_cast<double>(samples.size());
+}
+
 template <class Model>
 felt follow(const scene& s, Model model, const auto& tell, double rate, double late) {
   felt run;
@@ -216,17 +232,15 @@ felt follow(const scene& s, Model model, const auto& tell, double rate, double l
     run.force.push_back(held);
     device.move_to(s.hand(1e-3 * (now.tick + 1)));
   };
-  std::vector<double> ticks_took;
-  const auto timed = [&](const auto& sample) {
-    const double begin = seconds_now();
-    const auto out = model.tick(sample);
-    ticks_took.push_back(seconds_now() - begin);
-    return out;
+  std::vector<ph::device_sample<volume>> samples;
+  const auto kept = [&](const auto& sample) {
+    samples.push_back(sample);
+    return model.tick(sample);
   };
   const int ticks = static_cast<int>(s.to * 1e3 + 0.5);
-  run.least = sim::run(device, timed, ticks, world, move).least_energy;
+  run.least = sim::run(device, kept, ticks, world, move).least_energy;
   run.still = held_after(model, s.hand(1e-3 * ticks), held, last);
-  run.tick = ex::median(ticks_took);  // a mean would be of the machine
+  run.tick = time_of_a_tick(model, samples);
   run.answer /= asked;
   return run;
 }
@@ -346,6 +360,74 @@ void draw(ex::report& out, std::vector<between_row>& rows) {
                curves.substr(0, curves.size() - 2));
 }
 
+/// Whether a row's number is less than so much of the first row's, which is bare's.
+auto ratio_of(const char* column, std::size_t row, double most) {
+  return [=](const ex::recorded& r) { return r[column].at(row) < most * r[column].at(0); };
+}
+
+/// What another library makes of the sphere, told at once, 30 times a second: the tick as a multiple of bare's in the
+/// same run, and the worst of the three hands.
+struct another {
+  const char* by;
+  double ticks, error, step;
+};
+/// CHAI3D 3.3 (its shape is told the radius as often; g++ 12 -O2), measured outside this repository on 27 November
+/// 2026. Its finger proxy on 1088 and on 14 280 triangles loses the same sphere for ever after 9 to 47 ticks.
+constexpr another chai3d_sphere{"CHAI3D sphere", 2.7, 0.0589, 0.152};
+
+/// Draws what a tick on the sphere takes, and what it is off by.
+void draw_time(ex::report& out, const std::vector<between_row>& rows) {
+  ex::csv_file csv(out.path("between_time.csv"), "ns a tick,error N,step N,of the truth N,by");
+  const std::map<std::string, std::string> names{
+      {"bare", "bare spring"},
+      {"make_touch", "make_touch"},
+      {"... moving quadric", "… told speed and curvature"}};
+  double bare = 0.0, own = 0.0;
+  for (const auto& r : rows) {
+    const auto name = names.find(r.by);
+    if (r.scene != "breathing sphere" || r.rate != 30.0 || r.late > 0.0 || name == names.end()) {
+      continue;
+    }
+    if (r.by == "bare") bare = r.tick;
+    own = r.own;
+    csv.row(r.tick, r.error, r.step, own, name->second);
+  }
+  csv.row(chai3d_sphere.ticks * bare, chai3d_sphere.error, chai3d_sphere.step, own,
+          chai3d_sphere.by);
+  csv.close();
+  const auto points = [](const std::string& which, int column, const std::string& side) {
+    return "for [i in '" + which +
+           "'] 'between_time.csv' every ::i::i using 1:" + std::to_string(column) +
+           ":5 with labels " + side + " point pt 7 ps 1.2 lt i + 1 noenhanced";
+  };
+  const auto panel = [&points](const std::string& label, int column) {
+    return "set ylabel '" + label + "'\nplot " + points("0 3", column, "left offset 1.5,0") + ", " +
+           points("1 2", column, "right offset -1.5,0") +
+           (column == 3 ? ", 'between_time.csv' using 1:4 with lines lt 8\n" : "\n");
+  };
+  out.plot("between_time",
+           {"A ball that breathes, told 30 times a second: error and largest step over time",
+            "The worst of three hands that stroke a ball of 1 kN/m, over the time of a tick. "
+            "make_touch, told what bare is told, errs by less than half as much, and steps by "
+            "less than a tenth; told the speed and the curvature, by less than a tenth of bare's "
+            "error. All are at 0 J here. The grey line is the truth's own step. CHAI3D's sphere "
+            "was measured outside this "
+            "repository.",
+            {{"less than half as much", "between_time.csv", ratio_of("error N", 1, 0.5)},
+             {"steps by less than a tenth", "between_time.csv", ratio_of("step N", 1, 0.1)},
+             {"less than a tenth of bare's error", "between_time.csv", ratio_of("error N", 2, 0.1)},
+             {"All are at 0 J", "",
+              [rows](const ex::recorded& /*none*/) {
+                return std::all_of(rows.begin(), rows.end(), [](const between_row& r) {
+                  return r.scene != "breathing sphere" || r.least >= -1e-12;
+                });
+              }}}},
+           "set multiplot layout 1,2\nunset key\nset logscale xy\nset xrange [5:200]\n"
+           "set xlabel 'a tick [ns]'\nset yrange [0.004:0.2]\n" +
+               panel("rms error of the force [N]", 2) + "set yrange [0.008:1]\n" +
+               panel("largest step in a tick [N]", 3) + "unset multiplot");
+}
+
 }  // namespace
 
 ex::record record_of(const between_row& r) {
@@ -400,6 +482,7 @@ std::vector<between_row> run_between(ex::report& out, const between_settings& ch
           " Then the world stops, the last news stay, and 0.1 kg in a hand of 100 N/m and 1 "
           "N·s/m press as hard as the run did; where it ended in the air nothing is held.");
   draw(out, rows);
+  draw_time(out, rows);
   ex::publish(out, "between", rows);
   if (chosen.mesh.empty())
     std::cout << "between news: no --mesh was given, so no other organ was stroked\n";
