@@ -93,6 +93,8 @@ class mesh_contact::on {
   bool also_touch(const mesh::surface& s) noexcept { return ball_.also_touch(s); }
   /// Touches nothing any more.
   void let_go() noexcept { ball_.let_go(); }
+  /// Touches this mesh no more, and the others as before.
+  void let_go(const mesh::surface& s) noexcept { ball_.let_go(s); }
   [[nodiscard]] const mesh::proxy& ball() const noexcept { return ball_; }
 
   /// Explains the stiffness that is shown where the device is now.

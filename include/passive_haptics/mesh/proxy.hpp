@@ -144,6 +144,8 @@ class proxy {
     return planes_[slot(i)].level - dot(planes_[slot(i)].normal, device_ + beside_device_);
   }
   [[nodiscard]] const support& pressed() const noexcept { return pressed_; }
+  /// What holds the ball off, from where it is drawn to, in the world [m].
+  [[nodiscard]] triple push() const noexcept { return frame().out(pressed_.way); }
   /// How far friction holds the ball back beside the device, along the surface, as a direction of the world [m].
   [[nodiscard]] triple held_back() const noexcept { return frame().out(beside_device_); }
   /// What presses is made of, by how much each triangle does; `elsewhere` where a mesh does not say.

@@ -125,16 +125,10 @@ class surface {
   /// Eigen::Vector3d, mesh::triple: whatever has three numbers.
   template <class Nodes>
   [[nodiscard]] static std::string check(std::span<const triangle> triangles, const Nodes& nodes) {
-    if (triangles.empty()) {
-      return "mesh: it has no triangles, so nothing can be touched; give one at least";
-    }
-    if (triangles.size() > most_triangles) {
-      return "mesh: " + std::to_string(triangles.size()) + " triangles are more than " +
-             std::to_string(most_triangles) + "; give a coarser one";
-    }
     const std::size_t count = nodes.size();
     std::size_t with_area = 0;
-    std::string fault = not_finite(nodes);
+    std::string fault = check_count(triangles.size());
+    if (fault.empty()) fault = not_finite(nodes);
     if (!fault.empty()) return fault;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       for (const int node : triangles[i]) {
@@ -151,6 +145,18 @@ class surface {
     if (with_area == 0) {
       return "mesh: none of its " + std::to_string(triangles.size()) +
              " triangles has an area, so it may be passed through; are all nodes at one place?";
+    }
+    return {};
+  }
+
+  /// The same for a number of triangles.
+  [[nodiscard]] static std::string check_count(std::size_t triangles) {
+    if (triangles == 0) {
+      return "mesh: it has no triangles, so nothing can be touched; give one at least";
+    }
+    if (triangles > most_triangles) {
+      return "mesh: " + std::to_string(triangles) + " triangles are more than " +
+             std::to_string(most_triangles) + "; give a coarser one";
     }
     return {};
   }
