@@ -3,8 +3,6 @@
 // ports.hpp and the families beside it.
 #include "ports.hpp"
 
-#include <cstdio>
-#include <cstring>
 #include <string_view>
 
 namespace c_interface {
@@ -42,6 +40,11 @@ constexpr std::array compositions{
                       false},
     named_composition{"stylus", make_stylus},
     named_composition{"tool", make_tool, {}, PH_MOST_TOOL_LATENCY},
+    named_composition{"mesh_touch", make_mesh_touch},
+    named_composition{"encoder_mesh_touch", make_mesh_touch, on_encoders},
+    named_composition{"strict_mesh_touch", make_mesh_touch, anybody, strict_latest, false},
+    named_composition{"strict_encoder_mesh_touch", make_mesh_touch, anybody_on_encoders,
+                      strict_latest, false},
     named_composition{"quantised_touch", make_quantised_touch, on_encoders, strict_latest},
 };
 
@@ -113,8 +116,9 @@ constexpr ranged of_a_tool[]{
   if (chosen.is("tool")) {
     if (const auto wrong = fault_in(p, of_a_tool)) return wrong;
   }
-  if (chosen.is("encoder_touch") || chosen.is("encoder_contacts") ||
-      chosen.is("strict_encoder_touch") || chosen.is("strict_encoder_contacts")) {
+  const bool for_stiffness =
+      chosen.make == make_touch || chosen.make == make_contacts || chosen.make == make_mesh_touch;
+  if (chosen.of.encoder && for_stiffness) {
     const auto budget = ph::design::stiffness_budget(device);
     if (!(budget.stiffness > 0.0)) return {"friction", p.friction, budget.because()};
   }
@@ -183,6 +187,10 @@ constexpr ranged of_a_tool[]{
   return made;
 }
 
+/// False for a composition without slots.
+[[nodiscard]] bool has_slots(const ph_port& port) noexcept {
+  return port.takes == takes::planes || port.takes == takes::poses;
+}
 /// Into a slot, and off.
 template <class Surface>
 std::int32_t tell(ph_port& port, told<Surface>* slot, const Surface& surface,
@@ -201,16 +209,10 @@ void leave(auto* slot) noexcept {
 
 // ------------------------------------------------------------------------------------ structs by size
 
-/// A struct of an older header is shorter, a multiple of 8 bytes long, and as good; one of a newer header
-/// may say what this library does not know.
-template <class Struct>
-[[nodiscard]] constexpr bool known_size(std::uint32_t size, std::size_t shortest) noexcept {
-  return size >= shortest && size <= sizeof(Struct) && size % 8 == 0;
-}
 constexpr std::size_t shortest_surface = sizeof(ph_surface);
 constexpr std::size_t shortest_parameters = offsetof(ph_parameters, friction);
 constexpr std::size_t shortest_result = offsetof(ph_result, limited);
-static_assert(sizeof(ph_parameters) == 240 && shortest_parameters == 48);
+static_assert(sizeof(ph_parameters) == 264 && shortest_parameters == 48);
 static_assert(sizeof(ph_surface) == 176);
 static_assert(sizeof(ph_explanation) == 48 || sizeof(void*) != 8);
 static_assert(sizeof(ph_result) == 80 && shortest_result == 48);
@@ -236,33 +238,6 @@ void write(ph_result& result, const auto& fill) noexcept {
   std::memcpy(&result, &own, own.size);
 }
 
-/// One text for one caller, cut where a character ends.
-class text {
- public:
-  text(char* room, std::size_t size) noexcept : room_(room), size_(room != nullptr ? size : 0) {
-    if (size_ > 0) room_[0] = '\0';
-  }
-  template <class... Values>
-  void say(const char* format, const Values&... values) const noexcept {
-    std::array<char, PH_TEXT_ROOM> whole{};
-    (void)std::snprintf(whole.data(), whole.size(), format, values...);
-    if (size_ == 0) return;
-    std::size_t end = std::min(std::strlen(whole.data()), size_ - 1);
-    while (end > 0 && (static_cast<unsigned char>(whole[end]) & 0xC0U) == 0x80U) --end;
-    std::memcpy(room_, whole.data(), end);
-    room_[end] = '\0';
-  }
-
- private:
-  char* room_;
-  std::size_t size_;
-};
-
-/// What ph_create and ph_set say of a fault.
-std::int32_t refuse(const text& reason, const ph::parameter_fault& fault) noexcept {
-  reason.say("%s = %g is refused: %s", fault.parameter, fault.value, fault.remedy);
-  return PH_REFUSED_PARAMETER;
-}
 std::int32_t refuse_size(const text& reason, std::uint32_t size) noexcept {
   reason.say("size = %u is refused: sizeof(ph_parameters), which is %u bytes in this library",
              unsigned{size}, unsigned{sizeof(ph_parameters)});
@@ -287,7 +262,7 @@ std::int32_t tick(ph_port* port, const moment& now, takes by, ph_result* result)
   if (now.position == nullptr || (by == takes::forces && now.wanted == nullptr) ||
       (by == takes::poses && now.orientation == nullptr)) {
     status = PH_NULL_ARGUMENT;
-  } else if (by != port->takes && !(by == takes::planes && port->takes == takes::forces)) {
+  } else if (by != port->takes && !(by == takes::planes && port->takes != takes::poses)) {
     status = PH_NOT_OF_THIS_COMPOSITION;
   }
   const moment lost{.dt = now.dt};
@@ -380,7 +355,7 @@ std::int32_t ph_guarantee_of(const ph_port* port) noexcept {
 std::int32_t ph_publish(ph_port* port, std::uint32_t slot, const ph_surface* surface) noexcept {
   if (port == nullptr || surface == nullptr) return PH_NULL_ARGUMENT;
   if (!known_size<ph_surface>(surface->size, shortest_surface)) return PH_WRONG_SIZE;
-  if (port->takes == takes::forces) return PH_NOT_OF_THIS_COMPOSITION;
+  if (!has_slots(*port)) return PH_NOT_OF_THIS_COMPOSITION;
   if (surface->kind == PH_PLANE) {
     return tell(*port, port->plane_slot(slot), plane_of(*surface), surface->at);
   }
@@ -391,14 +366,14 @@ std::int32_t ph_publish(ph_port* port, std::uint32_t slot, const ph_surface* sur
 std::int32_t ph_publish_plane(ph_port* port, const double point[3], const double normal[3],
                               double stiffness) noexcept {
   if (port == nullptr || point == nullptr || normal == nullptr) return PH_NULL_ARGUMENT;
-  if (port->takes == takes::forces) return PH_NOT_OF_THIS_COMPOSITION;
+  if (!has_slots(*port)) return PH_NOT_OF_THIS_COMPOSITION;
   constexpr double here[3]{};
   return tell(*port, port->plane_slot(0), plane{read(point), read(normal), stiffness}, here);
 }
 
 std::int32_t ph_release(ph_port* port, std::uint32_t slot, std::uint32_t kind) noexcept {
   if (port == nullptr) return PH_NULL_ARGUMENT;
-  if (port->takes == takes::forces) return PH_NOT_OF_THIS_COMPOSITION;
+  if (!has_slots(*port)) return PH_NOT_OF_THIS_COMPOSITION;
   if (kind > PH_PLATE) return PH_REFUSED_SURFACE;
   const auto release = [port](auto* one) {
     if (one == nullptr) return std::int32_t{PH_NO_SUCH_SLOT};
@@ -411,7 +386,7 @@ std::int32_t ph_release(ph_port* port, std::uint32_t slot, std::uint32_t kind) n
 
 std::int32_t ph_publish_nothing(ph_port* port) noexcept {
   if (port == nullptr) return PH_NULL_ARGUMENT;
-  if (port->takes == takes::forces) return PH_NOT_OF_THIS_COMPOSITION;
+  if (!has_slots(*port)) return PH_NOT_OF_THIS_COMPOSITION;
   for (std::uint32_t i = 0; auto* one = port->plane_slot(i); ++i) leave(one);
   for (std::uint32_t i = 0; auto* one = port->curved_slot(i); ++i) leave(one);
   port->send();
@@ -525,13 +500,16 @@ const char* ph_status_text(std::int32_t status) noexcept {
     case PH_OUT_OF_MEMORY:
       return "out of memory";
     case PH_NOT_OF_THIS_COMPOSITION:
-      return "surfaces are for touch, contacts, stylus and tool, wanted forces for a guard, poses "
-             "for "
-             "stylus and tool";
+      return "surfaces are for touch, contacts, stylus and tool, meshes for a mesh_touch, wanted "
+             "forces for a guard, poses for stylus and tool";
     case PH_REFUSED_SURFACE:
       return "the surface has a number that is none, no normal, no stiffness > 0, or no such kind";
     case PH_NO_SUCH_SLOT:
       return "there is no slot of this number for this kind";
+    case PH_REFUSED_MESH:
+      return "the mesh, or where it goes, has a number that is none, or is no mesh";
+    case PH_NO_PLACE:
+      return "the mesh is touched already, or eight others are, or 64 touch it";
     default:
       return "unknown status";
   }

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <optional>
@@ -81,7 +83,7 @@ struct moment {
 };
 
 /// What a composition takes in a tick.
-enum class takes { planes, forces, poses };
+enum class takes { planes, forces, poses, meshes };
 
 }  // namespace c_interface
 
@@ -105,6 +107,14 @@ struct ph_port {
   virtual c_interface::told<c_interface::curved>* curved_slot(std::uint32_t i) noexcept = 0;
   virtual void send() noexcept = 0;
 
+  /// For the thread that ticks.
+  virtual std::int32_t touch(const ph_mesh& /*mesh*/) noexcept {
+    return PH_NOT_OF_THIS_COMPOSITION;
+  }
+  virtual std::int32_t let_go(const ph_mesh& /*mesh*/) noexcept {
+    return PH_NOT_OF_THIS_COMPOSITION;
+  }
+
   const c_interface::takes takes;
   const bool has_torque;
   /// As the device says, for the coming tick only; the torque of a tool last.
@@ -117,12 +127,13 @@ namespace c_interface {
 
 /// Any composition of the library behind the one face, and what it is told.
 template <class Composition, class Port>
-class composed final : public ph_port {
+class composed : public ph_port {
   using space = typename Port::port_type;
   using effort = typename space::stored_effort;
   static constexpr std::size_t plane_slots = Composition::plane_slots,
                                curved_slots = Composition::curved_slots;
   static constexpr bool follows = plane_slots > 0;
+  static constexpr bool told_forces = requires(Port port, vector f) { port.source().update(f); };
   static constexpr bool turns = requires(typename space::stored_pose x) { x.orientation; };
   static constexpr bool twists = requires(typename space::effort f) { space::angular(f); };
 
@@ -130,9 +141,10 @@ class composed final : public ph_port {
   // What no tick calls is compiled for size.
   [[gnu::cold]] explicit composed(const ph_parameters& p) noexcept
       : ph_port(p,
-                turns     ? c_interface::takes::poses
-                : follows ? c_interface::takes::planes
-                          : c_interface::takes::forces,
+                turns         ? c_interface::takes::poses
+                : follows     ? c_interface::takes::planes
+                : told_forces ? c_interface::takes::forces
+                              : c_interface::takes::meshes,
                 twists),
         port_(made(p)) {}
 
@@ -185,8 +197,8 @@ class composed final : public ph_port {
         hear<plane>(newest->flat, heard_flat_);
         if constexpr (curved_slots > 0) hear<curved>(newest->bent, heard_bent_);
       }
-    } else if (now.wanted != nullptr) {
-      port_.source().update(read(now.wanted));
+    } else if constexpr (told_forces) {
+      if (now.wanted != nullptr) port_.source().update(read(now.wanted));
     }
     const ph::device_sample<space> sample = sample_of(now);
     if (held) [[unlikely]]
@@ -287,7 +299,6 @@ class composed final : public ph_port {
     }
   }
 
-  Port port_;
   world told_{};  // the thread's that publishes
   ph::exchange<world> inbox_;
   std::array<std::uint32_t, plane_slots> heard_flat_{};
@@ -295,6 +306,9 @@ class composed final : public ph_port {
   /// Newest first. The last is what a device that does as it is told has held: one way into the port
   /// is half the code of two.
   std::array<effort, std::size_t{Port::latency} + 1> commanded_{};
+
+ protected:
+  Port port_;
 };
 
 // ------------------------------------------------------------------------------ parameters and facts
@@ -358,13 +372,14 @@ void adjust_slots(Port& port, ph::pursuit pace, const ph_parameters& p) noexcept
 
 using made = std::unique_ptr<ph_port>;
 
-template <class Composition, int Most = PH_MOST_LATENCY, int Latency = 0>
+template <class Composition, int Most = PH_MOST_LATENCY,
+          template <class, class> class Face = composed, int Latency = 0>
 [[nodiscard]] made make(const ph_parameters& p) noexcept {
   if constexpr (Latency < Most) {
-    if (p.latency != Latency) return make<Composition, Most, Latency + 1>(p);
+    if (p.latency != Latency) return make<Composition, Most, Face, Latency + 1>(p);
   }
   using port = decltype(Composition::template make<ph::late_loop_limits<Latency>>(p));
-  return made(new (std::nothrow) composed<Composition, port>(p));
+  return made(new (std::nothrow) Face<Composition, port>(p));
 }
 
 /// Which device and which hand a name means.
@@ -373,15 +388,16 @@ struct facts {
   bool any_hand = false;
 };
 /// A family after its facts.
-template <template <auto Device, auto Hand> class Family>
+template <template <auto Device, auto Hand> class Family,
+          template <class, class> class Face = composed>
 [[nodiscard]] made make_by_facts(const ph_parameters& p, facts of) noexcept {
-  constexpr int strict = PH_MOST_STRICT_LATENCY;
+  constexpr int strict = PH_MOST_STRICT_LATENCY, usual = PH_MOST_LATENCY;
   if (of.encoder) {
-    return of.any_hand ? make<Family<encoder_device_of, nobody>, strict>(p)
-                       : make<Family<encoder_device_of, hand_of>>(p);
+    return of.any_hand ? make<Family<encoder_device_of, nobody>, strict, Face>(p)
+                       : make<Family<encoder_device_of, hand_of>, usual, Face>(p);
   }
-  return of.any_hand ? make<Family<exact_device_of, nobody>, strict>(p)
-                     : make<Family<exact_device_of, hand_of>>(p);
+  return of.any_hand ? make<Family<exact_device_of, nobody>, strict, Face>(p)
+                     : make<Family<exact_device_of, hand_of>, usual, Face>(p);
 }
 
 [[nodiscard]] made make_touch(const ph_parameters& p, facts of) noexcept;
@@ -390,5 +406,43 @@ template <template <auto Device, auto Hand> class Family>
 [[nodiscard]] made make_guard(const ph_parameters& p, facts of) noexcept;
 [[nodiscard]] made make_stylus(const ph_parameters& p, facts of) noexcept;
 [[nodiscard]] made make_tool(const ph_parameters& p, facts of) noexcept;
+[[nodiscard]] made make_mesh_touch(const ph_parameters& p, facts of) noexcept;
+
+// ------------------------------------------------------------------------- structs by size, and texts
+
+/// A struct of an older header is shorter, a multiple of 8 bytes long, and as good; one of a newer header
+/// may say what this library does not know.
+template <class Struct>
+[[nodiscard]] constexpr bool known_size(std::uint32_t size, std::size_t shortest) noexcept {
+  return size >= shortest && size <= sizeof(Struct) && size % 8 == 0;
+}
+
+/// One text for one caller, cut where a character ends.
+class text {
+ public:
+  text(char* room, std::size_t size) noexcept : room_(room), size_(room != nullptr ? size : 0) {
+    if (size_ > 0) room_[0] = '\0';
+  }
+  template <class... Values>
+  void say(const char* format, const Values&... values) const noexcept {
+    std::array<char, PH_TEXT_ROOM> whole{};
+    (void)std::snprintf(whole.data(), whole.size(), format, values...);
+    if (size_ == 0) return;
+    std::size_t end = std::min(std::strlen(whole.data()), size_ - 1);
+    while (end > 0 && (static_cast<unsigned char>(whole[end]) & 0xC0U) == 0x80U) --end;
+    std::memcpy(room_, whole.data(), end);
+    room_[end] = '\0';
+  }
+
+ private:
+  char* room_;
+  std::size_t size_;
+};
+
+/// What is said of a parameter that is out of its range.
+inline std::int32_t refuse(const text& reason, const ph::parameter_fault& fault) noexcept {
+  reason.say("%s = %g is refused: %s", fault.parameter, fault.value, fault.remedy);
+  return PH_REFUSED_PARAMETER;
+}
 
 }  // namespace c_interface

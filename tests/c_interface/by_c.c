@@ -36,6 +36,18 @@ const char* load(struct c_interface* found, const char* file) {
                    {"ph_enable_forces", &found->enable_forces},
                    {"ph_explain", &found->explain},
                    {"ph_stiffness_budget", &found->stiffness_budget},
+                   {"ph_mesh_create", &found->mesh_create},
+                   {"ph_mesh_destroy", &found->mesh_destroy},
+                   {"ph_mesh_update", &found->mesh_update},
+                   {"ph_mesh_move", &found->mesh_move},
+                   {"ph_mesh_touch", &found->mesh_touch},
+                   {"ph_mesh_let_go", &found->mesh_let_go},
+                   {"ph_probe_create", &found->probe_create},
+                   {"ph_probe_destroy", &found->probe_destroy},
+                   {"ph_probe_touch", &found->probe_touch},
+                   {"ph_probe_let_go", &found->probe_let_go},
+                   {"ph_probe_reset", &found->probe_reset},
+                   {"ph_probe_step", &found->probe_step},
                    {"ph_event_text", &found->event_text},
                    {"ph_status_text", &found->status_text}};
   for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
@@ -141,6 +153,119 @@ ph_surface plane_at(const struct moment* now, double x_on_tool) {
   return s;
 }
 
+struct meshes meshes_at(int n) {
+  struct meshes all = {.materials = {900.0, 0.3, 0.0, 2500.0, 0.1, 0.5}};
+  for (int i = 0; i < sheet_vertices; ++i) {
+    double* const p = all.sheet + 3 * i;
+    p[0] = 2e-3 * (i % 9 - 4);
+    p[1] = 2e-3 * (i / 9 - 4);
+    p[2] = 1e-4 * triangle(i, 5, 5) + 1e-5 * triangle(n + 40 * i, 1500, 60);
+  }
+  for (int i = 0; i < sheet_triangles; ++i) {
+    const int first = i / 16 * 9 + i % 16 / 2;  // of a square, cut in two
+    int32_t* const t = all.of_sheet + 3 * i;
+    t[0] = first;
+    t[1] = first + (i % 2 == 0 ? 1 : 10);
+    t[2] = first + (i % 2 == 0 ? 10 : 9);
+    all.material_of[i] = (uint8_t)(i / 7 % 2);
+  }
+  for (int i = 0; i < leaf_vertices; ++i) {
+    all.leaf[3 * i] = i % 2 == 0 ? -4e-3 : 4e-3;
+    all.leaf[3 * i + 1] = i / 2 == 0 ? -1e-3 : 1e-3;
+  }
+  const int32_t corners[] = {0, 1, 3, 0, 3, 2};
+  memcpy(all.of_leaf, corners, sizeof corners);
+  all.position[1] = 1e-5 * triangle(n, 800, 300);
+  all.position[2] = 5e-4;
+  all.orientation[0] = 2.0;  // of any length
+  all.orientation[1] = 0.001 * triangle(n, 1000, 600);
+  return all;
+}
+
+ph_mesh_data sheet_of(const struct meshes* all, uint32_t kind) {
+  ph_mesh_data d = {.size = sizeof d,
+                    .vertex_count = sheet_vertices,
+                    .triangle_count = sheet_triangles,
+                    .vertices = all->sheet,
+                    .triangles = all->of_sheet};
+  if (kind == 0) return d;
+  d.material_count = 2;
+  d.materials = all->materials;
+  d.material_of = all->material_of;
+  return d;
+}
+
+ph_mesh_data leaf_of(const struct meshes* all) {
+  const ph_mesh_data d = {.size = sizeof d,
+                          .vertex_count = leaf_vertices,
+                          .triangle_count = leaf_triangles,
+                          .material_count = 1,  // of all of it
+                          .vertices = all->leaf,
+                          .triangles = all->of_leaf,
+                          .materials = all->materials};
+  return d;
+}
+
+int mesh_news(int n) {
+  return (n % 33 == 5 ? other_vertices : 0) | (n % 47 == 11 ? another_pose : 0) |
+         (n % 1500 == 200 ? leaf_comes : 0) | (n % 1500 == 1200 ? leaf_goes : 0);
+}
+
+/// The meshes of a run, and what touches them: a port or a probe.
+struct touching {
+  const struct c_interface* with;
+  ph_mesh *sheet, *leaf;
+  ph_port* port;
+  ph_probe* probe;
+};
+static int32_t touch(const struct touching* t, const ph_mesh* mesh) {
+  return t->port != NULL ? t->with->mesh_touch(t->port, mesh)
+                         : t->with->probe_touch(t->probe, mesh);
+}
+static int32_t begin(struct touching* t, uint32_t kind) {
+  const struct meshes all = meshes_at(0);
+  const ph_mesh_data sheet = sheet_of(&all, kind), leaf = leaf_of(&all);
+  int32_t status = t->with->mesh_create(&sheet, &t->sheet, NULL, 0);
+  if (status == PH_OK) status = t->with->mesh_create(&leaf, &t->leaf, NULL, 0);
+  return status == PH_OK ? touch(t, t->sheet) : status;
+}
+static int32_t move(const struct touching* t, int n) {
+  const int news = mesh_news(n);
+  const struct meshes all = meshes_at(n);
+  int32_t status = PH_OK;
+  if (news & other_vertices)
+    status |= t->with->mesh_update(t->sheet, all.sheet, sheet_vertices, NULL, 0);
+  if (news & another_pose) status |= t->with->mesh_move(t->leaf, all.position, all.orientation);
+  if (news & leaf_comes) status |= touch(t, t->leaf);
+  if (!(news & leaf_goes)) return status;
+  return status | (t->port != NULL ? t->with->mesh_let_go(t->port, t->leaf)
+                                   : t->with->probe_let_go(t->probe, t->leaf));
+}
+/// The meshes first: what touches them keeps them.
+static void end(struct touching* t) {
+  t->with->mesh_destroy(t->sheet);
+  t->with->mesh_destroy(t->leaf);
+  t->with->probe_destroy(t->probe);
+  t->with->destroy(t->port);
+}
+
+int32_t probe_by_c(const struct c_interface* with, const ph_probe_parameters* parameters,
+                   uint32_t kind, int ticks, ph_probe_result* results) {
+  struct touching t = {.with = with};
+  int32_t status = with->probe_create(parameters, &t.probe, NULL, 0);
+  if (status == PH_OK) status = begin(&t, kind);
+  for (int n = 0; n < ticks && status == PH_OK; ++n) {
+    const struct moment now = moment_at(n);
+    if (n == reset_tick) status |= with->probe_reset(t.probe);
+    status |= move(&t, n);
+    results[n].size = sizeof results[n];
+    const int32_t stepped = with->probe_step(t.probe, now.position, now.dt, &results[n]);
+    if (stepped != PH_OK && now.position[1] == now.position[1]) status = stepped;
+  }
+  end(&t);
+  return status;
+}
+
 static void tell(const struct c_interface* with, ph_port* port, struct script script, int n,
                  const struct moment* now) {
   if (script.way == by_forces) return;
@@ -164,16 +289,21 @@ int32_t run_by_c(const struct c_interface* with, const char* composition,
                  const ph_parameters* parameters, struct script script, int ticks,
                  ph_result* results) {
   static const double torque[3] = {0.0, 1e-3, 0.0};
-  ph_port* port = NULL;
-  int32_t status = with->create(composition, parameters, &port, NULL, 0);
-  if (status != PH_OK) return status;
+  struct touching t = {.with = with};
+  int32_t status = with->create(composition, parameters, &t.port, NULL, 0);
+  ph_port* const port = t.port;
+  if (status == PH_OK && script.way == by_meshes) status = begin(&t, script.kind);
   for (int n = 0; n < ticks && status == PH_OK; ++n) {
     const struct moment now = moment_at(n);
     if (script.later != NULL && n == change_tick) status = with->set(port, script.later, NULL, 0);
     if (script.later != NULL && n == off_tick) status = with->enable_forces(port, 0);
     if (script.later != NULL && n == on_tick) status = with->enable_forces(port, 1);
     if (script.later != NULL && n == reset_tick) status = with->reset(port);
-    tell(with, port, script, n, &now);
+    if (script.way == by_meshes) {
+      status |= move(&t, n);
+    } else {
+      tell(with, port, script, n, &now);
+    }
     if (now.reports_held && script.way == as_tool) with->held_wrench(port, now.held, torque);
     if (now.reports_held && script.way != as_tool) with->held(port, now.held);
     results[n].size = sizeof results[n];
@@ -185,6 +315,6 @@ int32_t run_by_c(const struct c_interface* with, const char* composition,
       with->tick(port, now.position, now.dt, &results[n]);
     }
   }
-  with->destroy(port);
+  end(&t);
   return status;
 }

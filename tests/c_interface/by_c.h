@@ -30,6 +30,18 @@ struct c_interface {
   int32_t (*enable_forces)(ph_port*, int32_t);
   int32_t (*explain)(const ph_port*, ph_explanation*);
   int32_t (*stiffness_budget)(const ph_parameters*, double*, const char**);
+  int32_t (*mesh_create)(const ph_mesh_data*, ph_mesh**, char*, size_t);
+  void (*mesh_destroy)(ph_mesh*);
+  int32_t (*mesh_update)(ph_mesh*, const double*, uint32_t, char*, size_t);
+  int32_t (*mesh_move)(ph_mesh*, const double*, const double*);
+  int32_t (*mesh_touch)(ph_port*, const ph_mesh*);
+  int32_t (*mesh_let_go)(ph_port*, const ph_mesh*);
+  int32_t (*probe_create)(const ph_probe_parameters*, ph_probe**, char*, size_t);
+  void (*probe_destroy)(ph_probe*);
+  int32_t (*probe_touch)(ph_probe*, const ph_mesh*);
+  int32_t (*probe_let_go)(ph_probe*, const ph_mesh*);
+  int32_t (*probe_reset)(ph_probe*);
+  int32_t (*probe_step)(ph_probe*, const double*, double, ph_probe_result*);
   const char* (*event_text)(int32_t);
   const char* (*status_text)(int32_t);
 };
@@ -57,13 +69,30 @@ ph_surface curved_at(int n, uint32_t kind);
 /// The plane of that tick, at a point of a tool.
 ph_surface plane_at(const struct moment* now, double x_on_tool);
 
-/// How a composition is told the world: by planes, by forces, by slots, and by slots at a pose.
-enum way { by_planes, by_forces, by_slots, as_stylus, as_tool };
+/// A sheet of bumps that heaves, and a leaf that is turned above it: where they are in tick n. Their materials count in
+/// a script of kind 1.
+enum { sheet_vertices = 81, sheet_triangles = 128, leaf_vertices = 4, leaf_triangles = 2 };
+struct meshes {
+  double sheet[3 * sheet_vertices], leaf[3 * leaf_vertices];
+  int32_t of_sheet[3 * sheet_triangles], of_leaf[3 * leaf_triangles];
+  double materials[6];
+  uint8_t material_of[sheet_triangles];
+  double position[3], orientation[4];  // of the leaf
+};
+struct meshes meshes_at(int n);
+ph_mesh_data sheet_of(const struct meshes* all, uint32_t kind);
+ph_mesh_data leaf_of(const struct meshes* all);
+/// What is told of them in tick n: other vertices, another pose, and the leaf comes or goes.
+enum { other_vertices = 1, another_pose = 2, leaf_comes = 4, leaf_goes = 8 };
+int mesh_news(int n);
+
+/// How a composition is told the world: by planes, by forces, by slots, by slots at a pose, and by meshes.
+enum way { by_planes, by_forces, by_slots, as_stylus, as_tool, by_meshes };
 /// When its parameters become others, its forces are off and on again, and when all starts anew.
 enum { change_tick = 2405, off_tick = 3170, on_tick = 3215, reset_tick = 4100 };
 struct script {
   enum way way;
-  uint32_t kind;               // of what is in slot 1
+  uint32_t kind;               // of what is in slot 1; of the meshes
   const ph_parameters* later;  // from change_tick on; NULL: no others, and no new start
 };
 
@@ -71,6 +100,9 @@ struct script {
 int32_t run_by_c(const struct c_interface* with, const char* composition,
                  const ph_parameters* parameters, struct script script, int ticks,
                  ph_result* results);
+/// The same motion for a probe.
+int32_t probe_by_c(const struct c_interface* with, const ph_probe_parameters* parameters,
+                   uint32_t kind, int ticks, ph_probe_result* results);
 
 #ifdef __cplusplus
 }

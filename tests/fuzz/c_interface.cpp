@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // libFuzzer's door to the C interface, whose sources are compiled in: any name, any parameters of any size, any calls
-// on a port that is alive. Every force is a number and within what the motors hold.
+// on a port that is alive, and on a mesh and a probe. Every force is a number and within what the motors hold.
 #include "examples/c_interface/contacts.cpp"
 #include "examples/c_interface/guard.cpp"
+#include "examples/c_interface/mesh.cpp"
 #include "examples/c_interface/passive_haptics_c.cpp"
 #include "examples/c_interface/tool.cpp"
 #include "examples/c_interface/touch.cpp"
@@ -32,6 +33,8 @@ ph_parameters good_parameters(fuzz::numbers& in) {
   p.presliding = near(15e-6);
   p.quantum = in.one() < 128 ? 0.0 : near(20e-6);
   p.static_friction = near(0.4);
+  p.stiffness = near(1000.0);
+  p.radius = near(5e-4);
   p.tip[2] = near(0.01);
   p.least_inertia = near(1e-4);
   p.inertia_spread = near(2e-4);
@@ -55,9 +58,9 @@ ph_parameters any_parameters(fuzz::numbers& in) {
   p.friction = in.about(0.13);
   p.presliding = in.about(15e-6);
   p.quantum = in.one() < 128 ? 0.0 : in.about(20e-6);
-  for (double* more :
-       {&p.continuous_force, &p.winding_time, &p.turn_rate, &p.stale_after, &p.top_speed,
-        &p.workspace, &p.watchdog, &p.static_friction, &p.kinetic_friction}) {
+  for (double* more : {&p.continuous_force, &p.winding_time, &p.turn_rate, &p.stale_after,
+                       &p.top_speed, &p.workspace, &p.watchdog, &p.static_friction,
+                       &p.kinetic_friction, &p.stiffness, &p.viscosity, &p.radius}) {
     *more = in.one() < 160 ? 0.0 : in.about(1.0);
   }
   if (in.one() < 128) return p;
@@ -103,6 +106,68 @@ ph_surface any_surface(fuzz::numbers& in) {
   put(in, s.at, 3, 0.02);
   return s;
 }
+
+/// A tetrahedron where the device is, of any numbers, and what touches it beside the port.
+struct a_mesh {
+  a_mesh(fuzz::numbers& in, std::uint8_t luck) noexcept {
+    constexpr double corners[]{-9e-3, -5e-3, 0, 9e-3, -5e-3, 0, 0, 9e-3, 0, 0, 0, -5e-3};
+    std::copy(std::begin(corners), std::end(corners), vertices);
+    std::int32_t triangles[]{0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0};
+    double materials[]{800.0, 0.2, 0.1, 2000.0, 0.0, 0.0};
+    std::uint8_t of[]{0, 1, 1, 0};
+    ph_mesh_data data{sizeof data, 4, 4, luck % 3U, vertices, triangles, materials, of};
+    if (luck > 200) {
+      for (double* numbers : {vertices, materials}) put(in, numbers, 6, 5e-3);
+      triangles[in.one() % 12] = in.any<std::int32_t>();
+      of[in.one() % 4] = static_cast<std::uint8_t>(in.one());
+      if (luck > 240) data.size = in.any<std::uint32_t>();
+    }
+    said = ph_mesh_create(&data, &mesh, why.data(), why.size());
+    ph_probe_parameters p{};
+    p.size = sizeof p;
+    if (luck > 220) p.radius = in.about(5e-4);
+    (void)ph_probe_create(&p, &probe, nullptr, 0);
+    (void)ph_probe_touch(probe, mesh);
+  }
+  a_mesh(const a_mesh&) = delete;
+  a_mesh& operator=(const a_mesh&) = delete;
+  ~a_mesh() {
+    ph_mesh_destroy(mesh);
+    ph_probe_destroy(probe);
+  }
+  /// News, and who touches it.
+  void tell(fuzz::numbers& in, ph_port* port, unsigned op) noexcept {
+    double x[3]{}, q[4]{};
+    switch (op / 16) {
+      case 0:
+      case 1:
+        (void)ph_mesh_touch(port, mesh);
+        break;
+      case 2:
+        if (in.one() < 128) (void)ph_mesh_let_go(port, mesh);
+        if (in.one() < 32) (void)ph_probe_let_go(probe, mesh);
+        if (in.one() < 32) (void)ph_probe_reset(probe);
+        break;
+      case 3:
+      case 4:
+      case 5:
+        put(in, x, 3, 5e-3);
+        put(in, q, 4, 1.0);
+        (void)ph_mesh_move(mesh, x, q);
+        break;
+      default:
+        put(in, vertices + 3 * (op / 16 % 4), 3, 8e-3);
+        (void)ph_mesh_update(mesh, vertices, op < 240 ? 4 : in.one() % 5, nullptr, 0);
+        break;
+    }
+  }
+
+  double vertices[12]{};
+  ph_mesh* mesh = nullptr;
+  ph_probe* probe = nullptr;
+  std::array<char, PH_TEXT_ROOM> why{};
+  std::int32_t said = 0;
+};
 
 /// What is told between two ticks.
 void tell(fuzz::numbers& in, ph_port* port, unsigned op) {
@@ -158,6 +223,8 @@ const char* one_port(fuzz::numbers& in) {
                                 "strict_encoder_contacts",
                                 "strict_encoder_guard",
                                 "quantised_touch",
+                                "mesh_touch",
+                                "strict_encoder_mesh_touch",
                                 "none",
                                 nullptr};
   const std::size_t which = in.one() % std::size(names);
@@ -174,10 +241,16 @@ const char* one_port(fuzz::numbers& in) {
   double stiffness = 0.0;
   (void)ph_stiffness_budget(&p, &stiffness, nullptr);
   (void)ph_guarantee_of(port);
+  const std::uint8_t luck = in.empty() ? 0 : static_cast<std::uint8_t>(in.one());
+  a_mesh mesh(in, luck);
+  if ((mesh.said == PH_OK) != (mesh.mesh != nullptr)) return "a mesh, or a reason, not both";
+  if ((mesh.said == PH_OK) != (mesh.why[0] == 0)) return "a mesh refused without a word";
+  (void)ph_mesh_touch(port, mesh.mesh);
   double x[3]{}, q[4]{}, wanted[3]{};
   for (int n = 0; n < 300 && !in.empty(); ++n) {
     const unsigned op = in.one();
     tell(in, port, op);
+    if (op % 16 == 14) mesh.tell(in, port, op);
     if (op % 32 == 12) {  // other parameters, and now and then those that stay
       ph_parameters later = in.one() < 64 ? any_parameters(in) : p;
       later.force_limit = in.about(9.0);
@@ -194,6 +267,11 @@ const char* one_port(fuzz::numbers& in) {
       std::for_each(x, x + 3, [&in](double& one) { one += in.around<double>(3e-4); });
     }
     const double dt = op < 200 ? 1e-3 : in.around<double>(2e-3);
+    ph_probe_result ball{};
+    ball.size = sizeof ball;
+    (void)ph_probe_step(mesh.probe, x, dt, &ball);
+    if (!std::isfinite(ball.place[0] + ball.place[1] + ball.place[2] + ball.depth))
+      return "a ball at no place";
     ph_result out{};
     out.size = op == 3 ? in.any<std::uint32_t>() : sizeof out;
     int said = 0;

@@ -20,18 +20,22 @@
 // SI units. The force acts on the device; a normal points out of the object; energy is positive from the
 // hand into the device. Vectors are three doubles: x, y, z.
 //
-// No function throws, and none but ph_create and ph_destroy allocates. Wherever a result is written, the
-// port has ticked, and the force in it is what must be commanded: zero, with an event, if anything was
+// No function throws. Memory is taken and given back by ph_create, ph_destroy, ph_mesh_create, ph_mesh_update,
+// ph_mesh_destroy, ph_probe_create and ph_probe_destroy only; by ph_mesh_let_go where it was the last to hold a mesh.
+// Wherever a result is written, the port has ticked, and the force in it is what must be commanded: zero, with an event, if anything was
 // wrong. Where no result can be written (NULL, a wrong size) the port has not ticked.
 //
 // A pointer that is not NULL must point to an object of its type, which lives as long as the call. A ph_port* is
-// valid from the ph_create that wrote it until its first ph_destroy. Any later use, a second ph_destroy included, is
-// undefined behaviour and not detected: set your pointer to NULL then, because every function accepts NULL.
+// valid from the ph_create that wrote it until its first ph_destroy, and so are a ph_mesh* and a ph_probe*. Any later
+// use, a second ph_destroy included, is undefined behaviour and not detected: set your pointer to NULL then, because
+// every function accepts NULL.
 //
 // Threads: call ph_publish* and ph_release of a port in one thread, and ph_tick*, ph_held*, ph_set, ph_reset,
-// ph_enable_forces and ph_explain in one thread, the same or another. Two threads in one of these groups at the same
-// time, or ph_destroy while a thread is in any function, are a data race and undefined; a debug build of the library
-// stops if two threads tick. ph_guarantee_of is for any thread, and different ports share nothing.
+// ph_enable_forces, ph_explain, ph_mesh_touch and ph_mesh_let_go in one thread, the same or another. Two threads in one
+// of these groups at the same time, or ph_destroy while a thread is in any function, are a data race and undefined; a
+// debug build of the library stops if two threads tick. ph_guarantee_of is for any thread, and different ports share
+// nothing but the meshes that they touch. Call ph_mesh_update and ph_mesh_move of a mesh in one thread, whichever
+// threads touch it, and all functions of a probe in one thread.
 //
 // Before 1.0 a minor version may change this interface, as it may the library's.
 
@@ -69,8 +73,16 @@ extern "C" {
 #define PH_TOOL_PLANES 16
 #define PH_TOOL_CURVED 4
 
+/// The most meshes that a port or a probe touches at a time, and the most ports and probes that touch one mesh.
+#define PH_MESHES 8
+#define PH_MOST_FINGERS 64
+
 /// One passive port with its ledger, and an inbox for published surfaces.
 typedef struct ph_port ph_port;
+/// Triangles that ports and probes touch while another thread moves them.
+typedef struct ph_mesh ph_mesh;
+/// A ball that is drawn to the device and that no triangle lets through: a renderer's proxy, without a port.
+typedef struct ph_probe ph_probe;
 
 /// The status that a function returns.
 enum ph_status {
@@ -82,7 +94,9 @@ enum ph_status {
   PH_OUT_OF_MEMORY = 5,            ///< there is no memory for the port
   PH_NOT_OF_THIS_COMPOSITION = 6,  ///< a surface for a guard, a wanted force for a touch
   PH_REFUSED_SURFACE = 7,          ///< a number not finite, a normal of length 0, a stiffness ≤ 0
-  PH_NO_SUCH_SLOT = 8              ///< the composition has no slot of this number for this kind
+  PH_NO_SUCH_SLOT = 8,             ///< the composition has no slot of this number for this kind
+  PH_REFUSED_MESH = 9,             ///< the text has what is wrong with the mesh and the remedy
+  PH_NO_PLACE = 10  ///< the mesh is touched already, or PH_MESHES others, or by PH_MOST_FINGERS
 };
 
 /// The kind of a surface, and the members of ph_surface that define it.
@@ -161,6 +175,11 @@ typedef struct ph_parameters {
   double hand_torque;           ///< largest torque of the hand [N·m]
   double torque_limit;          ///< largest torque of the motors [N·m]
   double lever;                 ///< a length of the tool [m]; 0: 0.03
+
+  // The following members, and static_friction, are for a mesh, and count where the mesh states no material.
+  double stiffness;  ///< of the mesh [N/m]; 0: 1000
+  double viscosity;  ///< along the surface [N·s/m]; 0: none
+  double radius;     ///< of the ball that touches [m]; 0: 5e-4
 } ph_parameters;
 
 /// A surface of the environment. Members that its kind does not use are ignored.
@@ -201,6 +220,45 @@ typedef struct ph_explanation {
   const char* because;  ///< the bound and the remedy, in English, in static memory
 } ph_explanation;
 
+/// A mesh. It may be open, inside out, or cross itself: no side is the outside. All arrays are copied.
+typedef struct ph_mesh_data {
+  uint32_t size;             ///< sizeof(ph_mesh_data)
+  uint32_t vertex_count;     ///< ≤ 2³¹ − 1
+  uint32_t triangle_count;   ///< 1 to 50 million
+  uint32_t material_count;   ///< 0 to 256; 0: whoever touches the mesh states one
+  const double* vertices;    ///< x, y, z of each [m]
+  const int32_t* triangles;  ///< the three vertices of each, counted from 0
+  const double* materials;   ///< stiffness [N/m], friction, viscosity [N·s/m] of each
+  const uint8_t*
+      material_of;  ///< the number of each triangle's material; NULL: all are of the first
+} ph_mesh_data;
+
+/// A probe. Zero in a member stands for its default.
+typedef struct ph_probe_parameters {
+  uint32_t size;      ///< sizeof(ph_probe_parameters)
+  uint32_t reserved;  ///< 0
+  double radius;      ///< of the ball [m]; 0: 5e-4
+  double friction;    ///< of triangles whose mesh states none
+  double news_speed;  ///< at which news are followed, if they need no more [m/s]; 0: 0.05
+  double
+      longest_way;  ///< news are followed within the time since the last ones, or this [s]; 0: 0.05
+} ph_probe_parameters;
+
+/// The result of a step of a probe. A renderer's force is its stiffness times depth, along normal.
+typedef struct ph_probe_result {
+  uint32_t size;  ///< sizeof(ph_probe_result), set by the caller
+  int32_t
+      placed;  ///< 0 until the device has been clear of the meshes once: until then nothing is touched
+  int32_t mesh;      ///< the mesh that is closest, in the order of touching
+  int32_t triangle;  ///< its triangle that is closest; −1: there is none
+  double place[3];   ///< the centre of the ball [m]
+  double
+      normal[3];  ///< the direction in which the mesh holds the ball off; 0 where nothing presses
+  double depth;   ///< how far it is held off [m]; 0 where nothing presses
+  double material
+      [3];  ///< stiffness, friction and viscosity of what presses; stiffness 0 where it is not stated
+} ph_probe_result;
+
 /// The version of the library that is loaded: 10000 major + 100 minor + patch.
 PH_API uint32_t ph_version(void) PH_NOTHROW;
 
@@ -215,12 +273,14 @@ PH_API uint32_t ph_version(void) PH_NOTHROW;
 ///   "strict_encoder_guard"                  those after any_hand                     as above
 ///   "stylus"                                make_contacts, at the tip of a stylus    exact_device, tip
 ///   "tool"                                  make_tool                                rigid_device
+///   "mesh_touch", "strict_mesh_touch"       make_mesh_touch                          exact_device
+///   "encoder_mesh_touch", "strict_encoder_mesh_touch"                                encoder_device
 ///   "quantised_touch"                       a touch on steps, friction not known     exact_device, quantum
 ///
 /// exact_device is mass, damping, force_limit, longest_tick; encoder_device that, and friction, presliding, quantum,
 /// continuous_force, winding_time; rigid_device mass, damping, force_limit, longest_tick, and the members for a tool.
 /// The strict ones guarantee PH_STRICT, and are soft while the ledger is empty. All others take hand_force, and guarantee
-/// PH_CONDITIONAL. A touch has one plane; contacts, stylus and tool have the surfaces in their slots. A guard bounds a
+/// PH_CONDITIONAL. A touch has one plane; contacts, stylus and tool have the surfaces in their slots; a mesh_touch has meshes. A guard bounds a
 /// force of the caller, and damps the oscillations of a renderer. A composition for exact positions refuses a
 /// `quantum`. Parameters that a composition does not take are ignored.
 PH_API int32_t ph_create(const char* composition, const ph_parameters* parameters, ph_port** port,
@@ -286,6 +346,39 @@ PH_API int32_t ph_explain(const ph_port* port, ph_explanation* explanation) PH_N
 /// remedy: the cap of "encoder_touch". `because` may be NULL; its text is in static memory.
 PH_API int32_t ph_stiffness_budget(const ph_parameters* parameters, double* stiffness,
                                    const char** because) PH_NOTHROW;
+
+/// Makes a mesh. `*mesh` is NULL unless the answer is PH_OK; `why` is as in ph_create. Triangles without an area may be
+/// among others, and a number of vertices that no triangle names.
+PH_API int32_t ph_mesh_create(const ph_mesh_data* data, ph_mesh** mesh, char* why,
+                              size_t room) PH_NOTHROW;
+/// Gives the mesh back. What touches it keeps it until it lets go or is destroyed. NULL does nothing.
+PH_API void ph_mesh_destroy(ph_mesh* mesh) PH_NOTHROW;
+/// Moves all vertices to these places, x, y, z of each [m]. If it is refused, the last good shape stays. No port waits
+/// for it, and it waits for none; after three good ones it takes no memory as long as all that touch it tick.
+PH_API int32_t ph_mesh_update(ph_mesh* mesh, const double* vertices, uint32_t vertex_count,
+                              char* why, size_t room) PH_NOTHROW;
+/// Moves the whole mesh to this pose: `orientation` is the quaternion w, x, y, z, of any length but zero.
+PH_API int32_t ph_mesh_move(ph_mesh* mesh, const double position[3],
+                            const double orientation[4]) PH_NOTHROW;
+/// Lets a mesh_touch touch this mesh as well. Call it, and the next one, in the thread of its ticks.
+PH_API int32_t ph_mesh_touch(ph_port* port, const ph_mesh* mesh) PH_NOTHROW;
+/// Touches this mesh no more, and the others as before. A mesh that is not touched is let go, too.
+PH_API int32_t ph_mesh_let_go(ph_port* port, const ph_mesh* mesh) PH_NOTHROW;
+
+/// Makes a probe, for a renderer or an engine of your own; its force is not passive before a guard has bounded it.
+/// `*probe` is NULL unless the answer is PH_OK; `why` is as in ph_create.
+PH_API int32_t ph_probe_create(const ph_probe_parameters* parameters, ph_probe** probe, char* why,
+                               size_t room) PH_NOTHROW;
+/// Destroys a probe. NULL does nothing.
+PH_API void ph_probe_destroy(ph_probe* probe) PH_NOTHROW;
+/// The same as ph_mesh_touch and ph_mesh_let_go, and a new start that forgets which side was touched.
+PH_API int32_t ph_probe_touch(ph_probe* probe, const ph_mesh* mesh) PH_NOTHROW;
+PH_API int32_t ph_probe_let_go(ph_probe* probe, const ph_mesh* mesh) PH_NOTHROW;
+PH_API int32_t ph_probe_reset(ph_probe* probe) PH_NOTHROW;
+/// One step: the device is at `position` [m], `dt` [s] after the last step. A number that is not finite, or dt ≤ 0,
+/// moves nothing, and the result says where the ball is.
+PH_API int32_t ph_probe_step(ph_probe* probe, const double position[3], double dt,
+                             ph_probe_result* result) PH_NOTHROW;
 
 /// The text of an event and of a status, in English, in static memory; there is one for unknown numbers, too.
 PH_API const char* ph_event_text(int32_t event) PH_NOTHROW;
