@@ -22,10 +22,11 @@ namespace PassiveHaptics
         public double Mass, Damping, HandForce, ForceLimit, LongestTick;
         public double Friction, Presliding, Quantum, ContinuousForce, WindingTime;
         public double TurnRate, StaleAfter, TopSpeed, Workspace, Watchdog;
-        public double StaticFriction, KineticFriction; // of contacts, stylus and tool
+        public double StaticFriction, KineticFriction; // of contacts, stylus, tool and mesh_touch
         public Vector Tip;                             // of a stylus
         public double LeastInertia, InertiaSpread, InertiaOffset, AngularDamping; // of a tool
         public double DampingMost, AngularDampingMost, HandTorque, TorqueLimit, Lever;
+        public double Stiffness, Viscosity, Radius; // of a mesh_touch
 
         internal Parameters WithSize()
         {
@@ -88,10 +89,177 @@ namespace PassiveHaptics
         public Vector Torque; // of a tool
     }
 
+    /// What a probe's step answers, as ph_probe_result.
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Touched
+    {
+        internal uint size;
+        public int Placed, Mesh, Triangle;
+        public Vector Place, Normal; // m
+        public double Depth;         // m
+        public double Stiffness, Friction, Viscosity;
+    }
+
+    /// Triangles that ports and probes touch while another thread moves them. What touches a mesh keeps it.
+    public sealed class Mesh : IDisposable
+    {
+        internal IntPtr mesh;
+        private byte[] why = new byte[512];
+
+        /// x, y, z of each vertex [m], three vertices of each triangle; stiffness, friction and viscosity of each material,
+        /// and the number of each triangle's: null for one material, that who touches the mesh states.
+        public Mesh(double[] vertices, int[] triangles, double[] materials = null, byte[] materialOf = null)
+        {
+            object[] arrays = { vertices, triangles, materials, materialOf };
+            GCHandle[] pins = Array.ConvertAll(arrays, a => GCHandle.Alloc(a, GCHandleType.Pinned));
+            try
+            {
+                Data data = new Data
+                {
+                    size = (uint)Marshal.SizeOf(typeof(Data)), vertices = pins[0].AddrOfPinnedObject(),
+                    triangles = pins[1].AddrOfPinnedObject(), materials = pins[2].AddrOfPinnedObject(),
+                    materialOf = pins[3].AddrOfPinnedObject()
+                };
+                data.vertexCount = Count(vertices) / 3;
+                data.triangleCount = Count(triangles) / 3;
+                data.materialCount = Count(materials) / 3;
+                if (materialOf != null && Count(materialOf) != data.triangleCount)
+                    throw new ArgumentException("materialOf has not a number for each triangle");
+                if (ph_mesh_create(ref data, out mesh, why, (UIntPtr)why.Length) != 0) Port.Refuse(why);
+            }
+            finally
+            {
+                Array.ForEach(pins, pin => pin.Free());
+            }
+        }
+        ~Mesh() { Close(); }
+        public void Dispose()
+        {
+            Close();
+            GC.SuppressFinalize(this);
+        }
+
+        /// All vertices are at other places, or the whole mesh is: from one thread, 20 to 100 times a second. False: it
+        /// is refused, Fault says why, and the last good shape stays.
+        public bool Update(double[] vertices)
+        {
+            int status = ph_mesh_update(mesh, vertices, Count(vertices) / 3, why, (UIntPtr)why.Length);
+            GC.KeepAlive(this);
+            return status == 0;
+        }
+        public bool Move(Vector position, Rotation orientation)
+        {
+            int status = ph_mesh_move(mesh, ref position, ref orientation);
+            GC.KeepAlive(this);
+            return status == 0;
+        }
+        public string Fault { get { return Encoding.UTF8.GetString(why, 0, Array.IndexOf(why, (byte)0)); } }
+
+        private static uint Count(Array numbers) { return numbers == null ? 0 : (uint)numbers.Length; }
+        private void Close()
+        {
+            ph_mesh_destroy(mesh);
+            mesh = IntPtr.Zero;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        private struct Data
+        {
+            public uint size, vertexCount, triangleCount, materialCount;
+            public IntPtr vertices, triangles, materials, materialOf;
+        }
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_mesh_create(ref Data data, out IntPtr mesh, byte[] why, UIntPtr room);
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern void ph_mesh_destroy(IntPtr mesh);
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_mesh_update(IntPtr mesh, double[] vertices, uint count, byte[] why,
+                                                 UIntPtr room);
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_mesh_move(IntPtr mesh, ref Vector position, ref Rotation orientation);
+    }
+
+    /// A ball that no triangle lets through, without a port: for a renderer of your own, whose force a guard bounds.
+    public sealed class Probe : IDisposable
+    {
+        private IntPtr probe;
+
+        /// 0 in a parameter stands for its default.
+        public Probe(double radius = 0, double friction = 0)
+        {
+            Stated stated = new Stated { radius = radius, friction = friction };
+            stated.size = (uint)Marshal.SizeOf(typeof(Stated));
+            byte[] why = new byte[512];
+            if (ph_probe_create(ref stated, out probe, why, (UIntPtr)why.Length) != 0) Port.Refuse(why);
+        }
+        ~Probe() { Close(); }
+        public void Dispose()
+        {
+            Close();
+            GC.SuppressFinalize(this);
+        }
+
+        /// This mesh as well. False: there is no place for it.
+        public bool Touch(Mesh mesh)
+        {
+            int status = ph_probe_touch(probe, mesh.mesh);
+            GC.KeepAlive(mesh);
+            GC.KeepAlive(this);
+            return status == 0;
+        }
+        public void LetGo(Mesh mesh)
+        {
+            ph_probe_let_go(probe, mesh.mesh);
+            GC.KeepAlive(mesh);
+            GC.KeepAlive(this);
+        }
+        /// Forgets which side was touched.
+        public void Reset()
+        {
+            ph_probe_reset(probe);
+            GC.KeepAlive(this);
+        }
+        /// The device is at `position` [m], dt [s] after the last step.
+        public Touched Step(Vector position, double dt)
+        {
+            Touched result = new Touched { size = (uint)Marshal.SizeOf(typeof(Touched)) };
+            ph_probe_step(probe, ref position, dt, ref result);
+            GC.KeepAlive(this);
+            return result;
+        }
+
+        private void Close()
+        {
+            ph_probe_destroy(probe);
+            probe = IntPtr.Zero;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        private struct Stated
+        {
+            public uint size, reserved;
+            public double radius, friction, newsSpeed, longestWay;
+        }
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_probe_create(ref Stated stated, out IntPtr probe, byte[] why,
+                                                  UIntPtr room);
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern void ph_probe_destroy(IntPtr probe);
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_probe_touch(IntPtr probe, IntPtr mesh);
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_probe_let_go(IntPtr probe, IntPtr mesh);
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_probe_reset(IntPtr probe);
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_probe_step(IntPtr probe, ref Vector position, double dt,
+                                                ref Touched result);
+    }
+
     /// One device. ONE PORT PER DEVICE: two would spend the same damping twice.
     public sealed class Port : IDisposable
     {
-        private const string library = "passive_haptics_c";
+        internal const string library = "passive_haptics_c";
         private IntPtr port;
 
         /// Throws an ArgumentException that names the parameter, its value and the remedy.
@@ -137,6 +305,22 @@ namespace PassiveHaptics
             int status = ph_publish_nothing(port);
             GC.KeepAlive(this);
             return status == 0;
+        }
+
+        /// A mesh_touch touches this mesh as well, from the thread that ticks. False: there is no place for it.
+        public bool Touch(Mesh mesh)
+        {
+            int status = ph_mesh_touch(port, mesh.mesh);
+            GC.KeepAlive(mesh);
+            GC.KeepAlive(this);
+            return status == 0;
+        }
+        /// It touches this mesh no more.
+        public void LetGo(Mesh mesh)
+        {
+            ph_mesh_let_go(port, mesh.mesh);
+            GC.KeepAlive(mesh);
+            GC.KeepAlive(this);
         }
 
         /// One tick, from one thread: the device is at `position` [m], dt [s] after the last tick. The force
@@ -205,7 +389,7 @@ namespace PassiveHaptics
         private static readonly uint surfaceSize = (uint)Marshal.SizeOf(typeof(Surface));
         private static readonly uint explanationSize = (uint)Marshal.SizeOf(typeof(Explanation));
 
-        private static void Refuse(byte[] why)
+        internal static void Refuse(byte[] why)
         {
             throw new ArgumentException(Encoding.UTF8.GetString(why, 0, Array.IndexOf(why, (byte)0)));
         }
@@ -226,6 +410,10 @@ namespace PassiveHaptics
                                                    double stiffness);
         [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
         private static extern int ph_publish_nothing(IntPtr port);
+        [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_mesh_touch(IntPtr port, IntPtr mesh);
+        [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_mesh_let_go(IntPtr port, IntPtr mesh);
         [DllImport(library, CallingConvention = CallingConvention.Cdecl)]
         private static extern int ph_publish(IntPtr port, uint slot, ref Surface surface);
         [DllImport(library, CallingConvention = CallingConvention.Cdecl)]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // examples/c_interface/wall.c in C#, without Unity: the same device, the same wall, the same figures; a guard
-// for a force that you have already, a ball in a corner, and a peg that turns.
+// for a force that you have already, a ball in a corner, a peg that turns, and a mesh that heaves.
 //
 //     mcs -out:wall.exe PassiveHaptics.cs Program.cs
 //     LD_LIBRARY_PATH=<where libpassive_haptics_c.so is> mono wall.exe
@@ -131,6 +131,38 @@ internal static class Program
             }
             Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
                 "peg:     {0:0.00} N and {1:0.0000} N m, by a point 20 mm off", now.Force.Z, now.Torque.Y));
+        }
+        double[] vertices = { -0.05, -0.05, 0, 0.05, -0.05, 0, 0, 0.05, 0 };
+        try
+        {
+            new Mesh(vertices, new int[] { 0, 1, 3 });
+        }
+        catch (ArgumentException refused)
+        {
+            Console.WriteLine(refused.Message);
+        }
+        device.Stiffness = 800;
+        device.Radius = 1e-3;
+        using (Port finger = new Port("mesh_touch", device))
+        using (Probe probe = new Probe(1e-3))
+        using (Mesh leaf = new Mesh(vertices, new int[] { 0, 1, 2 }))
+        {
+            finger.Touch(leaf);
+            probe.Touch(leaf);
+            Result now = new Result();
+            Touched ball = new Touched();
+            for (int n = 0; n < 400; ++n)
+            {
+                if (n == 300) leaf.Update(new double[] { -0.05, -0.05, 1e-3, 0.05, -0.05, 1e-3, 0, 0.05, 1e-3 });
+                Vector there = new Vector(0, 0, Math.Max(2e-3 - 1e-5 * n, 0));
+                now = finger.Tick(there, 1e-3);
+                ball = probe.Step(there, 1e-3);
+            }
+            Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
+                "mesh:    {0:0.00} N up, {1:0.00} mm off at {2:0.00} mm", now.Force.Z, 1e3 * ball.Depth,
+                1e3 * ball.Place.Z));
+            vertices[4] = double.NaN;
+            if (!leaf.Update(vertices)) Console.WriteLine("         " + leaf.Fault);
         }
         using (Port guard = new Port("guard", device))
         {
