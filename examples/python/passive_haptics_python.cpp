@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A Python module for what-if questions and plots: a simulated device, a hand, a wall, and a composition by
-// its name in the C interface. Traces come back as NumPy arrays. Not for a servo loop: Python keeps no
-// millisecond.
+// its name in the C interface; and a probe on meshes. Traces come back as NumPy arrays. Not for a servo loop: Python
+// keeps no millisecond.
 
 #include <passive_haptics/adapters/c/passive_haptics.h>
 #include <passive_haptics/simulation/device.hpp>
@@ -13,6 +13,7 @@
 #include <memory>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,12 @@ ph_parameters stated(const device_facts& d, const hand_model& hand) {
   return p;
 }
 
+/// What C gives back with one function of its own.
+template <auto Destroy>
+struct ends {
+  void operator()(auto* one) const noexcept { Destroy(one); }
+};
+
 /// What presses back: a composition, or the bare spring.
 class wall {
  public:
@@ -75,10 +82,11 @@ class wall {
         bare_(composition == "none"),
         guards_(composition.find("guard") != std::string::npos) {
     if (bare_) return;
-    if (composition == "stylus" || composition == "tool") {
-      throw py::value_error("composition = \"" + composition +
-                            "\" is refused: it turns, and the "
-                            "simulated hand moves on a line");
+    const bool meshes = composition.find("mesh") != std::string::npos;
+    if (meshes || composition == "stylus" || composition == "tool") {
+      throw py::value_error("composition = \"" + composition + "\" is refused: " +
+                            (meshes ? "the simulated wall is a plane; a Probe touches a Mesh"
+                                    : "it turns, and the simulated hand moves on a line"));
     }
     std::array<char, PH_TEXT_ROOM> why{};
     ph_port* port = nullptr;
@@ -110,12 +118,9 @@ class wall {
   }
 
  private:
-  struct end {
-    void operator()(ph_port* port) const noexcept { ph_destroy(port); }
-  };
   double stiffness_;
   bool bare_, guards_;
-  std::unique_ptr<ph_port, end> port_;
+  std::unique_ptr<ph_port, ends<ph_destroy>> port_;
 };
 
 template <class Device>
@@ -201,6 +206,78 @@ py::tuple budget(const device_facts& device) {
   return py::make_tuple(stiffness, because);
 }
 
+template <class Number>
+using table = py::array_t<Number, py::array::c_style | py::array::forcecast>;
+
+/// A table of rows of three.
+template <class Number>
+std::uint32_t rows_of(const table<Number>& numbers, const char* name) {
+  if (numbers.ndim() != 2 || numbers.shape(1) != 3) {
+    throw py::value_error(std::string(name) + " is refused: rows of three numbers");
+  }
+  return static_cast<std::uint32_t>(numbers.shape(0));
+}
+/// Makes an exception of what C has refused.
+template <class Call>
+void checked(Call call) {
+  std::array<char, PH_TEXT_ROOM> why{};
+  const std::int32_t status = call(why.data(), why.size());
+  if (status != PH_OK) throw py::value_error(why[0] != 0 ? why.data() : ph_status_text(status));
+}
+
+class triangles {
+ public:
+  triangles(const table<double>& vertices, const table<std::int32_t>& corners) {
+    ph_mesh_data data{};
+    data.size = sizeof data;
+    data.vertex_count = rows_of(vertices, "vertices");
+    data.triangle_count = rows_of(corners, "triangles");
+    data.vertices = vertices.data();
+    data.triangles = corners.data();
+    ph_mesh* made = nullptr;
+    checked([&](char* why, std::size_t room) { return ph_mesh_create(&data, &made, why, room); });
+    mesh_.reset(made);
+  }
+  void update(const table<double>& vertices) {
+    const std::uint32_t count = rows_of(vertices, "vertices");
+    checked([&](char* why, std::size_t room) {
+      return ph_mesh_update(mesh_.get(), vertices.data(), count, why, room);
+    });
+  }
+  [[nodiscard]] const ph_mesh* get() const noexcept { return mesh_.get(); }
+
+ private:
+  std::unique_ptr<ph_mesh, ends<ph_mesh_destroy>> mesh_;
+};
+
+class ball {
+ public:
+  ball(double radius, double friction) {
+    ph_probe_parameters p{};
+    p.size = sizeof p;
+    p.radius = radius;
+    p.friction = friction;
+    ph_probe* made = nullptr;
+    checked([&](char* why, std::size_t room) { return ph_probe_create(&p, &made, why, room); });
+    probe_.reset(made);
+  }
+  void touch(const triangles& mesh) {
+    checked([&](char*, std::size_t) { return ph_probe_touch(probe_.get(), mesh.get()); });
+  }
+  /// Where it is after a step, and how far and in which direction it is held off.
+  py::tuple step(const std::array<double, 3>& position, double dt) {
+    ph_probe_result r{};
+    r.size = sizeof r;
+    checked(
+        [&](char*, std::size_t) { return ph_probe_step(probe_.get(), position.data(), dt, &r); });
+    return py::make_tuple(py::array_t<double>(3, r.place), r.depth,
+                          py::array_t<double>(3, r.normal));
+  }
+
+ private:
+  std::unique_ptr<ph_probe, ends<ph_probe_destroy>> probe_;
+};
+
 /// A class of numbers with names: Device(mass=0.1), d.mass, d.mass = 0.2.
 template <class Numbers, class... Members>
 void numbers(py::module_& module, const char* name, const char* text,
@@ -251,6 +328,16 @@ PYBIND11_MODULE(passive_haptics, module) {
       "simulator's own books, dry friction included), ledger J, event.");
   module.def("stiffness_budget", &budget, py::arg("device"),
              "(N/m, why): how stiff a wall may be before the ledger of this device runs dry.");
+  py::class_<triangles>(module, "Mesh",
+                        "Triangles to touch, with vertices in m, from arrays of rows.")
+      .def(py::init<const table<double>&, const table<std::int32_t>&>(), py::arg("vertices"),
+           py::arg("triangles"))
+      .def("update", &triangles::update, py::arg("vertices"), "Moves all vertices [m].");
+  py::class_<ball>(module, "Probe", "A ball that is drawn to a place and passes through no mesh.")
+      .def(py::init<double, double>(), py::arg("radius") = 5e-4, py::arg("friction") = 0.0)
+      .def("touch", &ball::touch, py::arg("mesh"))
+      .def("step", &ball::step, py::arg("position"), py::arg("dt") = 1e-3,
+           "(place m, depth m, normal): where the ball is, and how it is held off.");
   module.def(
       "event_text", [](int event) { return ph_event_text(event); }, py::arg("event"));
   module.attr("compositions") =

@@ -52,4 +52,23 @@ refused(lambda: ph.simulate("tuch", 3000, exact), "tuch", "one of touch")
 refused(lambda: ph.simulate("tool", 3000, exact), "tool", "turns")
 refused(lambda: ph.simulate("none", 3000, exact, seconds=-1), "seconds")
 refused(lambda: ph.Device(weight=1), "weight")
+
+# A leaf holds a probe off from both sides, wherever it goes; bare, the place of the device is beyond it.
+corners = [[-0.05, -0.05, 0], [0.05, -0.05, 0], [0, 0.05, 0]]
+for side in (1, -1):
+    leaf, probe = ph.Mesh(corners, [[0, 1, 2]]), ph.Probe(1e-3)
+    probe.touch(leaf)
+    for n in range(400):
+        if n == 300:
+            leaf.update(numpy.array(corners) + [0, 0, 0.001])
+        place, depth, normal = probe.step([0, 0, side * (2e-3 - 1e-5 * n)])
+        assert side * (place[2] - (0.001 if n >= 300 else 0)) > 0 or n < 360, (n, place)
+    assert abs(place[2] - (0.001 + side * 1e-3)) < 1e-9 and normal[2] == side, (place, normal)
+    assert abs(depth - side * (place[2] + side * 1.99e-3)) < 1e-12, depth
+refused(lambda: ph.Mesh(corners, [[0, 1, 3]]), "triangle 0 names node 3 of 3")
+refused(lambda: ph.Mesh(corners, []), "triangles is refused")
+refused(lambda: leaf.update(corners[:2]), "news of 2 nodes")
+refused(lambda: ph.Probe(radius=-1), "radius = -1 is refused")
+refused(lambda: probe.step([0, 0, float("nan")]), "out of its range")
+refused(lambda: ph.simulate("mesh_touch", 3000, exact), "Probe touches a Mesh")
 print("the module and the library agree")
