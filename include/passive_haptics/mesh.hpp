@@ -8,6 +8,7 @@
 //   mesh/proxy.hpp          mesh::proxy        a ball that is drawn to the device and does not pass through the mesh;
 //                                              usable alone, for a renderer, an engine, another language
 //   mesh/mesh_contact.hpp   mesh_contact       the same as the source of a port, with spring and damper
+//   mesh/mesh_tool.hpp      mesh_tool          a tool that turns, with several such points; not included here
 //
 // Collisions between bodies are not included. docs/design/meshes.md has proofs and measurements.
 
