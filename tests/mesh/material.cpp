@@ -109,6 +109,77 @@ TEST_CASE("each triangle shows its own stiffness, and a border between two is no
   CHECK_THAT(port.explain().asked, WithinRel(1600.0, 1e-9));
 }
 
+TEST_CASE("a material that changes under the finger is followed by 0.05 N a tick", "[mesh]") {
+  using ph::mesh::material;
+  const body b = floor();
+  const struct {
+    material before, after;
+    double speed;  ///< of the finger along the mesh [m/s]
+    double most;   ///< largest step [N]
+  } all[] = {
+      {{.stiffness = 400}, {.stiffness = 4000}, 0.0, 0.05},
+      {{.stiffness = 4000}, {.stiffness = 400}, 0.05, 0.05},
+      {{.stiffness = 2000, .friction = 0.8}, {.stiffness = 2000}, 0.05, 0.05},
+      {{.stiffness = 2000}, {.stiffness = 2000, .friction = 0.8}, 0.05, 0.05},
+      {{.stiffness = 2000, .friction = 0.8}, {.stiffness = 2000}, 0.0, 0.05},
+      {{.viscosity = 25}, {}, 0.05, 0.05},
+      {{}, {.viscosity = 25}, 0.05, 0.05},
+      // 0.05 N of what presses, as much of what rubs, and μ times the first
+      {{.stiffness = 3000, .friction = 0.6}, {.stiffness = 600}, 0.05, 0.11},
+  };
+  for (const auto& c : all) {
+    for (const char* by : {"the mesh", "the port", "a border"}) {
+      const bool border = by[0] == 'a';
+      const std::vector<std::uint8_t> of(4, 0);
+      ph::mesh::surface s(b.triangles, b.nodes,
+                          border ? ph::mesh::made_of{{c.before, c.after}, {0, 0, 1, 1}}
+                                 : ph::mesh::made_of{{c.before}, of});
+      const ph::mesh_contact stated{.spring = {.mass = 0.1}};
+      auto port = bare(stated);
+      const auto as = [&](const material& m) {
+        ph::mesh_contact now = port.source().parameters();
+        now.stiffness = m.stiffness;
+        now.viscosity = m.viscosity;
+        now.proxy.friction = m.friction;
+        return now;
+      };
+      if (by[4] == 'p') {
+        CHECK(s.update(ph::mesh::made_of{}));
+        CHECK_FALSE(port.set(as(c.before)));
+      }
+      if (border && c.speed == 0.0) continue;
+      port.source().touch(s);
+      press(port, -0.01);
+      double step = 0.0, x = -0.01;
+      vector f = vector::Zero(), first = f;
+      const auto stroke = [&](int ticks) {
+        for (int k = 0; k < ticks; ++k) {
+          const vector last = f;
+          f = port.tick(vector(x += c.speed * T, 0, r - 1e-3), ph::seconds{T}).force;
+          if (k > 0) step = std::max(step, (f - last).norm());
+        }
+      };
+      for (int k = 0; k < 100; ++k) {  // up to speed, and what is at rest is pulled aside first
+        x += T * (c.speed > 0 ? c.speed * k / 100 : k < 50 ? 1e-3 * k / 50 : 1e-3 * (99 - k) / 50);
+        f = port.tick(vector(x, 0, r - 1e-3), ph::seconds{T}).force;
+      }
+      stroke(20);
+      INFO(by << ": K " << c.before.stiffness << " to " << c.after.stiffness << " N/m, mu "
+              << c.before.friction << " to " << c.after.friction << ", c " << c.before.viscosity
+              << " to " << c.after.viscosity << ", " << c.speed << " m/s");
+      CHECK(step < 1e-6);
+      first = f;
+      if (by[4] == 'm') CHECK(s.update(ph::mesh::made_of{{c.after}, of}));
+      if (by[4] == 'p') CHECK_FALSE(port.set(as(c.after)));
+      stroke(border ? 400 : 120);
+      CHECK(step <= c.most * (1 + 1e-6));
+      CHECK((f - first).norm() > (c.speed == 0.0 && c.before.friction > 0 ? 0.09 : 1.0));
+      CHECK_THAT(f(2), WithinRel(c.after.stiffness * 1e-3, 1e-6));
+      CHECK_THAT(port.explain().asked, WithinRel(c.after.stiffness, 1e-9));
+    }
+  }
+}
+
 TEST_CASE("a viscous mesh drags by its speed, no more than a sampled mass takes", "[mesh]") {
   const body b = floor();
   for (const double c : {2.0, 1e6}) {
@@ -236,6 +307,11 @@ TEST_CASE("materials that fit no mesh are refused with a sentence", "[mesh]") {
              Contains("the stiffness is 0"));
   CHECK_THAT(said({.materials = {{.friction = std::nan("")}}, .of = {0, 0, 0, 0}}),
              Contains("of material 0 the friction"));
+  ph::mesh::surface s(b.triangles, b.nodes);
+  CHECK_FALSE(s.update(ph::mesh::made_of{.materials = {{}}, .of = {0, 0}}));
+  CHECK_THAT(s.fault(), Contains("2 of 4 triangles"));
+  CHECK(s.update(ph::mesh::made_of{.materials = {{}}, .of = {0, 0, 0, 0}}));
+  CHECK(s.fault().empty());
   CHECK(ph::mesh_contact{.spring = {.mass = 0.1}, .viscosity = -1}.check());
   CHECK(ph::mesh_contact{.spring = {.mass = 0.1}, .proxy = {.friction = -1}}.check());
 }

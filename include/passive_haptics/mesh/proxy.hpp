@@ -116,8 +116,8 @@ class proxy {
   [[nodiscard]] bool placed() const noexcept { return placed_; }
 
   /// The device is at x [m], dt [s] after the last step. A device that is not finite, or farther than 1000 km, changes
-  /// nothing.
-  [[gnu::noinline]] void step(const triple& x, double dt) noexcept {
+  /// nothing. `friction` ≥ 0 is a μ in place of those of the triangles: of who follows their changes at a limited rate.
+  [[gnu::noinline]] void step(const triple& x, double dt, double friction = -1.0) noexcept {
     if (meshes_ == 0 || !is_finite(x) || !(squared(x) < 1e12) || !(dt > 0.0)) return;
     for (part& p : parts()) hear(p, dt);
     const triple own = seen(x);
@@ -129,7 +129,7 @@ class proxy {
     double carried = 0.0;
     device_ = own;
     if (follows()) carried = follow(dt);
-    beside_device_ = stick();
+    beside_device_ = stick(friction);
     approach(own + beside_device_, 1.25 * (moved + carried) + 0.125 * rule_.radius,
              3.0 * (moved + carried) + 0.5 * rule_.radius);
   }
@@ -154,7 +154,7 @@ class proxy {
     material sum{.stiffness = 0.0};
     for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
       const half_space_of& h = planes_[slot(pressed_.of[i])];
-      const material* said = parts_[slot(h.mesh)].news.mesh().made(h.triangle);
+      const material* said = parts_[slot(h.mesh)].news.made(h.triangle);
       const material& one = said != nullptr ? *said : elsewhere;
       const double share = pressed_.share[i];
       all += share;
@@ -344,6 +344,7 @@ class proxy {
     p.pose_age += dt;
     p.shape_age += dt;
     p.shown_before = p.shown;
+    p.news.take_materials();
     if (const pose* news = p.news.take_pose()) {
       p.goal = *news;
       p.came_from = placed_ ? p.shown : p.goal;
@@ -576,8 +577,8 @@ class proxy {
   // ------------------------------------------------------------------------------- the ball's motion
   /// How far beside the device the ball is to stay: where it was, as it was carried, unless that is more than μ times
   /// its depth; then that much [m].
-  [[nodiscard]] triple stick() const noexcept {
-    const double mu = felt({.friction = rule_.friction}).friction;
+  [[nodiscard]] triple stick(double mu) const noexcept {
+    if (mu < 0.0) mu = felt({.friction = rule_.friction}).friction;
     const double pressed = length(pressed_.way);
     if (!(mu > 0.0 && pressed > 0.0)) return {};
     const triple n = pressed_.way * (1.0 / pressed), off = at_ - device_;

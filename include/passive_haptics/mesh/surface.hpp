@@ -6,6 +6,7 @@
 //     if (!organ.update(nodes)) log(organ.fault());  // slow thread, whenever the nodes have moved
 //     organ.update(pose);                            // slow thread, where the whole of it has moved
 //     ph::mesh::surface knee(triangles, nodes, {.materials = {bone, skin}, .of = of_triangle});
+//     knee.update(ph::mesh::made_of{.materials = {bone, callus}, .of = of_triangle});
 //
 // The slow thread copies the nodes and fits the boxes of the tree. Each finger takes the newest shape as soon as it
 // has arrived at the one that it took before, and no thread waits for another (news.hpp). No side is the outside: a
@@ -40,7 +41,7 @@ namespace mesh {
 /// The numbers of three nodes.
 using triangle = std::array<int, 3>;
 
-/// What the triangles are made of, for the life of a mesh. Without it a mesh is of one material, that who touches it states.
+/// What the triangles are made of. Without it a mesh is of one material, that who touches it states.
 struct made_of {
   std::vector<material> materials;  ///< at most 256
   std::vector<std::uint8_t> of;     ///< the number of each triangle's
@@ -91,26 +92,20 @@ template <class Nodes>
 
 /// The data that a surface shares with the fingers that touch it.
 struct world {
-  world(std::vector<std::array<int, 3>> t, box_tree around, made_of given)
-      : triangles(std::move(t)), tree(std::move(around)), stuff(std::move(given)) {}
-
-  /// What a triangle is made of; null where the mesh does not say.
-  [[nodiscard]] const material* made(int i) const noexcept {
-    if (stuff.of.empty()) return nullptr;
-    return &stuff.materials[stuff.of[static_cast<std::size_t>(i)]];
-  }
+  world(std::vector<std::array<int, 3>> t, box_tree around)
+      : triangles(std::move(t)), tree(std::move(around)) {}
 
   std::vector<std::array<int, 3>> triangles;
   box_tree tree;
-  made_of stuff;
+  news<made_of> stuffs;
   news<shape> shapes;
   news<pose> poses;
 
   /// The numbers of the shapes that one finger holds, `from` which and `to` which it goes (the same one while it
-  /// rests), and of its pose; −1 is none.
+  /// rests), of its materials, and of its pose; −1 is none.
   struct seat {
     std::atomic<bool> taken{false};
-    int from = 0, to = 0, pose = -1;
+    int from = 0, to = 0, stuff = 0, pose = -1;
   };
   std::array<seat, std::size_t{news<shape>::most_readers}> seats;
   std::atomic<int> readers{0};
@@ -165,9 +160,11 @@ class surface {
   /// surface cannot be copied or moved, because fingers hold its address.
   template <class Nodes>
   surface(std::vector<triangle> triangles, const Nodes& nodes, made_of stuff = {})
-      : world_(made(std::move(triangles), nodes, std::move(stuff))), count_(nodes.size()) {
+      : world_(made(std::move(triangles), nodes, stuff)), count_(nodes.size()) {
     fill(world_->shapes.blank(), nodes);
     world_->shapes.publish();
+    world_->stuffs.blank() = std::move(stuff);
+    world_->stuffs.publish();
   }
   surface(const surface&) = delete;
   surface& operator=(const surface&) = delete;
@@ -206,6 +203,15 @@ class surface {
     fault_.clear();
     return true;
   }
+  /// Makes the triangles of other materials, or, if there are none, of what who touches them states; a finger takes them
+  /// in its next tick. It returns false if they do not fit.
+  bool update(const made_of& stuff) {
+    fault_ = stuff.check(world_->triangles.size());
+    if (!fault_.empty()) return false;
+    world_->stuffs.blank() = stuff;
+    world_->stuffs.publish();
+    return true;
+  }
   /// The same for nodes or a pose of the time `at`. It also returns false if later news were told before, or if `at`
   /// is in the future.
   bool update(const auto& there, clock::time_point at) {
@@ -229,9 +235,13 @@ class surface {
       for (std::size_t i = 0; i < w->seats.size(); ++i) {
         if (w->seats[i].taken.exchange(true)) continue;
         auto& mine = w->seats[i];
-        do {
-          mine.from = w->shapes.take();  // there is one since the surface was made
-        } while (mine.from < 0);
+        const auto first = [](auto& all) {
+          int one = -1;
+          while (one < 0) one = all.take();  // there is one since the surface was made
+          return one;
+        };
+        mine.from = first(w->shapes);
+        mine.stuff = first(w->stuffs);
         w->shapes.hold(mine.from);
         mine.to = mine.from;
         mine.pose = -1;
@@ -246,6 +256,7 @@ class surface {
       if (world_ == nullptr) return;
       world_->shapes.give_back(seat_->from);
       world_->shapes.give_back(seat_->to);
+      world_->stuffs.give_back(seat_->stuff);
       if (seat_->pose >= 0) world_->poses.give_back(seat_->pose);
       world_->readers.fetch_sub(1);
       seat_->taken.store(false);
@@ -273,6 +284,18 @@ class surface {
     void turn_back() noexcept {
       world_->shapes.hold(seat_->from);
       world_->shapes.give_back(std::exchange(seat_->to, seat_->from));
+    }
+    /// What a triangle is made of; null where the mesh does not say.
+    [[nodiscard]] const material* made(int i) const noexcept {
+      const made_of& stuff = world_->stuffs[seat_->stuff];
+      if (stuff.of.empty()) return nullptr;
+      return &stuff.materials[stuff.of[static_cast<std::size_t>(i)]];
+    }
+    /// Takes the newest materials.
+    void take_materials() noexcept {
+      if (world_->stuffs.newest() == seat_->stuff) return;
+      const int newest = world_->stuffs.take();
+      if (newest >= 0) world_->stuffs.give_back(std::exchange(seat_->stuff, newest));
     }
     /// The newest pose, or null if none came since the last call.
     [[nodiscard]] const pose* take_pose() noexcept {
@@ -341,11 +364,12 @@ class surface {
   }
   template <class Nodes>
   [[nodiscard]] static std::unique_ptr<detail::world> made(std::vector<triangle> triangles,
-                                                           const Nodes& nodes, made_of stuff) {
+                                                           const Nodes& nodes,
+                                                           const made_of& stuff) {
     believe(check(triangles, nodes));
     believe(stuff.check(triangles.size()));
     box_tree tree(centres(triangles, nodes));
-    return std::make_unique<detail::world>(std::move(triangles), std::move(tree), std::move(stuff));
+    return std::make_unique<detail::world>(std::move(triangles), std::move(tree));
   }
   template <class Nodes>
   void fill(shape& s, const Nodes& nodes) const {
