@@ -10,7 +10,6 @@ using surface = passive_haptics::mesh::surface;
 /// What a caller holds of a mesh; what touches it holds the same triangles.
 struct ph_mesh {
   std::shared_ptr<surface> triangles;
-  std::size_t vertex_count;
 };
 
 namespace c_interface {
@@ -95,18 +94,17 @@ std::int32_t guarded(const text& reason, auto make) noexcept {
     return PH_OUT_OF_MEMORY;
   }
 }
-[[nodiscard]] mesh::made_of stuff_of(const ph_mesh_data& data) {
+[[nodiscard]] mesh::made_of stuff_of(const double* materials, std::uint32_t count,
+                                     const std::uint8_t* material_of, std::size_t triangles) {
   mesh::made_of stuff;
-  if (data.material_count == 0) return stuff;
+  if (count == 0) return stuff;
   // One more than there may be is refused by the library, in its words.
-  for (std::uint32_t i = 0; i < std::min(data.material_count, 257U); ++i) {
-    const double* one = data.materials + 3 * std::size_t{i};
+  for (std::uint32_t i = 0; i < std::min(count, 257U); ++i) {
+    const double* one = materials + 3 * std::size_t{i};
     stuff.materials.push_back({one[0], one[1], one[2]});
   }
-  stuff.of.assign(data.triangle_count, 0);
-  if (data.material_of != nullptr) {
-    stuff.of.assign(data.material_of, data.material_of + data.triangle_count);
-  }
+  stuff.of.assign(triangles, 0);
+  if (material_of != nullptr) stuff.of.assign(material_of, material_of + triangles);
   return stuff;
 }
 
@@ -162,8 +160,9 @@ std::int32_t ph_mesh_create(const ph_mesh_data* data, ph_mesh** made, char* why,
       std::copy_n(data->triangles + 3 * i, 3, triangles[i].begin());
     }
     const vertices all{data->vertices, data->vertex_count};
-    *made = new ph_mesh{std::make_shared<surface>(std::move(triangles), all, stuff_of(*data)),
-                        all.count};
+    auto stuff =
+        stuff_of(data->materials, data->material_count, data->material_of, triangles.size());
+    *made = new ph_mesh{std::make_shared<surface>(std::move(triangles), all, std::move(stuff))};
     return PH_OK;
   });
 }
@@ -181,6 +180,22 @@ std::int32_t ph_mesh_update(ph_mesh* mesh, const double* places, std::uint32_t v
   return guarded(reason, [&]() -> std::int32_t {
     if (mesh->triangles->update(vertices{places, vertex_count})) return PH_OK;
     reason.say("%s", mesh->triangles->fault().c_str());
+    return PH_REFUSED_MESH;
+  });
+}
+
+std::int32_t ph_mesh_set_materials(ph_mesh* mesh, const double* materials,
+                                   std::uint32_t material_count, const std::uint8_t* material_of,
+                                   char* why, std::size_t room) noexcept {
+  const text reason(why, room);
+  if (mesh == nullptr || (material_count > 0 && materials == nullptr)) {
+    return refuse_null(reason, "ph_mesh_set_materials", mesh == nullptr ? "mesh" : "materials");
+  }
+  surface& s = *mesh->triangles;
+  return guarded(reason, [&]() -> std::int32_t {
+    if (s.update(stuff_of(materials, material_count, material_of, s.triangles().size())))
+      return PH_OK;
+    reason.say("%s", s.fault().c_str());
     return PH_REFUSED_MESH;
   });
 }

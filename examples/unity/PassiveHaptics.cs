@@ -104,10 +104,11 @@ namespace PassiveHaptics
     public sealed class Mesh : IDisposable
     {
         internal IntPtr mesh;
+        private readonly uint triangleCount;
         private byte[] why = new byte[512];
 
-        /// x, y, z of each vertex [m], three vertices of each triangle; stiffness, friction and viscosity of each material,
-        /// and the number of each triangle's: null for one material, that who touches the mesh states.
+        /// x, y, z of each vertex [m], three vertices of each triangle; stiffness, friction and viscosity of each
+        /// material, and the number of each triangle's: null for one material, that who touches the mesh states.
         public Mesh(double[] vertices, int[] triangles, double[] materials = null, byte[] materialOf = null)
         {
             object[] arrays = { vertices, triangles, materials, materialOf };
@@ -121,10 +122,9 @@ namespace PassiveHaptics
                     materialOf = pins[3].AddrOfPinnedObject()
                 };
                 data.vertexCount = Count(vertices) / 3;
-                data.triangleCount = Count(triangles) / 3;
+                data.triangleCount = triangleCount = Count(triangles) / 3;
                 data.materialCount = Count(materials) / 3;
-                if (materialOf != null && Count(materialOf) != data.triangleCount)
-                    throw new ArgumentException("materialOf has not a number for each triangle");
+                Check(materialOf);
                 if (ph_mesh_create(ref data, out mesh, why, (UIntPtr)why.Length) != 0) Port.Refuse(why);
             }
             finally
@@ -153,8 +153,22 @@ namespace PassiveHaptics
             GC.KeepAlive(this);
             return status == 0;
         }
+        /// Other materials, as the constructor's; null: who touches the mesh states one again.
+        public bool SetMaterials(double[] materials, byte[] materialOf)
+        {
+            Check(materialOf);
+            int status = ph_mesh_set_materials(mesh, materials, Count(materials) / 3, materialOf, why,
+                                               (UIntPtr)why.Length);
+            GC.KeepAlive(this);
+            return status == 0;
+        }
         public string Fault { get { return Encoding.UTF8.GetString(why, 0, Array.IndexOf(why, (byte)0)); } }
 
+        private void Check(byte[] materialOf)
+        {
+            if (materialOf != null && Count(materialOf) != triangleCount)
+                throw new ArgumentException("materialOf has not a number for each triangle");
+        }
         private static uint Count(Array numbers) { return numbers == null ? 0 : (uint)numbers.Length; }
         private void Close()
         {
@@ -175,6 +189,9 @@ namespace PassiveHaptics
         [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
         private static extern int ph_mesh_update(IntPtr mesh, double[] vertices, uint count, byte[] why,
                                                  UIntPtr room);
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_mesh_set_materials(IntPtr mesh, double[] materials, uint count,
+                                                        byte[] materialOf, byte[] why, UIntPtr room);
         [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
         private static extern int ph_mesh_move(IntPtr mesh, ref Vector position, ref Rotation orientation);
     }

@@ -39,6 +39,7 @@ const char* load(struct c_interface* found, const char* file) {
                    {"ph_mesh_create", &found->mesh_create},
                    {"ph_mesh_destroy", &found->mesh_destroy},
                    {"ph_mesh_update", &found->mesh_update},
+                   {"ph_mesh_set_materials", &found->mesh_set_materials},
                    {"ph_mesh_move", &found->mesh_move},
                    {"ph_mesh_touch", &found->mesh_touch},
                    {"ph_mesh_let_go", &found->mesh_let_go},
@@ -208,7 +209,8 @@ ph_mesh_data leaf_of(const struct meshes* all) {
 
 int mesh_news(int n) {
   return (n % 33 == 5 ? other_vertices : 0) | (n % 47 == 11 ? another_pose : 0) |
-         (n % 1500 == 200 ? leaf_comes : 0) | (n % 1500 == 1200 ? leaf_goes : 0);
+         (n % 1500 == 200 ? leaf_comes : 0) | (n % 1500 == 1200 ? leaf_goes : 0) |
+         (n == 3000 ? other_material : 0) | (n == 5000 ? no_material : 0);
 }
 
 /// The meshes of a run, and what touches them: a port or a probe.
@@ -235,6 +237,9 @@ static int32_t move(const struct touching* t, int n) {
   int32_t status = PH_OK;
   if (news & other_vertices)
     status |= t->with->mesh_update(t->sheet, all.sheet, sheet_vertices, NULL, 0);
+  if (news & other_material)
+    status |= t->with->mesh_set_materials(t->sheet, all.materials + 3, 1, NULL, NULL, 0);
+  if (news & no_material) status |= t->with->mesh_set_materials(t->sheet, NULL, 0, NULL, NULL, 0);
   if (news & another_pose) status |= t->with->mesh_move(t->leaf, all.position, all.orientation);
   if (news & leaf_comes) status |= touch(t, t->leaf);
   if (!(news & leaf_goes)) return status;

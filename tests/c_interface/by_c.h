@@ -33,6 +33,7 @@ struct c_interface {
   int32_t (*mesh_create)(const ph_mesh_data*, ph_mesh**, char*, size_t);
   void (*mesh_destroy)(ph_mesh*);
   int32_t (*mesh_update)(ph_mesh*, const double*, uint32_t, char*, size_t);
+  int32_t (*mesh_set_materials)(ph_mesh*, const double*, uint32_t, const uint8_t*, char*, size_t);
   int32_t (*mesh_move)(ph_mesh*, const double*, const double*);
   int32_t (*mesh_touch)(ph_port*, const ph_mesh*);
   int32_t (*mesh_let_go)(ph_port*, const ph_mesh*);
@@ -82,8 +83,16 @@ struct meshes {
 struct meshes meshes_at(int n);
 ph_mesh_data sheet_of(const struct meshes* all, uint32_t kind);
 ph_mesh_data leaf_of(const struct meshes* all);
-/// What is told of them in tick n: other vertices, another pose, and the leaf comes or goes.
-enum { other_vertices = 1, another_pose = 2, leaf_comes = 4, leaf_goes = 8 };
+/// What is told of them in tick n: other vertices, another pose, the leaf comes or goes, and the sheet changes its
+/// material or has none again.
+enum {
+  other_vertices = 1,
+  another_pose = 2,
+  leaf_comes = 4,
+  leaf_goes = 8,
+  other_material = 16,
+  no_material = 32
+};
 int mesh_news(int n);
 
 /// How a composition is told the world: by planes, by forces, by slots, by slots at a pose, and by meshes.

@@ -45,6 +45,11 @@ struct direct_meshes {
     if ((news & another_pose) != 0) {
       leaf.update(mesh::pose{{p[0], p[1], p[2]}, q[0], {q[1], q[2], q[3]}});
     }
+    if ((news & other_material) != 0) {
+      const std::vector<std::uint8_t> of(sheet_triangles, 0);
+      CHECK(sheet.update(mesh::made_of{{material(now.materials + 3)}, of}));
+    }
+    if ((news & no_material) != 0) CHECK(sheet.update(mesh::made_of{}));
     if ((news & leaf_comes) != 0) CHECK(finger.also_touch(leaf));
     if ((news & leaf_goes) != 0) finger.let_go(leaf);
   }
@@ -291,6 +296,14 @@ TEST_CASE("news that are none are refused from C, and the last good mesh is felt
   CHECK(c.mesh_move(sheet.mesh, no_place, q) == PH_REFUSED_MESH);
   CHECK(c.mesh_move(sheet.mesh, nullptr, q) == PH_NULL_ARGUMENT);
   CHECK(c.mesh_move(nullptr, x, q) == PH_NULL_ARGUMENT);
+  const std::uint8_t wrong[sheet_triangles] = {7};
+  CHECK(c.mesh_set_materials(sheet.mesh, all.materials, 2, wrong, why.data(), why.size()) ==
+        PH_REFUSED_MESH);
+  CHECK_THAT(why.c_str(), StartsWith("mesh: triangle 0 is of material 7 of 2"));
+  CHECK(c.mesh_set_materials(sheet.mesh, nullptr, 1, nullptr, why.data(), why.size()) ==
+        PH_NULL_ARGUMENT);
+  CHECK(std::string(why.c_str()) == "ph_mesh_set_materials: materials is NULL");
+  CHECK(c.mesh_set_materials(nullptr, nullptr, 0, nullptr, nullptr, 0) == PH_NULL_ARGUMENT);
   CHECK(press() == Approx(before).epsilon(1e-6));
   for (double& one : other.sheet) one = 0.0;
   for (int i = 0; i < sheet_vertices; ++i) {

@@ -148,7 +148,12 @@ struct a_mesh {
         if (in.one() < 32) (void)ph_probe_let_go(probe, mesh);
         if (in.one() < 32) (void)ph_probe_reset(probe);
         break;
-      case 3:
+      case 3: {
+        double materials[6]{800.0, 0.2, 0.1, in.about(2000.0), in.about(0.2), in.about(0.1)};
+        std::uint8_t of[]{0, 1, 0, static_cast<std::uint8_t>(in.one() % 3)};
+        (void)ph_mesh_set_materials(mesh, materials, in.one() % 3, of, nullptr, 0);
+        break;
+      }
       case 4:
       case 5:
         put(in, x, 3, 5e-3);

@@ -20,8 +20,8 @@
 // Along the surface, of a triangle with μ and c (mesh/material.hpp), t how far the ball is held back and v_t the speed
 // beside the surface there:
 //     f_t = K t − B v_t, cut to μ times what presses;  and − min(c, m/2T) v_t
-// Where triangles of another material are met, or their material changes, what is felt follows by 50 N/s, so that a border
-// is no blow.
+// Where triangles of another material are met, or their material changes, what is felt follows by 50 N/s, so that a
+// border is no blow.
 
 #include <passive_haptics/contact/local_contact.hpp>
 #include <passive_haptics/contact/proxy.hpp>

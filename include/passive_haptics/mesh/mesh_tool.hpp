@@ -8,7 +8,7 @@
 //     tool.source().touch(organ);
 //     motors.command(tool.tick({p, {w, x, y, z}}, ph::seconds{dt}).force);
 //
-// Each point is a mesh_contact with a ball and a memory of its own, so none passes through a triangle, and the wrench is
+// Each point is a mesh_contact with a ball and a memory of its own, so none passes through a triangle. The wrench is
 //     f = Σ f_k,   τ = Σ r_k × f_k,   r_k from the handle to point k
 // With the springs K_k of all of them −(f, τ) of meshes at rest is the gradient of Σ ½K_k|p_k − x_k|². Its stiffness in
 // the inertia diag(m, I) is at most Σ K_k (1/m + r_k²/I), so point k of N has K_k and B_k of a device of the mass

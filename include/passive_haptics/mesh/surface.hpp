@@ -203,7 +203,7 @@ class surface {
     fault_.clear();
     return true;
   }
-  /// Makes the triangles of other materials, or, if there are none, of what who touches them states; a finger takes them
+  /// Makes the triangles of other materials or, if there are none, of what who touches them states. A finger takes them
   /// in its next tick. It returns false if they do not fit.
   bool update(const made_of& stuff) {
     fault_ = stuff.check(world_->triangles.size());

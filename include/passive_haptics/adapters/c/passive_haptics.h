@@ -21,9 +21,10 @@
 // hand into the device. Vectors are three doubles: x, y, z.
 //
 // No function throws. Memory is taken and given back by ph_create, ph_destroy, ph_mesh_create, ph_mesh_update,
-// ph_mesh_destroy, ph_probe_create and ph_probe_destroy only; by ph_mesh_let_go where it was the last to hold a mesh.
-// Wherever a result is written, the port has ticked, and the force in it is what must be commanded: zero, with an event, if anything was
-// wrong. Where no result can be written (NULL, a wrong size) the port has not ticked.
+// ph_mesh_set_materials, ph_mesh_destroy, ph_probe_create and ph_probe_destroy only, and given back by ph_mesh_let_go
+// and ph_probe_let_go where they were the last to hold a mesh. Wherever a result is written, the port has ticked, and the
+// force in it is what must be commanded: zero, with an event, if anything was wrong. Where no result can be written
+// (NULL, a wrong size) the port has not ticked.
 //
 // A pointer that is not NULL must point to an object of its type, which lives as long as the call. A ph_port* is
 // valid from the ph_create that wrote it until its first ph_destroy, and so are a ph_mesh* and a ph_probe*. Any later
@@ -34,8 +35,8 @@
 // ph_enable_forces, ph_explain, ph_mesh_touch and ph_mesh_let_go in one thread, the same or another. Two threads in one
 // of these groups at the same time, or ph_destroy while a thread is in any function, are a data race and undefined; a
 // debug build of the library stops if two threads tick. ph_guarantee_of is for any thread, and different ports share
-// nothing but the meshes that they touch. Call ph_mesh_update and ph_mesh_move of a mesh in one thread, whichever
-// threads touch it, and all functions of a probe in one thread.
+// nothing but the meshes that they touch. Call ph_mesh_update, _move and _set_materials of a mesh in one thread,
+// whichever threads touch it, and all functions of a probe in one thread.
 //
 // Before 1.0 a minor version may change this interface, as it may the library's.
 
@@ -280,8 +281,8 @@ PH_API uint32_t ph_version(void) PH_NOTHROW;
 /// exact_device is mass, damping, force_limit, longest_tick; encoder_device that, and friction, presliding, quantum,
 /// continuous_force, winding_time; rigid_device mass, damping, force_limit, longest_tick, and the members for a tool.
 /// The strict ones guarantee PH_STRICT, and are soft while the ledger is empty. All others take hand_force, and guarantee
-/// PH_CONDITIONAL. A touch has one plane; contacts, stylus and tool have the surfaces in their slots; a mesh_touch has meshes. A guard bounds a
-/// force of the caller, and damps the oscillations of a renderer. A composition for exact positions refuses a
+/// PH_CONDITIONAL. A touch has one plane; contacts, stylus and tool have the surfaces in their slots; a mesh_touch has
+/// meshes. A guard bounds a force of the caller, and damps the oscillations of a renderer. A composition for exact positions refuses a
 /// `quantum`. Parameters that a composition does not take are ignored.
 PH_API int32_t ph_create(const char* composition, const ph_parameters* parameters, ph_port** port,
                          char* why, size_t room) PH_NOTHROW;
@@ -360,6 +361,11 @@ PH_API int32_t ph_mesh_update(ph_mesh* mesh, const double* vertices, uint32_t ve
 /// Moves the whole mesh to this pose: `orientation` is the quaternion w, x, y, z, of any length but zero.
 PH_API int32_t ph_mesh_move(ph_mesh* mesh, const double position[3],
                             const double orientation[4]) PH_NOTHROW;
+/// Makes the triangles of these materials, as in ph_mesh_data, and lets what is felt follow by 50 N/s; with a
+/// `material_count` of 0 whoever touches the mesh states one again. If it is refused, the last good ones stay.
+PH_API int32_t ph_mesh_set_materials(ph_mesh* mesh, const double* materials,
+                                     uint32_t material_count, const uint8_t* material_of, char* why,
+                                     size_t room) PH_NOTHROW;
 /// Lets a mesh_touch touch this mesh as well. Call it, and the next one, in the thread of its ticks.
 PH_API int32_t ph_mesh_touch(ph_port* port, const ph_mesh* mesh) PH_NOTHROW;
 /// Touches this mesh no more, and the others as before. A mesh that is not touched is let go, too.
