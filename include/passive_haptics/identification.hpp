@@ -6,6 +6,7 @@
 //   axis_identification.hpp    tick(position, dt) → force, then result(): one axis, in yours
 //   axis_found.hpp             the bounds found, and stated(), the numbers for a composition
 //   describe.hpp               a table, the composition to paste, its stiffness budget
+//   in_numbers.hpp             what explain() says, with numbers, and by how much what raises it has to change
 //   recording_file.hpp         load_recording(): a log of a device; CSV, MAT 5, NumPy
 //   recorded_device.hpp        the numbers that follow from a recording
 //   replay.hpp                 a falsifier: tests whether a ledger claims more energy than a recording has
@@ -18,5 +19,6 @@
 #include <passive_haptics/identification/device_file.hpp>
 #include <passive_haptics/identification/identification_file.hpp>
 #include <passive_haptics/identification/identify.hpp>
+#include <passive_haptics/identification/in_numbers.hpp>
 #include <passive_haptics/identification/recording_file.hpp>
 #include <passive_haptics/identification/replay.hpp>

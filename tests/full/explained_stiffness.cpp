@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/compositions.hpp>
+#include <passive_haptics/identification/in_numbers.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/presets.hpp>
 
@@ -199,6 +200,98 @@ TEST_CASE("the reason is true: raise what it names, and more is shown", "[door]"
   each(touched{});
   each(set{});
   each(guarded{});
+}
+
+namespace {
+/// The number before `unit`, the last such one in a text; NaN if there is none.
+double number_before(const std::string& text, const std::string& unit) {
+  const auto at = text.rfind(unit);
+  if (at == std::string::npos) return std::nan("");
+  const auto space = text.find_last_of(' ', at - 2);
+  return std::stod(text.substr(space + 1));
+}
+}  // namespace
+
+TEST_CASE("in_numbers() says by how much, and that is enough, and less is not", "[door]") {
+  using ph::identification::in_numbers;
+  const auto shown = []<class As>(As, const auto& device) {
+    auto port = As::of(device, 30e3);
+    (void)As::tick(port, 0.01, device.longest_tick, 30e3);
+    return port.explain();
+  };
+  const ph::exact_device light{
+      .mass = 0.05, .damping = 0.1, .force_limit = 9.0, .longest_tick = 1e-3};
+  const ph::encoder_device steps{.mass = 5.0,
+                                 .damping = 0.5,
+                                 .friction = 0.15,
+                                 .presliding = 1e-5,
+                                 .quantum = 60e-6,
+                                 .force_limit = 9.0,
+                                 .longest_tick = 1e-3};
+  const auto each = [&]<class As>(As as) {
+    const auto now = shown(as, light);
+    const std::string said = in_numbers(now);
+    INFO(said);
+    const double goal = std::min(30e3, std::isinf(now.asked) ? 2.0 * now.shown : now.asked);
+    CHECK_THAT(number_before(said, "N/m:"), WithinRel(goal, 1e-4));
+    const double mass = number_before(said, "times the mass");
+    const double tick = number_before(said, "times the longest tick");
+    for (const double enough : {1.0, 0.9}) {  // the control: nine tenths of what is named
+      auto heavier = light, faster = light;
+      heavier.mass *= 1.0 + enough * (mass - 1.0);
+      faster.longest_tick *= 1.0 - enough * (1.0 - tick);
+      CHECK((shown(as, heavier).shown > 0.99 * goal) == (enough == 1.0));
+      CHECK((shown(as, faster).shown > 0.99 * goal) == (enough == 1.0));
+    }
+    const auto rough = shown(as, steps);
+    const std::string on_steps = in_numbers(rough);
+    INFO(on_steps);
+    REQUIRE(rough.stiffness == softened_by::encoder_steps);
+    const double asked = std::isinf(rough.asked) ? 2.0 * rough.shown : rough.asked;
+    const double all = number_before(on_steps, "times the encoder step");
+    for (const double enough : {1.0, 0.7}) {
+      auto finer = steps;
+      const double factor = 1.0 - enough * (1.0 - all);
+      finer.quantum *= factor;
+      finer.presliding *= factor;
+      finer.longest_tick *= factor;
+      CHECK((shown(as, finer).shown > 0.99 * asked) == (enough == 1.0));
+    }
+  };
+  each(touched{});
+  each(set{});
+  each(guarded{});
+
+  auto strict = ph::make_touch<d1>(light, ph::any_hand);
+  REQUIRE(strict.update(wall(2000.0)));
+  (void)strict.tick(0.01, ph::seconds{1e-3});
+  const std::string said = in_numbers(strict.explain());
+  INFO(said);
+  auto damped = light;
+  damped.damping *= number_before(said, "times the damping");
+  auto more = ph::make_touch<d1>(damped, ph::any_hand);
+  REQUIRE(more.update(wall(2000.0)));
+  (void)more.tick(0.01, ph::seconds{1e-3});
+  CHECK_THAT(more.explain().shown, WithinRel(2000.0, 0.01));
+  CHECK(strict.explain().shown < 300.0);
+
+  auto weak = ph::make_touch<d1>(light, hand);
+  REQUIRE(weak.update(wall(3000.0)));
+  for (double x = 0.01; x > -5e-3; x -= 1e-4) (void)weak.tick(x, ph::seconds{1e-3});
+  const std::string cut = in_numbers(weak.explain());
+  INFO(cut);
+  CHECK(weak.explain().now == softened_by::motors);
+  CHECK_THAT(number_before(cut, "N would hold it"), WithinRel(15.0, 0.05));
+  const ph::explanation in_series{
+      .asked = 1000.0, .shown = 500.0, .stiffness = softened_by::coupling};
+  CHECK(in_numbers(in_series).find("It has 1000 N/m") != std::string::npos);
+
+  const auto paid = ph::design::stiffness_budget(steps);
+  const std::string budget = in_numbers(paid);
+  INFO(budget);
+  CHECK_THAT(std::stod(budget), WithinRel(paid.stiffness, 0.01));
+  CHECK(number_before(budget, "N/m by") > paid.stiffness);
+  CHECK(in_numbers(ph::design::budget{}) == std::string(ph::design::budget{}.because()));
 }
 
 // A device that rests within a step of an edge reads either side of it, and a law of a depth answers.
