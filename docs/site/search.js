@@ -150,4 +150,18 @@ function search_box(form) {
   }
 }
 
-if (typeof document !== 'undefined') search_box(document.getElementById('find'));
+/** Code, signatures and tables that are wider than their page are scrolled, by keys too; others are no stop. */
+function reach_wide() {
+  const wide = [...document.querySelectorAll('.fragment, .memproto, .contents table, .contents tbody')]
+    .map(part => [part, part.scrollWidth > part.clientWidth && /auto|scroll/.test(getComputedStyle(part).overflowX)]);
+  for (const [part, scrolls] of wide) {
+    if (scrolls) part.tabIndex = 0;
+    else part.removeAttribute('tabindex');
+  }
+}
+
+if (typeof document !== 'undefined') {
+  search_box(document.getElementById('find'));
+  addEventListener('load', reach_wide);
+  addEventListener('resize', reach_wide);
+}

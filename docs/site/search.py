@@ -241,8 +241,15 @@ def mend(site):
             continue
         for old, new in MENDED:
             text = text.replace(old, new, 1)
-        # Code that is wider than its page is scrolled, by keys too; a drawing has a name.
-        text = re.sub(r'<(div|pre) class="fragment">', r'<\1 class="fragment" tabindex="0">', text)
+        if 'class="title"' not in text:  # a list of members has none
+            title = re.search(r"<title>(?:[^<:]*: )?([^<]*)</title>", text)[1]
+            text = text.replace('<div class="contents">', '<div class="header"><div class="headertitle"><div class="title" '
+                                f'role="heading" aria-level="1">{title}</div></div></div>\n<div class="contents">', 1)
+            text = text.replace("<h3>", "<h2>").replace("</h3>", "</h2>")
+        # A drawing has a name, and so has the link from an icon; a column without a heading heads nothing.
+        text = re.sub(r'<a href="([^"]*)"><span class="icondoc"></span></a>',
+                      r'<a href="\1" aria-label="source"><span class="icondoc"></span></a>', text)
+        text = re.sub(r'<th( class="markdownTableHead\w*")></th>', r"<td\1></td>", text)
         text = re.sub(r'(<object [^>]*)(></object>\s*<div class="caption">\s*)([^<]+)', r'\1 role="img" aria-label="\3"\2\3', text)
         path.write_text(text, "utf-8")
         count += 1
