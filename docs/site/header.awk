@@ -1,7 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# How doxygen sees a header: the comment that follows `#pragma once` is the page of the file, set as it
-# stands, for it may hold a menu or a drawing; the inline namespace is left out, which would be part of
-# every name; and an alias that has no comment gets one, since doxygen leaves out what has none.
+# How doxygen sees a header: the comment that follows `#pragma once` is the page of the file, and after its first
+# paragraph set as it stands, for it may hold a menu or a drawing; the inline namespace is left out, which would be part of
+# every name; an alias that has no comment gets one, since doxygen leaves out what has none; and a function that
+# composes something shows a program of examples/, which pages.py has named in `examples`.
+BEGIN {
+  header = ARGV[1]
+  sub(/.*\//, "", header)
+  while (examples != "" && (getline < examples) > 0) {
+    if ($1 != header) continue
+    program[$2] = $3
+    for (i = 4; i <= NF; ++i) others[$2] = others[$2] (i == 4 ? "" : ", ") "@ref " $i
+  }
+  while ((getline < ARGV[1]) > 0) {  # after which line of comment
+    ++line
+    if (/^\/\/\/ /) commented = line
+    else if (/;$|^}/) commented = 0
+    else if (match($0, /make_[a-z_]+\(/)) {
+      name = substr($0, RSTART, RLENGTH - 1)
+      if (commented && name in program) shows[commented] = name
+    }
+  }
+}
 /^inline namespace v[0-9]+ \{$/ || /^}  \/\/ namespace v[0-9]+$/ { $0 = "" }
 # A template argument that is left out is no tag of HTML.
 /^ *\/\/\/.*<…>/ { gsub(/<…>/, "\\<…\\>") }
@@ -10,18 +29,16 @@ opening == "menu" {
   print "@endverbatim */"
   opening = ""
 }
-opening == "due" {
-  opening = ""
-  if (sub(/^\/\/ ?/, "")) {
-    brief = $0
-    gsub(/[<>@\\#&]/, "\\\\&", brief)
-    print "/** @file"
-    print "@brief " brief
-    print "@verbatim"
-    print
-    opening = "menu"
+opening == "due" || opening == "brief" {
+  if (sub(/^\/\/ /, "")) {
+    gsub(/[<>@\\#&]/, "\\\\&")
+    print (opening == "due" ? "/** @file\n@brief " : "") $0
+    opening = "brief"
     next
   }
+  if (opening == "brief") print /^\/\// ? "\n@verbatim" : "*/"
+  opening = opening == "brief" && /^\/\// ? "menu" : ""
+  if (opening == "menu") next
 }
 /^#pragma once/ { opening = "due" }
 /^ *\/\/\// { said = 1 }
@@ -35,3 +52,9 @@ alias != "" && /;$/ {
   alias = ""
 }
 { print }
+FNR in shows {
+  print "///\n/// @par Example\n/// @code{.cpp}"
+  while ((getline code < program[shows[FNR]]) > 0) if (code !~ /SPDX/) print "/// " code
+  print "/// @endcode"
+  if (shows[FNR] in others) print "/// Others: " others[shows[FNR]] "."
+}

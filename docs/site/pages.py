@@ -196,6 +196,23 @@ def example_page(source, label):
     return "\n".join(out) + "\n"
 
 
+def shown_at(root, examples):
+    """A line for each function of a header on the root that composes something: the header, the function, the program
+    that is shown at it, and the pages of others that call it. header.awk puts them there."""
+    core = (root / "include/passive_haptics/passive_haptics.hpp").read_text("utf-8")
+    texts = {p: p.read_text("utf-8") for p in sorted(examples, key=lambda p: (p.parent.name != "first", p.name))}
+    lines = []
+    for header in sorted((root / "include/passive_haptics").glob("*.hpp")):
+        included = f"<passive_haptics/{header.name}>"
+        for name in sorted(set(re.findall(r"\b(make_\w+)\(", header.read_text("utf-8")))):
+            calls = [p for p, text in texts.items()
+                     if re.search(rf"ph::{name}[<(]", text) and (included in text or included in core)]
+            if calls:
+                others = [f"example_{label_of(p.stem)}" for p in calls[1:] if p.parent.name == "first"]
+                lines.append(" ".join([header.name, name, calls[0].as_posix(), *others]))
+    return "\n".join(lines) + "\n"
+
+
 def built_pages(builds):
     """(folder, title, description) of each page that a build has left behind."""
     for page in sorted(builds.glob("*/*/index.html")):
@@ -268,7 +285,7 @@ def main():
     for path, label in [("README.md", "index"), *tasks, *guide, *practice, *design, *project]:
         site.add(path, label)
     examples = [p for p in sorted((root / "examples").rglob("*.cpp"))
-                if p.parent == root / "examples" or p.parent.name == "tutorial"]
+                if p.parent == root / "examples" or p.parent.name in ("tutorial", "first")]
     for source in examples:
         site.labels[source.relative_to(root).as_posix()] = "example_" + label_of(source.stem)
 
@@ -284,6 +301,7 @@ def main():
         write(label, f"# {title} {{#{label}}}\n\n{text}\n\n" + "".join(f"- @subpage {e}\n" for e in entries))
 
     (given.pages / "names.dox").write_text(NAMES, "utf-8")
+    (given.pages / "examples.txt").write_text(shown_at(root, examples), "utf-8")
     write("index", site.page("README.md"))
     menu("tasks", "What do you have?", "A page each: what to compose, the whole program, which numbers, and what to read next.",
          [label for _, label in tasks])
