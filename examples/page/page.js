@@ -169,14 +169,11 @@
       if ($('devices').value === '') return;
       const facts = [...numbers(e, e.ph_facts(Number($('devices').value)), 4)],
         names = ['mass', 'friction', 'quantum', 'motors'];
-      const set = {},
-        unknown = ['Damping b'];
-      names.forEach((name, i) => {
-        const [label, , scale, least, most] = knobs[name];
-        if (Number.isFinite(facts[i])) set[name] = Math.min(most, Math.max(least, facts[i] * scale)) / scale;
-        else unknown.push(label);
-      });
-      takeDevice(set, `Nobody has published of this device: ${unknown.join(', ')}. They stay as they were; identify measures them.`);
+      const known = names.filter((_, i) => Number.isFinite(facts[i])),
+        unknown = ['Damping b', ...names.filter(name => !known.includes(name)).map(name => knobs[name][0])],
+        {set, said} = shown(Object.fromEntries(known.map(name => [name, facts[names.indexOf(name)]])));
+      said.push(`Nobody has published of this device: ${unknown.join(', ')}. They stay as they were; identify measures them.`);
+      takeDevice(set, said.join(' '));
     };
     $('take').onclick = () => {
       const read = readDevice($('identified').value);
@@ -275,63 +272,63 @@
   }
   /** A slider and a field; the one of the article and the one of the lab follow each other. */
   function knob(name, prefix = 'step_') {
-        const [label, unit, scale, least, most, logarithmic, whole] = knobs[name];
-        const box = document.createElement('div'),
-          range = document.createElement('input'),
-          field = document.createElement('input');
-        const tag = document.createElement('label'),
-          of = document.createElement('span');
-        box.className = 'knob';
-        tag.textContent = label;
-        tag.htmlFor = field.id = `${prefix}${name}`;
-        box.dataset.name = name;
-        of.className = 'unit';
-        of.textContent = unit;
-        field.type = 'text';
-        field.inputMode = 'decimal';
-        field.autocomplete = 'off';
-        range.type = 'range';
-        range.setAttribute('aria-label', label);
-        range.min = 0;
-        range.max = whole ? most - least : 500;
-        const toValue = at => {
-          const share = at / range.max;
-          const x = logarithmic ? least * (most / least) ** share : least + (most - least) * share;
-          return whole ? Math.round(x) : Number(x.toPrecision(3));
-        };
-        const toAt = x =>
-          range.max *
-          (logarithmic ? Math.log(x / least) / Math.log(most / least) : (x - least) / (most - least));
-        const display = () => {
-          const x = state.set[name] * scale;
-          range.value = toAt(Math.min(most, Math.max(least, x)));
-          range.setAttribute('aria-valuetext', `${figures(x)} ${unit}`);
-          field.value = figures(x);
-        };
-        const take = x => {
-          put(name, x / scale);
-          for (const other of all(`.knob[data-name="${name}"]`)) other.display();
-          if (rebuilds.includes(name)) restart();
-          else {
-            remember();
-            drawBudget();
-          }
-        };
-        range.oninput = () => take(toValue(Number(range.value)));
-        field.onchange = () => {
-          const read = readNumber(field.value, name);
-          if (read.refused) {
-            notice(read.refused);
-            display();
-            return;
-          }
-          if (read.said) notice(read.said);
-          take(whole ? Math.round(read.value) : read.value);
-        };
-        box.display = display;
+    const [label, unit, scale, least, most, logarithmic, whole] = knobs[name];
+    const box = document.createElement('div'),
+      range = document.createElement('input'),
+      field = document.createElement('input');
+    const tag = document.createElement('label'),
+      of = document.createElement('span');
+    box.className = 'knob';
+    tag.textContent = label;
+    tag.htmlFor = field.id = `${prefix}${name}`;
+    box.dataset.name = name;
+    of.className = 'unit';
+    of.textContent = unit;
+    field.type = 'text';
+    field.inputMode = 'decimal';
+    field.autocomplete = 'off';
+    range.type = 'range';
+    range.setAttribute('aria-label', label);
+    range.min = 0;
+    range.max = whole ? most - least : 500;
+    const toValue = at => {
+      const share = at / range.max;
+      const x = logarithmic ? least * (most / least) ** share : least + (most - least) * share;
+      return whole ? Math.round(x) : Number(x.toPrecision(3));
+    };
+    const toAt = x =>
+      range.max *
+      (logarithmic ? Math.log(x / least) / Math.log(most / least) : (x - least) / (most - least));
+    const display = () => {
+      const x = state.set[name] * scale;
+      range.value = toAt(inRange(name, x));
+      range.setAttribute('aria-valuetext', `${figures(x)} ${unit}`);
+      field.value = figures(x);
+    };
+    const take = x => {
+      put(name, x / scale);
+      for (const other of all(`.knob[data-name="${name}"]`)) other.display();
+      if (rebuilds.includes(name)) restart();
+      else {
+        remember();
+        drawBudget();
+      }
+    };
+    range.oninput = () => take(toValue(Number(range.value)));
+    field.onchange = () => {
+      const read = readNumber(field.value, name);
+      if (read.refused) {
+        notice(read.refused);
         display();
-        box.append(tag, field, of, range);
-        return box;
+        return;
+      }
+      if (read.said) notice(read.said);
+      take(whole ? Math.round(read.value) : read.value);
+    };
+    box.display = display;
+    display();
+    box.append(tag, field, of, range);
+    return box;
   }
 
   // --------------------------------------------------------------------------------------------- the hand
@@ -388,11 +385,13 @@
       colours[name] = style.getPropertyValue(`--${name}`).trim();
     }
   }
-  /** A context in CSS pixels, or null where there is none to be had. */
+  const letter = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
+  /** A context in CSS pixels, larger ones where the letters are larger than 21; null where there is none to be had. */
   function context(canvas) {
-    const d = devicePixelRatio || 1,
-      w = Math.max(1, canvas.clientWidth),
-      h = Math.max(1, canvas.clientHeight);
+    const larger = Math.max(1, letter() / 21),
+      d = (devicePixelRatio || 1) * larger,
+      w = Math.max(1, canvas.clientWidth / larger),
+      h = Math.max(1, canvas.clientHeight / larger);
     if (canvas.width !== Math.round(w * d) || canvas.height !== Math.round(h * d)) {
       canvas.width = Math.round(w * d);
       canvas.height = Math.round(h * d);
@@ -688,10 +687,7 @@
     if (!c) return;
     const {g, w: width, h: height} = c,
       r = ranges[kind];
-    const size = Math.max(
-      10,
-      Math.min(15, 0.72 * parseFloat(getComputedStyle(document.documentElement).fontSize))
-    );
+    const size = Math.max(10, Math.min(15, 0.72 * letter()));
     g.font = `${size}px system-ui, sans-serif`;
     const left = width < 240 ? 2 : 3.6 * size,
       top = size + 7,
@@ -1081,10 +1077,8 @@
     $('counted').onclick = () => count($('counted').getAttribute('aria-checked') !== 'true');
     $('lab').onclick = () => openLab($('lab').getAttribute('aria-expanded') !== 'true');
     $('listen').onclick = () => {
-      const on = $('sound').value === '';
-      $('sound').value = on ? '2' : '';
-      chooseSound($('sound').value);
-      $('listen').setAttribute('aria-pressed', String($('sound').value !== ''));
+      $('sound').value = $('sound').value === '' ? '2' : '';
+      $('sound').onchange();
     };
     $('again').onclick = restart;
     $('itself').onclick = () => byItself($('itself').getAttribute('aria-pressed') !== 'true');
@@ -1102,7 +1096,10 @@
     all('#codes button').forEach((b, w) => {
       b.onclick = () => copy(all('#codes pre')[w].textContent, b);
     });
-    $('sound').onchange = () => chooseSound($('sound').value);
+    $('sound').onchange = () => {
+      chooseSound($('sound').value);
+      $('listen').setAttribute('aria-pressed', String($('sound').value !== ''));
+    };
     $('rumble').onchange = () => {
       if (
         $('rumble').value !== '' &&

@@ -284,6 +284,23 @@ function broken(promise, code, set) {
   return '';
 }
 
+/** What a slider can show of x, which is in its unit. */
+const inRange = (name, x) => Math.min(knobs[name][4], Math.max(knobs[name][3], x));
+
+/** Facts [SI units] as the sliders can show them, and a sentence for each that they cannot. */
+function shown(facts) {
+  const set = {},
+    said = [];
+  for (const [name, fact] of Object.entries(facts)) {
+    const [label, unit, scale] = knobs[name],
+      x = fact * scale,
+      kept = inRange(name, x);
+    if (kept !== x) said.push(`${label} ${figures(x)} ${unit} is shown as ${figures(kept)}.`);
+    set[name] = kept / scale;
+  }
+  return {set, said};
+}
+
 /** What a file of identification/device_file.hpp says of a device, as settings; or the sentence that says why not. */
 function readDevice(text) {
   let given;
@@ -296,19 +313,15 @@ function readDevice(text) {
     return {refused: 'A file of identify begins with "passive_haptics_device": 1, and this does not.'};
   if (given.rotary) return {refused: 'This device turns, and what is on this page goes straight.'};
   const names = {mass: 'mass', damping: 'damping', friction: 'friction', quantum: 'quantum', latency: 'late'};
-  const set = {quantum: 0, friction: 0},
-    said = [];
+  const facts = {quantum: 0, friction: 0};
   for (const [key, name] of Object.entries({...names, force_limit: 'motors', hand_force: 'hand_force'})) {
     if (given[key] === undefined) continue;
-    const [label, unit, scale, least, most] = knobs[name],
-      x = Number(given[key]) * scale;
-    if (typeof given[key] !== 'number' || !Number.isFinite(x))
+    if (typeof given[key] !== 'number' || !Number.isFinite(given[key]))
       return {refused: `"${key}" is no number: ${String(given[key]).slice(0, 40)}.`};
-    const kept = Math.min(most, Math.max(least, x));
-    if (kept !== x) said.push(`${label} ${figures(x)} ${unit} is shown as ${figures(kept)}`);
-    set[name] = kept / scale;
+    facts[name] = given[key];
   }
-  return {set, said: said.join('; ')};
+  const {set, said} = shown(facts);
+  return {set, said: said.join(' ')};
 }
 
 /** A number of a field, or the sentence that says why it is none. */
@@ -324,7 +337,7 @@ function readNumber(text, name) {
     };
   }
   if (x < least || x > most) {
-    const near = Math.min(most, Math.max(least, x));
+    const near = inRange(name, x);
     return {
       value: near,
       said: `${label} goes from ${least} to ${most} ${unit}: ${near} was taken for ${figures(x)}.`,

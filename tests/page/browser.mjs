@@ -214,8 +214,8 @@ const notice = page => page.locator('#notice').textContent();
   const [, right] = await verdicts(page);
   expect(right.touching === 1 && right.made <= 1e-9, 'the keys press on the wall');
   expect((await page.locator('#itself').getAttribute('aria-pressed')) === 'false', 'and take the hand over');
-  for (const width of [200, 360, 1024, 1920]) {
-    await page.setViewportSize({width, height: 800});
+  for (const width of [200, 360, 1024, 1920, 5120]) {
+    await page.setViewportSize({width, height: width > 2000 ? 2160 : 800});
     await page.waitForTimeout(200);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
     expect(wide <= width, `at ${width} px the page is ${wide} px wide`);
@@ -226,6 +226,8 @@ const notice = page => page.locator('#notice').textContent();
         .evaluate(v => v.clientWidth)) > 60,
       `there is a picture at ${width} px`
     );
+    const share = await page.evaluate(() => document.querySelector('main').clientWidth / innerWidth);
+    expect(share > 0.6, `at ${width} px the pictures take ${share} of the width`);
   }
   await close(page, 'keys and sizes');
 
@@ -307,8 +309,14 @@ for (const [what, script, sentence] of [
     (await page.evaluate(() => window.contexts + window.rumbles.length)) === 0,
     'neither sound nor rumble by itself'
   );
+  const pressed = () => page.locator('#listen').getAttribute('aria-pressed');
+  await page.locator('#listen').click();
+  expect((await pressed()) === 'true' && (await page.locator('#sound').inputValue()) === '2', 'Listen is one in each ear');
   await lab(page);
+  await page.locator('#sound').selectOption('');
+  expect((await pressed()) === 'false', 'what the menu switches off is no longer pressed');
   await page.locator('#sound').selectOption('0');
+  expect((await pressed()) === 'true', 'and what it switches on is');
   await page.locator('#rumble').selectOption('0');
   await page.waitForTimeout(2500);
   expect(
