@@ -92,8 +92,12 @@ class any_touch {
   }
   template <class Touch>
   static answer<Space> answered(Touch& touch, const sample& now) noexcept {
-    if constexpr (requires { touch.first; }) {  // a port each: their forces, added
-      const auto one = touch.first.tick(now), other = touch.second.tick(now);
+    if constexpr (requires {
+                    touch.first;
+                  }) {  // a port each, which knows of its own force alone: added
+      const ph::seconds dt{now.dt};
+      const auto one = touch.first.tick(now.position, dt),
+                 other = touch.second.tick(now.position, dt);
       return {one.force + other.force, static_cast<double>(one.energy + other.energy),
               ph::worse(one.what, other.what)};
     } else {
@@ -177,7 +181,7 @@ template <class Touch, class Make>
 #define PAGE_CONTROLLER_AS_IS(touch, name, says, ...)                                             \
   page::line<touch>(name, says, #__VA_ARGS__, [](const page::premises& told) {                    \
     [[maybe_unused]] const auto [mass, damping, friction, quantum, motors, hand_force, roughness, \
-                                 tick] = told;                                                    \
+                                 mode, tick] = told;                                              \
     return __VA_ARGS__;                                                                           \
   })
 
@@ -186,7 +190,7 @@ template <class Touch, class Make>
 #define PAGE_GUARD_AS_IS(touch, name, says, ...)                                                  \
   page::line<touch>(name, says, #__VA_ARGS__, [](const page::premises& told) {                    \
     [[maybe_unused]] const auto [mass, damping, friction, quantum, motors, hand_force, roughness, \
-                                 tick] = told;                                                    \
+                                 mode, tick] = told;                                              \
     const auto guard = __VA_ARGS__;                                                               \
     return page::guarded<std::remove_const_t<decltype(guard)>, touch::plane>(guard);              \
   })

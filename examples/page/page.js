@@ -266,6 +266,7 @@
     'latency',
     'loss',
     'young',
+    'mode',
   ];
   function fillKnobs() {
     $('knobs').replaceChildren(...scenes[state.scene].knobs.map(name => knob(name, 'field_')));

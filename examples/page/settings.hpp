@@ -25,6 +25,7 @@ struct settings {
   double roughness = 0.6;       ///< static coefficient of friction of the surface
   double hand_stiffness = 200;  ///< of the hand that holds the device [N/m]
   double hand_force = 5;        ///< the most that hand pushes with [N]
+  double mode = 0;  ///< resonance of the cable between motor and handle, 0: there is none [Hz]
 };
 
 struct parameter {
@@ -49,16 +50,17 @@ inline constexpr std::array parameters{
     parameter{"roughness", &settings::roughness},
     parameter{"hand_stiffness", &settings::hand_stiffness},
     parameter{"hand_force", &settings::hand_force},
+    parameter{"mode", &settings::mode},
 };
 static_assert(sizeof(settings) == parameters.size() * sizeof(double));
 
 /// What a controller is told of the device and the hand; all of it is true on the page.
 struct premises {
-  double mass, damping, friction, quantum, motors, hand_force, roughness, tick;
+  double mass, damping, friction, quantum, motors, hand_force, roughness, mode, tick;
 };
 [[nodiscard]] constexpr premises told(const settings& s) noexcept {
-  return {s.mass,   s.damping,    s.friction,  s.quantum,
-          s.motors, s.hand_force, s.roughness, tick_length};
+  return {s.mass,       s.damping,   s.friction, s.quantum,  s.motors,
+          s.hand_force, s.roughness, s.mode,     tick_length};
 }
 
 /// −1 … 1, of period 1: a sine of parabolas, so that every build computes the same bits.

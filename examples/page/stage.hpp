@@ -215,6 +215,20 @@ class stage {
   }
 };
 
+/// The device in a hand that a scene is felt with: as Scene::device says, or a stiff one.
+template <class Scene>
+struct device_in {
+  using Space = typename Scene::touch::Space;
+  using type = sim::device<Space, sim::impedance_hand<Space>>;
+};
+template <class Scene>
+requires requires {
+  typename Scene::device;
+}
+struct device_in<Scene> {
+  using type = typename Scene::device;
+};
+
 /// Scene is the world: what its surfaces are now, and what it publishes of them.
 template <class Scene>
 class stage_of final : public stage {
@@ -223,7 +237,7 @@ class stage_of final : public stage {
   using Space = typename touch::Space;
   using vector = typename Space::vector;
   using news = typename touch::news;
-  using device = sim::device<Space, sim::impedance_hand<Space>>;
+  using device = typename device_in<Scene>::type;
 
   stage_of() noexcept { set = Scene::begins_with(); }
 
@@ -243,20 +257,25 @@ class stage_of final : public stage {
       one& s = sides_[i];
       s.world.restart(set);
       s.controller = line(s.chosen).make(told(set));
-      s.body = device({.mass = set.mass,
-                       .damping = set.damping,
-                       .friction = set.friction,
-                       .force_limit = set.motors,
-                       .quantum = set.quantum,
-                       .lower = sim::every_axis<Space>(-0.1),
-                       .upper = sim::every_axis<Space>(0.1),
-                       .period = tick_length,
-                       .start = into(Scene::home),
-                       .latency = static_cast<int>(set.late)},
-                      {.stiffness = set.hand_stiffness,
-                       .damping = 2,
-                       .limit = set.hand_force,
-                       .target = into(Scene::home)});
+      const sim::impedance_hand<Space> holding{.stiffness = set.hand_stiffness,
+                                               .damping = 2,
+                                               .limit = set.hand_force,
+                                               .target = into(Scene::home)};
+      if constexpr (requires { typename Scene::device; }) {
+        s.body = device(set, into(Scene::home), holding);
+      } else {
+        s.body = device({.mass = set.mass,
+                         .damping = set.damping,
+                         .friction = set.friction,
+                         .force_limit = set.motors,
+                         .quantum = set.quantum,
+                         .lower = sim::every_axis<Space>(-0.1),
+                         .upper = sim::every_axis<Space>(0.1),
+                         .period = tick_length,
+                         .start = into(Scene::home),
+                         .latency = static_cast<int>(set.late)},
+                        holding);
+      }
       s.network = channel({.delay = set.latency, .loss = set.loss}, 7);
       s.next_news = 0;
       s.least = 0;
@@ -317,7 +336,7 @@ class stage_of final : public stage {
     channel network{};
     double next_news = 0;
     double least = 0;  ///< of what the hand has paid, its friction counted [J]
-    sim::quiet_judge<Space> judge{};
+    sim::quiet_judge<Space> judge{sim::quiet_bars{}};
     double asked = 0, shown = 0;  ///< stiffness at the last press [N/m]
     double next_press = 0;        ///< [s]
     ph::device_sample<Space> now{};
@@ -347,6 +366,7 @@ class stage_of final : public stage {
     while (const news* arrived = s.network.take(time)) s.controller.hear(*arrived);
     const auto out = s.controller.tick(s.now);
     s.body.hand().aim(vector(into(hand.at())), vector(into(hand.velocity())), s.body.time());
+    if constexpr (requires { s.body.alone = by_itself; }) s.body.alone = by_itself;
     s.now = s.body.exchange(out.force);
     const vector position = s.body.position();
     const place at = out_of(position), force = out_of(s.now.held);
@@ -355,7 +375,9 @@ class stage_of final : public stage {
     const double energy = s.body.meter().with_friction();
     if (energy < s.least) s.least = energy;
     listen(s, walls, position, out.force);
-    record.add({s.body.time(), at.x, at.y, hand.at().x, hand.at().y, force.x, force.y, energy,
+    place held_at = hand.at();
+    if constexpr (requires { s.body.alone; }) held_at = at;
+    record.add({s.body.time(), at.x, at.y, held_at.x, held_at.y, force.x, force.y, energy,
                 out.ledger, behind, static_cast<double>(out.what),
                 Space::norm(s.now.held) > 0.02 ? 1.0 : 0.0});
   }

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces in the plane: one that heaves and tilts, a corner of two, one that rubs.
+// Surfaces in the plane: one that heaves and tilts, a corner of two, one that rubs; a hand that schemes in a corner,
+// and a wall that is felt through a cable.
 // By hand: a menu of all controllers, to be compared.
 #include "exports.hpp"
+#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/simulation/compliant_device.hpp>
+#include <passive_haptics/simulation/prescribed_motion.hpp>
 
 #include <utility>
 
 namespace {
 
 namespace ph = passive_haptics;
+namespace sim = ph::simulation;
 using scene = ph::space<double, 2>;
 using plane = ph::half_space<scene>;
 using touch_one = page::any_touch<scene, 1>;
@@ -139,6 +144,180 @@ struct corner {
   }
 };
 
+// ------------------------------------------------------------------------ a hand that schemes
+
+/// No motor stops this hand. Left alone it shakes in free air, for which every account of the device books what its
+/// damping takes, and then in and out of the corner until it has drawn all that; else it goes where the reader's is.
+class schemer {
+ public:
+  using vector = scene::vector;
+  bool alone = true;
+
+  schemer() noexcept = default;
+  schemer(const page::settings& set, const scene::coordinates& home,
+          const sim::impedance_hand<scene>& /*holding*/) noexcept
+      : motion_({.damping = set.damping,
+                 .force_limit = set.motors,
+                 .quantum = set.quantum,
+                 .period = page::tick_length,
+                 .start = home,
+                 .latency = static_cast<int>(set.late)}),
+        goal_(home) {}
+
+  ph::device_sample<scene> exchange(const vector& force) noexcept {
+    const vector here = motion_.position();
+    if (alone) {
+      const double t = time();
+      const double share = t / 1.2 - static_cast<double>(static_cast<int>(t / 1.2));
+      const double to =
+          share < 2.0 / 3 ? 0.008 + 0.004 * page::wave(20 * t) : -0.002 * page::wave(70 * t);
+      goal_ = vector(to, to);
+    }
+    const vector next = here + sim::clamp_norm<scene>(vector(goal_ - here), 8e-4);
+    motion_.move_to(next);
+    velocity_ = (next - here) / page::tick_length;
+    return motion_.exchange(force);
+  }
+  schemer& hand() noexcept { return *this; }
+  void aim(const vector& to, const vector& /*velocity*/, double /*time*/) noexcept { goal_ = to; }
+  [[nodiscard]] vector position() const noexcept { return motion_.position(); }
+  [[nodiscard]] vector velocity() const noexcept { return velocity_; }
+  [[nodiscard]] double time() const noexcept { return motion_.time(); }
+  [[nodiscard]] const auto& meter() const noexcept { return motion_.meter(); }
+
+ private:
+  sim::prescribed_motion<scene> motion_{};
+  vector goal_ = scene::zero(), velocity_ = scene::zero();
+};
+
+struct scheme : corner {
+  using device = schemer;
+  static constexpr page::place home{0.004, 0.004};
+  static constexpr page::way_point round[]{{0.02, {0.002, 0.002}}, {0.04, {0, 0}}};
+  static constexpr std::array menu{
+      CORNER("none", "Two bare springs, added.",
+             (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), ph::no_observer{},
+             ph::no_bound{}),
+      PAGE_CONTROLLER(touch_two, "a port each (wrong)",
+                      "Both types say strict, and both spend the one damping. Who shakes on "
+                      "purpose is paid for it: example 16.",
+                      std::pair{PORT_OF_ITS_OWN, PORT_OF_ITS_OWN}),
+      CORNER("one port, strict", "The sum of two springs in one port: one account.",
+             (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), LEDGER, ph::strict_bound{}),
+      CORNER("one port, memoryless", "Strict from the last tick alone; saves nothing.",
+             (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), LEDGER,
+             ph::memoryless_bound{}),
+      CORNER("one port, energy tank", "A tank that allows for the worst motion of the next tick.",
+             (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), LEDGER,
+             ph::energy_tank{.reserve = 1e-6}),
+      CORNER("contact set, strict", "One spring, bounded strictly.", SET_OF_TWO, LEDGER,
+             ph::strict_bound{}),
+  };
+};
+
+// ------------------------------------------------------------------------ through a cable
+
+using rail = ph::space<double, 1>;
+using touch_rail = page::any_touch<rail, 1>;
+constexpr double rotor = 0.1;  ///< share of the mass that is the motor's
+
+/// A motor, a cable, and the handle behind it, which the hand holds.
+class cabled {
+ public:
+  using arm = sim::compliant_device<rail, sim::impedance_hand<rail>>;
+
+  cabled() noexcept = default;
+  cabled(const page::settings& set, double home, const sim::impedance_hand<rail>& holding) noexcept
+      : arm_({.mass = set.mass,
+              .share = rotor,
+              .mode = set.mode,
+              .damping = set.damping,
+              .friction = set.friction,
+              .force_limit = set.motors,
+              .quantum = set.quantum,
+              .start = home,
+              .period = page::tick_length,
+              .latency = static_cast<int>(set.late)},
+             holding),
+        before_(home) {}
+
+  ph::device_sample<rail> exchange(double force) noexcept {
+    before_ = arm_.position();
+    return arm_.exchange(force);
+  }
+  auto& hand() noexcept { return arm_.hand(); }
+  [[nodiscard]] double position() const noexcept { return arm_.position(); }
+  [[nodiscard]] double velocity() const noexcept {
+    return (arm_.position() - before_) / page::tick_length;
+  }
+  [[nodiscard]] double time() const noexcept { return arm_.time(); }
+  struct paid {
+    double energy;
+    [[nodiscard]] double with_friction() const noexcept { return energy; }
+  };
+  [[nodiscard]] paid meter() const noexcept { return {arm_.energy()}; }
+
+ private:
+  arm arm_{};
+  double before_ = 0;
+};
+
+#define THROUGH(name, says, ...)                                                  \
+  PAGE_CONTROLLER(touch_rail, name, says,                                         \
+                  ph::local_model{scene{}, ph::followed<ph::half_space<scene>>{}, \
+                                  ph::turn_at_once{}, __VA_ARGS__, LIMITS})
+
+namespace of_a_rail {
+using scene = rail;  // as the reader's program calls it
+
+struct cable {
+  using touch = touch_rail;
+  using device = cabled;
+  static constexpr page::place home{0, 0.012};
+  static constexpr page::way_point round[]{{0.5, {0, 0.010}},
+                                           {2.2, {0, -0.016}},
+                                           {2.6, {0, 0.010}},
+                                           {4.4, {0, -0.016}},
+                                           {5, {0, 0.010}}};
+
+  static constexpr page::settings begins_with() {
+    return {.stiffness = 10000, .damping = 0.1, .mode = 60};
+  }
+  static constexpr std::array menu{
+      THROUGH("none", "A bare spring.", ph::spring{}, ph::no_observer{}, ph::no_bound{}),
+      PAGE_CONTROLLER(touch_rail, "make_touch", "It takes motor and handle for one mass.",
+                      ph::make_touch<scene>(DEVICE, HAND)),
+      PAGE_CONTROLLER(touch_rail, "make_touch, a cable",
+                      "It was told of the cable: the motor's own mass, and how fast the cable's "
+                      "pull can change.",
+                      ph::make_touch<scene>(
+                          DEVICE,
+                          ph::observed_transmission{
+                              .rotor = 0.1 * mass,
+                              .rotor_above = 0.103 * mass,
+                              .slew = ph::slew_of(ph::two_masses(mass, 0.1, mode, 0.03, damping),
+                                                  hand_force, motors, 1.0)},
+                          HAND)),
+      THROUGH("damped spring + reachable", "The same mistake by hand.",
+              ph::damped_spring{.mass = mass}, LEDGER, HELD(REACHABLE)),
+      THROUGH("strict", "Spends only what the hand has paid, whatever there is between.",
+              ph::spring{}, LEDGER, ph::strict_bound{}),
+      THROUGH("memoryless", "Strict from the last tick alone; saves nothing.", ph::spring{}, LEDGER,
+              ph::memoryless_bound{}),
+  };
+
+  void restart(const page::settings& /*set*/) noexcept {}
+  [[nodiscard]] touch::news surfaces(double time, const page::settings& set) const noexcept {
+    return {
+        {{.point = set.heave * page::wave(1.1 * time), .normal = 1, .stiffness = set.stiffness}}};
+  }
+  [[nodiscard]] touch::news publish(double time, const page::settings& set, double /*position*/,
+                                    double /*held*/) const noexcept {
+    return surfaces(time, set);
+  }
+};
+}  // namespace of_a_rail
+
 // ------------------------------------------------------------------------ it rubs
 
 #define RUBBING(name, says, friction, ...)                                                      \
@@ -197,10 +376,12 @@ struct rubbing {
 page::stage_of<heaving> heaves;
 page::stage_of<corner> corners;
 page::stage_of<rubbing> rubs;
+page::stage_of<scheme> schemes;
+page::stage_of<of_a_rail::cable> pulls;
 
 }  // namespace
 
 std::span<page::stage* const> page::stages() noexcept {
-  static constexpr std::array<page::stage*, 3> all{&heaves, &corners, &rubs};
+  static constexpr std::array<page::stage*, 5> all{&heaves, &corners, &rubs, &schemes, &pulls};
   return all;
 }

@@ -2,7 +2,7 @@
 // What needs no page: the scenes, the problems, the sliders, and how numbers become words.
 'use strict';
 
-const version = 1; // of what the link holds
+const version = 2; // of what the link holds
 
 // name, label, unit, how many of it are an SI unit, least, most, logarithmic, steps of one
 const knobs = {
@@ -22,6 +22,7 @@ const knobs = {
   roughness: ['Roughness µ', '', 1, 0, 1.2],
   hand_stiffness: ['Stiffness of the hand', 'N/m', 1, 50, 500, true],
   hand_force: ['Strength of the hand', 'N', 1, 1, 12],
+  mode: ['Resonance of the cable', 'Hz', 1, 30, 300, true],
 };
 
 // view: the middle of the picture and its height [m]; start, press, walls: of the program to paste, as C++
@@ -79,6 +80,34 @@ const scenes = {
     ],
     says: 'Two walls that meet. However many walls: one device is one port.',
     knobs: ['stiffness', 'heave', ...net, ...loop, ...person],
+  },
+  scheme: {
+    title: 'Scheming hand',
+    module: 'surfaces',
+    stage: 3,
+    dof: 2,
+    view: [0.002, 0.002, 0.046],
+    start: '{0.014, 0.014}',
+    press: '{-0.012, -0.012}',
+    walls: [
+      '{.point = {0, UP}, .normal = {0, 1}, .stiffness = stiffness}',
+      '{.point = {0, 0}, .normal = {1, 0}, .stiffness = stiffness}',
+    ],
+    says: 'A hand that no motor stops fills every account in free air, and draws what it has filled.',
+    knobs: ['stiffness', 'damping', 'motors', 'late'],
+  },
+  cable: {
+    title: 'Through a cable',
+    module: 'surfaces',
+    stage: 4,
+    dof: 1,
+    cable: true,
+    view: [0, -0.004, 0.046],
+    start: '0.012',
+    press: '-0.016',
+    walls: ['{.point = UP, .normal = 1, .stiffness = stiffness}'],
+    says: 'A motor with a tenth of the mass, a cable, and the handle behind it.',
+    knobs: ['stiffness', 'mode', ...loop, 'heave', ...net, ...person],
   },
   rub: {
     title: 'Rubbing',
@@ -177,6 +206,16 @@ const problems = {
     says:
       'In a corner two springs fight each other and the hand. One device is one account: on the right both walls ask one port for force, and it is calm in any corner.',
   },
+  'A hand that schemes': {
+    scene: 'scheme',
+    left: 'a port each (wrong)',
+    right: 'one port, strict',
+    set: {},
+    knob: 'damping',
+    says:
+      'On the left each wall has an account of its own, and both say strict. This hand is stronger than the motor. It shakes in free air, where each account books what the damping of the device takes. ' +
+      'Then it draws that from both; but it was there once. On the right the device has one account, and there is nothing to draw twice.',
+  },
   'A surface rubs': {
     scene: 'rub',
     left: 'make_contacts',
@@ -185,6 +224,16 @@ const problems = {
     knob: 'roughness',
     says:
       'Press, and pull along. On the left the surface is ice; on the right it holds the device until the hand pulls harder than µ times the pressure. Friction only ever takes, if it does not creep.',
+  },
+  'A cable gives': {
+    scene: 'cable',
+    left: 'make_touch',
+    right: 'make_touch, a cable',
+    set: {},
+    knob: 'mode',
+    says:
+      'Many motors pull the handle by a cable, and a cable gives. The motor is a tenth of the mass here, and turns round within a tick while the handle does not. ' +
+      'On the left the two are taken for one mass: the promise is void, and the wall buzzes. On the right the mass of the motor and the pull of the cable were stated, and it rests.',
   },
   'The loop is late': {
     scene: 'wall',
@@ -279,6 +328,8 @@ function broken(promise, code, set) {
   if (!promise) return '';
   const told = Number(code.match(/late_loop_limits<(\d+)>/)?.[1] ?? 0);
   if (told !== set.late) return `you told ${told} ticks late, it is ${set.late}`;
+  if (promise === 1 && set.mode > 0 && !/_transmission/.test(code))
+    return 'motor and handle are taken for one mass, and there is a cable between them';
   const steps = set.quantum > 0 && !/encoder_device|dual_ledger|quantised_energy/.test(code);
   if (steps) return `positions are taken for exact, and come in steps of ${figures(set.quantum * 1e6)} µm`;
   return '';
@@ -424,10 +475,12 @@ function program(scene, text, set) {
     ['motors', set.motors, 'the most they hold [N]'],
     ['hand_force', set.hand_force, 'the most the hand pushes with [N]'],
     ['roughness', set.roughness, 'static coefficient of the surface'],
+    ['mode', set.mode, 'resonance of motor and handle, the cable between them [Hz]'],
     ['tick', 1e-3, 'the longest of your loop [s]'],
     body ? ['young', set.young, 'of the tissue [Pa]'] : ['stiffness', set.stiffness, 'of the surface [N/m]'],
   ]
     .filter(([name]) => name !== 'roughness' || /\broughness\b/.test(text))
+    .filter(([name]) => name !== 'mode' || about.cable)
     .map(([name, value, what]) => `constexpr double ${name} = ${n(value)};  // ${what}`);
 
   const moves = !body && (set.heave > 0 || (set.tilt > 0 && about.knobs.includes('tilt')));
@@ -464,7 +517,7 @@ ${
         .join('\n')
 }`;
   const asks = pair
-    ? 'touch.first.tick(sample).force + touch.second.tick(sample).force'
+    ? 'touch.first.tick(sample.position, ph::seconds{tick}).force +\n                                touch.second.tick(sample.position, ph::seconds{tick}).force'
     : guard
       ? 'touch.tick(sample, depth > 0 ? wall.stiffness * depth : 0.0).force'
       : 'touch.tick(sample).force';
@@ -483,7 +536,7 @@ ${ofOthers.test(stored) ? '#include <passive_haptics/published.hpp>\n' : ''}${
   body
     ? '#include <passive_haptics/environment/ball.hpp>\n#include <passive_haptics/environment/deformable_body.hpp>\n'
     : ''
-}#include <passive_haptics/simulation/device.hpp>
+}${about.cable ? '#include <passive_haptics/compliant.hpp>\n#include <passive_haptics/simulation/compliant_device.hpp>\n' : ''}#include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/quiet.hpp>
 
 #include <algorithm>
@@ -509,12 +562,12 @@ ${why}  ${stored}
     return 1;
   }
   // A simulated device, and a hand that presses; your driver takes their place.
-  sim::device<scene, sim::impedance_hand<scene>> handle(
-      {.mass = mass, .damping = damping, .friction = friction, .force_limit = motors,
+  sim::${about.cable ? 'compliant_' : ''}device<scene, sim::impedance_hand<scene>> handle(
+      {.mass = mass, ${about.cable ? '.share = 0.1, .mode = mode, ' : ''}.damping = damping, .friction = friction, .force_limit = motors,
        .quantum = quantum, .start = ${about.start}, .latency = ${n(set.late)}},
       {.stiffness = ${n(set.hand_stiffness)}, .limit = hand_force, .target = ${about.press}});
   auto sample = handle.exchange(scene::zero());
-  sim::quiet_judge<scene> judge${set.quantum > 0 && !body ? `(sim::quiet_bars{}.on_encoders(${set.friction > 0 ? '' : '4 * '}quantum, stiffness, mass))` : ''};
+${about.cable ? '  double before = handle.position();\n' : ''}  sim::quiet_judge<scene> judge${set.quantum > 0 && !body ? `(sim::quiet_bars{}.on_encoders(${set.friction > 0 ? '' : '4 * '}quantum, stiffness, mass))` : ''};
 ${body ? '  scene::vector handle_force = scene::zero();\n' : ''}${guard ? '  plane wall{};\n' : ''}  double least = 0, pressed = 0;
   for (int n = 0; n < 4000; ++n) {
     if (n % ${Math.max(1, Math.round(1000 / set.rate))} == 0) {  // ${n(set.rate)} times a second there are news
@@ -525,8 +578,8 @@ ${guard ? '    const double depth = wall.point - sample.position;  // your rende
 ${body ? '    handle_force = sample.held;\n' : ''}
     pressed = scene::norm(force);
     const scene::vector along = force * (pressed > 0 ? 1 / pressed : 0.0);
-    judge.add(force, handle.velocity(), tick, std::span(&along, pressed > 0 ? 1 : 0));
-    least = std::min(least, handle.meter().with_friction());
+${about.cable ? '    const double speed = (handle.position() - std::exchange(before, handle.position())) / tick;\n' : ''}    judge.add(force, ${about.cable ? 'speed' : 'handle.velocity()'}, tick, std::span(&along, pressed > 0 ? 1 : 0));
+    least = std::min(least, handle.${about.cable ? 'energy()' : 'meter().with_friction()'});
   }
   const auto& last = judge.figures();
   std::printf("presses with %.2f N, made %.3g mJ, %s: %.2g N rms above 10 Hz, %.2g mm/s, %.2g N a tick\\n",
