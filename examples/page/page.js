@@ -122,7 +122,8 @@
     state.step = step;
     const p = step === null ? null : problems[titles[step]];
     $('heading').textContent = p ? `${step + 1}. ${titles[step]}` : scenes[state.scene].title;
-    $('says').textContent = sentence ?? p.says;
+    $('says').textContent =
+      (sentence ?? p.says) + (p?.heard && sentence === undefined ? ' Listen: the left ear hears the left side, and the right ear hardly anything.' : '');
     $('device').hidden = !p?.device;
     $('back').disabled = step === 0;
     $('next').disabled = step === titles.length - 1;

@@ -134,9 +134,11 @@ const scenes = {
   },
 };
 
-// The steps of the article, in the order in which they teach: what is on either side, the one slider, the words.
+// The steps of the article, in the order in which they teach: what is on either side, the one slider, the words; and
+// whether the left is louder than the right by 10 dB at least, above 25 Hz.
 const problems = {
   'A motor that should be a wall': {
+    heard: true,
     scene: 'wall',
     left: 'none',
     right: 'make_touch',
@@ -149,6 +151,7 @@ const problems = {
       'Now switch the counting on. The same wall, the same hand, and nothing is made.',
   },
   'What is counted': {
+    heard: true,
     scene: 'wall',
     left: 'none',
     right: 'strict FBA',
@@ -169,6 +172,7 @@ const problems = {
       'On the right the smallest mass and the strongest hand are stated, too. A mass cannot be turned round within a tick, so the wall is stiff from the first touch on.',
   },
   'News comes late': {
+    heard: true,
     scene: 'organ',
     left: 'none',
     right: 'make_touch',
@@ -198,6 +202,7 @@ const problems = {
       'On the right the steps are in the books, and the dry friction of the device pays for them, as far as it is known.',
   },
   'Two walls meet': {
+    heard: true,
     scene: 'corner',
     left: 'none',
     right: 'make_contacts',
@@ -246,6 +251,7 @@ const problems = {
       'The one on the right was told. Set the lateness to something else, and it is wrong as well.',
   },
   'Your device': {
+    heard: true,
     scene: 'wall',
     left: 'none',
     right: 'make_touch',

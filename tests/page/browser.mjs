@@ -328,6 +328,58 @@ for (const [what, script, sentence] of [
   await close(page, 'sound and rumble');
 }
 
+// What is heard: one side in each ear, above 25 Hz as the page filters it, over a round of the hand. Steps that say
+// that the left is louder are 10 dB apart at least; one that says nothing of it is not, and is the control.
+{
+  const page = await open(
+    '',
+    {},
+    `window.heard = [[], []];
+    window.AudioContext = class extends AudioContext {
+      createBufferSource() {
+        const source = super.createBufferSource(), start = source.start.bind(source);
+        source.start = when => {
+          for (const w of [0, 1]) window.heard[w].push(...source.buffer.getChannelData(w));
+          start(when);
+        };
+        return source;
+      }
+    };`
+  );
+  await page.locator('#listen').click();
+  const said = [];
+  for (let step = 1; step <= 12; ++step) {
+    const claims = /Listen:/.test(await page.locator('#says').textContent()),
+      heading = await page.locator('#heading').textContent();
+    if (claims || /rubs/.test(heading)) {
+      await page.evaluate(() => (window.heard = [[], []]));
+      await page.waitForTimeout(5000);
+      const [left, right] = await page.evaluate(() =>
+        window.heard.map(samples => {
+          const pass = 1 / (1 + (2 * Math.PI * 25) / 8000);
+          let y = 0,
+            sum = 0;
+          samples.forEach((x, i) => {
+            y = pass * (y + x - (samples[i - 1] ?? x));
+            sum += y * y;
+          });
+          return samples.length > 8000 ? 10 * Math.log10(sum / samples.length) : NaN;
+        })
+      );
+      said.push(`${heading.split('.')[0]}: ${(left - right).toFixed(1)}`);
+      expect(
+        claims ? left - right >= 10 : left - right < 10,
+        `${heading}: the left is ${left.toFixed(1)} dB, the right ${right.toFixed(1)} dB`
+      );
+    }
+    if (step < 12) await page.locator('#next').click();
+    await page.waitForTimeout(300);
+  }
+  expect(said.length === 6, `five steps are heard, and one is the control: ${said}`);
+  console.log(`left over right, dB: ${said.join(', ')}`);
+  await close(page, 'what is heard');
+}
+
 // Screenshots at three widths, light and dark.
 for (const [width, height] of [
   [360, 740],
