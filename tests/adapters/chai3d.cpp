@@ -2,6 +2,7 @@
 // CHAI3D's adapter, in front of a simulated device, with an interface of our own in CHAI3D's
 // place: a proxy on a sphere that is stiffer than the device's damping pays for, that deforms, in
 // a workspace that is scaled.
+#include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include <passive_haptics/adapters/chai3d.hpp>
 #include <passive_haptics/compositions.hpp>
@@ -241,6 +242,52 @@ TEST_CASE("a sphere that deforms is lost by an old proxy, and kept by a probe wi
     CHECK(kept.lost == 0.0);
     CHECK(kept.largest_step <= 0.2);
     CHECK(kept.least_energy >= -1e-12);
+  }
+}
+
+namespace {
+
+/// A finger proxy of CHAI3D's that is a mesh::proxy: it has a memory, and no mesh passes it by.
+struct mesh_proxy : c3d::cAlgorithmFingerProxy {
+  c3d::cVector3d computeForces(const c3d::cVector3d& tool, const c3d::cVector3d&) override {
+    ball.step({tool.x(), tool.y(), tool.z()}, watch.lap(1e-3));
+    const ph::mesh::triple at = ball.place(), force = ball.push() * 1000.0;  // N/m
+    setProxyGlobalPosition({at.x, at.y, at.z});
+    return {force.x, force.y, force.z};
+  }
+  ph::mesh::proxy ball{{.radius = 1e-3}};
+  ph::basic_stopwatch<made_clock> watch;  // outside of a test ph::stopwatch
+};
+
+}  // namespace
+
+TEST_CASE("a sphere that deforms is kept by a proxy of CHAI3D's that is a mesh::proxy",
+          "[adapters][chai3d]") {
+  const meshes::body rest = meshes::sphere(3, 0.05);
+  for (const double amplitude : {1e-3, 3e-3}) {
+    ph::mesh::surface organ(rest.triangles, rest.nodes);
+    mesh_proxy proxy;
+    REQUIRE(proxy.ball.touch(organ));
+    c3d::cAlgorithmFingerProxy& theirs = proxy;  // as a haptic point holds it
+    auto port = ph::make_guard<scene>(
+        {.mass = mass, .damping = damping, .force_limit = 8.0, .longest_tick = 1.01 * T},
+        {.force = 5.0});
+    const felt kept =
+        breathe(amplitude, [&](const c3d::cWorld& world, const vec& x, bool updated) -> vec {
+          if (updated) {
+            auto nodes = rest.nodes;
+            for (auto& p : nodes) p = p * (world.radius / 0.05);
+            REQUIRE(organ.update(nodes));
+          }
+          const auto wanted = theirs.computeForces(ad::chai3d_types::vector(x), {});
+          return port.tick(x, ph::seconds{T}, ad::chai3d_types::vector(wanted)).force;
+        });
+    INFO(amplitude << ": " << kept.lost << ", " << kept.largest_step << " N");
+    CHECK(kept.lost == 0.0);
+    CHECK(kept.largest_step <= 0.2);
+    CHECK(kept.least_energy >= -1e-12);
+    CHECK(ad::chai3d_types::vector(proxy.getProxyGlobalPosition()).norm() > 0.046);
+    proxy.ball.let_go();
   }
 }
 

@@ -47,6 +47,8 @@ static_assert(same<cVector3d (proxy::*)(const cVector3d&, const cVector3d&),
                    decltype(&proxy::computeForces)>);
 static_assert(same<void (proxy::*)(const double&), decltype(&proxy::setProxyRadius)>);
 static_assert(same<cVector3d (proxy::*)() const, decltype(&proxy::getProxyGlobalPosition)>);
+static_assert(same<void (proxy::*)(const cVector3d&), decltype(&proxy::setProxyGlobalPosition)>);
+static_assert(std::has_virtual_destructor_v<proxy>);
 
 int main() {
   const cVector3d v(1.0, 2.0, 3.0);

@@ -30,6 +30,7 @@ class cAlgorithmFingerProxy {
   void setProxyRadius(const double& radius) { m_radius = radius; }
   double getProxyRadius() const { return m_radius; }
   cVector3d getProxyGlobalPosition() const { return m_proxyGlobalPos; }
+  void setProxyGlobalPosition(const cVector3d& place) { m_proxyGlobalPos = place; }
 
  private:
   cWorld* world_ = nullptr;
