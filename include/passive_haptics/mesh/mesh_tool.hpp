@@ -24,11 +24,11 @@ inline namespace v0 {
 
 template <int Points>
 struct mesh_tool {
-  std::array<std::array<double, 3>, std::size_t{Points}>
-      points{};          ///< in the frame of the handle [m]
-  mesh_contact shape{};  ///< of each point; the mass of its spring is m of the handle [kg]
-  double
-      least_inertia{};  ///< I, smallest moment of inertia about the handle [kg·m²], a lower bound
+  using offset = std::array<double, 3>;
+
+  std::array<offset, std::size_t{Points}> points{};  ///< in the frame of the handle [m]
+  mesh_contact shape{};    ///< of each point; the mass of its spring is m of the handle [kg]
+  double least_inertia{};  ///< I, a lower bound of the moments of inertia about the handle [kg·m²]
 
   /// The contact of point k, with its share m_k of the handle.
   [[nodiscard]] constexpr mesh_contact contact(int k) const noexcept {
