@@ -99,10 +99,11 @@ struct assumption_row {
   int runs = 0;           ///< of each hand
   double kept = 0.0;      ///< most that was created while all that is stated is true [J]
   double violated = 0.0;  ///< most that was created while this is not [J]
+  bool unpaid = false;    ///< nothing is, as its type says
 };
 
 /// A sentence for each failure: energy that is created while an assumption is kept, and an assumption whose
-/// violation creates none.
+/// violation creates none, unless it is said that it creates none, or some although that is said.
 [[nodiscard]] std::vector<std::string> unfounded(const std::vector<assumption_row>& rows);
 
 [[nodiscard]] std::vector<std::string> run_assumptions(const session& s);

@@ -137,28 +137,6 @@ loop_of<Space> loop(told what, const drawn<Space>& d) {
   return behind(ph::strict_bound{});
 }
 
-template <class Space>
-drawn_hand<Space> draw_hand(std::mt19937& from, double most) {
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  drawn_hand<Space> h;
-  h.does = static_cast<typename drawn_hand<Space>::kind>(from() % 6);
-  h.most = most;
-  h.frequency = std::pow(10.0, 2.4 * unit(from));
-  h.bias = -most * unit(from);
-  h.amplitude = most - std::abs(h.bias) * unit(from);
-  h.phase = unit(from);
-  h.across = Space::dof > 1 ? unit(from) : 0.0;
-  h.seed = static_cast<unsigned>(from());
-  using kind = typename drawn_hand<Space>::kind;
-  if (h.does == kind::kneads || h.does == kind::turns_at) {  // these are places, not forces
-    h.bias = -5e-3 * unit(from) + 1e-3;
-    h.amplitude = 8e-3 * unit(from);
-    h.stiffness = std::pow(10.0, 2.0 + 1.5 * unit(from));
-    h.damping = 10.0 * unit(from);
-  }
-  return h;
-}
-
 struct outcome {
   double least = 0.0;
   bool within = true;  ///< did the transmission keep to Lemma A's numbers?

@@ -7,6 +7,7 @@
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/simulation/compliant_device.hpp>
 
+#include <cmath>
 #include <functional>
 #include <numbers>
 #include <random>
@@ -68,6 +69,29 @@ struct drawn_hand {
     return 0.0;
   }
 };
+
+/// One of these hands, of at most `most` newtons.
+template <class Space>
+[[nodiscard]] drawn_hand<Space> draw_hand(std::mt19937& from, double most) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  drawn_hand<Space> h;
+  h.does = static_cast<typename drawn_hand<Space>::kind>(from() % 6);
+  h.most = most;
+  h.frequency = std::pow(10.0, 2.4 * unit(from));
+  h.bias = -most * unit(from);
+  h.amplitude = most - std::abs(h.bias) * unit(from);
+  h.phase = unit(from);
+  h.across = Space::dof > 1 ? unit(from) : 0.0;
+  h.seed = static_cast<unsigned>(from());
+  using kind = typename drawn_hand<Space>::kind;
+  if (h.does == kind::kneads || h.does == kind::turns_at) {  // these are places, not forces
+    h.bias = -5e-3 * unit(from) + 1e-3;
+    h.amplitude = 8e-3 * unit(from);
+    h.stiffness = std::pow(10.0, 2.0 + 1.5 * unit(from));
+    h.damping = 10.0 * unit(from);
+  }
+  return h;
+}
 
 /// The most that the transmission pulls on the rotor, and how fast that changes, while the two ends of its first spring
 /// part with no more than `speed` [m/s] (Lemma A, docs/design/mathematics.md § 14).

@@ -63,6 +63,12 @@ TEST_CASE("an assumption that creates while it is kept, or nothing once it is vi
   idle.violated = 0.0;
   assumption_row no_number = sound;
   no_number.kept = std::numeric_limits<double>::quiet_NaN();
+  assumption_row unpaid = idle;
+  unpaid.unpaid = true;  // it is said that nothing is created
+  CHECK(unfounded({unpaid}).empty());
+  assumption_row paid = sound;
+  paid.unpaid = true;
+  CHECK(mentions(unfounded({paid}).at(0), "0.001 J are created at 1 g, of which it is said"));
   const auto found = unfounded({sound, untrue, idle, no_number});
   REQUIRE(found.size() == 3);
   CHECK(mentions(found[0], "make_touch, mass: created 1e-11 J while it is kept"));

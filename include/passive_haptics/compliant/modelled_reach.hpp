@@ -29,6 +29,8 @@ inline namespace v0 {
 ///     mass only;
 ///   - every tick has the length `tick`. In one of another length, and in the 2N − 2 after it, the bound is the strict one;
 ///   - the assumptions of strict_bound, as in reachable_bound.
+/// Each of these numbers, untrue, has cost energy in a trial, but for the losses, from a tenth to ten times those stated
+/// (docs/guarantees.md).
 template <int N, int Late = 0>
 struct modelled_reach {
   static constexpr guarantee passivity = guarantee::conditional;

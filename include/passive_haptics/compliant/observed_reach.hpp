@@ -26,6 +26,8 @@ inline namespace v0 {
 ///     k_c and its damper d_c whose ends part with v, whatever is behind them (Lemma A, § 14);
 ///   - dry friction is at most `friction`, and may change its sign at any time; the damper is at most `damping_above`;
 ///   - the assumptions of strict_bound, as in reachable_bound.
+/// Of these, no hand of ours has drawn energy from a mass above `mass_above`, a friction or a damper above what is stated, or
+/// a pull above G where R holds; from a lighter rotor and a faster force it has (docs/guarantees.md). The proof needs all.
 /// They imply |ĝ − ĝ_last| ≤ R (T₀ + T₁ + T₂)/3 + 2c and |ĝ| ≤ G + c. A motion that violates one of these refutes a stated
 /// number: then the bound is the strict one for 0.1 s, twice as long each time, with event::outside_force. The guarantee
 /// does not rest on this test.

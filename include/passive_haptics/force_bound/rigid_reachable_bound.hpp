@@ -29,7 +29,7 @@ inline namespace v0 {
 /// Passive (the true E ≥ 0; the ledger is a lower bound of E and may show a debt) under ALL of these:
 ///   - the inertia is nowhere below that of rigid_inertia, in any pose; the hand's wrench at the handle point
 ///     has at most hand_force and hand_torque;
-///   - in any direction the damping at the handle lies between the ledger's b and the two upper bounds here;
+///   - in any direction the damping at the handle is between the ledger's b and both upper bounds (above: no loss found);
 ///   - in the coming ticks the handle is at most twice as fast as its mean in the last one, or so slow that its
 ///     damper and its gyroscopic forces are small compared with the hand's;
 ///   - ticks are ≤ longest_tick, poses are exact, and the held wrench is known and constant in the world frame.
