@@ -46,6 +46,11 @@ constexpr std::array compositions{
     named_composition{"strict_encoder_mesh_touch", make_mesh_touch, anybody_on_encoders,
                       strict_latest, false},
     named_composition{"quantised_touch", make_quantised_touch, on_encoders, strict_latest},
+    named_composition{"detents", make_detents},
+    named_composition{"encoder_detents", make_detents, on_encoders},
+    named_composition{"strict_detents", make_detents, anybody, strict_latest, false},
+    named_composition{"strict_encoder_detents", make_detents, anybody_on_encoders, strict_latest,
+                      false},
 };
 
 /// What is to be finite and above zero, or not below it, by its name in ph_parameters.
@@ -71,6 +76,10 @@ constexpr ranged of_a_tool[]{
     {"hand_torque", &ph_parameters::hand_torque, true, "finite and ≥ 0 N·m"},
     {"torque_limit", &ph_parameters::torque_limit, false, "finite and > 0 N·m"},
     {"lever", &ph_parameters::lever, true, "finite and > 0 m, 0 for 0.03"}};
+constexpr ranged of_detents[]{
+    {"pitch", &ph_parameters::pitch, true, "finite and > 0 m, where there are detents"},
+    {"detent_stiffness", &ph_parameters::detent_stiffness, true, "finite and ≥ 0 N/m"},
+    {"stop_stiffness", &ph_parameters::stop_stiffness, true, "finite and ≥ 0 N/m"}};
 
 [[nodiscard]] ph::parameter_fault fault_in(const ph_parameters& p, const auto& ranges) noexcept {
   for (const ranged& r : ranges) {
@@ -80,6 +89,27 @@ constexpr ranged of_a_tool[]{
     }
   }
   return {};
+}
+
+/// The same of detents and their stops.
+[[nodiscard]] ph::parameter_fault fault_in_detents(const ph_parameters& p) noexcept {
+  if (const auto wrong = fault_in(p, of_detents)) return wrong;
+  if (p.detent_stiffness > 0.0 && p.pitch == 0.0) return {"pitch", p.pitch, of_detents[0].remedy};
+  const bool none = p.first_stop == p.last_stop;
+  if (!none && !(p.first_stop < p.last_stop)) {
+    return {"last_stop", p.last_stop, "> first_stop, in m; the same where there is none"};
+  }
+  const bool ends = ph::kernels::is_finite(p.first_stop) || ph::kernels::is_finite(p.last_stop);
+  if (!none && ends && p.stop_stiffness == 0.0) {
+    return {"stop_stiffness", 0.0, "finite and > 0 N/m where there is a stop"};
+  }
+  return {};
+}
+/// True of a composition whose walls, or detents, the dry friction of the device has to pay for.
+[[nodiscard]] bool rests_on_friction(const named_composition& chosen) noexcept {
+  const auto make = chosen.make;
+  return chosen.of.encoder && (make == make_touch || make == make_contacts ||
+                               make == make_mesh_touch || make == make_detents);
 }
 
 /// The first parameter that is out of range by the names of ph_parameters. What this passes the
@@ -116,9 +146,10 @@ constexpr ranged of_a_tool[]{
   if (chosen.is("tool")) {
     if (const auto wrong = fault_in(p, of_a_tool)) return wrong;
   }
-  const bool for_stiffness =
-      chosen.make == make_touch || chosen.make == make_contacts || chosen.make == make_mesh_touch;
-  if (chosen.of.encoder && for_stiffness) {
+  if (chosen.make == make_detents) {
+    if (const auto wrong = fault_in_detents(p)) return wrong;
+  }
+  if (rests_on_friction(chosen)) {
     const auto budget = ph::design::stiffness_budget(device);
     if (!(budget.stiffness > 0.0)) return {"friction", p.friction, budget.because()};
   }
@@ -130,6 +161,7 @@ constexpr ranged of_a_tool[]{
                                             const ph_parameters& is) noexcept {
   constexpr const char* fixed = "what ph_create was told: create another port";
   if (is.latency != was.latency) return {"latency", static_cast<double>(is.latency), fixed};
+  if (is.rotary != was.rotary) return {"rotary", static_cast<double>(is.rotary), fixed};
   constexpr struct {
     const char* name;
     double ph_parameters::*value;
@@ -187,10 +219,6 @@ constexpr ranged of_a_tool[]{
   return made;
 }
 
-/// False for a composition without slots.
-[[nodiscard]] bool has_slots(const ph_port& port) noexcept {
-  return port.takes == takes::planes || port.takes == takes::poses;
-}
 /// Into a slot, and off.
 template <class Surface>
 std::int32_t tell(ph_port& port, told<Surface>* slot, const Surface& surface,
@@ -212,7 +240,7 @@ void leave(auto* slot) noexcept {
 constexpr std::size_t shortest_surface = sizeof(ph_surface);
 constexpr std::size_t shortest_parameters = offsetof(ph_parameters, friction);
 constexpr std::size_t shortest_result = offsetof(ph_result, limited);
-static_assert(sizeof(ph_parameters) == 264 && shortest_parameters == 48);
+static_assert(sizeof(ph_parameters) == 312 && shortest_parameters == 48);
 static_assert(sizeof(ph_surface) == 176);
 static_assert(sizeof(ph_explanation) == 48 || sizeof(void*) != 8);
 static_assert(sizeof(ph_result) == 80 && shortest_result == 48);
@@ -262,7 +290,7 @@ std::int32_t tick(ph_port* port, const moment& now, takes by, ph_result* result)
   if (now.position == nullptr || (by == takes::forces && now.wanted == nullptr) ||
       (by == takes::poses && now.orientation == nullptr)) {
     status = PH_NULL_ARGUMENT;
-  } else if (by != port->takes && !(by == takes::planes && port->takes != takes::poses)) {
+  } else if (by != port->takes && (by != takes::planes || port->takes == takes::poses)) {
     status = PH_NOT_OF_THIS_COMPOSITION;
   }
   const moment lost{.dt = now.dt};
@@ -322,7 +350,7 @@ std::int32_t ph_create(const char* composition, const ph_parameters* parameters,
       std::find_if(compositions.begin(), compositions.end(),
                    [composition](const auto& c) { return c.is(composition); });
   if (chosen == compositions.end()) {
-    std::array<char, 400> names{};
+    std::array<char, 440> names{};
     std::size_t end = 0;
     for (const auto& known : compositions) {
       end += static_cast<std::size_t>(std::snprintf(names.data() + end, names.size() - end, "%s%s",
@@ -355,7 +383,7 @@ std::int32_t ph_guarantee_of(const ph_port* port) noexcept {
 std::int32_t ph_publish(ph_port* port, std::uint32_t slot, const ph_surface* surface) noexcept {
   if (port == nullptr || surface == nullptr) return PH_NULL_ARGUMENT;
   if (!known_size<ph_surface>(surface->size, shortest_surface)) return PH_WRONG_SIZE;
-  if (!has_slots(*port)) return PH_NOT_OF_THIS_COMPOSITION;
+  if (!port->has_slots()) return PH_NOT_OF_THIS_COMPOSITION;
   if (surface->kind == PH_PLANE) {
     return tell(*port, port->plane_slot(slot), plane_of(*surface), surface->at);
   }
@@ -366,14 +394,14 @@ std::int32_t ph_publish(ph_port* port, std::uint32_t slot, const ph_surface* sur
 std::int32_t ph_publish_plane(ph_port* port, const double point[3], const double normal[3],
                               double stiffness) noexcept {
   if (port == nullptr || point == nullptr || normal == nullptr) return PH_NULL_ARGUMENT;
-  if (!has_slots(*port)) return PH_NOT_OF_THIS_COMPOSITION;
+  if (!port->has_slots()) return PH_NOT_OF_THIS_COMPOSITION;
   constexpr double here[3]{};
   return tell(*port, port->plane_slot(0), plane{read(point), read(normal), stiffness}, here);
 }
 
 std::int32_t ph_release(ph_port* port, std::uint32_t slot, std::uint32_t kind) noexcept {
   if (port == nullptr) return PH_NULL_ARGUMENT;
-  if (!has_slots(*port)) return PH_NOT_OF_THIS_COMPOSITION;
+  if (!port->has_slots()) return PH_NOT_OF_THIS_COMPOSITION;
   if (kind > PH_PLATE) return PH_REFUSED_SURFACE;
   const auto release = [port](auto* one) {
     if (one == nullptr) return std::int32_t{PH_NO_SUCH_SLOT};
@@ -386,7 +414,7 @@ std::int32_t ph_release(ph_port* port, std::uint32_t slot, std::uint32_t kind) n
 
 std::int32_t ph_publish_nothing(ph_port* port) noexcept {
   if (port == nullptr) return PH_NULL_ARGUMENT;
-  if (!has_slots(*port)) return PH_NOT_OF_THIS_COMPOSITION;
+  if (!port->has_slots()) return PH_NOT_OF_THIS_COMPOSITION;
   for (std::uint32_t i = 0; auto* one = port->plane_slot(i); ++i) leave(one);
   for (std::uint32_t i = 0; auto* one = port->curved_slot(i); ++i) leave(one);
   port->send();

@@ -82,8 +82,8 @@ struct moment {
   const double* wanted = nullptr;
 };
 
-/// What a composition takes in a tick.
-enum class takes { planes, forces, poses, meshes };
+/// What a composition takes in a tick; positions are all of it for detents.
+enum class takes { planes, forces, poses, meshes, positions };
 
 }  // namespace c_interface
 
@@ -106,6 +106,10 @@ struct ph_port {
   virtual c_interface::told<c_interface::plane>* plane_slot(std::uint32_t i) noexcept = 0;
   virtual c_interface::told<c_interface::curved>* curved_slot(std::uint32_t i) noexcept = 0;
   virtual void send() noexcept = 0;
+  /// False for a composition without slots.
+  [[nodiscard]] bool has_slots() const noexcept {
+    return takes == c_interface::takes::planes || takes == c_interface::takes::poses;
+  }
 
   /// For the thread that ticks.
   virtual std::int32_t touch(const ph_mesh& /*mesh*/) noexcept {
@@ -135,6 +139,7 @@ class composed : public ph_port {
   static constexpr bool follows = plane_slots > 0;
   static constexpr bool told_forces = requires(Port port, vector f) { port.source().update(f); };
   static constexpr bool turns = requires(typename space::stored_pose x) { x.orientation; };
+  static constexpr bool on_a_line = space::dof == 1;
   static constexpr bool twists = requires(typename space::effort f) { space::angular(f); };
 
  public:
@@ -143,6 +148,7 @@ class composed : public ph_port {
       : ph_port(p,
                 turns         ? c_interface::takes::poses
                 : follows     ? c_interface::takes::planes
+                : on_a_line   ? c_interface::takes::positions
                 : told_forces ? c_interface::takes::forces
                               : c_interface::takes::meshes,
                 twists),
@@ -207,8 +213,8 @@ class composed : public ph_port {
     std::copy_backward(commanded_.begin(), commanded_.end() - 1, commanded_.end());
     commanded_.front() = out.force;
     for (int i = 0; i < 3; ++i) {
-      result.force[i] = out.force(i);
-      result.torque[i] = twists ? out.force(twists ? i + 3 : i) : 0.0;
+      result.force[i] = along(out.force, i);
+      result.torque[i] = twists ? along(out.force, i + 3) : 0.0;
     }
     result.event = static_cast<std::int32_t>(out.what);
     result.energy = out.energy;
@@ -220,6 +226,14 @@ class composed : public ph_port {
   }
 
  private:
+  /// Component i of a force, or a wrench; on a line 0 but for the first.
+  [[nodiscard]] static double along(const auto& force, int i) noexcept {
+    if constexpr (on_a_line) {
+      return i == 0 ? force : 0.0;
+    } else {
+      return twists || i < 3 ? force(i) : 0.0;
+    }
+  }
   /// In one piece: to read what was just written in parts is dear.
   [[nodiscard, gnu::always_inline]] ph::device_sample<space> sample_of(
       const moment& now) const noexcept {
@@ -228,6 +242,11 @@ class composed : public ph_port {
     const auto q = [&](int i) { return was_read ? now.orientation[i] : 0.0; };
     if constexpr (turns) {
       return {.position = {{x(0), x(1), x(2)}, {q(0), q(1), q(2), q(3)}},
+              .held = held ? said() : commanded_.back(),
+              .dt = now.dt,
+              .valid = was_read};
+    } else if constexpr (on_a_line) {
+      return {.position = x(0),
               .held = held ? said() : commanded_.back(),
               .dt = now.dt,
               .valid = was_read};
@@ -242,6 +261,8 @@ class composed : public ph_port {
   [[nodiscard]] effort said() const noexcept {
     if constexpr (twists) {
       return space::join(read(held->data()), read(held->data() + 3));
+    } else if constexpr (on_a_line) {
+      return held->front();
     } else {
       return read(held->data());
     }
@@ -406,6 +427,7 @@ template <template <auto Device, auto Hand> class Family,
 [[nodiscard]] made make_guard(const ph_parameters& p, facts of) noexcept;
 [[nodiscard]] made make_stylus(const ph_parameters& p, facts of) noexcept;
 [[nodiscard]] made make_tool(const ph_parameters& p, facts of) noexcept;
+[[nodiscard]] made make_detents(const ph_parameters& p, facts of) noexcept;
 [[nodiscard]] made make_mesh_touch(const ph_parameters& p, facts of) noexcept;
 
 // ------------------------------------------------------------------------- structs by size, and texts

@@ -77,10 +77,13 @@ struct ends {
 /// What presses back: a composition, or the bare spring.
 class wall {
  public:
-  wall(const std::string& composition, const ph_parameters& parameters, double stiffness)
+  wall(const std::string& composition, ph_parameters parameters, double stiffness, double pitch)
       : stiffness_(stiffness),
         bare_(composition == "none"),
-        guards_(composition.find("guard") != std::string::npos) {
+        guards_(composition.find("guard") != std::string::npos),
+        clicks_(composition.find("detents") != std::string::npos) {
+    parameters.pitch = pitch;
+    parameters.detent_stiffness = stiffness;
     if (bare_) return;
     const bool meshes = composition.find("mesh") != std::string::npos;
     if (meshes || composition == "stylus" || composition == "tool") {
@@ -96,7 +99,8 @@ class wall {
     port_.reset(port);
     const std::array point{0.0, 0.0, 0.0};
     const std::array up{0.0, 0.0, 1.0};
-    if (!guards_ && ph_publish_plane(port, point.data(), up.data(), stiffness) != PH_OK) {
+    if (!guards_ && !clicks_ &&
+        ph_publish_plane(port, point.data(), up.data(), stiffness) != PH_OK) {
       throw py::value_error("stiffness = " + std::to_string(stiffness) + " is refused: > 0 N/m");
     }
   }
@@ -111,6 +115,10 @@ class wall {
       out.depth = x < 0.0 ? -x : 0.0;
     } else if (guards_) {
       (void)ph_tick_wanted(port_.get(), position.data(), dt, spring.data(), &out);
+    } else if (clicks_) {
+      const std::array along{x, 0.0, 0.0};
+      (void)ph_tick(port_.get(), along.data(), dt, &out);
+      out.force[2] = out.force[0];
     } else {
       (void)ph_tick(port_.get(), position.data(), dt, &out);
     }
@@ -119,7 +127,7 @@ class wall {
 
  private:
   double stiffness_;
-  bool bare_, guards_;
+  bool bare_, guards_, clicks_;
   std::unique_ptr<ph_port, ends<ph_destroy>> port_;
 };
 
@@ -148,11 +156,11 @@ py::array_t<Number> array(const std::vector<Number>& numbers) {
 }
 
 py::dict simulate(const std::string& composition, double stiffness, const device_facts& device,
-                  const hand_model& hand, const device_facts* told, double seconds) {
+                  const hand_model& hand, const device_facts* told, double seconds, double pitch) {
   if (!(seconds > 0.0 && seconds / device.period < 1e8)) {
     throw py::value_error("seconds = " + std::to_string(seconds) + " is refused: > 0 s");
   }
-  wall touched(composition, stated(told != nullptr ? *told : device, hand), stiffness);
+  wall touched(composition, stated(told != nullptr ? *told : device, hand), stiffness, pitch);
   const sim::device_parameters<line> simulated{
       .mass = device.mass,
       .damping = device.damping,
@@ -322,8 +330,10 @@ PYBIND11_MODULE(passive_haptics, module) {
       "simulate", &simulate, py::arg("composition"), py::arg("stiffness"),
       py::arg("device") = device_facts{}, py::arg("hand") = hand_model{},
       py::arg("stated") = static_cast<const device_facts*>(nullptr), py::arg("seconds") = 2.0,
+      py::arg("pitch") = 5e-3,
       "A wall of `stiffness` N/m under a composition of ph_create, or \"none\": a bare spring. "
-      "Guards bound that spring. `stated`: the device as it is told to the composition, if "
+      "Guards bound that spring; detents are `pitch` m apart, of that stiffness. `stated`: the "
+      "device as it is told to the composition, if "
       "another. Arrays t s, x m (true), force N (commanded), depth m, port_energy J (the "
       "simulator's own books, dry friction included), ledger J, event.");
   module.def("stiffness_budget", &budget, py::arg("device"),
@@ -344,4 +354,6 @@ PYBIND11_MODULE(passive_haptics, module) {
       py::make_tuple("touch", "encoder_touch", "strict_touch", "strict_encoder_touch", "contacts",
                      "encoder_contacts", "strict_contacts", "strict_encoder_contacts", "guard",
                      "encoder_guard", "strict_guard", "strict_encoder_guard", "quantised_touch");
+  module.attr("detents") =
+      py::make_tuple("detents", "encoder_detents", "strict_detents", "strict_encoder_detents");
 }

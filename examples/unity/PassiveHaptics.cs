@@ -27,6 +27,9 @@ namespace PassiveHaptics
         public double LeastInertia, InertiaSpread, InertiaOffset, AngularDamping; // of a tool
         public double DampingMost, AngularDampingMost, HandTorque, TorqueLimit, Lever;
         public double Stiffness, Viscosity, Radius; // of a mesh_touch
+        public double Pitch, DetentStiffness, FirstStop, LastStop, StopStiffness; // of detents
+        public uint Rotary;
+        private uint unused;
 
         internal Parameters WithSize()
         {

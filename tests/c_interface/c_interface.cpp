@@ -3,6 +3,7 @@
 // what it says to wrong calls.
 #include "direct.hpp"
 #include "support/allocations.hpp"
+#include <passive_haptics/knob.hpp>
 #include <passive_haptics/six_dof.hpp>
 
 #include <atomic>
@@ -208,6 +209,112 @@ TEST_CASE("a guard by name is make_guard, bit for bit", "[c_interface]") {
         &ph_parameters::longest_tick);
   agree("strict_encoder_guard", ph::make_guard<d3>(stated, ph::any_hand), on_encoders(),
         &ph_parameters::friction);
+}
+
+namespace {
+/// In how many ticks detents by name, and a port of the library, do not answer alike, bit for bit.
+template <class Port>
+int ticks_that_differ(const loaded& c, const char* composition, const ph_parameters& p, Port port) {
+  REQUIRE_FALSE(port.check());
+  const opened by_name(c, composition, p);
+  int differ = 0;
+  double most = 0.0;
+  for (int n = 0; n < ticks; ++n) {
+    const moment now = moment_at(n);
+    const double scale = p.rotary != 0 ? 100.0 : 1.0, x = scale * now.position[2];
+    const double place[3] = {x, 7.0, std::numeric_limits<double>::quiet_NaN()};  // one is read
+    const double held[3] = {now.held[2], 7.0, 7.0};
+    if (n == off_tick || n == on_tick) {
+      port.enable_forces(n == on_tick);
+      REQUIRE(c.enable_forces(by_name.port, n == on_tick) == PH_OK);
+    }
+    if (now.reports_held) REQUIRE(c.held(by_name.port, held) == PH_OK);
+    const auto out = now.reports_held ? port.tick(ph::device_sample<d1>{x, held[0], now.dt, true})
+                                      : port.tick(x, ph::seconds{now.dt});
+    ph_result r{};
+    r.size = sizeof r;
+    REQUIRE(c.tick(by_name.port, place, now.dt, &r) == PH_OK);
+    const double ours[2] = {out.force, out.energy}, theirs[2] = {r.force[0], r.energy};
+    differ += std::memcmp(ours, theirs, sizeof ours) != 0 ||
+              r.event != static_cast<int>(out.what) || (r.limited != 0) != out.limited;
+    REQUIRE((r.force[1] == 0.0 && r.force[2] == 0.0));
+    most = std::max(most, std::fabs(out.force));
+  }
+  CHECK(most > 0.03 * p.force_limit);
+  return differ;
+}
+}  // namespace
+
+TEST_CASE("detents by name are make_detents, bit for bit", "[c_interface]") {
+  const loaded c;
+  const ph::detents shape{
+      .pitch = 1e-3, .stiffness = 900.0, .first = -2e-3, .last = 3e-3, .stop_stiffness = 700.0};
+  const auto with_shape = [](ph_parameters p, const ph::detents& d) {
+    p.pitch = d.pitch;
+    p.detent_stiffness = d.stiffness;
+    p.first_stop = d.first;
+    p.last_stop = d.last;
+    p.stop_stiffness = d.stop_stiffness;
+    return p;
+  };
+  const auto each = [&](const char* name, const auto& port, ph_parameters p) {
+    INFO(name);
+    p = with_shape(p, shape);
+    CHECK(ticks_that_differ(c, name, p, port) == 0);
+    p.pitch *= 0.9;  // the control
+    CHECK(ticks_that_differ(c, name, p, port) > 100);
+  };
+  each("detents", ph::make_detents<d1>(exact, hand, shape), grip());
+  each("encoder_detents", ph::make_detents<d1>(stated, hand, shape), on_encoders());
+  each("strict_detents", ph::make_detents<d1>(exact, ph::any_hand, shape), grip());
+  each("strict_encoder_detents", ph::make_detents<d1>(stated, ph::any_hand, shape), on_encoders());
+  each("detents", ph::make_detents<d1, late<8>>(after(8, exact), hand, shape), grip(8));
+
+  const ph::exact_device motor{
+      .mass = 5e-5, .damping = 1e-3, .force_limit = 0.2, .longest_tick = T, .rotary = true};
+  auto knob = grip();
+  knob.mass = motor.mass;
+  knob.damping = motor.damping;
+  knob.hand_force = 0.15;
+  knob.force_limit = motor.force_limit;
+  knob.rotary = 1;
+  const ph::detents ring{.pitch = 0.1, .stiffness = 1.0};  // no stops
+  const auto port = ph::make_detents<d1>(motor, {.force = 0.15}, ring);
+  CHECK(ticks_that_differ(
+            c, "detents",
+            with_shape(knob, {.pitch = 0.1, .stiffness = 1.0, .first = 0.0, .last = 0.0}),
+            port) == 0);
+
+  using Catch::Matchers::StartsWith;
+  const auto says = [&](auto change) {
+    auto p = with_shape(grip(), shape);
+    change(p);
+    return c.refusal("detents", p);
+  };
+  CHECK_THAT(says([](auto& p) { p.pitch = 0.0; }), StartsWith("pitch = 0 is refused"));
+  CHECK_THAT(says([](auto& p) { p.detent_stiffness = -1.0; }), StartsWith("detent_stiffness = -1"));
+  CHECK_THAT(says([](auto& p) { p.last_stop = -1.0; }), StartsWith("last_stop = -1 is refused"));
+  CHECK_THAT(says([](auto& p) { p.stop_stiffness = 0.0; }), StartsWith("stop_stiffness = 0"));
+  CHECK(c.refusal("detents", with_shape(grip(), shape), PH_OK).empty());
+
+  const opened one(c, "detents", with_shape(grip(), shape));
+  const double at[3] = {2.8e-3, 0.0, 0.0}, wanted[3] = {1.0, 0.0, 0.0}, up[3] = {0.0, 0.0, 1.0};
+  ph_result r{};
+  r.size = sizeof r;
+  CHECK(c.tick_wanted(one.port, at, 1e-3, wanted, &r) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(r.force[0] == 0.0);
+  CHECK(c.publish_plane(one.port, at, up, 1.0) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.guarantee_of(one.port) == PH_CONDITIONAL);
+  auto other = with_shape(grip(), shape);
+  other.detent_stiffness = 300.0;
+  CHECK(c.set(one.port, &other, nullptr, 0) == PH_OK);
+  CHECK(c.tick(one.port, at, 1e-3, &r) == PH_OK);
+  ph_explanation e{};
+  e.size = sizeof e;
+  REQUIRE(c.explain(one.port, &e) == PH_OK);
+  CHECK(e.asked == 300.0);
+  other.rotary = 1;
+  CHECK(c.set(one.port, &other, nullptr, 0) == PH_REFUSED_PARAMETER);
 }
 
 TEST_CASE("contacts by name are make_contacts with each kind of surface, bit for bit",
@@ -507,6 +614,8 @@ TEST_CASE("every composition has its promise, and presses", "[c_interface]") {
   CHECK(promise("contacts", grip()) == PH_CONDITIONAL);
   CHECK(promise("stylus", grip()) == PH_CONDITIONAL);
   CHECK(promise("tool", peg()) == PH_CONDITIONAL);
+  CHECK(promise("encoder_detents", on_encoders()) == PH_CONDITIONAL);
+  CHECK(promise("strict_detents", grip()) == PH_STRICT);
   CHECK(c.guarantee_of(nullptr) == PH_NONE);
   for (std::uint32_t latency = 0; latency <= PH_MOST_STRICT_LATENCY; ++latency) {
     CHECK(tries_enough(run_in_c("quantised_touch", on_encoders(latency))));
@@ -583,12 +692,13 @@ TEST_CASE("a text is cut to the room there is for it, between characters", "[c_i
 
 TEST_CASE("a struct of another size is refused, one of an older header serves", "[c_interface]") {
   const loaded c;
-  for (const std::uint32_t size : {0u, 40u, 50u, 263u, 272u, 4096u}) {
+  constexpr std::uint32_t own = sizeof(ph_parameters);
+  for (const std::uint32_t size : {0u, 40u, 50u, own - 1, own + 8, 4096u}) {
     auto p = grip();
     p.size = size;
     CHECK(c.refusal("touch", p, PH_WRONG_SIZE) ==
-          "size = " + std::to_string(size) +
-              " is refused: sizeof(ph_parameters), which is 264 bytes in this library");
+          "size = " + std::to_string(size) + " is refused: sizeof(ph_parameters), which is " +
+              std::to_string(own) + " bytes in this library");
     double K = 1.0;
     CHECK(c.stiffness_budget(&p, &K, nullptr) == PH_WRONG_SIZE);
     CHECK(K == 0.0);

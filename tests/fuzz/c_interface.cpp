@@ -2,6 +2,7 @@
 // libFuzzer's door to the C interface, whose sources are compiled in: any name, any parameters of any size, any calls
 // on a port that is alive, and on a mesh and a probe. Every force is a number and within what the motors hold.
 #include "examples/c_interface/contacts.cpp"
+#include "examples/c_interface/detents.cpp"
 #include "examples/c_interface/guard.cpp"
 #include "examples/c_interface/mesh.cpp"
 #include "examples/c_interface/passive_haptics_c.cpp"
@@ -43,6 +44,8 @@ ph_parameters good_parameters(fuzz::numbers& in) {
   p.angular_damping_most = near(4e-4);
   p.hand_torque = near(0.1);
   p.torque_limit = near(0.5);
+  p.pitch = near(0.01);
+  p.detent_stiffness = near(1e3);
   return p;
 }
 ph_parameters any_parameters(fuzz::numbers& in) {
@@ -74,6 +77,13 @@ ph_parameters any_parameters(fuzz::numbers& in) {
   p.hand_torque = in.about(0.1);
   p.torque_limit = in.about(0.5);
   p.lever = in.one() < 128 ? 0.0 : in.about(0.03);
+  if (in.one() < 128) return p;
+  p.pitch = in.about(0.01);
+  p.detent_stiffness = in.about(1e3);
+  p.first_stop = in.one() < 128 ? 0.0 : in.about(0.01);
+  p.last_stop = in.one() < 128 ? 0.0 : in.about(0.02);
+  p.stop_stiffness = in.one() < 64 ? 0.0 : in.about(1e3);
+  p.rotary = in.one() % 2;
   return p;
 }
 
@@ -230,6 +240,9 @@ const char* one_port(fuzz::numbers& in) {
                                 "quantised_touch",
                                 "mesh_touch",
                                 "strict_encoder_mesh_touch",
+                                "detents",
+                                "encoder_detents",
+                                "strict_detents",
                                 "none",
                                 nullptr};
   const std::size_t which = in.one() % std::size(names);

@@ -44,6 +44,17 @@ for name in ph.compositions:
     assert ph.simulate(name, 3000, device)["port_energy"].min() >= -1e-12, name
 assert ph.simulate("none", 3000, exact)["port_energy"].min() < -1e-4
 
+# Detents hold a hand that lets go at one of them, wherever they are.
+for name in ph.detents:
+    device = steps if "encoder" in name else exact
+    for pitch in (4e-3, 3e-3):  # one is the control of the other
+        now = ph.simulate(name, 300, device, ph.Hand(target=-9.5e-3, lets_go=1.0), seconds=3, pitch=pitch)
+        assert now["port_energy"].min() >= -1e-12, name
+        off = now["x"][-1] / pitch
+        assert abs(off - round(off)) < 0.2 and round(off) != 0, f"{name}: {off} pitches of {pitch}"
+        assert abs(now["force"]).max() > 0.05, name
+refused(lambda: ph.simulate("detents", 300, exact, pitch=0), "pitch = 0 is refused")
+
 stiffness, because = ph.stiffness_budget(steps)
 assert 1000 < stiffness < 10000 and "raise" in because
 refused(lambda: ph.simulate("touch", 3000, ph.Device(mass=0)), "mass = 0 is refused")

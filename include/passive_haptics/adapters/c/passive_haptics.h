@@ -2,7 +2,7 @@
 #ifndef PASSIVE_HAPTICS_ADAPTERS_C_PASSIVE_HAPTICS_H
 #define PASSIVE_HAPTICS_ADAPTERS_C_PASSIVE_HAPTICS_H
 // The C interface: for C99, C#, Unity, Unreal and whatever else calls a shared library. A port with three or
-// six degrees of freedom, in double, composed by name. Link passive_haptics_c, or load it.
+// six degrees of freedom, or a knob, in double, composed by name. Link passive_haptics_c, or load it.
 //
 //     ph_parameters device = {.size = sizeof device, .mass = 0.1, .damping = 0.03, .hand_force = 5,
 //                             .force_limit = 9, .longest_tick = 1e-3};
@@ -181,6 +181,15 @@ typedef struct ph_parameters {
   double stiffness;  ///< of the mesh [N/m]; 0: 1000
   double viscosity;  ///< along the surface [N·s/m]; 0: none
   double radius;     ///< of the ball that touches [m]; 0: 5e-4
+
+  // The following members are for detents, of a knob or a slider.
+  double pitch;             ///< distance of neighbouring detents [m]; a knob: [rad]
+  double detent_stiffness;  ///< at the bottom of each [N/m]; 0: no detents
+  double first_stop;        ///< the lower end stop [m]; −∞: none; both the same: none
+  double last_stop;         ///< the upper end stop [m]; ∞: none
+  double stop_stiffness;    ///< of both [N/m], > 0 where there is one
+  uint32_t rotary;  ///< not 0: it turns, and all numbers are kg·m², N·m and rad, of a knob
+  uint32_t unused;
 } ph_parameters;
 
 /// A surface of the environment. Members that its kind does not use are ignored.
@@ -277,6 +286,8 @@ PH_API uint32_t ph_version(void) PH_NOTHROW;
 ///   "mesh_touch", "strict_mesh_touch"       make_mesh_touch                          exact_device
 ///   "encoder_mesh_touch", "strict_encoder_mesh_touch"                                encoder_device
 ///   "quantised_touch"                       a touch on steps, friction not known     exact_device, quantum
+///   "detents", "encoder_detents", "strict_detents", "strict_encoder_detents"
+///                                           make_detents, in one degree of freedom   as "guard", and detents
 ///
 /// exact_device is mass, damping, force_limit, longest_tick; encoder_device that, and friction, presliding, quantum,
 /// continuous_force, winding_time; rigid_device mass, damping, force_limit, longest_tick, and the members for a tool.
@@ -305,7 +316,8 @@ PH_API int32_t ph_release(ph_port* port, uint32_t slot, uint32_t kind) PH_NOTHRO
 PH_API int32_t ph_publish_nothing(ph_port* port) PH_NOTHROW;
 
 /// One tick: the device is at `position` [m], `dt` [s] after the last tick, both measured. Call it in ONE thread. A
-/// position that is NULL or not finite is a lost sample. A guard keeps its last wanted force, which grows older.
+/// position that is NULL or not finite is a lost sample. A guard keeps its last wanted force, which grows older. Of
+/// detents only position[0] is read, and force[0] is their force; the others are ignored, and 0.
 PH_API int32_t ph_tick(ph_port* port, const double position[3], double dt,
                        ph_result* result) PH_NOTHROW;
 /// The same for a guard, with the force that is wanted in this tick [N]. A force that is not finite is refused, and the
@@ -326,7 +338,7 @@ PH_API int32_t ph_held_wrench(ph_port* port, const double force[3],
                               const double torque[3]) PH_NOTHROW;
 
 /// Changes parameters of a port; its ledger and all other state stay. Those of the device must be equal to those of
-/// ph_create: latency, mass, damping, friction, presliding, quantum, longest_tick, tip. A refusal changes nothing, and
+/// ph_create: latency, rotary, mass, damping, friction, presliding, quantum, longest_tick, tip. A refusal changes nothing, and
 /// its text has the first parameter that differs or is out of its range. Call it in the thread of the ticks, but not in
 /// every tick.
 PH_API int32_t ph_set(ph_port* port, const ph_parameters* parameters, char* why,
