@@ -29,7 +29,7 @@ struct answer {
 };
 
 /// A composition that hears of `Surfaces` planes at once; copying it copies the state.
-template <class S, int Surfaces>
+template <class S, int Surfaces, int Bytes = 3072>
 class any_touch {
  public:
   using Space = S;
@@ -50,6 +50,10 @@ class any_touch {
   /// The planes that the controller itself works with at this moment.
   [[nodiscard]] news local() const noexcept { return calls_->local(bytes_); }
   [[nodiscard]] ph::parameter_fault check() const noexcept { return calls_->check(bytes_); }
+  /// Before it is replaced: a mesh has room for so many fingers, and this one ends.
+  void let_go() noexcept {
+    if (calls_->let_go != nullptr) calls_->let_go(bytes_);
+  }
 
  private:
   struct calls {
@@ -57,6 +61,7 @@ class any_touch {
     answer<Space> (*tick)(void*, const sample&);
     news (*local)(const void*);
     ph::parameter_fault (*check)(const void*);
+    void (*let_go)(void*);
   };
 
   template <class Touch>
@@ -116,14 +121,22 @@ class any_touch {
   }
 
   template <class Touch>
+  [[nodiscard]] static constexpr auto end_of() noexcept -> void (*)(void*) {
+    if constexpr (requires(Touch & touch) { touch.let_go(); }) {
+      return [](void* t) { static_cast<Touch*>(t)->let_go(); };
+    } else {
+      return nullptr;
+    }
+  }
+  template <class Touch>
   static constexpr calls table{
       [](void* t, const news& all) { tell(*static_cast<Touch*>(t), all); },
       [](void* t, const sample& now) { return answered(*static_cast<Touch*>(t), now); },
       [](const void* t) { return local_of(*static_cast<const Touch*>(t)); },
-      [](const void* t) { return checked(*static_cast<const Touch*>(t)); }};
+      [](const void* t) { return checked(*static_cast<const Touch*>(t)); }, end_of<Touch>()};
 
   const calls* calls_;
-  alignas(std::max_align_t) std::byte bytes_[3072];
+  alignas(std::max_align_t) std::byte bytes_[Bytes];
 };
 
 /// A bare spring of your own, behind a guard: make_guard has no surface.

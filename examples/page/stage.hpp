@@ -256,6 +256,7 @@ class stage_of final : public stage {
     for (int i = 0; i < 2; ++i) {
       one& s = sides_[i];
       s.world.restart(set);
+      s.controller.let_go();
       s.controller = line(s.chosen).make(told(set));
       const sim::impedance_hand<Space> holding{.stiffness = set.hand_stiffness,
                                                .damping = 2,

@@ -109,6 +109,19 @@ const scenes = {
     says: 'A motor with a tenth of the mass, a cable, and the handle behind it.',
     knobs: ['stiffness', 'mode', ...loop, 'heave', ...net, ...person],
   },
+  sheet: {
+    title: 'Thin sheet',
+    module: 'meshes',
+    stage: 0,
+    dof: 3,
+    view: [0, -0.001, 0.046],
+    start: '{0, 0, 0.016}',
+    press: '{0, 0, -0.02}',
+    sheet: true,
+    walls: ['{.point = {0, 0, 0.003}, .normal = {0, 0, 1}, .stiffness = stiffness}'],
+    says: 'A sheet of 2 mm, of 120 triangles, seen from the side.',
+    knobs: ['rate', 'latency', 'loss', 'damping', 'mass', 'friction', 'motors', 'late', ...person],
+  },
   rub: {
     title: 'Rubbing',
     module: 'surfaces',
@@ -229,6 +242,16 @@ const problems = {
     knob: 'roughness',
     says:
       'Press, and pull along. On the left the surface is ice; on the right it holds the device until the hand pulls harder than µ times the pressure. Friction only ever takes, if it does not creep.',
+  },
+  'A thin sheet': {
+    scene: 'sheet',
+    left: 'damped spring + reachable',
+    right: 'make_mesh_touch',
+    set: {},
+    knob: 'hand_force',
+    says:
+      'Organs come as meshes, and a mesh can be thin. On the left the triangle that is nearest is told, and the finger is soon nearer to the far side, which pushes it out below. No energy is made, and the sheet is lost. ' +
+      'On the right a ball is drawn to the finger that no triangle lets through, and the force is the way between the two.',
   },
   'A cable gives': {
     scene: 'cable',
@@ -483,16 +506,37 @@ function program(scene, text, set) {
     ['roughness', set.roughness, 'static coefficient of the surface'],
     ['mode', set.mode, 'resonance of motor and handle, the cable between them [Hz]'],
     ['tick', 1e-3, 'the longest of your loop [s]'],
-    body ? ['young', set.young, 'of the tissue [Pa]'] : ['stiffness', set.stiffness, 'of the surface [N/m]'],
+    body ? ['young', set.young, 'of the tissue [Pa]'] : /make_mesh_touch/.test(text) ? ['young', 0, ''] : ['stiffness', set.stiffness, 'of the surface [N/m]'],
   ]
     .filter(([name]) => name !== 'roughness' || /\broughness\b/.test(text))
     .filter(([name]) => name !== 'mode' || about.cable)
+    .filter(([name]) => name !== 'young' || body)
     .map(([name, value, what]) => `constexpr double ${name} = ${n(value)};  // ${what}`);
 
   const moves = !body && (set.heave > 0 || (set.tilt > 0 && about.knobs.includes('tilt')));
   const up = moves ? `${n(set.heave)} * std::sin(6.9 * t)` : '0';
   const slope = moves && about.knobs.includes('tilt') ? `${n(set.tilt)} * std::sin(5.0 * t)` : '0';
-  const world = body
+  const mesh = /make_mesh_touch/.test(text);
+  const world = mesh
+    ? `// A sheet of 2 mm: the nodes of its upper and its lower side; your mesh goes here.
+static ph::mesh::surface sheet() {
+  std::vector<ph::mesh::triple> nodes;
+  std::vector<ph::mesh::triangle> triangles;
+  for (int side = 0; side < 2; ++side) {
+    const int first = 62 * side;
+    for (int i = 0; i <= 30; ++i) {
+      const double x = 0.004 * i - 0.06, z = 0.003 * std::cos(105 * x) - 0.002 * side;
+      for (const double y : {-0.06, 0.06}) nodes.push_back({x, y, z});
+    }
+    for (int i = first; i < first + 60; i += 2) {
+      triangles.push_back({i, i + 2, i + 3});
+      triangles.push_back({i, i + 3, i + 1});
+    }
+  }
+  return ph::mesh::surface(triangles, nodes);
+}
+`
+    : body
     ? `// The tissue: a ball of 16 tetrahedra; environment/msh_input.hpp reads a mesh of yours.
 static env::deformable_body tissue(env::ball(0.05), {.young = young, .poisson = 0.3},
                                    env::ball_fixed_nodes(), env::body_options{});
@@ -502,7 +546,9 @@ static std::array<plane, ${about.walls.length}> world(double${moves ? ' t' : ''}
 ${about.before ? `  ${about.before.replace('SLOPE', slope)}\n` : ''}  return {{${about.walls.map(w => w.replace('UP', up)).join(',\n           ')}}};
 }
 `;
-  const tells = body
+  const tells = mesh
+    ? '      // sheet.update(nodes), if they have moved'
+    : body
     ? `      tissue.update(handle.position(), handle_force);
       if (const auto& c = tissue.contact(); c.triangle >= 0)
         ${/contact_set/.test(text) ? 'touch.source().update(0, plane' : 'touch.update('}{.point = c.point, .normal = c.normal, .stiffness = c.stiffness});`
@@ -527,8 +573,9 @@ ${
     : guard
       ? 'touch.tick(sample, depth > 0 ? wall.stiffness * depth : 0.0).force'
       : 'touch.tick(sample).force';
-  const stored = `auto touch = ${layOut(made).replaceAll('\n', '\n  ')};`;
+  const stored = `${mesh ? 'const auto surface = sheet();\n  ' : ''}auto touch = ${layOut(made).replaceAll('\n', '\n  ')};`;
   const ofOthers = /energy_bounding|sector_bound|_tank|series_|reference_energy|position_modulation|nonlinear_coupling|_increment|_augmentation/;
+  const touched = mesh ? '  touch.source().touch(surface);\n' : '';
   const checked = pair ? 'touch.first.check()' : 'touch.check()';
   const why = pair
     ? '  // By hand, and wrong: each port spends the damping of the device, which is there once.\n'
@@ -542,7 +589,7 @@ ${ofOthers.test(stored) ? '#include <passive_haptics/published.hpp>\n' : ''}${
   body
     ? '#include <passive_haptics/environment/ball.hpp>\n#include <passive_haptics/environment/deformable_body.hpp>\n'
     : ''
-}${about.cable ? '#include <passive_haptics/compliant.hpp>\n#include <passive_haptics/simulation/compliant_device.hpp>\n' : ''}#include <passive_haptics/simulation/device.hpp>
+}${about.cable ? '#include <passive_haptics/compliant.hpp>\n#include <passive_haptics/simulation/compliant_device.hpp>\n' : ''}${mesh ? '#include <passive_haptics/mesh.hpp>\n' : ''}#include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/quiet.hpp>
 
 #include <algorithm>
@@ -551,12 +598,11 @@ ${ofOthers.test(stored) ? '#include <passive_haptics/published.hpp>\n' : ''}${
 #include <cstdio>
 #include <span>
 #include <utility>
-
+${mesh ? '#include <vector>\n' : ''}
 namespace ph = passive_haptics;
 namespace sim = ph::simulation;
 ${body ? 'namespace env = ph::environment;\n' : ''}using scene = ph::space<double, ${dof}>;
-using plane = ph::half_space<scene>;
-
+${mesh ? '' : 'using plane = ph::half_space<scene>;\n'}
 ${constants.join('\n')}
 
 ${byHand ? '' : '// Your device and your hand, as you may state them: docs/design/identification.md.\n'}${declared('device', device)}${declared('hand', hand)}
@@ -567,7 +613,7 @@ ${why}  ${stored}
     std::printf("%s = %g: %s is asked for\\n", fault.parameter, fault.value, fault.remedy);
     return 1;
   }
-  // A simulated device, and a hand that presses; your driver takes their place.
+${touched}  // A simulated device, and a hand that presses; your driver takes their place.
   sim::${about.cable ? 'compliant_' : ''}device<scene, sim::impedance_hand<scene>> handle(
       {.mass = mass, ${about.cable ? '.share = 0.1, .mode = mode, ' : ''}.damping = damping, .friction = friction, .force_limit = motors,
        .quantum = quantum, .start = ${about.start}, .latency = ${n(set.late)}},

@@ -153,7 +153,7 @@ const notice = page => page.locator('#notice').textContent();
   await close(page, 'problems and scenes');
 }
 
-// The article: twelve steps by its buttons, one slider each, and a link that brings a step back.
+// The article: thirteen steps by its buttons, one slider each, and a link that brings a step back.
 {
   const page = await open();
   const shown = () => page.locator('#heading').textContent();
@@ -164,7 +164,7 @@ const notice = page => page.locator('#notice').textContent();
   expect((await page.locator('#counted').getAttribute('aria-checked')) === 'true', 'and says so');
   expect(!(await page.locator('#knobs').isVisible()), 'the sliders are behind the lab');
   const seen = [];
-  for (let step = 1; step <= 12; ++step) {
+  for (let step = 1; step <= 13; ++step) {
     const heading = await shown();
     seen.push(heading);
     expect(heading.startsWith(`${step}. `), `step ${step}: ${heading}`);
@@ -172,11 +172,11 @@ const notice = page => page.locator('#notice').textContent();
     await page.locator('#slider input[type=range]').press('ArrowRight');
     await page.waitForTimeout(500);
     expect((await page.evaluate(() => window.page.ticks())) > 100, `${heading}: it runs`);
-    if (step < 12) await page.locator('#next').click();
+    if (step < 13) await page.locator('#next').click();
     await page.waitForTimeout(300);
   }
-  expect(new Set(seen).size === 12, 'twelve steps that differ');
-  expect(await page.locator('#next').isDisabled(), 'the twelfth is the last');
+  expect(new Set(seen).size === 13, 'thirteen steps that differ');
+  expect(await page.locator('#next').isDisabled(), 'the thirteenth is the last');
   await page.locator('#devices').selectOption({label: '3D Systems Touch'});
   expect(/Nobody has published/.test(await notice(page)), `what is not known: ${await notice(page)}`);
   expect((await page.locator('#step_mass').inputValue()) === '0.045', 'its mass is taken');
@@ -191,7 +191,7 @@ const notice = page => page.locator('#notice').textContent();
     expect(sentence.test(await notice(page)), `${text}: ${await notice(page)}`);
   }
   await page.locator('#back').click();
-  await page.waitForFunction(() => document.getElementById('heading').textContent.startsWith('11.'));
+  await page.waitForFunction(() => document.getElementById('heading').textContent.startsWith('12.'));
   expect(
     /✗ strict: you told 0 ticks late, it is 2/.test(await page.locator('.side.left .promise').textContent()),
     `a promise without its assumption: ${await page.locator('.side.left .promise').textContent()}`
@@ -200,7 +200,7 @@ const notice = page => page.locator('#notice').textContent();
   const hash = await page.evaluate(() => location.hash);
   await close(page, 'the article');
   const again = await open(hash);
-  expect((await again.locator('#heading').textContent()).startsWith('11. '), `the link brings the step back: ${hash}`);
+  expect((await again.locator('#heading').textContent()).startsWith('12. '), `the link brings the step back: ${hash}`);
   expect((await again.locator('#step_late').inputValue()) === '2', 'and its slider');
   await close(again, 'a link to a step');
 }
@@ -348,7 +348,7 @@ for (const [what, script, sentence] of [
   );
   await page.locator('#listen').click();
   const said = [];
-  for (let step = 1; step <= 12; ++step) {
+  for (let step = 1; step <= 13; ++step) {
     const claims = /Listen:/.test(await page.locator('#says').textContent()),
       heading = await page.locator('#heading').textContent();
     if (claims || /rubs/.test(heading)) {
@@ -372,7 +372,7 @@ for (const [what, script, sentence] of [
         `${heading}: the left is ${left.toFixed(1)} dB, the right ${right.toFixed(1)} dB`
       );
     }
-    if (step < 12) await page.locator('#next').click();
+    if (step < 13) await page.locator('#next').click();
     await page.waitForTimeout(300);
   }
   expect(said.length === 6, `five steps are heard, and one is the control: ${said}`);
