@@ -97,6 +97,7 @@ settings parse(const std::vector<std::string>& arguments) {
        ex::a_text("--read FILE", "show what was kept, and measure nothing", chosen.read),
        ex::a_number("--study", "devices drawn at random: how often do the bounds hold?",
                     chosen.study),
+       ex::a_number("--disturbed", "devices with something wrong: is it found?", chosen.disturbed),
        ex::a_number("--seed", "of the first of them (default: 1)", chosen.seed),
        ex::a_text("--out DIR", "where the study goes (default: identify)", chosen.out),
        ex::a_number("--threads", "(default: as many as the machine has)", chosen.threads)},
@@ -112,6 +113,7 @@ settings parse(const std::vector<std::string>& arguments) {
 int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop) {
   return ex::guarded("identify", [&] {
     const settings chosen = parse(arguments);
+    if (chosen.disturbed > 0) return run_disturbed(chosen, stop);
     if (chosen.study > 0) return run_study(chosen, stop);
     if (!chosen.read.empty()) return show_file(chosen.read, chosen.json);
     return identify_simulated(chosen, stop);

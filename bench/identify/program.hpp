@@ -3,7 +3,7 @@
 // The program, apart from main(), so that a test can run it.
 
 #include "../common/rows.hpp"
-#include "subject.hpp"
+#include "disturbed.hpp"
 
 namespace identify {
 
@@ -17,6 +17,7 @@ struct settings {
   std::string read;              ///< a file to read instead
   std::string out = "identify";  ///< folder of the study
   int study = 0;                 ///< devices; 0: no study
+  int disturbed = 0;             ///< devices with something wrong; 0: none
   int seed = 1;                  ///< of the first of them
   int threads = 0;               ///< 0: as many as the machine has
   identification::identification_parameters how{};
@@ -32,7 +33,11 @@ struct settings {
 /// A device of the study as a row of its table.
 [[nodiscard]] ex::record record_of(const verdict& v);
 
+[[nodiscard]] ex::record record_of(const disturbed_verdict& v);
+
 /// The study, into a folder: a row for each device and a summary.
 [[nodiscard]] int run_study(const settings& chosen, const std::atomic<bool>& stop);
+/// The same on devices with something wrong.
+[[nodiscard]] int run_disturbed(const settings& chosen, const std::atomic<bool>& stop);
 
 }  // namespace identify

@@ -79,7 +79,7 @@ TEST_CASE("a file is refused with the line, what stands there and what is wanted
     CHECK(loaded.fault.find(second) != std::string::npos);
     CHECK(loaded.found.axes[0].mass == 0.0);  // nothing of it counts
   };
-  refused(with("identification 1", "identification 2"), "it.txt:1:", "identification 1");
+  refused(with("identification 2", "identification 1"), "it.txt:1:", "identification 2");
   refused(with("axes = 2", "axes = 3"), "it.txt:3: \"axes = 3\"", "axes = 2");
   refused(line_changed("mass_at_least", [](auto&) { return "mass_at_least = nan kg"; }),
           "it.txt:6: \"mass_at_least = nan kg\"", "finite number");

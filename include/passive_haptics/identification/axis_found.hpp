@@ -6,6 +6,7 @@
 // numbers that reduce the credit are upper bounds: presliding, step, noise, latency and the longest tick.
 
 #include <passive_haptics/design/stiffness_budget.hpp>
+#include <passive_haptics/identification/disturbance.hpp>
 #include <passive_haptics/identification/trust.hpp>
 
 #include <array>
@@ -19,7 +20,7 @@ namespace identification {
 /// One axis, in SI units; for a joint in radians and newton metres. If `problem` is not null, no other member
 /// counts.
 struct axis_found {
-  double mass = 0.0;            ///< lower bound of m [kg]
+  double mass = 0.0;            ///< lower bound of m, all that moves [kg]
   double damping = 0.0;         ///< lower bound of b, both ways [N·s/m]; 0: not found
   double damping_max = 0.0;     ///< upper bound of b [N·s/m]
   double friction = 0.0;        ///< lower bound of c, anywhere on the stroke [N]; 0: not found
@@ -39,8 +40,16 @@ struct axis_found {
   double uneven = 0.0;     ///< share by which friction varies along the way, 0 to 1
   double creep = 0.0;      ///< share of the least friction up to which no creep is assumed, 0 to 1
 
+  /// Lower bound of what moves rigidly with the encoder [kg]: below `mass` by the mode that was found, or by one of up to
+  /// 400 Hz that the steps could hide; 0: not known, `mass` then.
+  double rotor = 0.0;
+  disturbances_found wrong{};  ///< what was found wrong, by name
+
   const char* remark = nullptr;   ///< reason why friction was not found, or null
   const char* problem = nullptr;  ///< reason why nothing was found, or null
+
+  /// The mass that a composition may rest on [kg].
+  [[nodiscard]] double moves_rigidly() const noexcept { return rotor > 0.0 ? rotor : mass; }
 };
 
 /// All axes of a device, each measured by itself.
@@ -61,7 +70,7 @@ struct device_found {
   /// The bounds that hold in every direction: the least mass, damping and friction, the latter two less the drift, the
   /// presliding √Σ p², as deflections add, or 0 without friction, and 1.2 times the longest tick seen.
   [[nodiscard]] encoder_device stated() const noexcept {
-    encoder_device d{.mass = axes[0].mass,
+    encoder_device d{.mass = axes[0].moves_rigidly(),
                      .damping = axes[0].damping,
                      .friction = axes[0].friction,
                      .force_limit = force_limit,
@@ -69,7 +78,7 @@ struct device_found {
                      .latency = latency()};
     double squares = 0.0;
     for (const axis_found& a : axes) {
-      d.mass = kernels::smaller(d.mass, a.mass);
+      d.mass = kernels::smaller(d.mass, a.moves_rigidly());
       d.damping = kernels::smaller(d.damping, a.damping);
       d.friction = kernels::smaller(d.friction, a.friction);
       d.quantum = kernels::larger(d.quantum, a.quantum + a.noise);

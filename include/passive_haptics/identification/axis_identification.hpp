@@ -11,6 +11,7 @@
 //   swing_experiment.hpp        to and fro across the stroke: mass, damping, friction in motion, load, latency
 //   break_away_experiment.hpp   a ramp of force until it slips, at several places: break-away force, presliding
 //   creep_experiment.hpp        a periodic force below break-away: the axis must not creep under it
+//   disturbance_search.hpp      what is wrong, from the ticks of the swing and of a second one at the end
 //   axis_record.hpp             position, velocity, ticks, steps and noise, missing samples
 //
 // This class runs them in order, and ends the identification on too few samples or beyond the workspace.
@@ -18,6 +19,7 @@
 #include <passive_haptics/base/seconds.hpp>
 #include <passive_haptics/identification/axis_found.hpp>
 #include <passive_haptics/identification/creep_experiment.hpp>
+#include <passive_haptics/identification/disturbance_search.hpp>
 #include <passive_haptics/identification/swing_experiment.hpp>
 
 #include <limits>
@@ -30,8 +32,9 @@ namespace identification {
 class axis_identification {
  public:
   /// `rounding` is the epsilon of the scalar of the positions.
+  /// It allocates the memory of kept ticks; the ticks themselves allocate nothing.
   explicit axis_identification(const identification_parameters& p = {},
-                               double rounding = std::numeric_limits<double>::epsilon()) noexcept
+                               double rounding = std::numeric_limits<double>::epsilon())
       : p_(p), record_(rounding), swing_(p) {
     if (p.check()) fail("a parameter is out of its range: ask identification_parameters::check()");
   }
@@ -49,10 +52,14 @@ class axis_identification {
           "stroke");
     }
     time_ += dt;
+    const bool keeps = keeps_tick();
+    if (keeps) kept_.sample(record_.x(), dt);
     double force = next();
     if (done()) force = 0.0;
     force = std::clamp(force, -p_.force, p_.force);
     record_.commanded(force);
+    if (keeps) kept_.commanded(force);
+    if (!keeps) kept_.leave_out(dt);
     return force;
   }
   /// Deleted: a bare number as the length could as well be a position.
@@ -66,10 +73,12 @@ class axis_identification {
     if (done()) return 0.0;
     record_.interrupt();
     swing_.interrupt();
+    kept_.leave_out(0.0);
     return record_.too_few() ? fail("the device gave too few good samples") : 0.0;
   }
   /// Ends the identification: the force is 0 from now on.
   void stop() noexcept {
+    stopped_ = !done();
     if (!done()) fail("it was stopped before the end");
   }
 
@@ -78,12 +87,27 @@ class axis_identification {
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
   [[nodiscard]] double time() const noexcept { return time_; }  ///< sum of its ticks [s]
 
-  [[nodiscard]] axis_found result() const noexcept {
+  /// The result. It allocates, and takes some tenths of a second where it searches for what is wrong.
+  [[nodiscard]] axis_found result() const {
     axis_found found;
     found.problem = problem_ != nullptr ? problem_ : done() ? nullptr : "it is not at its end";
+    if (!done() || stopped_ || !(swing_.force() > 0.0)) return found;
+    disturbance_search search(kept_.ticks(), swing_.found().latency, record_.step(), p_.stroke,
+                              swing_.force());
+    found.wrong = search.conclude();
+    if (found.problem != nullptr && found.wrong.of(disturbance::mode).found) {
+      found.problem =
+          "the transmission between motor and handle rings too low: stiffen it, or take the handle "
+          "off";
+    }
+    if (const char* why = found.wrong.refusal()) found.problem = why;
     if (found.problem != nullptr) return found;
     swing_.state(found);
     record_.state(found);
+    if (found.wrong.mass > 0.0) {
+      found.rotor = kernels::smaller(found.mass, p_.trust.margin * found.wrong.mass) /
+                    (1.0 + found.wrong.yields);
+    }
     found.remark = break_away_->problem();
     if (creep_) found.remark = creep_->problem();
     if (found.remark != nullptr) return found;
@@ -98,11 +122,16 @@ class axis_identification {
     done_ = true;
     return 0.0;
   }
+  /// True in the ticks that disturbance_search.hpp is to see.
+  [[nodiscard]] bool keeps_tick() const noexcept {
+    return again_ || (!break_away_ && swing_.settles_or_shakes());
+  }
   /// The force [N] of the present experiment; where that ends, the next one begins.
   double next() noexcept {
+    if (again_) return shake_again();
     if (creep_) {
       const double force = creep_->tick(record_);
-      done_ = creep_->done();
+      if (creep_->done()) begin_again();
       return force;
     }
     if (break_away_) {
@@ -117,23 +146,40 @@ class axis_identification {
   }
   void begin_break_away() noexcept {
     break_away_.emplace(p_, swing_.found(), swing_.relay(), swing_.force());
-    done_ = break_away_->done();
+    if (break_away_->done()) begin_again();
   }
   void begin_creep() noexcept {
-    done_ = break_away_->problem() != nullptr;
-    if (done_) return;
+    if (break_away_->problem() != nullptr) return begin_again();
     creep_.emplace(p_, swing_.found(), break_away_->ramps(), break_away_->parked(), record_.step());
-    done_ = creep_->done();
+    if (creep_->done()) begin_again();
+  }
+  /// Shakes it once more, to see whether it has changed meanwhile.
+  void begin_again() noexcept {
+    again_.emplace(swing_.relay());
+    again_->restart(record_.x());
+    shaking_ = shaken_relay(swing_.force(), p_.force);
+    again_since_ = time_;
+  }
+  double shake_again() noexcept {
+    if (time_ - again_since_ >= lasts_again) {
+      done_ = true;
+      return 0.0;
+    }
+    return shaking_.tick(record_, *again_, p_.stroke);
   }
 
+  static constexpr double lasts_again = 2.5;  // [s]
   identification_parameters p_;
   axis_record record_;
   swing_experiment swing_;
   std::optional<break_away_experiment> break_away_;
   std::optional<creep_experiment> creep_;
+  motion_record kept_;
+  std::optional<eased_relay> again_;
+  shaken_relay shaking_{};
   const char* problem_ = nullptr;
-  bool done_ = false;
-  double time_ = 0.0;
+  bool done_ = false, stopped_ = false;
+  double time_ = 0.0, again_since_ = 0.0;
 };
 
 }  // namespace identification

@@ -2,7 +2,7 @@
 #pragma once
 // The result of an identification as a text file for people and programs:
 //
-//     passive_haptics identification 1
+//     passive_haptics identification 2
 //     device = Falcon
 //     axes = 1
 //     force_limit = 3 N
@@ -31,7 +31,7 @@ namespace identification {
 
 namespace detail {
 
-inline constexpr const char* file_heading = "passive_haptics identification 1";
+inline constexpr const char* file_heading = "passive_haptics identification 2";
 
 /// A number of an axis in the file.
 struct file_entry {
@@ -61,7 +61,8 @@ inline constexpr file_entry file_entries[] = {{"mass_at_least", "kg"},
                                               {"load", "N", true},
                                               {"explained", "of 1"},
                                               {"uneven", "of 1"},
-                                              {"creep", "of 1"}};
+                                              {"creep", "of 1"},
+                                              {"rotor_at_least", "kg"}};
 inline constexpr std::size_t file_numbers = sizeof file_entries / sizeof file_entries[0];
 using numbers = std::array<double, file_numbers>;
 
@@ -88,7 +89,8 @@ using numbers = std::array<double, file_numbers>;
           a.load,
           a.explained,
           a.uneven,
-          a.creep};
+          a.creep,
+          a.rotor};
 }
 [[nodiscard]] inline axis_found axis_of(const numbers& n) noexcept {
   axis_found a{.mass = n[0],
@@ -114,6 +116,7 @@ using numbers = std::array<double, file_numbers>;
   a.explained = n[20];
   a.uneven = n[21];
   a.creep = n[22];
+  a.rotor = n[23];
   return a;
 }
 

@@ -4,12 +4,17 @@
 //
 // The force pushes across the middle and then brakes. The point of change-over moves by 0.4 of the distance by
 // which the last turn fell short of the stroke, so friction, load and latency need not be known.
+//
+// A relay excites an axis at the frequency of its swing only. So a shaken one adds blocks + − − +, their elements 1 to 16
+// ticks long and of a height that falls with the square root of the length: a block neither pushes nor moves the axis
+// on balance, and all of them together have power from 15 Hz to half the rate of the loop.
 
 #include <passive_haptics/base/kernels.hpp>
 #include <passive_haptics/identification/axis_record.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -105,6 +110,54 @@ class eased_relay {
   relay_motion relay_;
   double force_, stroke_, friction_ = 0.0, load_ = 0.0;
   int eased_at_ = 0;  // sweep of the last change of force
+};
+
+/// The sequence of blocks, each value between −1 and 1.
+class block_sequence {
+ public:
+  double tick() noexcept {
+    constexpr int lengths[]{1, 1, 2, 3, 4, 6, 8, 12, 16};
+    constexpr double heights[]{1.0, 1.0, 0.707, 0.577, 0.5, 0.408, 0.354, 0.289, 0.25};
+    if (left_ == 0) {
+      which_ = static_cast<int>(draw() % 9);
+      sign_ = draw() % 2 == 0 ? 1.0 : -1.0;
+      left_ = 4 * lengths[which_];
+    }
+    const int part = (4 * lengths[which_] - left_) / lengths[which_];
+    --left_;
+    return (part == 0 || part == 3 ? sign_ : -sign_) * heights[which_];
+  }
+
+ private:
+  /// A linear congruential generator (Knuth's MMIX), so that every run is the same.
+  std::uint32_t draw() noexcept {
+    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<std::uint32_t>(state_ >> 33);
+  }
+  std::uint64_t state_ = 1;
+  int which_ = 0, left_ = 0;
+  double sign_ = 1.0;
+};
+
+/// A relay with blocks on top. The relay takes at most 0.6 of the force allowed, and a block no more than the relay.
+class shaken_relay {
+ public:
+  shaken_relay() noexcept = default;
+  /// For sweeps with `force`, of at most `most` [N].
+  shaken_relay(double force, double most) noexcept
+      : most_(most),
+        swing_((std::min)(force, 0.6 * most)),
+        height_((std::min)(swing_, most - swing_)) {}
+
+  /// The force of the next tick [N].
+  double tick(const axis_record& seen, eased_relay& relay, double amplitude) noexcept {
+    const double force = relay.tick(seen, amplitude, swing_) + height_ * blocks_.tick();
+    return std::clamp(force, -most_, most_);  // the relay comes down step by step
+  }
+
+ private:
+  double most_ = 0.0, swing_ = 0.0, height_ = 0.0;
+  block_sequence blocks_;
 };
 
 }  // namespace identification

@@ -6,6 +6,7 @@
 //     m ẍ = f(t − d) − b± ẋ − c sgn ẋ + w − k (x − x₀)            motion_regression.hpp
 //
 //   settle   at least 1 s and 12 sweeps with the largest force allowed, until both turns are beyond half the stroke
+//   shake    shake_time with the same force and a sequence of blocks on top, for disturbance_search.hpp
 //   sweep    sweep_time with a force of at most that, and of the largest of
 //                3 |w| + 2.5 c             so that load and friction do not stop it
 //                2 m stroke/(40 ms)²       so that it gets across in some tens of milliseconds
@@ -17,6 +18,7 @@
 // the jackknife (Miller, 1974) and 5 % away from the estimate (trust.hpp).
 
 #include <passive_haptics/identification/measure_latency.hpp>
+#include <passive_haptics/identification/motion_record.hpp>
 #include <passive_haptics/identification/motion_regression.hpp>
 #include <passive_haptics/identification/parameters.hpp>
 #include <passive_haptics/identification/relay_motion.hpp>
@@ -40,7 +42,9 @@ class swing_experiment {
     phase_.lasts(seen.dt());
     regression_.sample(seen.x(), seen.dt());
     clock_.book(seen.samples(), seen.position());
-    const double force = phase_ == phase::settle ? settle(seen) : sweep(seen);
+    const double force = phase_ == phase::settle  ? settle(seen)
+                         : phase_ == phase::shake ? shake(seen)
+                                                  : sweep(seen);
     regression_.commanded(force);
     return force;
   }
@@ -48,6 +52,10 @@ class swing_experiment {
   void interrupt() noexcept { regression_.interrupt(); }
 
   [[nodiscard]] bool done() const noexcept { return phase_ == phase::done; }
+  /// True until the last tick that disturbance_search.hpp is to see.
+  [[nodiscard]] bool settles_or_shakes() const noexcept {
+    return phase_ == phase::settle || phase_ == phase::shake;
+  }
   /// A sentence that says why nothing was found; null if something was, or may be yet.
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
   /// The result, once it is done().
@@ -75,7 +83,7 @@ class swing_experiment {
   }
 
  private:
-  enum class phase : std::uint8_t { settle, sweep, done };
+  enum class phase : std::uint8_t { settle, shake, sweep, done };
   static constexpr double slowest = 0.03;  // least speed of the windows that count [m/s]
 
   double fail(const char* why) noexcept {
@@ -122,8 +130,13 @@ class swing_experiment {
     }
     relay_.expect(first.friction.value, first.load.value);
     regression_.clear();
-    phase_.enter(phase::sweep);
+    shaking_ = shaken_relay(force_, p_.force);
+    phase_.enter(phase::shake);
     return force;
+  }
+  double shake(const axis_record& seen) noexcept {
+    if (turned() && phase_.lasted() >= p_.shake_time) phase_.enter(phase::sweep);
+    return shaking_.tick(seen, relay_, p_.stroke);
   }
   double sweep(const axis_record& seen) noexcept {
     const int sweeps = relay_.sweeps();
@@ -172,6 +185,7 @@ class swing_experiment {
 
   identification_parameters p_;
   eased_relay relay_;
+  shaken_relay shaking_{};
   motion_regression regression_;
   passive_haptics::detail::sensor_clock clock_;
   timed_phase<phase> phase_{phase::settle};

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is wrong with devices drawn at random: how often is it found by name, and how often is a name false?
+#include "../common/median.hpp"
+#include "disturbed.hpp"
+#include "program.hpp"
+
+namespace identify {
+
+namespace {
+
+constexpr std::array kinds{disturbance::hand,     disturbance::mode,   disturbance::backlash,
+                           disturbance::fraction, disturbance::filter, disturbance::cogging,
+                           disturbance::drift};
+
+/// A line of the summary: of those that have it, how many are named, or refused at all.
+struct line_of_kind {
+  std::string kind;
+  int drawn = 0, named = 0, answered = 0, safe = 0;
+  int without = 0, alarms = 0;
+};
+ex::record record_of(const line_of_kind& l) {
+  return {{"disturbance", l.kind},    {"drawn", l.drawn},         {"named", l.named},
+          {"or refused", l.answered}, {"or bounds hold", l.safe}, {"without it", l.without},
+          {"false alarms", l.alarms}};
+}
+bool holds(const disturbed_verdict& v) {
+  return v.mass() && v.damping() && v.friction();
+}
+
+std::vector<line_of_kind> summary_of(const std::vector<disturbed_verdict>& all) {
+  std::vector<line_of_kind> lines;
+  for (const auto kind : kinds) {
+    line_of_kind l{.kind = to_string(kind)};
+    for (const auto& v : all) {
+      if (v.truth.is(kind)) {
+        ++l.drawn;
+        l.named += v.names(kind) ? 1 : 0;
+        l.answered += v.names(kind) || v.refused() ? 1 : 0;
+        l.safe += v.names(kind) || v.refused() || holds(v) ? 1 : 0;
+      } else if (!v.has(kind)) {
+        ++l.without;
+        l.alarms += v.found.wrong.of(kind).found ? 1 : 0;
+      }
+    }
+    lines.push_back(l);
+  }
+  return lines;
+}
+struct line_of_bound {
+  std::string bound;
+  int stated = 0, above = 0;
+};
+ex::record record_of(const line_of_bound& l) {
+  return {{"lower bound", l.bound}, {"stated", l.stated}, {"above the truth", l.above}};
+}
+
+}  // namespace
+
+ex::record record_of(const disturbed_verdict& v) {
+  std::string has, named;
+  for (const auto kind : kinds) {
+    if (v.truth.is(kind)) has += (has.empty() ? "" : ", ") + std::string(to_string(kind));
+    if (v.found.wrong.of(kind).found) {
+      named += (named.empty() ? "" : ", ") + std::string(to_string(kind));
+    }
+  }
+  const subject& s = v.truth.rigid;
+  const wrongs& w = v.truth.has;
+  const auto& f = v.found;
+  return {{"seed", static_cast<int>(s.seed)},
+          {"has", has},
+          {"named", named},
+          {"problem", std::string(f.problem != nullptr ? f.problem : "")},
+          {"mass_kg", s.mass},
+          {"rotor_kg", v.truth.rotor()},
+          {"rotor_at_least", f.moves_rigidly()},
+          {"damping", s.damping},
+          {"damping_at_least", f.damping},
+          {"friction_N", s.friction},
+          {"friction_at_least", f.friction},
+          {"friction_like", to_string(s.like)},
+          {"presliding_um", 1e6 * s.presliding},
+          {"quantum_um", 1e6 * s.quantum},
+          {"latency", s.latency},
+          {"mode_Hz", w.mode},
+          {"mode_found", f.wrong.of(disturbance::mode).size},
+          {"gap_um", 1e6 * w.gap},
+          {"fraction", w.fraction},
+          {"lag_ms", 1e3 * w.lag},
+          {"cogging_N", w.cogging},
+          {"wavelength_mm", 1e3 * w.wavelength},
+          {"warms", w.warms},
+          {"load_drift_N_per_s", w.load_drifts},
+          {"grip_N_per_m", w.grip},
+          {"bounds_hold", holds(v)},
+          {"seconds", v.seconds}};
+}
+
+int run_disturbed(const settings& chosen, const std::atomic<bool>& stop) {
+  ex::report report(chosen.out, {.json = "disturbed.json", .markdown = "disturbed.md"});
+  const ex::workshop shop{report, ex::threads_of(chosen.threads), stop};
+  std::vector<std::uint64_t> seeds;
+  for (int i = 0; i < chosen.disturbed; ++i) {
+    seeds.push_back(static_cast<std::uint64_t>(chosen.seed + i));
+  }
+  const auto all = shop.rows("disturbed.csv", "devices", seeds,
+                             [&](std::uint64_t seed) { return identified(draw_disturbed(seed)); });
+  const auto lines = summary_of(all);
+  std::vector<double> times;
+  int clean = 0, refused = 0;
+  line_of_bound mass{"mass that moves with the encoder"}, damping{"damping"}, friction{"friction"};
+  for (const auto& v : all) {
+    times.push_back(v.seconds);
+    bool any = false;
+    for (const auto kind : kinds) any = any || v.truth.is(kind);
+    clean += any ? 0 : 1;
+    refused += !any && v.refused() ? 1 : 0;
+    if (v.refused()) continue;
+    for (auto* l : {&mass, &damping, &friction}) ++l->stated;
+    mass.above += v.mass() ? 0 : 1;
+    damping.above += v.damping() ? 0 : 1;
+    friction.above += v.friction() ? 0 : 1;
+  }
+  report.section(
+      "What is wrong",
+      "Devices drawn at random, each wrong by itself in 12 of 100, so several at once. " +
+          ex::format("Each took %.0f s (median), ", ex::median(times)) +
+          ex::format("%.0f s at most. ", *std::max_element(times.begin(), times.end())) +
+          std::to_string(clean) + " have nothing wrong, of which " + std::to_string(refused) +
+          " were refused.");
+  ex::show_rows(report, "disturbances", lines);
+  const std::vector<line_of_bound> bounds{mass, damping, friction};
+  ex::show_rows(report, "lower bounds", bounds);
+  ex::failures found;
+  for (const auto& l : bounds) {
+    ex::expect(found, l.above == 0,
+               l.bound + ": above the truth on " + std::to_string(l.above) + " devices");
+  }
+  for (const auto& l : lines) {
+    ex::expect(
+        found, l.alarms * 50 <= l.without,
+        l.kind + ": " + std::to_string(l.alarms) + " false alarms of " + std::to_string(l.without));
+  }
+  return ex::conclude(report, "identify", "passive_haptics: what is wrong with a device",
+                      "Devices with hands, modes, backlash, late and filtered forces, cogging and "
+                      "drift: how often each is found.",
+                      found);
+}
+
+}  // namespace identify

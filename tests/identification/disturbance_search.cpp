@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is wrong with a device is found by name, and nothing is found where nothing is wrong.
+#include "support/catch.hpp"
+#include <passive_haptics/device/eigen_space.hpp>
+#include <passive_haptics/identification/axis_identification.hpp>
+#include <passive_haptics/simulation/compliant_device.hpp>
+#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/friction.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace ph = passive_haptics;
+namespace sim = ph::simulation;
+using namespace ph::identification;
+using d1 = ph::space<double, 1>;
+
+namespace {
+
+const sim::device_parameters<d1> grip{
+    .mass = 0.1, .damping = 0.3, .quantum = 10e-6, .load = 0.2, .latency = 1};
+const sim::slider_and_spring rubs{.level = {0.2}, .presliding = {15e-6}};
+
+/// pass(force) is what the motor gets of a command.
+axis_found identified(auto&& device, auto pass) {
+  axis_identification of;
+  double force = 0.0;
+  while (!of.done()) {
+    const auto sample = device.exchange(pass(force));
+    force = of.tick(sample.position, ph::seconds{sample.dt});
+  }
+  return of.result();
+}
+axis_found identified(auto&& device) {
+  return identified(device, [](double f) { return f; });
+}
+int names(const axis_found& found) {
+  int count = 0;
+  for (const suspicion& s : found.wrong.all) count += s.found ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("nothing is found wrong with a device that is as it should be", "[identification]") {
+  const auto found =
+      identified(sim::device<d1, sim::no_hand<d1>, sim::slider_and_spring>(grip, {}, rubs));
+  REQUIRE(found.problem == nullptr);
+  CHECK(names(found) == 0);
+  CHECK(found.rotor <= 0.1);
+  CHECK(found.rotor > 0.07);
+}
+
+TEST_CASE("a mode is found with its frequency, and what moves with the encoder is stated",
+          "[identification]") {
+  for (const double hz : {200.0, 300.0}) {
+    CAPTURE(hz);
+    const auto found = identified(sim::compliant_device<d1>({.mass = 0.2,
+                                                             .share = 0.4,
+                                                             .mode = hz,
+                                                             .damping = 0.3,
+                                                             .friction = 0.1,
+                                                             .quantum = 5e-6,
+                                                             .latency = 1}));
+    const suspicion& mode = found.wrong.of(disturbance::mode);
+    REQUIRE(found.problem == nullptr);
+    REQUIRE(mode.found);
+    CHECK(std::abs(mode.size - hz) < 0.05 * hz);
+    CHECK(std::abs(mode.where - 0.4) < 0.08);
+    CHECK(found.rotor <= 0.08);
+    CHECK(found.rotor > 0.05);
+    CHECK(found.mass > 0.08);  // the control: all that moves is more
+    CHECK(names(found) == 1);
+  }
+}
+
+TEST_CASE("a mode that spoils the swing is refused by name", "[identification]") {
+  const auto found = identified(sim::compliant_device<d1>(
+      {.mass = 0.2, .share = 0.4, .mode = 25.0, .damping = 0.3, .friction = 0.1, .quantum = 5e-6}));
+  REQUIRE(found.problem != nullptr);
+  CHECK(std::string(found.problem).find("rings") != std::string::npos);
+  CHECK(std::abs(found.wrong.of(disturbance::mode).size - 25.0) < 1.5);
+}
+
+TEST_CASE("a hand that holds lightly is refused by name", "[identification]") {
+  using held = sim::device<d1, sim::impedance_hand<d1>, sim::slider_and_spring>;
+  const auto found =
+      identified(held(grip, {.stiffness = 15.0, .damping = 1.0, .own_mass = 0.05}, rubs));
+  REQUIRE(found.problem != nullptr);
+  CHECK(std::string(found.problem) == refusal_of(disturbance::hand));
+}
+
+TEST_CASE("a force that is filtered on its way is refused by name", "[identification]") {
+  double held = 0.0;
+  const auto found = identified(
+      sim::device<d1, sim::no_hand<d1>, sim::slider_and_spring>(grip, {}, rubs), [&](double f) {
+        held += (f - held) * (1.0 - std::exp(-0.5));
+        return held;
+      });
+  REQUIRE(found.problem != nullptr);
+  CHECK(std::string(found.problem) == refusal_of(disturbance::filter));
+  // Held for each tick, it is late by 1.54 ticks on average in place of the 2 of a continuous one.
+  const double lag = found.wrong.of(disturbance::filter).size;
+  CHECK(lag > 1.3e-3);
+  CHECK(lag < 2.2e-3);
+}
