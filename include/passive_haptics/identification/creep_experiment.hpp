@@ -8,8 +8,8 @@
 //         0.95 (1 − 1.25 r) c         friction in motion, r being the share by which it varies    [N]
 //         the least break-away        force of any ramp                                           [N]
 //
-// with s the highest of seven levels from 1 to 0.25 at which the mean positions over some cycles at the beginning and at
-// the end agree to within 1.05 steps: the highest level is tried first, then the others by bisection. ν is a quarter of the frequency 1/(2π √(m C)) of the mass m on a spring of friction's
+// with s falling in seven levels from 1 to 0.25, until the mean positions over some cycles at the beginning and at the
+// end agree to within 1.05 steps. ν is a quarter of the frequency 1/(2π √(m C)) of the mass m on a spring of friction's
 // compliance C, and at most 50 Hz.
 //
 // Dupont's friction creeps above 0.6 of the force at which it slips, by about 3.2 (s − 0.6)³ p [m] in a cycle. If that
@@ -113,10 +113,10 @@ class creep_experiment {
   void conclude_level(const axis_record& seen, bool gone) noexcept {
     const double crept = kernels::magnitude(last_.mean() - first_.mean());
     const bool creeps = gone || crept > 1.05 * seen.step() + 1e-7;
-    (creeps ? failed_ : passed_) = level_;
-    const int lowest = passed_ < 0 ? static_cast<int>(levels.size()) : passed_;
-    level_ = (failed_ + lowest) / 2;
-    if (lowest - failed_ <= 1) {
+    if (!creeps) {
+      passed_ = level_;
+      phase_.enter(phase::done);
+    } else if (++level_ >= static_cast<int>(levels.size())) {
       phase_.enter(phase::done);
     } else if (gone) {
       parking_.begin_here(seen);
@@ -140,7 +140,7 @@ class creep_experiment {
   timed_phase<phase> phase_{phase::cycle};
   const char* problem_ = nullptr;
   double frequency_ = 0.0, begun_at_ = 0.0;
-  int level_ = 0, passed_ = -1, failed_ = -1, cycles_ = 0;
+  int level_ = 0, passed_ = -1, cycles_ = 0;
   mean_of first_, last_;
 };
 

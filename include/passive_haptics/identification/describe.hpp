@@ -48,12 +48,51 @@ template <class... Numbers>
 
 }  // namespace detail
 
+/// What is wrong with an axis, a line each.
+[[nodiscard]] inline std::string wrongs_of(const axis_found& a) {
+  using detail::text;
+  std::string all;
+  for (std::size_t i = 0; i < disturbances; ++i) {
+    const suspicion& s = a.wrong.all[i];
+    const auto what = static_cast<disturbance>(i);
+    if (!s.found) continue;
+    all += std::string("  found: ") + to_string(what);
+    switch (what) {
+      case disturbance::hand:
+        all += text(" of %.0f N/m", s.size);
+        break;
+      case disturbance::mode:
+        all += text(" at %.0f Hz; %.0f %% of the mass moves with the encoder", s.size,
+                    100.0 * s.where);
+        break;
+      case disturbance::backlash:
+        all += text(" of %.0f µm", 1e6 * s.size);
+        break;
+      case disturbance::fraction:
+        all += text(": the force is %.2f ticks late", s.size);
+        break;
+      case disturbance::filter:
+        all += text(" of %.2f ms", 1e3 * s.size);
+        break;
+      case disturbance::cogging:
+        all += text(" of %.3f N every %.2f mm", s.size, 1e3 * s.where);
+        break;
+      case disturbance::drift:
+        all += text(" by %.0f %% of the force of a sweep", 100.0 * s.size);
+        break;
+    }
+    all += text(" (%.0f deviations from none)\n", s.sure);
+  }
+  return all;
+}
+
 /// A table with one line for each number of an axis.
 [[nodiscard]] inline std::string table_of(const axis_found& a) {
   using detail::text;
-  if (a.problem != nullptr) return std::string("  ") + a.problem + '\n';
+  if (a.problem != nullptr) return std::string("  ") + a.problem + '\n' + wrongs_of(a);
   std::string all;
   all += text("  mass                 at least %8.3f kg      likely %.3f\n", a.mass, a.likely_mass);
+  if (a.rotor > 0.0) all += text("    with the encoder   at least %8.3f kg\n", a.rotor);
   all += a.damping > 0.0
              ? text("  damping              at least %8.3f N·s/m   likely %.3f, at most %.3f\n",
                     a.damping, a.likely_damping, a.damping_max)
@@ -78,7 +117,37 @@ template <class... Numbers>
   all += text("  longest tick seen    %.3f ms\n", 1e3 * a.longest_tick);
   all += text("  constant load        %.2f N; the motion is explained to %.2f %%\n", a.load,
               100.0 * a.explained);
-  return all;
+  return all + wrongs_of(a);
+}
+
+/// The number of which more certainty would buy most, and the stiffness of walls with its most likely value [N/m].
+struct certainty {
+  const char* number = "";
+  double stiffness = 0.0;
+};
+template <int Dof>
+[[nodiscard]] certainty worth_knowing(const device_found<Dof>& found,
+                                      const design::intended_use& use = {}) noexcept {
+  const design::stated_device stated = found.stated();
+  certainty best{"", design::stiffness_budget(stated, use).stiffness};
+  const auto ask = [&](const char* number, double design::stated_device::*which, double likely) {
+    design::stated_device d = stated;
+    d.*which = likely;
+    const double stiffness = likely > 0.0 ? design::stiffness_budget(d, use).stiffness : 0.0;
+    if (stiffness > best.stiffness) best = {number, stiffness};
+  };
+  axis_found least = found.axes[0];
+  for (const axis_found& a : found.axes) {
+    least.likely_mass = kernels::smaller(least.likely_mass, a.likely_mass);
+    least.likely_damping = kernels::smaller(least.likely_damping, a.likely_damping);
+    least.likely_friction = kernels::smaller(least.likely_friction, a.likely_friction);
+  }
+  ask("mass", &design::stated_device::mass, least.likely_mass);
+  ask("damping", &design::stated_device::damping, least.likely_damping * (1.0 - found.drift));
+  if (stated.friction > 0.0) {
+    ask("friction", &design::stated_device::friction, least.likely_friction * (1.0 - found.drift));
+  }
+  return best;
 }
 
 /// The composition with these bounds, as code to be pasted, and its stiffness budget.
@@ -132,6 +201,13 @@ template <int Dof>
   all += text("// Its ledger pays for walls of up to %.0f N/m: %s binds.\n", paid.stiffness,
               to_string(paid.binding));
   all += std::string("// ") + paid.because() + '\n';
+  const certainty best = worth_knowing(found, use);
+  if (best.stiffness > 1.01 * paid.stiffness) {
+    all += text(
+        "// Were its %s known exactly: up to %.0f N/m; a longer shake_time, sweep_time or stroke "
+        "tells more.\n",
+        best.number, best.stiffness);
+  }
   return all;
 }
 

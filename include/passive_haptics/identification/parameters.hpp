@@ -15,9 +15,9 @@ struct identification_parameters {
       8e-3;  ///< how far it swings to either side of its start [m]; a longer one is more accurate
   double workspace =
       40e-3;  ///< distance from its start [m], beyond which the force is zero for good
-  double sweep_time = 6.0;        ///< time of the swing for mass, damping, friction and latency [s]
+  double sweep_time = 8.0;        ///< time of the swing for mass, damping, friction and latency [s]
   double shake_time = 6.0;        ///< time of the motion that shows what is wrong [s]
-  int places = 5;                 ///< number of places where it is pushed until it slips
+  int places = 8;                 ///< number of places where it is pushed until it slips
   int creep_cycles = 150;         ///< cycles of a force below break-away, at each level tried
   identification::trust trust{};  ///< margins from the estimates to the bounds
 
