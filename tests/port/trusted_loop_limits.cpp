@@ -105,7 +105,7 @@ TEST_CASE("a number that is none gives no force in a trusted loop, and is soon o
   CHECK(fresh.tick(nan, ph::seconds{T}).force == 0.0);
   CHECK(fresh.tick(1e-4, ph::seconds{T}).what ==
         ph::event::rejected_sample);  // no motion from nowhere
-  CHECK(fresh.tick(1e-4, ph::seconds{T}).what == ph::event::started_inside);
+  CHECK(fresh.tick(1e-4, ph::seconds{T}).what == ph::event::nominal);
 }
 
 TEST_CASE("a late tick is booked as it was in a trusted loop, and not reported",

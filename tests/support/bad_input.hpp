@@ -152,13 +152,13 @@ void first_samples() {
                           ph::strict_bound{},
                           thesis_loop};
     CHECK(model.tick(bad, ph::seconds{T}).what == ph::event::rejected_sample);
-    CHECK(model.tick(here, ph::seconds{T}).what == ph::event::started_inside);
+    CHECK(model.tick(here, ph::seconds{T}).what == ph::event::nominal);
     const auto lies = model.tick(sample{.position = here, .held = bad, .dt = T, .valid = true});
     CHECK(lies.what == ph::event::rejected_sample);
     CHECK(lies.force == Space::zero());
     CHECK(model.tick(sample{}).what == ph::event::rejected_sample);
     CHECK(ph::kernels::is_finite(model.energy()));
-    CHECK(model.tick(here, ph::seconds{T}).what == ph::event::started_inside);
+    CHECK(model.tick(here, ph::seconds{T}).what == ph::event::nominal);
   }
 }
 
