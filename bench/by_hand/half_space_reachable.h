@@ -89,7 +89,5 @@ __attribute__((flatten)) static inline struct answer3 half_space_reachable_tick(
   }
   const vec3 force = mul3(desired, share);
   d->held = force;
-  const bool cut = !same3(force, desired);
-  if (cut && !(l->energy > 0)) what = cut_short(what, dot3(force, force) > 0, l->energy);
-  return reply3(force, depth, l->energy, what, cut);
+  return reply3(force, depth, l->energy, what, !same3(force, desired));
 }

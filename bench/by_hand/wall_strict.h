@@ -72,7 +72,5 @@ __attribute__((flatten)) static inline struct answer1 wall_strict_tick(struct wa
   const real desired = w->wall.normal * asked;
   const real force = desired * affordable(l->energy, outflow(l, desired * desired, T));
   d->held = force;
-  const bool cut = force != desired;
-  if (cut && !(l->energy > 0)) what = cut_short(what, force != 0, l->energy);
-  return reply1(force, depth, l->energy, what, cut);
+  return reply1(force, depth, l->energy, what, force != desired);
 }

@@ -49,7 +49,5 @@ __attribute__((flatten)) static inline struct answer1 wall_trusted_tick(struct w
   const real force =
       desired * affordable(l->energy, outflow(l, desired * desired, w->longest_tick));
   w->held = force;
-  const bool cut = force != desired;
-  if (cut && !(l->energy > 0)) what = cut_short(what, force != 0, l->energy);
-  return reply1(force, depth, l->energy, what, cut);
+  return reply1(force, depth, l->energy, what, force != desired);
 }

@@ -203,18 +203,7 @@ TEST_CASE("a start inside has an event and an explanation of its own, until some
   (void)pair.source().update(0.0);
   auto set = ph::make_contacts<d1>(grip, hand, ph::slots<ph::half_space<d1>, 2>{});
   set.source().update(0, wall(2000.0));
-  const auto stays = [](const auto& bound) {
-    return ph::local_model{d1{},
-                           ph::fixed{wall(2000.0)},
-                           ph::turn_at_once{},
-                           ph::damped_spring{.mass = 0.1},
-                           ph::reduced_energy{.damping = 0.1},
-                           bound,
-                           ph::loop_limits{.longest_tick = 1e-3}};
-  };
   for (const double start : {-2e-3, 2e-3}) {
-    says(stays(ph::strict_bound{}), start);
-    says(stays(ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}), start);
     says(touching(ph::make_touch<d1>(grip, hand)), start);
     says(touching(ph::make_touch<d1>(grip, ph::any_hand)), start);
     says(touching(ph::make_touch<d1>(steps, hand)), start);

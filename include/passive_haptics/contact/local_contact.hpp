@@ -290,15 +290,13 @@ class local_contact {
     const bool limited = detail::is_shaped<Law, Space> ? !(port.force == r.desired) : port.limited;
     scalar felt = r.felt;
     event what = port.what;
-    if (limited) {
-      if constexpr (Supply::moves) {
+    if constexpr (Supply::moves) {
+      if (limited) {
         felt = law_.depth(Space::dot(port.force, r.normal), r.outward_speed);
         if (!kernels::is_finite(felt)) felt = scalar(0);  // more than K d over a K next to nothing
+        if (!(felt > scalar(0))) [[unlikely]]
+          what = detail::cut_short(port);
       }
-      if (!((Supply::moves ? felt : port.energy) > scalar(0))) [[unlikely]]
-        what = detail::cut_short(port);
-    }
-    if constexpr (Supply::moves) {
       if (limited || r.following) {
         supply_.approach(r.in_local, r.here, r.normal, felt);
       } else {

@@ -319,7 +319,7 @@ namespace detail {
 template <class P>
 [[nodiscard]] constexpr event cut_short(const port_result<P>& port) noexcept {
   const bool nothing = !(port.energy > typename P::scalar(0)) && port.force == P::zero();
-  return nothing && port.what == event::nominal ? event::started_inside : port.what;
+  return nothing ? worse_yet(port.what, event::started_inside) : port.what;
 }
 /// Satisfied by the result of a source with the depth of a contact.
 template <class R>
