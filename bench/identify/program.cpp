@@ -53,7 +53,7 @@ int show_file(const std::string& file, const std::string& json) {
 int identify_simulated(const settings& chosen, const std::atomic<bool>& stop) {
   const auto& preset = *preset_of(chosen.device);
   std::cout << preset.name << ", simulated: up to " << chosen.how.force << " N, "
-            << 1e3 * chosen.how.stroke << " mm to either side of where it is, about a minute\n";
+            << 1e3 * chosen.how.stroke << " mm to either side of where it is, one to two minutes\n";
   const auto work = [&](auto device) {
     const auto found =
         identification::identify<line>(device, chosen.how, [&] { return stop.load(); });
