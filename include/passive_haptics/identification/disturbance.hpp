@@ -3,6 +3,8 @@
 // What may be wrong with a device while it is identified, by name, and the remedy.
 // disturbance_search.hpp finds it; docs/design/identification.md has the formulas.
 
+#include <passive_haptics/base/language.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -2,6 +2,8 @@
 #pragma once
 // The ticks in which the axis moves, kept for disturbance_search.hpp.
 
+#include <passive_haptics/base/language.hpp>
+
 #include <cstddef>
 #include <vector>
 
