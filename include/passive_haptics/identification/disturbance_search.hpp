@@ -107,7 +107,7 @@ class disturbance_search {
       ++count_;
       test(c);
       if (c.is == column_of::mode && c.p1 < 420.0)
-        hidden = std::max(hidden, c.g[0] + 4.0 * c.deviation);
+        hidden = (std::max)(hidden, c.g[0] + 4.0 * c.deviation);
       if (counts(c) && c.drop > best.drop) best = std::move(c);
     });
     yields = hidden;
@@ -130,7 +130,7 @@ class disturbance_search {
   /// Drops what does not count beside the others, the least sure first.
   void drop_what_others_explain() {
     while (!model_.empty()) {
-      const double left = std::max(y_.squaredNorm() - floor(), 0.0);
+      const double left = (std::max)(y_.squaredNorm() - floor(), 0.0);
       std::size_t worst = model_.size();
       double least = 1.0;
       for (std::size_t i = 0; i < model_.size(); ++i) {
@@ -230,7 +230,7 @@ class disturbance_search {
       tick_ += t.length / static_cast<double>(all);
       middle_ += t.x / static_cast<double>(all);
     }
-    const double slow = std::max(5e-3, step_ / (5.0 * tick_));
+    const double slow = (std::max)(5e-3, step_ / (5.0 * tick_));
     for (std::size_t n = 2; n + 3 < all; ++n) {
       speed_[n] = (ticks_[n + 3].x - ticks_[n - 2].x) / (5.0 * tick_);
       way_[n] = std::tanh(speed_[n] / slow);
@@ -273,7 +273,7 @@ class disturbance_search {
     int best = latency_;
     const int middle = latency_;
     double least = -1.0;
-    for (int d = std::max(middle - 1, 0); d <= middle + 1; ++d) {
+    for (int d = (std::max)(middle - 1, 0); d <= middle + 1; ++d) {
       latency_ = d;
       const double left = fit();
       if (least >= 0.0 && left >= least) continue;
@@ -403,7 +403,7 @@ class disturbance_search {
         return amplitude * mass_ > 0.02 * force_;
       case column_of::drift:
         return std::abs(g) * mass_ >
-               (c.p1 == 0.0 ? std::max(0.1 * friction_, 0.005) : 0.02 * force_);
+               (c.p1 == 0.0 ? (std::max)(0.1 * friction_, 0.005) : 0.02 * force_);
       case column_of::uneven:
         return true;
     }
@@ -473,13 +473,13 @@ class disturbance_search {
         if (k == 1) c.p1 /= 1.0 + first;
         if (k == 2) c.p2 = c.is == column_of::filter ? c.p2 + 1.0 : c.p2 * (1.0 + second);
         if (k == 3)
-          c.p2 = c.is == column_of::filter ? std::max(c.p2 - 1.0, 0.0) : c.p2 / (1.0 + second);
+          c.p2 = c.is == column_of::filter ? (std::max)(c.p2 - 1.0, 0.0) : c.p2 / (1.0 + second);
         if (k >= 2 && second == 0.0) continue;
         if (best.is == column_of::mode) {
           c.p1 = std::clamp(c.p1, 5.0, 500.0);
           c.p2 = std::clamp(c.p2, 0.002, 0.3);
         } else if (best.is == column_of::backlash) {
-          c.p2 = std::min(c.p2, 0.9);
+          c.p2 = (std::min)(c.p2, 0.9);
         }
         c.columns = columns_of(c);
         test(c);
@@ -506,7 +506,7 @@ class disturbance_search {
       case column_of::mode:
         s.size = c.p1;
         s.where = 1.0 / (1.0 + c.g[0]);
-        found.yields = std::max(found.yields, c.g[0] + 4.0 * c.deviation);
+        found.yields = (std::max)(found.yields, c.g[0] + 4.0 * c.deviation);
         break;
       case column_of::backlash:
         s.size = 2.0 * c.g[0] + c.p1;
@@ -586,7 +586,7 @@ class disturbance_search {
     std::vector<double> y(ticks_.size());
     double f = 0.0;
     for (std::size_t n = 0; n < ticks_.size(); ++n) {
-      const double h = std::max(ticks_[n].length, 1e-9), now = command(n, d),
+      const double h = (std::max)(ticks_[n].length, 1e-9), now = command(n, d),
                    e = std::exp(-h / lag);
       y[n] = now + (f - now) * lag / h * (1.0 - e);
       f = now + (f - now) * e;
