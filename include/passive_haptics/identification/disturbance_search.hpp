@@ -303,7 +303,7 @@ class disturbance_search {
     Eigen::MatrixXd A(rows_, static_cast<Eigen::Index>(all.size()));
     scale.clear();
     for (std::size_t i = 0; i < all.size(); ++i) {
-      scale.push_back(std::max(all[i].norm(), 1e-300));
+      scale.push_back((std::max)(all[i].norm(), 1e-300));
       A.col(static_cast<Eigen::Index>(i)) = all[i] / scale.back();
     }
     return A;
@@ -382,7 +382,7 @@ class disturbance_search {
     const Eigen::MatrixXd inverse = factors.solve(Eigen::MatrixXd::Identity(k, k));
     const Eigen::MatrixXd V = inverse * meat * inverse;
     c.wald = g.dot(V.ldlt().solve(g));
-    c.deviation = std::sqrt(std::max(V(0, 0), 0.0));
+    c.deviation = std::sqrt((std::max)(V(0, 0), 0.0));
     for (Eigen::Index i = 0; i < k; ++i) c.g[static_cast<std::size_t>(i)] = g(i);
   }
   /// True if it has the sign that it must have, and is large enough to matter.
