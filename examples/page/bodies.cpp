@@ -2,6 +2,7 @@
 // Bodies that give way, solved in the page: the soft ball of the thesis, and a slice of an organ.
 // By hand: a menu of all controllers, to be compared.
 #include "exports.hpp"
+#include "nothing_throws.hpp"
 #include <passive_haptics/environment/ball.hpp>
 #include <passive_haptics/environment/deformable_body.hpp>
 
@@ -9,18 +10,6 @@
 #include <cstdlib>
 #include <memory>
 #include <vector>
-
-#ifdef __wasm__
-// The meshes are sound, so nothing throws; a page could not catch it.
-extern "C" {
-void* __cxa_allocate_exception(unsigned long /*size*/) noexcept {
-  __builtin_trap();
-}
-void __cxa_throw(void* /*thrown*/, void* /*type*/, void* /*destroy*/) {
-  __builtin_trap();
-}
-}
-#endif
 
 namespace {
 

@@ -2,22 +2,11 @@
 // A sheet of triangles, 2 mm thin: pushed through where its nearest triangle is told, and not where the mesh is touched.
 // By hand: a menu of all controllers, to be compared.
 #include "exports.hpp"
+#include "nothing_throws.hpp"
 #include <passive_haptics/mesh.hpp>
 
 #include <cstdlib>
 #include <vector>
-
-#ifdef __wasm__
-// The mesh is sound, so nothing throws; a page could not catch it.
-extern "C" {
-void* __cxa_allocate_exception(unsigned long /*size*/) noexcept {
-  __builtin_trap();
-}
-void __cxa_throw(void* /*thrown*/, void* /*type*/, void* /*destroy*/) {
-  __builtin_trap();
-}
-}
-#endif
 
 namespace {
 

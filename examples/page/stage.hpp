@@ -229,7 +229,8 @@ struct device_in<Scene> {
   using type = typename Scene::device;
 };
 
-/// Scene is the world: what its surfaces are now, and what it publishes of them.
+/// Scene is the world: what its surfaces are now, and what it publishes of them, which is the same unless it has a
+/// publish() of its own.
 template <class Scene>
 class stage_of final : public stage {
  public:
@@ -255,7 +256,7 @@ class stage_of final : public stage {
     hand.begin(Scene::home);
     for (int i = 0; i < 2; ++i) {
       one& s = sides_[i];
-      s.world.restart(set);
+      if constexpr (requires { s.world.restart(set); }) s.world.restart(set);
       s.controller.let_go();
       s.controller = line(s.chosen).make(told(set));
       const sim::impedance_hand<Space> holding{.stiffness = set.hand_stiffness,
@@ -358,9 +359,16 @@ class stage_of final : public stage {
     if constexpr (Space::dof == 3) return {v(0), v(2)};
   }
 
+  [[nodiscard]] news told_by(one& s) const noexcept {
+    if constexpr (requires { s.world.publish(time, set, vector(s.body.position()), s.now.held); }) {
+      return s.world.publish(time, set, vector(s.body.position()), s.now.held);
+    } else {
+      return s.world.surfaces(time, set);
+    }
+  }
   void tick_of(one& s, record& record) noexcept {
     if (time >= s.next_news) {
-      s.network.send(s.world.publish(time, set, vector(s.body.position()), s.now.held), time);
+      s.network.send(told_by(s), time);
       s.next_news += 1 / set.rate;
       if (s.next_news < time) s.next_news = time;
     }

@@ -69,17 +69,12 @@ struct heaving {
                            LEDGER, HELD(REACHABLE), LIMITS}),
   };
 
-  void restart(const page::settings& /*set*/) noexcept {}
   [[nodiscard]] touch::news surfaces(double time, const page::settings& set) const noexcept {
     const double slope = set.tilt * page::wave(0.8 * time);
     const double length = std::sqrt(1 + slope * slope);
     return {{{.point = {0, set.heave * page::wave(1.1 * time)},
               .normal = {slope / length, 1 / length},
               .stiffness = set.stiffness}}};
-  }
-  [[nodiscard]] touch::news publish(double time, const page::settings& set, const scene::vector&,
-                                    const scene::vector&) const noexcept {
-    return surfaces(time, set);
   }
 };
 
@@ -99,6 +94,21 @@ struct heaving {
     scene{}, FOLLOWED, ph::turn_at_once{}, ph::spring{}, LEDGER, ph::strict_bound{}, LIMITS \
   }
 
+// In the corner of the scheming hand, too.
+constexpr auto bare_springs = CORNER("none", "Two bare springs, added.",
+                                     (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}),
+                                     ph::no_observer{}, ph::no_bound{});
+constexpr auto a_port_each =
+    PAGE_CONTROLLER(touch_two, "a port each (wrong)",
+                    "Both types say strict, and both spend the one damping. Who shakes on "
+                    "purpose is paid for it: example 16.",
+                    std::pair{PORT_OF_ITS_OWN, PORT_OF_ITS_OWN});
+constexpr auto one_port =
+    CORNER("one port, strict", "The sum of two springs in one port: one account.",
+           (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), LEDGER, ph::strict_bound{});
+constexpr auto strict_set = CORNER("contact set, strict", "One spring, bounded strictly.",
+                                   SET_OF_TWO, LEDGER, ph::strict_bound{});
+
 struct corner {
   using touch = touch_two;
   static constexpr page::place home{0.014, 0.014};
@@ -107,40 +117,28 @@ struct corner {
 
   static constexpr page::settings begins_with() { return {.stiffness = 10000, .damping = 0.3}; }
   static constexpr std::array menu{
-      CORNER("none", "Two bare springs, added.",
-             (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), ph::no_observer{},
-             ph::no_bound{}),
+      bare_springs,
       PAGE_CONTROLLER(
           touch_two, "make_contacts",
           "What the library recommends: one spring, however many walls; settles.",
           ph::make_contacts<scene>(DEVICE, HAND, ph::slots<ph::half_space<scene>, 2>{})),
       CORNER("contact set, reachable", "One spring, however many walls; settles.", SET_OF_TWO,
              LEDGER, REACHABLE),
-      PAGE_CONTROLLER(touch_two, "a port each (wrong)",
-                      "Both types say strict, and both spend the one damping. Who shakes on "
-                      "purpose is paid for it: example 16.",
-                      std::pair{PORT_OF_ITS_OWN, PORT_OF_ITS_OWN}),
-      CORNER("one port, strict", "The sum of two springs in one port: one account.",
-             (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), LEDGER, ph::strict_bound{}),
+      a_port_each,
+      one_port,
       CORNER("one port, reachable", "The sum of two damped springs, for a known mass and hand.",
              (ph::contacts{WALL(ph::damped_spring{.mass = mass}),
                            WALL(ph::damped_spring{.mass = mass})}),
              LEDGER, REACHABLE),
-      CORNER("contact set, strict", "One spring, bounded strictly.", SET_OF_TWO, LEDGER,
-             ph::strict_bound{}),
+      strict_set,
       CORNER("contact set, no bound", "One spring, and nobody counts.", SET_OF_TWO,
              ph::no_observer{}, ph::no_bound{}),
   };
 
-  void restart(const page::settings& /*set*/) noexcept {}
   [[nodiscard]] touch::news surfaces(double time, const page::settings& set) const noexcept {
     const double up = set.heave * page::wave(1.1 * time);
     return {{{.point = {0, up}, .normal = {0, 1}, .stiffness = set.stiffness},
              {.point = {0, 0}, .normal = {1, 0}, .stiffness = set.stiffness}}};
-  }
-  [[nodiscard]] touch::news publish(double time, const page::settings& set, const scene::vector&,
-                                    const scene::vector&) const noexcept {
-    return surfaces(time, set);
   }
 };
 
@@ -195,23 +193,16 @@ struct scheme : corner {
   static constexpr page::place home{0.004, 0.004};
   static constexpr page::way_point round[]{{0.02, {0.002, 0.002}}, {0.04, {0, 0}}};
   static constexpr std::array menu{
-      CORNER("none", "Two bare springs, added.",
-             (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), ph::no_observer{},
-             ph::no_bound{}),
-      PAGE_CONTROLLER(touch_two, "a port each (wrong)",
-                      "Both types say strict, and both spend the one damping. Who shakes on "
-                      "purpose is paid for it: example 16.",
-                      std::pair{PORT_OF_ITS_OWN, PORT_OF_ITS_OWN}),
-      CORNER("one port, strict", "The sum of two springs in one port: one account.",
-             (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), LEDGER, ph::strict_bound{}),
+      bare_springs,
+      a_port_each,
+      one_port,
       CORNER("one port, memoryless", "Strict from the last tick alone; saves nothing.",
              (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), LEDGER,
              ph::memoryless_bound{}),
       CORNER("one port, energy tank", "A tank that allows for the worst motion of the next tick.",
              (ph::contacts{WALL(ph::spring{}), WALL(ph::spring{})}), LEDGER,
              ph::energy_tank{.reserve = 1e-6}),
-      CORNER("contact set, strict", "One spring, bounded strictly.", SET_OF_TWO, LEDGER,
-             ph::strict_bound{}),
+      strict_set,
   };
 };
 
@@ -306,14 +297,9 @@ struct cable {
               ph::memoryless_bound{}),
   };
 
-  void restart(const page::settings& /*set*/) noexcept {}
   [[nodiscard]] touch::news surfaces(double time, const page::settings& set) const noexcept {
     return {
         {{.point = set.heave * page::wave(1.1 * time), .normal = 1, .stiffness = set.stiffness}}};
-  }
-  [[nodiscard]] touch::news publish(double time, const page::settings& set, double /*position*/,
-                                    double /*held*/) const noexcept {
-    return surfaces(time, set);
   }
 };
 }  // namespace of_a_rail
@@ -361,15 +347,10 @@ struct rubbing {
               ph::strict_bound{}),
   };
 
-  void restart(const page::settings& /*set*/) noexcept {}
   [[nodiscard]] touch::news surfaces(double time, const page::settings& set) const noexcept {
     return {{{.point = {0, set.heave * page::wave(1.1 * time)},
               .normal = {0, 1},
               .stiffness = set.stiffness}}};
-  }
-  [[nodiscard]] touch::news publish(double time, const page::settings& set, const scene::vector&,
-                                    const scene::vector&) const noexcept {
-    return surfaces(time, set);
   }
 };
 

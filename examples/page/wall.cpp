@@ -166,14 +166,9 @@ struct wall {
                ph::stick_slip{}, REACHABLE),
   };
 
-  void restart(const page::settings& /*set*/) noexcept {}
   [[nodiscard]] touch::news surfaces(double time, const page::settings& set) const noexcept {
     return {
         {{.point = set.heave * page::wave(1.1 * time), .normal = 1, .stiffness = set.stiffness}}};
-  }
-  [[nodiscard]] touch::news publish(double time, const page::settings& set, double /*position*/,
-                                    double /*held*/) const noexcept {
-    return surfaces(time, set);
   }
 };
 

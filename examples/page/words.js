@@ -25,6 +25,18 @@ const knobs = {
   mode: ['Resonance of the cable', 'Hz', 1, 30, 300, true],
 };
 
+/** A corner of two walls, whoever is in it. */
+const inACorner = {
+  dof: 2,
+  view: [0.002, 0.002, 0.046],
+  start: '{0.014, 0.014}',
+  press: '{-0.012, -0.012}',
+  walls: [
+    '{.point = {0, UP}, .normal = {0, 1}, .stiffness = stiffness}',
+    '{.point = {0, 0}, .normal = {1, 0}, .stiffness = stiffness}',
+  ],
+};
+
 // view: the middle of the picture and its height [m]; start, press, walls: of the program to paste, as C++
 const loop = ['damping', 'mass', 'friction', 'quantum', 'motors', 'late'],
   net = ['rate', 'latency', 'loss'],
@@ -70,14 +82,7 @@ const scenes = {
     title: 'Box corner',
     module: 'surfaces',
     stage: 1,
-    dof: 2,
-    view: [0.002, 0.002, 0.046],
-    start: '{0.014, 0.014}',
-    press: '{-0.012, -0.012}',
-    walls: [
-      '{.point = {0, UP}, .normal = {0, 1}, .stiffness = stiffness}',
-      '{.point = {0, 0}, .normal = {1, 0}, .stiffness = stiffness}',
-    ],
+    ...inACorner,
     says: 'Two walls that meet. However many walls: one device is one port.',
     knobs: ['stiffness', 'heave', ...net, ...loop, ...person],
   },
@@ -85,14 +90,7 @@ const scenes = {
     title: 'Scheming hand',
     module: 'surfaces',
     stage: 3,
-    dof: 2,
-    view: [0.002, 0.002, 0.046],
-    start: '{0.014, 0.014}',
-    press: '{-0.012, -0.012}',
-    walls: [
-      '{.point = {0, UP}, .normal = {0, 1}, .stiffness = stiffness}',
-      '{.point = {0, 0}, .normal = {1, 0}, .stiffness = stiffness}',
-    ],
+    ...inACorner,
     says: 'A hand that no motor stops fills every account in free air, and draws what it has filled.',
     knobs: ['stiffness', 'damping', 'motors', 'late'],
   },
