@@ -139,9 +139,7 @@ std::int32_t ph_mesh_create(const ph_mesh_data* data, ph_mesh** made, char* why,
     return refuse_null(reason, "ph_mesh_create", data == nullptr ? "data" : "mesh");
   }
   if (!known_size<ph_mesh_data>(data->size, sizeof(ph_mesh_data))) {
-    reason.say("size = %u is refused: sizeof(ph_mesh_data), which is %u bytes in this library",
-               unsigned{data->size}, unsigned{sizeof(ph_mesh_data)});
-    return PH_WRONG_SIZE;
+    return refuse_size<ph_mesh_data>(reason, "ph_mesh_data", data->size);
   }
   const bool numbered = data->triangle_count == 0 || data->triangles != nullptr;
   if ((data->vertex_count > 0 && data->vertices == nullptr) || !numbered) {
@@ -225,10 +223,7 @@ std::int32_t ph_probe_create(const ph_probe_parameters* parameters, ph_probe** p
     return refuse_null(reason, "ph_probe_create", parameters == nullptr ? "parameters" : "probe");
   }
   if (!known_size<ph_probe_parameters>(parameters->size, sizeof(ph_probe_parameters))) {
-    reason.say(
-        "size = %u is refused: sizeof(ph_probe_parameters), which is %u bytes in this library",
-        unsigned{parameters->size}, unsigned{sizeof(ph_probe_parameters)});
-    return PH_WRONG_SIZE;
+    return refuse_size<ph_probe_parameters>(reason, "ph_probe_parameters", parameters->size);
   }
   passive_haptics::mesh::proxy_parameters own{.friction = parameters->friction};
   own.radius = stated(parameters->radius, own.radius);

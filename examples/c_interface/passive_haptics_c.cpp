@@ -266,12 +266,6 @@ void write(ph_result& result, const auto& fill) noexcept {
   std::memcpy(&result, &own, own.size);
 }
 
-std::int32_t refuse_size(const text& reason, std::uint32_t size) noexcept {
-  reason.say("size = %u is refused: sizeof(ph_parameters), which is %u bytes in this library",
-             unsigned{size}, unsigned{sizeof(ph_parameters)});
-  return PH_WRONG_SIZE;
-}
-
 /// One tick of a composition that takes what `by` says; of any other it is a sample that was lost. A copy of `now`
 /// would read in one piece what was just written in parts, which is dear.
 std::int32_t tick(ph_port* port, const moment& now, takes by, ph_result* result) noexcept {
@@ -344,7 +338,7 @@ std::int32_t ph_create(const char* composition, const ph_parameters* parameters,
     return PH_NULL_ARGUMENT;
   }
   if (!known_size<ph_parameters>(parameters->size, shortest_parameters)) {
-    return refuse_size(reason, parameters->size);
+    return refuse_size<ph_parameters>(reason, "ph_parameters", parameters->size);
   }
   const auto* const chosen =
       std::find_if(compositions.begin(), compositions.end(),
@@ -459,7 +453,7 @@ std::int32_t ph_set(ph_port* port, const ph_parameters* parameters, char* why,
     return PH_NULL_ARGUMENT;
   }
   if (!known_size<ph_parameters>(parameters->size, shortest_parameters)) {
-    return refuse_size(reason, parameters->size);
+    return refuse_size<ph_parameters>(reason, "ph_parameters", parameters->size);
   }
   const ph_parameters own = whole(*parameters);
   const auto& chosen = *static_cast<const named_composition*>(port->composition);

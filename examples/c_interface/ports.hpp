@@ -461,6 +461,13 @@ class text {
   std::size_t size_;
 };
 
+/// What is said of a struct of another size.
+template <class Struct>
+std::int32_t refuse_size(const text& reason, const char* name, std::uint32_t size) noexcept {
+  reason.say("size = %u is refused: sizeof(%s), which is %u bytes in this library", unsigned{size},
+             name, unsigned{sizeof(Struct)});
+  return PH_WRONG_SIZE;
+}
 /// What is said of a parameter that is out of its range.
 inline std::int32_t refuse(const text& reason, const ph::parameter_fault& fault) noexcept {
   reason.say("%s = %g is refused: %s", fault.parameter, fault.value, fault.remedy);
