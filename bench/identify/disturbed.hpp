@@ -21,7 +21,7 @@ struct wrongs {
   double share = 1.0;         ///< mass of the rotor over all of it; 1: one rigid mass
   double mode = 0.0;          ///< free resonance, 15 to 400 [Hz]
   double loss = 0.03;         ///< ζ of it
-  double gap = 0.0;           ///< backlash, 30 to 500 from end to end [m]
+  double gap = 0.0;           ///< backlash, 30 to 500 µm from end to end [m]
   double fraction = 0.0;      ///< of a tick that the force is late besides the whole ones
   double lag = 0.0;           ///< time constant of a first-order filter [s]
   double cogging = 0.0;       ///< amplitude [N]

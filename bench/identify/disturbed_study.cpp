@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is wrong with devices drawn at random: how often is it found by name, and how often is a name false?
-#include "../common/median.hpp"
 #include "disturbed.hpp"
 #include "program.hpp"
 
@@ -99,18 +98,12 @@ ex::record record_of(const disturbed_verdict& v) {
 int run_disturbed(const settings& chosen, const std::atomic<bool>& stop) {
   ex::report report(chosen.out, {.json = "disturbed.json", .markdown = "disturbed.md"});
   const ex::workshop shop{report, ex::threads_of(chosen.threads), stop};
-  std::vector<std::uint64_t> seeds;
-  for (int i = 0; i < chosen.disturbed; ++i) {
-    seeds.push_back(static_cast<std::uint64_t>(chosen.seed + i));
-  }
-  const auto all = shop.rows("disturbed.csv", "devices", seeds,
-                             [&](std::uint64_t seed) { return identified(draw_disturbed(seed)); });
+  const auto all = shop.rows("disturbed.csv", "devices", seeds_of(chosen, chosen.disturbed),
+                             [](std::uint64_t seed) { return identified(draw_disturbed(seed)); });
   const auto lines = summary_of(all);
-  std::vector<double> times;
   int clean = 0, refused = 0;
   line_of_bound mass{"mass that moves with the encoder"}, damping{"damping"}, friction{"friction"};
   for (const auto& v : all) {
-    times.push_back(v.seconds);
     bool any = false;
     for (const auto kind : kinds) any = any || v.truth.is(kind);
     clean += any ? 0 : 1;
@@ -124,10 +117,8 @@ int run_disturbed(const settings& chosen, const std::atomic<bool>& stop) {
   report.section(
       "What is wrong",
       "Devices drawn at random, each wrong by itself in 12 of 100, so several at once. " +
-          ex::format("Each took %.0f s (median), ", ex::median(times)) +
-          ex::format("%.0f s at most. ", *std::max_element(times.begin(), times.end())) +
-          std::to_string(clean) + " have nothing wrong, of which " + std::to_string(refused) +
-          " were refused.");
+          took(all) + " " + std::to_string(clean) + " have nothing wrong, of which " +
+          std::to_string(refused) + " were refused.");
   ex::show_rows(report, "disturbances", lines);
   const std::vector<line_of_bound> bounds{mass, damping, friction};
   ex::show_rows(report, "lower bounds", bounds);

@@ -2,6 +2,7 @@
 #pragma once
 // The program, apart from main(), so that a test can run it.
 
+#include "../common/median.hpp"
 #include "../common/rows.hpp"
 #include "disturbed.hpp"
 
@@ -29,6 +30,20 @@ struct settings {
 /// 0: all is well. 1: nothing was found, a file was refused, or a bound of the study holds for fewer
 /// than 99 of 100 devices. 2: an argument is wrong. 130: stopped, and nothing is half written.
 [[nodiscard]] int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop);
+
+/// The seeds of so many devices of a study.
+[[nodiscard]] inline std::vector<std::uint64_t> seeds_of(const settings& chosen, int devices) {
+  std::vector<std::uint64_t> seeds;
+  for (int i = 0; i < devices; ++i) seeds.push_back(static_cast<std::uint64_t>(chosen.seed + i));
+  return seeds;
+}
+/// A sentence on how long the devices of a study were busy.
+[[nodiscard]] std::string took(const auto& verdicts) {
+  std::vector<double> times;
+  for (const auto& v : verdicts) times.push_back(v.seconds);
+  return ex::format("Each took %.0f s (median), ", ex::median(times)) +
+         ex::format("%.0f s at most.", *std::max_element(times.begin(), times.end()));
+}
 
 /// A device of the study as a row of its table.
 [[nodiscard]] ex::record record_of(const verdict& v);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How often each bound holds, and how near it is, on devices drawn at random.
-#include "../common/median.hpp"
 #include "program.hpp"
 
 namespace identify {
@@ -125,23 +124,16 @@ std::vector<line_of_study> summary_of(const std::vector<verdict>& all) {
 int run_study(const settings& chosen, const std::atomic<bool>& stop) {
   ex::report report(chosen.out, {.json = "identify.json", .markdown = "identify.md"});
   const ex::workshop shop{report, ex::threads_of(chosen.threads), stop};
-  std::vector<std::uint64_t> seeds;
-  for (int i = 0; i < chosen.study; ++i) {
-    seeds.push_back(static_cast<std::uint64_t>(chosen.seed + i));
-  }
-  const auto all = shop.rows("identify.csv", "devices", seeds, [&](std::uint64_t seed) {
-    return identified(draw(seed), chosen.how);
-  });
+  const auto all =
+      shop.rows("identify.csv", "devices", seeds_of(chosen, chosen.study),
+                [&](std::uint64_t seed) { return identified(draw(seed), chosen.how); });
   const auto lines = summary_of(all);
-  std::vector<double> times;
-  for (const verdict& v : all) times.push_back(v.seconds);
   report.section(
       "Bounds",
       "Devices drawn at random: 0.03 to 1 kg, 0.01 to 5 N·s/m, 0 to 0.5 N of dry friction of "
       "six kinds, presliding up to 50 µm, steps of 1 to 100 µm, up to 3 ticks of latency, a "
-      "load of up to 1 N. Each took " +
-          ex::format("%.0f s (median), ", ex::median(times)) +
-          ex::format("%.0f s at most.", *std::max_element(times.begin(), times.end())));
+      "load of up to 1 N. " +
+          took(all));
   ex::show_rows(report, "bounds", lines);
   ex::failures found;
   for (const auto& l : lines) {
