@@ -53,11 +53,7 @@ template <class Port, class Change = decltype(nothing_else)>
 std::vector<ph_result> run_direct(Port port, Change change = nothing_else) {
   std::vector<ph_result> results;
   for (int n = 0; n < ticks; ++n) {
-    if constexpr (!std::same_as<Change, decltype(nothing_else)>) {
-      if (n == change_tick) change(port);
-      if (n == off_tick || n == on_tick) port.enable_forces(n == on_tick);
-      if (n == reset_tick) port.reset();
-    }
+    keep_to_script(port, n, change);
     const moment now = moment_at(n);
     if constexpr (requires { port.release(); }) {
       if (now.news == a_plane) port.update(plane{in(now.point), in(now.normal), now.stiffness});
@@ -86,11 +82,7 @@ std::vector<ph_result> run_slots(Port port, CurvedAt curved_of, Change change = 
   ();
   std::vector<ph_result> results;
   for (int n = 0; n < ticks; ++n) {
-    if constexpr (!std::same_as<Change, decltype(nothing_else)>) {
-      if (n == change_tick) change(port);
-      if (n == off_tick || n == on_tick) port.enable_forces(n == on_tick);
-      if (n == reset_tick) port.reset();
-    }
+    keep_to_script(port, n, change);
     const moment now = moment_at(n);
     constexpr bool is_tool = Port::port_type::dof == 6;
     for (int i = 0; i < (is_tool ? 2 : 1); ++i) {

@@ -135,6 +135,15 @@ ph_result tick(Port& port, const moment& now) {
 
 /// What no script changes.
 constexpr auto nothing_else = [](auto& /*port*/) {};
+/// What the C client changes before tick n, if a script changes anything.
+template <class Port, class Change>
+void keep_to_script(Port& port, int n, const Change& change) {
+  if constexpr (!std::same_as<Change, std::remove_const_t<decltype(nothing_else)>>) {
+    if (n == change_tick) change(port);
+    if (n == off_tick || n == on_tick) port.enable_forces(n == on_tick);
+    if (n == reset_tick) port.reset();
+  }
+}
 
 inline std::vector<ph_result> run_in_c(const char* composition, const ph_parameters& parameters,
                                        script how) {

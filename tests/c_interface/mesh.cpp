@@ -66,11 +66,7 @@ std::vector<ph_result> run_meshes(Port port, std::uint32_t kind, Change change =
   REQUIRE(port.source().touch(world.sheet));
   std::vector<ph_result> results;
   for (int n = 0; n < ticks; ++n) {
-    if constexpr (!std::same_as<Change, decltype(nothing_else)>) {
-      if (n == change_tick) change(port);
-      if (n == off_tick || n == on_tick) port.enable_forces(n == on_tick);
-      if (n == reset_tick) port.reset();
-    }
+    keep_to_script(port, n, change);
     world.move(n, port.source());
     results.push_back(tick(port, moment_at(n)));
   }
