@@ -165,7 +165,8 @@ struct settling_sum {
     still.add(r.fell.still);
     if (!std::isfinite(r.fell.quiet)) ++missed[static_cast<std::size_t>(r.fell.missed)];
     if (r.settled()) worst = std::max(worst, r.fell.settle);
-    port_energy = std::min(port_energy, r.fell.port_energy);
+    port_energy = std::min(port_energy, way.is_for_encoders ? r.fell.rubbed_energy  // is credited
+                                                            : r.fell.port_energy);
     ledger = std::min(ledger, r.fell.ledger);
     stiffness_error = std::fmax(stiffness_error, std::abs(r.stiffness_error));
   }
