@@ -131,8 +131,6 @@ sim::circumstances soft_and_restless(sim::circumstances world) {
   return world;
 }
 
-const std::vector<double> less{1.0 / 3.0, 0.1, 0.01}, more{3.0, 10.0, 100.0};
-
 statement<situation> mass(const situation& w) {
   return scaled("mass, at least", &sim::circumstances::mass, "%.3g kg", 1.0, w, less);
 }

@@ -78,6 +78,9 @@ struct statement {
   std::function<std::string(const World&)> show;  ///< what is so there, with its unit
   std::vector<World> untrue;
 };
+/// Factors by which a lower bound, and an upper one, is untrue.
+inline const std::vector<double> less{1.0 / 3.0, 0.1, 0.01}, more{3.0, 10.0, 100.0};
+
 /// One that is untrue by each of these factors; `member` is in SI units, and shown in units of `unit`.
 template <class World, class Base>
 [[nodiscard]] statement<World> scaled(const char* what, double Base::*member, const char* pattern,

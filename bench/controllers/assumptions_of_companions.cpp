@@ -84,7 +84,6 @@ void add_meshes(std::vector<trial>& all) {
   const auto add = [&](const statement<mesh_world>& s) {
     all.push_back(trial_of("make_mesh_touch", told, s, attack));
   };
-  const std::vector<double> less{1.0 / 3.0, 0.1, 0.01}, more{3.0, 10.0, 100.0};
   add(scaled("mass, at least", &world::mass, "%.3g kg", 1.0, told, less));
   add(scaled("damping, at least", &world::damping, "%.3g N·s/m", 1.0, told, less));
   add(scaled("hand's force, at most", &world::hand_force, "%.3g N", 1.0, told, more));
@@ -131,12 +130,8 @@ using plane = ph::half_space<d3>;
 
 /// A wrench cut to what the motors hold.
 body::effort held_by(const tool_world& w, const body::effort& command) {
-  const auto cut = [](const vec3& v, double most) {
-    const double size = v.norm();
-    return size > most ? vec3(v * (most / size)) : v;
-  };
-  return body::join(cut(body::linear(command), w.force_limit),
-                    cut(body::angular(command), w.torque_limit));
+  return body::join(sim::clamp_norm<d3>(body::linear(command), w.force_limit),
+                    sim::clamp_norm<d3>(body::angular(command), w.torque_limit));
 }
 
 /// A plane at a point of the tool that jumps and turns, and a hand of one of four habits. The driver does not report
@@ -211,7 +206,6 @@ void add_tools(std::vector<trial>& all) {
     all.push_back(trial_of("make_tool", told, s, attack));
     all.back().unpaid = unpaid;
   };
-  const std::vector<double> less{1.0 / 3.0, 0.1, 0.01}, more{3.0, 10.0, 100.0};
   add(scaled("mass, at least", &world::mass, "%.3g kg", 1.0, told, less));
   add(scaled("moments of inertia, at least", &world::least, "%.3g kg·m²", 1.0, told, less));
   add(scaled("spread of the moments, at most", &world::spread, "%.3g kg·m²", 1.0, told, more));
@@ -315,7 +309,6 @@ void add_transmissions(std::vector<trial>& all) {
                                 .force_limit = told.motors,
                                 .longest_tick = told.period};
   const ph::known_hand hand{.force = told.hand};
-  const std::vector<double> less{1.0 / 3.0, 0.1, 0.01}, more{3.0, 10.0, 100.0};
   using world = chain_world;
 
   const auto try_all = [&](const char* name, const auto& touch, const world& so, const auto& list) {

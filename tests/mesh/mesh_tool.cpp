@@ -28,9 +28,6 @@ constexpr ph::rigid_device facts{.inertia = {.mass = 0.15, .least = 1e-4, .sprea
 auto tool_of(double K, const ph::rigid_device& stated = facts) {
   return ph::make_mesh_tool(stated, grip, box, {.stiffness = K});
 }
-vector cut(const vector& v, double most) {
-  return v.norm() > most ? vector(v * (most / v.norm())) : v;
-}
 
 struct outcome {
   double least_energy = 0.0, largest = 0.0, deepest = 0.0;
@@ -51,9 +48,10 @@ outcome run(auto port, const moving& m, const vector& start, auto to, int ticks)
     if (n % 33 == 0) REQUIRE(s.update(m.nodes(n * T)));
     const auto x = dev.at();
     const vector target = to(n, x), turn(x.orientation.x, x.orientation.y, x.orientation.z);
-    dev.push(
-        handle::join(cut(400.0 * (target - vector(x.position)) - 8.0 * dev.velocity(), 5.0),
-                     cut((x.orientation.w < 0 ? 0.5 : -0.5) * turn - 0.014 * dev.rate(), 0.09)));
+    dev.push(handle::join(
+        sim::clamp_norm<scene>(400.0 * (target - vector(x.position)) - 8.0 * dev.velocity(), 5.0),
+        sim::clamp_norm<scene>((x.orientation.w < 0 ? 0.5 : -0.5) * turn - 0.014 * dev.rate(),
+                               0.09)));
     const auto out = port.tick(x, ph::seconds{T});
     std::vector<handle::motion> rows;
     for (int k = 0; k < int(box.size()); ++k) {
