@@ -160,42 +160,50 @@ TEST_CASE("what explain() says of a guard is the slope, once it has been pressed
   CHECK(exact.untrue + steps.untrue == 0);
 }
 
+namespace {
+constexpr ph::exact_device light{
+    .mass = 0.05, .damping = 0.1, .force_limit = 9.0, .longest_tick = 1e-3};
+constexpr ph::encoder_device stepped(double mass) {
+  return {.mass = mass,
+          .damping = 0.5,
+          .friction = 0.15,
+          .presliding = 1e-5,
+          .quantum = 60e-6,
+          .force_limit = 9.0,
+          .longest_tick = 1e-3};
+}
+/// What a port says of a wall of 30 kN/m that is pressed 10 mm deep.
+constexpr auto said_of = []<class As>(As, const auto& device) {
+  auto port = As::of(device, 30e3);
+  (void)As::tick(port, 0.01, device.longest_tick, 30e3);
+  return port.explain();
+};
+}  // namespace
+
 TEST_CASE("the reason is true: raise what it names, and more is shown", "[door]") {
-  const ph::exact_device light{
-      .mass = 0.05, .damping = 0.1, .force_limit = 9.0, .longest_tick = 1e-3};
-  const ph::encoder_device steps{.mass = 0.5,
-                                 .damping = 0.5,
-                                 .friction = 0.15,
-                                 .presliding = 1e-5,
-                                 .quantum = 60e-6,
-                                 .force_limit = 9.0,
-                                 .longest_tick = 1e-3};
-  const auto said = []<class As>(As, const auto& device) {
-    auto port = As::of(device, 30e3);
-    (void)As::tick(port, 0.01, device.longest_tick, 30e3);
-    return port.explain();
-  };
+  const ph::encoder_device steps = stepped(0.5);
   const auto each = [&]<class As>(As as) {
-    const auto now = said(as, light);
+    const auto now = said_of(as, light);
     CHECK(now.stiffness == softened_by::mass_and_tick);
     auto faster = light, heavier = light, damped = light;
     faster.longest_tick /= 1.25;
     heavier.mass *= 1.25;
     damped.damping *= 2.0;
-    CHECK_THAT(said(as, faster).shown, WithinRel(1.25 * 1.25 * now.shown, 1e-9));  // m/T²
-    CHECK_THAT(said(as, heavier).shown, WithinRel(1.25 * now.shown, 1e-9));
-    CHECK(said(as, damped).shown == now.shown);  // the control: what it does not name does nothing
-    const auto rough = said(as, steps);
+    CHECK_THAT(said_of(as, faster).shown, WithinRel(1.25 * 1.25 * now.shown, 1e-9));  // m/T²
+    CHECK_THAT(said_of(as, heavier).shown, WithinRel(1.25 * now.shown, 1e-9));
+    // The control: what it does not name does nothing.
+    CHECK(said_of(as, damped).shown == now.shown);
+    const auto rough = said_of(as, steps);
     CHECK(rough.stiffness == softened_by::encoder_steps);
     auto finer = steps, rubs = steps, stiffer = steps, massive = steps;
     finer.quantum /= 2.0;
     rubs.friction *= 1.5;
     stiffer.presliding /= 4.0;
     massive.mass *= 1.5;
-    CHECK(said(as, finer).shown > 1.3 * rough.shown);
-    CHECK(said(as, rubs).shown > 1.3 * rough.shown);
-    CHECK(said(as, stiffer).shown > 1.02 * rough.shown);
-    CHECK(said(as, massive).shown == rough.shown);
+    CHECK(said_of(as, finer).shown > 1.3 * rough.shown);
+    CHECK(said_of(as, rubs).shown > 1.3 * rough.shown);
+    CHECK(said_of(as, stiffer).shown > 1.02 * rough.shown);
+    CHECK(said_of(as, massive).shown == rough.shown);
   };
   each(touched{});
   each(set{});
@@ -214,22 +222,9 @@ double number_before(const std::string& text, const std::string& unit) {
 
 TEST_CASE("in_numbers() says by how much, and that is enough, and less is not", "[door]") {
   using ph::identification::in_numbers;
-  const auto shown = []<class As>(As, const auto& device) {
-    auto port = As::of(device, 30e3);
-    (void)As::tick(port, 0.01, device.longest_tick, 30e3);
-    return port.explain();
-  };
-  const ph::exact_device light{
-      .mass = 0.05, .damping = 0.1, .force_limit = 9.0, .longest_tick = 1e-3};
-  const ph::encoder_device steps{.mass = 5.0,
-                                 .damping = 0.5,
-                                 .friction = 0.15,
-                                 .presliding = 1e-5,
-                                 .quantum = 60e-6,
-                                 .force_limit = 9.0,
-                                 .longest_tick = 1e-3};
+  const ph::encoder_device steps = stepped(5.0);
   const auto each = [&]<class As>(As as) {
-    const auto now = shown(as, light);
+    const auto now = said_of(as, light);
     const std::string said = in_numbers(now);
     INFO(said);
     const double goal = std::min(30e3, std::isinf(now.asked) ? 2.0 * now.shown : now.asked);
@@ -240,10 +235,10 @@ TEST_CASE("in_numbers() says by how much, and that is enough, and less is not", 
       auto heavier = light, faster = light;
       heavier.mass *= 1.0 + enough * (mass - 1.0);
       faster.longest_tick *= 1.0 - enough * (1.0 - tick);
-      CHECK((shown(as, heavier).shown > 0.99 * goal) == (enough == 1.0));
-      CHECK((shown(as, faster).shown > 0.99 * goal) == (enough == 1.0));
+      CHECK((said_of(as, heavier).shown > 0.99 * goal) == (enough == 1.0));
+      CHECK((said_of(as, faster).shown > 0.99 * goal) == (enough == 1.0));
     }
-    const auto rough = shown(as, steps);
+    const auto rough = said_of(as, steps);
     const std::string on_steps = in_numbers(rough);
     INFO(on_steps);
     REQUIRE(rough.stiffness == softened_by::encoder_steps);
@@ -255,7 +250,7 @@ TEST_CASE("in_numbers() says by how much, and that is enough, and less is not", 
       finer.quantum *= factor;
       finer.presliding *= factor;
       finer.longest_tick *= factor;
-      CHECK((shown(as, finer).shown > 0.99 * asked) == (enough == 1.0));
+      CHECK((said_of(as, finer).shown > 0.99 * asked) == (enough == 1.0));
     }
   };
   each(touched{});
