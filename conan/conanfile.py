@@ -30,7 +30,7 @@ class PassiveHaptics(ConanFile):
     no_copy_source = True
 
     def set_version(self):
-        header = os.path.join("..", "include", "passive_haptics", "version.hpp")
+        header = os.path.join("..", "include", "passive_haptics", "base", "version.hpp")
         text = load(self, os.path.join(self.recipe_folder, header))
         numbers = re.findall(r"version_(?:major|minor|patch) = (\d+)", text)
         self.version = ".".join(numbers)

@@ -4,7 +4,7 @@
 #include "assumptions.hpp"
 
 #include <passive_haptics/contact/contact_set.hpp>
-#include <passive_haptics/knob.hpp>
+#include <passive_haptics/knob/detents.hpp>
 #include <passive_haptics/simulation/presets.hpp>
 
 #include <initializer_list>

@@ -4,7 +4,7 @@
 #include "../contacts/rigid_hand.hpp"
 #include "../devices/transmissions.hpp"
 #include "assumptions.hpp"
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/mesh.hpp>
 #include <passive_haptics/six_dof.hpp>

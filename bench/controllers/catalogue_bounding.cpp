@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // No bound, the force bounding family, the thesis and what knows the device's mass.
 #include "compose.hpp"
-#include <passive_haptics/published.hpp>
+#include <passive_haptics/published/published.hpp>
 
 namespace controllers {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Couplings and what grows stiff on spare energy.
 #include "compose.hpp"
-#include <passive_haptics/published.hpp>
+#include <passive_haptics/published/published.hpp>
 
 namespace controllers {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A force that changes between two samples: a fraction of a tick late, or behind a low-pass. What is lost, told what?
 #include "program.hpp"
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/contact/given_force.hpp>
 
 #include <random>

@@ -3,7 +3,7 @@
 // Devices whose transmission gives, hands on them, and what a bound is told of them.
 
 #include "program.hpp"
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/simulation/compliant_device.hpp>
 

@@ -14,7 +14,7 @@ ex::failures run_bounces(const session& s) {
       "Stated: 1 and 3 kg, 5 N·s/m, dry friction of 1 and 5 N, a hand that presses with 10 N, by "
       "a grip of 300 N/m and 3 N·s/m, and no more than 60 N. A wall of 90 kN/m steps by 9 N an "
       "encoder step, so K ≤ 2c/q asks for 4.5 N of dry friction. Their PO/PC: ours of "
-      "published.hpp, with 0.5 m/T at most.");
+      "published/, with 0.5 m/T at most.");
   const press thrown{.push = 10.0, .stiffness = 300.0, .damping = 3.0, .away = 20e-3, .speed = 0.2};
   facts light{.mass = 1.0,
               .damping = 5.0,

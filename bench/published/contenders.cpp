@@ -2,7 +2,7 @@
 #include "contenders.hpp"
 
 #include "../common/options.hpp"
-#include <passive_haptics/published.hpp>
+#include <passive_haptics/published/published.hpp>
 
 namespace papers {
 

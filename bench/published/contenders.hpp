@@ -62,7 +62,7 @@ struct contender {
 [[nodiscard]] inline const contender& bare() {
   return contenders().front();
 }
-/// The passivity controller of Hannaford and Ryu, of published.hpp: it promises nothing for a sampled wall.
+/// The passivity controller of Hannaford and Ryu, of published/: it promises nothing for a sampled wall.
 [[nodiscard]] const contender& passivity_controlled();
 
 /// The contender's wall, K [N/m] beyond 0. Throws std::invalid_argument if it refuses the facts.

@@ -145,7 +145,8 @@ ex::failures run_modes(const session& s) {
       "Rigid: K < b/(T/2). Below 2/T times the motor's own damping no mode can matter, because "
       "what it drives is passive (Colgate). "
       "Ours, asked for 10 N/mm: make_touch that takes the device for rigid, which breaks its "
-      "assumption, and one that is told the chain (compliant.hpp), under hands of 5 N. Shown is "
+      "assumption, and one that is told the chain (compliant/compositions.hpp), under hands of 5 "
+      "N. Shown is "
       "the stiffness at rest.");
   struct job {
     double mode, damping;

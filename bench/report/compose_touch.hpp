@@ -6,7 +6,7 @@
 #include "../common/median.hpp"
 #include "../thesis_experiments/volume.hpp"
 #include "touch.hpp"
-#include <passive_haptics/published.hpp>
+#include <passive_haptics/published/published.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 #include <passive_haptics/simulation/quiet.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Detents and end stops of a knob or a slider.
 #include "ports.hpp"
-#include <passive_haptics/knob.hpp>
+#include <passive_haptics/knob/detents.hpp>
 
 namespace c_interface {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A knob with a detent every 15 degrees and end stops at ±2 rad.
 #include "judge.hpp"
-#include <passive_haptics/knob.hpp>
+#include <passive_haptics/knob/detents.hpp>
 
 using scene = ph::space<double, 1>;  // rad, N·m
 

@@ -9,7 +9,7 @@
 
 #include "settings.hpp"
 #include <passive_haptics/passive_haptics.hpp>
-#include <passive_haptics/published.hpp>
+#include <passive_haptics/published/published.hpp>
 
 #include <array>
 #include <cstddef>

@@ -3,7 +3,7 @@
 // and a wall that is felt through a cable.
 // By hand: a menu of all controllers, to be compared.
 #include "exports.hpp"
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/simulation/compliant_device.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 

@@ -583,11 +583,11 @@ ${
   return `// ${about.title}, pasted from the page of passive_haptics:
 //     g++ -std=c++20 -O2 -I include -isystem /usr/include/eigen3 this.cpp && ./a.out
 #include <passive_haptics/passive_haptics.hpp>
-${ofOthers.test(stored) ? '#include <passive_haptics/published.hpp>\n' : ''}${
+${ofOthers.test(stored) ? '#include <passive_haptics/published/published.hpp>\n' : ''}${
   body
     ? '#include <passive_haptics/environment/ball.hpp>\n#include <passive_haptics/environment/deformable_body.hpp>\n'
     : ''
-}${about.cable ? '#include <passive_haptics/compliant.hpp>\n#include <passive_haptics/simulation/compliant_device.hpp>\n' : ''}${mesh ? '#include <passive_haptics/mesh.hpp>\n' : ''}#include <passive_haptics/simulation/device.hpp>
+}${about.cable ? '#include <passive_haptics/compliant/compositions.hpp>\n#include <passive_haptics/simulation/compliant_device.hpp>\n' : ''}${mesh ? '#include <passive_haptics/mesh.hpp>\n' : ''}#include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/quiet.hpp>
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 //   make_contacts<Space>(device, hand, slots…)    several surfaces: a corner, a groove, surfaces that come and go
 //   make_guard<Space>(device, hand)               a force of your own or of a renderer, bounded and made to settle
 //   make_tool(device, hand, slots…)               six degrees of freedom: six_dof.hpp
-//   make_detents<Space>(device, hand, {…})        detents and end stops: knob.hpp, a companion
+//   make_detents<Space>(device, hand, {…})        detents and end stops: knob/detents.hpp, a companion
 //
 // `device` is an exact_device, whose positions count as exact, or an encoder_device, whose steps can be felt and are
 // paid for by its dry friction (design/described_device.hpp). With a known_hand the guarantee is conditional and

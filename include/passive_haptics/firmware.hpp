@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // For firmware: the core without Eigen in one include, with make_touch and make_guard, and a space that compiles
-// only if the FPU computes its scalar. knob.hpp adds detents.
+// only if the FPU computes its scalar. knob/detents.hpp adds detents.
 //
 //   hardware_space<float, 1>   space<float, 1>; an error if the FPU does not compute floats
 //   space<float, 1>            the same without that check, for cores that compute in software
@@ -10,6 +10,7 @@
 // flags, how to tick from an interrupt, and PlatformIO, Arduino, Zephyr and FreeRTOS.
 
 #include <passive_haptics/base/exchange.hpp>
+#include <passive_haptics/base/version.hpp>
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/constraint_geometry/fixed.hpp>
 #include <passive_haptics/contact/contacts.hpp>
@@ -20,7 +21,6 @@
 #include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 #include <passive_haptics/shaper/force_rate_limit.hpp>
 #include <passive_haptics/shaper/thesis_rule.hpp>
-#include <passive_haptics/version.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {

@@ -14,7 +14,7 @@
 //   shaper/                 changes the desired force by the state of the contact, before the bound
 //   base/exchange.hpp       the newest value from another thread
 //   firmware.hpp            the part of the core that needs no Eigen
-//   published.hpp           controllers of other authors; not included here
+//   published/published.hpp controllers of other authors; not included here
 //   laws.hpp                the laws that a part of your own must obey; not included here
 //   six_dof.hpp             devices that turn, or sense their orientation; not included here
 

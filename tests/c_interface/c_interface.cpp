@@ -3,7 +3,7 @@
 // what it says to wrong calls.
 #include "direct.hpp"
 #include "support/allocations.hpp"
-#include <passive_haptics/knob.hpp>
+#include <passive_haptics/knob/detents.hpp>
 #include <passive_haptics/six_dof.hpp>
 
 #include <atomic>

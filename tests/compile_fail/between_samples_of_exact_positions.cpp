@@ -3,7 +3,7 @@
 //
 // Where a force began to be held is known from two samples only, and so never exactly.
 
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
 
 namespace ph = passive_haptics;

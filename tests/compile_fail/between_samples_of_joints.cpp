@@ -3,7 +3,7 @@
 //
 // The largest acceleration of a joint depends on the pose.
 
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/device/joint_space.hpp>
 
 namespace ph = passive_haptics;

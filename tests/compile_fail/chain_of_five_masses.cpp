@@ -3,7 +3,7 @@
 //
 // Ten positions of an encoder do not show what five masses do.
 
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 
 namespace ph = passive_haptics;
 

@@ -4,7 +4,7 @@
 // A knob or a slider has one place along its way; what has more is made of surfaces.
 
 #include <passive_haptics/device/eigen_space.hpp>
-#include <passive_haptics/knob.hpp>
+#include <passive_haptics/knob/detents.hpp>
 
 namespace ph = passive_haptics;
 

@@ -3,7 +3,7 @@
 //
 // What is known of the transmission is known along directions.
 
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/device/joint_space.hpp>
 
 namespace ph = passive_haptics;

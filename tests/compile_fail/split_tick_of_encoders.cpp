@@ -3,7 +3,7 @@
 //
 // The place where the force changes is not known to a step.
 
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
 
 namespace ph = passive_haptics;

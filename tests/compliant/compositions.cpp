@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is said of a transmission picks the bound, and what contradicts itself is refused.
 #include "support/catch.hpp"
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 #include <passive_haptics/simulation/compliant_device.hpp>
 

@@ -2,7 +2,7 @@
 // Ledgers for a force that changes between two samples: what they book against the true energy, the motion that meets it,
 // and controls that are told another fraction or time constant.
 #include "support/catch.hpp"
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 

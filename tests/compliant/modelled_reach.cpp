@@ -2,7 +2,7 @@
 // modelled_reach: its travel against the formula of one mass and against a simulated chain, hands on devices at the corners
 // of what was stated, and controls that are told something else.
 #include "support/catch.hpp"
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 #include <passive_haptics/simulation/compliant_device.hpp>

@@ -2,7 +2,7 @@
 #pragma once
 // A rotor that anything pushes: a force g with |g| ≤ G and |dg/dt| ≤ R, dry friction that flips at will, and a wall.
 #include "support/catch.hpp"
-#include <passive_haptics/compliant.hpp>
+#include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 

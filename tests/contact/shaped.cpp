@@ -2,7 +2,7 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/laws.hpp>
-#include <passive_haptics/published.hpp>
+#include <passive_haptics/published/published.hpp>
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;

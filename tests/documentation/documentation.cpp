@@ -5,7 +5,7 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 #include <passive_haptics/base/event.hpp>
-#include <passive_haptics/version.hpp>
+#include <passive_haptics/base/version.hpp>
 
 #include <algorithm>
 #include <cmath>

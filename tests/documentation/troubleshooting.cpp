@@ -3,7 +3,7 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/identification/measure_latency.hpp>
-#include <passive_haptics/published.hpp>
+#include <passive_haptics/published/published.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "force_bound/attacks.hpp"
 #include "published/stores.hpp"
 #include "support/catch.hpp"
-#include <passive_haptics/published.hpp>
+#include <passive_haptics/published/published.hpp>
 #include <passive_haptics/shaper/force_rate_limit.hpp>
 #include <passive_haptics/shaper/thesis_rule.hpp>
 

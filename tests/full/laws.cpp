@@ -2,7 +2,7 @@
 // Every policy of the library under every law of its role, in 1, 2 and 3 dimensions and in joint
 // coordinates, float and double.
 #include "support/obedience.hpp"
-#include <passive_haptics/published.hpp>
+#include <passive_haptics/published/published.hpp>
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/contact/at_tip.hpp>
 #include <passive_haptics/passive_haptics.hpp>
-#include <passive_haptics/published.hpp>
+#include <passive_haptics/published/published.hpp>
 #include <passive_haptics/six_dof.hpp>
 
 #include <bit>

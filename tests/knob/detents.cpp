@@ -2,7 +2,7 @@
 // Detents and end stops of a knob.
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
-#include <passive_haptics/knob.hpp>
+#include <passive_haptics/knob/detents.hpp>
 #include <passive_haptics/passive_haptics.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/friction_elastic.hpp>

@@ -4,7 +4,7 @@
 // and source at least once, in 1, 2 and 3 dimensions and of joints, float and double.
 
 #include <passive_haptics/passive_haptics.hpp>
-#include <passive_haptics/published.hpp>
+#include <passive_haptics/published/published.hpp>
 
 namespace ph = passive_haptics;
 

@@ -59,7 +59,7 @@ def needs_eigen(include, name):
 
 
 def version(include):
-    text = (include / "passive_haptics" / "version.hpp").read_text(encoding="utf-8")
+    text = (include / "passive_haptics" / "base" / "version.hpp").read_text(encoding="utf-8")
     return ".".join(re.findall(r"version_(?:major|minor|patch) = (\d+)", text))
 
 

@@ -3,7 +3,7 @@
 // What the scenes of sizes.cmake with one degree of freedom share: a knob, as its facts state it, in float.
 
 #include <passive_haptics/firmware.hpp>
-#include <passive_haptics/knob.hpp>
+#include <passive_haptics/knob/detents.hpp>
 
 namespace ph = passive_haptics;
 
