@@ -47,7 +47,7 @@ std::vector<ex::wall_scene> cases_of(ex::wall_scene scene, bool quick) {
       }
     }
   }
-  if (quick) all.resize(2);
+  if (quick) all = {all[1], all[all.size() / 2], all[all.size() / 2 + 1]};
   return all;
 }
 

@@ -3,12 +3,13 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/base/samples.hpp>
-#include <passive_haptics/contact/eased.hpp>
+#include <passive_haptics/compositions.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
@@ -413,24 +414,67 @@ TEST_CASE("news that take longer count at once, and sooner ones little by little
   CHECK(lag.offset() == 0.0);
 }
 
-TEST_CASE("a surface is believed to go on no more than twice as fast as before, and not back",
-          "[contact]") {
-  const ph::news_pace::at<double> pace(ph::news_pace{});
-  ph::lag<double> lag;
-  const auto goes_on = [&](double moved) {  // after 0.1 s [m/s]
+/// Told what a surface has moved each 0.1 s, the speed [m/s] with which it is believed to go on.
+struct told_each_tenth {
+  ph::news_pace::at<double> pace{ph::news_pace{}};
+  ph::lag<double> lag{};
+
+  double operator()(double moved) {
     lag.grow_older(0.1);
     lag.hear(1e-3, 1e-3, moved, 1e-3, pace);
     lag.follow(1e-3);
     CHECK(lag.settled() == (lag.offset() == 0.0));
     return -lag.offset() / 1e-3;
-  };
+  }
+};
+
+TEST_CASE("a surface is believed to go on no more than twice as fast as before, and not back",
+          "[contact]") {
+  told_each_tenth goes_on;
   CHECK(goes_on(1e-3) == 0.0);  // it may have jumped
   CHECK_THAT(goes_on(3e-3), WithinRel(0.02, 1e-9));
   CHECK_THAT(goes_on(2e-3), WithinRel(0.02, 1e-9));
   CHECK(goes_on(-1e-3) == 0.0);
-  CHECK_THAT(goes_on(-3e-3), WithinRel(-0.02, 1e-9));
-  CHECK_THAT(goes_on(-3e-3), WithinRel(-0.03, 1e-9));
   CHECK(goes_on(0.0) == 0.0);
+  told_each_tenth comes_back;
+  CHECK(comes_back(-1e-3) == 0.0);
+  CHECK_THAT(comes_back(-3e-3), WithinRel(-0.02, 1e-9));
+  CHECK_THAT(comes_back(-3e-3), WithinRel(-0.03, 1e-9));
+}
+
+TEST_CASE("a surface is believed to go on by as much as it did after the last news", "[contact]") {
+  told_each_tenth goes_on;
+  for (int n = 0; n < 20; ++n) (void)goes_on(2e-3);
+  CHECK_THAT(goes_on(2e-3), WithinRel(0.02, 1e-9));
+  for (int n = 0; n < 40; ++n) {  // two ahead and two back: what was believed never came
+    for (const double moved : {2e-3, 2e-3, -2e-3, -2e-3}) (void)goes_on(moved);
+  }
+  (void)goes_on(2e-3);
+  CHECK(goes_on(2e-3) == 0.0);
+  for (int n = 0; n < 40; ++n) (void)goes_on(2e-3);
+  CHECK_THAT(goes_on(2e-3), WithinRel(0.02, 1e-2));  // and it is believed again
+}
+
+TEST_CASE("a device comes to rest on a wall that yields to the force of the news before",
+          "[contact]") {
+  // 0.5 kg on 300 N/m that gives way by as much as the depth, told each 20 to 50 ms.
+  constexpr ph::exact_device device{
+      .mass = 0.5, .damping = 0.06, .force_limit = 50.0, .longest_tick = 1e-3};
+  auto model = ph::make_touch<d1>(device, {.force = 6.0});
+  ph::laws::samples random(11);
+  double x = -0.061, v = 0.0, force = 0.0, answer = 0.0, fastest = 0.0;
+  for (int n = 0, next = 0; n < 10000; ++n) {
+    if (n == next) {
+      REQUIRE(model.update({std::exchange(answer, force / 300.0), -1.0, 300.0}));
+      next += 35 + static_cast<int>(15.0 * random.number<double>());
+    }
+    force = -model.tick(x, 1ms).force;
+    v += (9.81 - force / 0.5 - 0.12 * v) * 1e-3;
+    x += v * 1e-3;
+    if (n >= 8000) fastest = std::max(fastest, std::abs(v));
+  }
+  CHECK_THAT(x, WithinAbs(2.0 * 9.81 * 0.5 / 300.0, 1e-4));
+  CHECK(fastest < 1e-3);
 }
 
 TEST_CASE("two news between two ticks are one", "[contact]") {

@@ -13,7 +13,8 @@
 //
 // ℓ₀ is the lag at the last update, P [s] the usual time between updates, and u [m/s] and ω [1/s] the velocity and the
 // turn of the surface at the device between the last two updates: at most twice that of the two before, and 0 if that
-// had the opposite sign. So a surface that jumps once is not extrapolated, and one that moves on is not late.
+// had the opposite sign. So a surface that jumps once is not extrapolated, and one that moves on is not late. That u is
+// reduced to the share Σ u v/Σ u² ≤ 1, v what followed, of the last 8 updates: one that yields late would swing for ever.
 // Source: ours; docs/design/contacts.md § 6.
 
 #include <passive_haptics/base/parameter.hpp>
@@ -115,8 +116,6 @@ class lag {
  public:
   /// ℓ − p [m], the depth in the newest surface less the own depth.
   [[nodiscard]] constexpr Scalar offset() const noexcept { return behind_ - lead_; }
-  /// The part of the age of the last update that is compensated [s].
-  [[nodiscard]] constexpr Scalar age() const noexcept { return age_; }
   /// True if ℓ is 0 and nothing moves.
   [[nodiscard]] constexpr bool settled() const noexcept { return settled_; }
 
@@ -128,8 +127,6 @@ class lag {
   [[nodiscard]] constexpr bool taking_on() const noexcept { return since_ < ahead_; }
   /// True if no update has come for twice the usual time.
   [[nodiscard]] constexpr bool silent() const noexcept { return since_ > Scalar(2) * ahead_; }
-  /// The time since the last update [s].
-  [[nodiscard]] constexpr Scalar since() const noexcept { return since_; }
 
   /// Adds dt [s] to that time.
   constexpr void grow_older(Scalar dt) noexcept { since_ += dt; }
@@ -183,8 +180,9 @@ class lag {
     const Scalar here = now + lead_;
     behind_ =
         own > Scalar(0) || here > Scalar(0) ? here - kernels::larger(own, Scalar(0)) : Scalar(0);
-    if (!kernels::is_finite(behind_ + goes_on_)) {
-      behind_ = lead_ = goes_on_ = gains_ = last_speed_ = its_ = told_speed_ = Scalar(0);
+    if (!kernels::is_finite(behind_ + goes_on_ + hits_ + tries_)) {
+      *this = {};
+      return;
     }
     speed_ = pace.speed_for(behind_, usual_, goes_on_, compliance);
     settled_ = behind_ == Scalar(0) && lead_ == Scalar(0) && goes_on_ == Scalar(0);
@@ -209,7 +207,11 @@ class lag {
     fastest_ = kernels::larger(kernels::magnitude(its_), kernels::magnitude(before));
     const bool knew = std::exchange(knows_, told.knows) && told.knows;
     const Scalar rest = speed - (knew ? (its_ + before) / Scalar(2) : its_);
-    Scalar of_the_rest = believed(rest, last_speed_);
+    const Scalar went = guess_ * kernels::smaller(since_, ahead_);
+    hits_ += rest * between(told.age) * went - hits_ / Scalar(8);
+    tries_ += went * went - tries_ / Scalar(8);
+    Scalar of_the_rest = guess_ = believed(rest, last_speed_);
+    if (hits_ < tries_) of_the_rest *= kernels::larger(hits_, Scalar(0)) / tries_;
     last_speed_ = rest;
     gains_ = knew ? (its_ - before) / between(told.age) : Scalar(0);
     if (knows_ && doubts_ >= 2) its_ = gains_ = of_the_rest = Scalar(0);
@@ -231,17 +233,18 @@ class lag {
     return kernels::magnitude(newer) < kernels::magnitude(most) ? newer : most;
   }
 
-  Scalar behind_{}, lead_{};         ///< ℓ, p [m]
-  Scalar speed_{};                   ///< ρ [m/s]
-  Scalar goes_on_{}, last_speed_{};  ///< u, and the speed between the last two updates [m/s]
-  Scalar usual_{}, ahead_{};         ///< P, and the time for which p grows [s]
-  Scalar since_{};                   ///< time since the last update [s]
-  Scalar age_{}, told_age_{};        ///< age of the last update, compensated and stated [s]
-  Scalar gains_{};                   ///< u̇ [m/s²]
-  Scalar its_{}, fastest_{};         ///< last stated speed used, larger one of the last two [m/s]
-  Scalar told_speed_{};              ///< last stated speed [m/s]
-  std::uint8_t doubts_ = 0;          ///< how often in a row that was worse than 0 m/s
-  bool knows_ = false;               ///< the last update stated its speed
+  Scalar behind_{}, lead_{};           ///< ℓ, p [m]
+  Scalar speed_{};                     ///< ρ [m/s]
+  Scalar goes_on_{}, last_speed_{};    ///< u, and the speed between the last two updates [m/s]
+  Scalar guess_{}, hits_{}, tries_{};  ///< u before it is reduced [m/s], Σ u v, Σ u² [m²/s²]
+  Scalar usual_{}, ahead_{};           ///< P, and the time for which p grows [s]
+  Scalar since_{};                     ///< time since the last update [s]
+  Scalar age_{}, told_age_{};          ///< age of the last update, compensated and stated [s]
+  Scalar gains_{};                     ///< u̇ [m/s²]
+  Scalar its_{}, fastest_{};           ///< last stated speed used, larger one of the last two [m/s]
+  Scalar told_speed_{};                ///< last stated speed [m/s]
+  std::uint8_t doubts_ = 0;            ///< how often in a row that was worse than 0 m/s
+  bool knows_ = false;                 ///< the last update stated its speed
   bool settled_ = true;
 };
 
