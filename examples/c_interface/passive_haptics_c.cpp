@@ -350,7 +350,7 @@ std::int32_t ph_create(const char* composition, const ph_parameters* parameters,
       end += static_cast<std::size_t>(std::snprintf(names.data() + end, names.size() - end, "%s%s",
                                                     end > 0 ? ", " : "", known.name.data()));
     }
-    reason.say("composition = \"%.60s\" is refused: one of %s", composition, names.data());
+    reason.say("composition = \"%.36s\" is refused: one of %s", composition, names.data());
     return PH_UNKNOWN_COMPOSITION;
   }
   const ph_parameters own = whole(*parameters);
