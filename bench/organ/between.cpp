@@ -298,6 +298,10 @@ class comparison {
     add("make_touch", touch<plane>(), as_planes, rate, late);
     if (scenes_[0].yields) {
       add("... yielding", touch<plane>(), as_it_yields, rate, late);
+      auto lent = touch<plane>();
+      (void)lent.set(ph::reduced_energy{.damping = 0.03, .loan = 2e-4});
+      lent.reset();
+      add("... and lent 0.2 mJ", lent, as_it_yields, rate, late);
     } else {
       add("... moving", touch<plane>(), all_that_they_know, rate, late);
       add("... moving quadric", touch<quadric>(), with_curvature, rate, late);
