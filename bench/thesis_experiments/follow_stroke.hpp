@@ -13,9 +13,14 @@
 
 namespace experiments {
 
-/// The environment answers every `period` [s].
-template <class Model>
-stroke_result follow_stroke(Model model, const stroke_scene& scene, double period) {
+struct as_it_is {
+  auto operator()(const auto& plane, const auto& /*contact*/) const { return plane; }
+};
+
+/// The environment answers every `period` [s]; the model is told told(tangent plane, contact).
+template <class Model, class Told = as_it_is>
+stroke_result follow_stroke(Model model, const stroke_scene& scene, double period,
+                            const Told& told = {}) {
   env::deformable_body body(scene.mesh(), flesh, scene.fixed());
   sim::prescribed_motion<volume> device({.start = scene.position(0.0)});
   sim::update_schedule schedule(1, period, period);
@@ -27,7 +32,7 @@ stroke_result follow_stroke(Model model, const stroke_scene& scene, double perio
     const auto contact = body.update(now.sample.position, now.sample.held);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     result.update_ms.push_back(took.count());
-    model.update(tangent_plane(contact));
+    model.update(told(tangent_plane(contact), contact));
   };
   const auto move = [&](const auto& now) {
     const vector3 &x = now.position, &f = now.force;

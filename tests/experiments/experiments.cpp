@@ -106,10 +106,19 @@ TEST_CASE("a stroke over an organ keeps contact, with steps a tenth of the bare 
   const stroke_scene scene(read_organ(our_organ, millimetre));
   CHECK(scene.mesh().nodes.size() == 185);
   CHECK(scene.mesh().tetrahedra.size() == 720);
-  const auto [reference, bare, passive] = stroke(scene);
+  const auto [reference, bare, passive, touch, lent] = stroke(scene);
   CHECK(passive.contact_lost == 0);
   CHECK(passive.force_step <= bare.force_step / 10.0);
   CHECK(rms_error(passive, reference) < 3.0 * rms_error(bare, reference));
   CHECK(passive.port_energy >= -1e-12);
   CHECK(passive.end_energy > 0.0);  // there was something to lose
+  for (const auto* ours : {&touch, &lent}) {
+    CHECK(ours->contact_lost == 0);
+    CHECK(ours->force_step < 0.02);
+    CHECK(rms_error(*ours, reference) < 1.05 * rms_error(bare, reference));
+  }
+  CHECK(rms_error(lent, reference) < 0.75 * rms_error(bare, reference));
+  CHECK(touch.port_energy >= -1e-12);
+  CHECK(lent.port_energy >= -loan);
+  CHECK(lent.port_energy < -1e-5);  // the control: the loan is drawn
 }
