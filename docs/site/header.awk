@@ -5,7 +5,7 @@
 # composes something shows a program of examples/, which pages.py has named in `examples`.
 BEGIN {
   header = ARGV[1]
-  sub(/.*\//, "", header)
+  sub(/.*\/passive_haptics\//, "", header)
   while (examples != "" && (getline < examples) > 0) {
     if ($1 != header) continue
     program[$2] = $3

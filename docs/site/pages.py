@@ -197,19 +197,21 @@ def example_page(source, label):
 
 
 def shown_at(root, examples):
-    """A line for each function of a header on the root that composes something: the header, the function, the program
-    that is shown at it, and the pages of others that call it. header.awk puts them there."""
-    core = (root / "include/passive_haptics/passive_haptics.hpp").read_text("utf-8")
+    """A line for each function that composes something: its header, the function, the program that is shown at it,
+    and the pages of others that call it. header.awk puts them there."""
+    folder = root / "include/passive_haptics"
+    core = (folder / "passive_haptics.hpp").read_text("utf-8")
     texts = {p: p.read_text("utf-8") for p in sorted(examples, key=lambda p: (p.parent.name != "first", p.name))}
     lines = []
-    for header in sorted((root / "include/passive_haptics").glob("*.hpp")):
-        included = f"<passive_haptics/{header.name}>"
-        for name in sorted(set(re.findall(r"\b(make_\w+)\(", header.read_text("utf-8")))):
+    for header in sorted(folder.rglob("*.hpp")):
+        path = header.relative_to(folder).as_posix()
+        included = f"<passive_haptics/{path}>"
+        for name in sorted(set(re.findall(r"\bauto\s(make_\w+)\(", header.read_text("utf-8")))):
             calls = [p for p, text in texts.items()
                      if re.search(rf"ph::{name}[<(]", text) and (included in text or included in core)]
             if calls:
                 others = [f"example_{label_of(p.stem)}" for p in calls[1:] if p.parent.name == "first"]
-                lines.append(" ".join([header.name, name, calls[0].as_posix(), *others]))
+                lines.append(" ".join([path, name, calls[0].as_posix(), *others]))
     return "\n".join(lines) + "\n"
 
 
