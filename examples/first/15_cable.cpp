@@ -12,8 +12,8 @@ namespace ph = passive_haptics;
 namespace sim = ph::simulation;
 using scene = ph::space<double, 1>;
 
-struct shaking_hand {  // 2.5 N onto the wall, and 2.5 N to and fro
-  double force(double t, double /*x*/, double /*v*/) const {
+struct shaking_hand {                             // 2.5 N onto the wall, and 2.5 N to and fro
+  double force(double t, double, double) const {  // at t, wherever it is
     return -2.5 + 2.5 * std::sin(471.2 * t);
   }
   double mass() const { return 0.0; }
