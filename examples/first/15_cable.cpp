@@ -12,10 +12,9 @@ namespace ph = passive_haptics;
 namespace sim = ph::simulation;
 using scene = ph::space<double, 1>;
 
-struct shaking_hand {                             // 2.5 N onto the wall, and 2.5 N to and fro
-  double force(double t, double, double) const {  // at t, wherever it is
-    return -2.5 + 2.5 * std::sin(471.2 * t);
-  }
+/// Pushes with 2.5 N onto the wall, and with 2.5 N to and fro.
+struct shaking_hand {
+  double force(double t, double, double) const { return -2.5 + 2.5 * std::sin(471.2 * t); }
   double mass() const { return 0.0; }
   ph::parameter_fault check() const { return {}; }
 };
