@@ -326,6 +326,7 @@ struct scene_of_walls {
   double mass = 0.1, known = 1.0,
          damping = 0.03;  ///< `known` is the share of mass and damping told
   int grip = 0, late = 0;
+  int every = 1;  ///< ticks until the renderer computes its force anew
   vector load = vector::Zero(), start = vector::Zero();
 
   [[nodiscard]] vector force(const vector& x) const {
@@ -389,12 +390,13 @@ fall let_fall(Port port, const scene_of_walls& s, double seconds) {
       {.mass = s.mass, .damping = s.damping, .load = s.load, .period = T, .start = s.start},
       {s.grip});
   calm rest;
-  vector last = vector::Zero();
+  vector last = vector::Zero(), computed = last;
   std::deque<vector> rendered(static_cast<std::size_t>(s.late), vector(vector::Zero()));
   auto sample = device.exchange(vector::Zero());
   for (int n = 1; n * T < seconds; ++n) {
     const double t = n * T;
-    rendered.push_back(s.force(sample.position));
+    if ((n - 1) % s.every == 0) computed = s.force(sample.position);
+    rendered.push_back(computed);
     const vector f = port.tick(sample, rendered.front()).force;
     rendered.pop_front();
     sample = device.exchange(f);
@@ -446,6 +448,39 @@ sum_row fall_often(sum_row row, std::uint64_t seed, int cases) {
     row.median = times[times.size() / 2];
     row.slow = times[times.size() * 95 / 100];
     row.slowest = times.back();
+  }
+  return row;
+}
+
+/// Behind make_guard, a renderer that computes its force each `every` ticks, for walls that add up to 0.1 m/(T P) [N/m],
+/// m the mass told and P its period.
+struct slow_row {
+  static constexpr double share = 0.1;
+  int every = 1;
+  int cases = 0, unsettled = 0;
+  double least_energy = 0.0;  ///< [J]
+};
+ex::record record_of(const slow_row& r) {
+  return {{"renderer_Hz", 1.0 / (r.every * T)},
+          {"0.1_kg_N_per_m", slow_row::share * 0.1 / (r.every * T * T)},
+          {"cases", r.cases},
+          {"unsettled", r.unsettled},
+          {"least_energy_J", r.least_energy}};
+}
+slow_row fall_slowly(slow_row row, std::uint64_t seed, int cases) {
+  constexpr double seconds = 12.0;
+  for (int i = 0; i < cases; ++i) {
+    scene_of_walls s = drawn(seed * 1000003U + static_cast<std::uint64_t>(i));
+    const double most = slow_row::share * s.mass * s.known / (row.every * T * T);
+    for (wall& w : s.walls) w.stiffness = most / static_cast<double>(s.walls.size());
+    s.late = 0;
+    s.every = row.every;
+    const fall f = with(guard::settled, s.told(), s.hand,
+                        [&](const auto& port) { return let_fall(port, s, seconds); });
+    row.least_energy = std::min(row.least_energy, f.least_energy);
+    if (f.gone) continue;
+    ++row.cases;
+    if (f.settles > seconds - 1.0) ++row.unsettled;
   }
   return row;
 }
@@ -635,6 +670,20 @@ std::vector<std::string> run_guards(const session& s) {
     }
   }
   expect(found, unsettled > cases / 50, "the control rests: a given force in random sums");
+
+  s.out.section("Guards: a renderer slower than the tick",
+                "The same falls behind make_guard, of a renderer that computes its force each "
+                "P in place of each tick of T, with walls that add up to 0.1 m/(T P).");
+  std::vector<slow_row> slow;
+  for (const int every : {1, 2, 4, 10, 16, 33}) slow.push_back({.every = every});
+  const auto held = s.rows("guards_slow.csv", "slow renderers", slow,
+                           [&](const slow_row& r) { return fall_slowly(r, seed, cases / 3); });
+  ex::show_rows(s.out, "guards_slow", held);
+  for (const slow_row& r : held) {
+    expect(found, r.least_energy >= -1e-12, "a slow renderer loses energy");
+    if (r.every <= 4) expect(found, r.unsettled == 0, "a renderer of 250 Hz does not rest");
+  }
+  expect(found, held.back().unsettled > 0, "the control rests: a renderer of 30 Hz");
 
   s.out.section("Guards: dropped",
                 "0.1 kg with a load of 1 N, from 30 mm into a groove of 20 degrees.");
