@@ -19,7 +19,6 @@
 
 #include <passive_haptics/base/parameter.hpp>
 
-#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -198,9 +197,8 @@ class lag {
   constexpr void expect(Scalar speed, Scalar compliance, const news_pace::at<Scalar>& pace,
                         const account& told) noexcept {
     const Scalar moved = kernels::magnitude(speed), calm = pace.usual() * compliance;
-    const bool worse =
-        told_speed_ != Scalar(0) && !(kernels::magnitude(speed - told_speed_) <= moved);
-    doubts_ = worse ? static_cast<std::uint8_t>(doubts_ < 2 ? doubts_ + 1 : 2) : std::uint8_t{0};
+    const bool worse = !(kernels::magnitude(speed - told_speed_) <= moved);
+    const bool again = std::exchange(worse_, worse) && worse;
     const Scalar before = its_, most = kernels::larger(calm, Scalar(2) * moved);
     its_ = told.knows ? kernels::clamped(told.speed, -most, most) : Scalar(0);
     told_speed_ = its_;
@@ -214,7 +212,7 @@ class lag {
     if (hits_ < tries_) of_the_rest *= kernels::larger(hits_, Scalar(0)) / tries_;
     last_speed_ = rest;
     gains_ = knew ? (its_ - before) / between(told.age) : Scalar(0);
-    if (knows_ && doubts_ >= 2) its_ = gains_ = of_the_rest = Scalar(0);
+    if (knows_ && again) its_ = gains_ = of_the_rest = Scalar(0);
     if (knows_) of_the_rest = kernels::clamped(of_the_rest, -calm, calm);
     goes_on_ = its_ + of_the_rest;
   }
@@ -243,7 +241,7 @@ class lag {
   Scalar gains_{};                     ///< u̇ [m/s²]
   Scalar its_{}, fastest_{};           ///< last stated speed used, larger one of the last two [m/s]
   Scalar told_speed_{};                ///< last stated speed [m/s]
-  std::uint8_t doubts_ = 0;            ///< how often in a row that was worse than 0 m/s
+  bool worse_ = false;                 ///< at the last update that was worse than 0 m/s
   bool knows_ = false;                 ///< the last update stated its speed
   bool settled_ = true;
 };
