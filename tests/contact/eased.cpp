@@ -301,6 +301,7 @@ TEST_CASE("eased forgets at a reset, and changes live", "[contact]") {
   CHECK(refused({.most_force_rate = 1.0}) == "most_force_rate");
   CHECK(refused({.longest_interval = 0.0}) == "longest_interval");
   CHECK(refused({.ahead = std::numeric_limits<double>::quiet_NaN()}) == "ahead");
+  CHECK(refused({.oldest = -0.1}) == "oldest");
   CHECK(std::string(ph::eased{ph::damped_spring{}}.check().parameter) == "mass");
 }
 
@@ -419,12 +420,13 @@ struct told_each_tenth {
   ph::news_pace::at<double> pace{ph::news_pace{}};
   ph::lag<double> lag{};
 
-  double operator()(double moved) {
+  /// Which may be stated, too; then the own surface is ahead by `lead` [m] already.
+  double operator()(double moved, const ph::lag<double>::account& told = {}, double lead = 0.0) {
     lag.grow_older(0.1);
-    lag.hear(1e-3, 1e-3, moved, 1e-3, pace);
+    lag.hear(1e-3 + lead, 1e-3, moved, 1e-3, pace, told);
     lag.follow(1e-3);
     CHECK(lag.settled() == (lag.offset() == 0.0));
-    return -lag.offset() / 1e-3;
+    return (-lag.offset() - lead) / 1e-3;
   }
 };
 
@@ -443,6 +445,11 @@ TEST_CASE("a surface is believed to go on no more than twice as fast as before, 
 }
 
 TEST_CASE("a surface is believed to go on by as much as it did after the last news", "[contact]") {
+  told_each_tenth slows;
+  for (int n = 0; n < 2; ++n) (void)slows(2e-3);
+  // Of 1.6 mm that were believed it went 0.5 mm; then, with an eighth forgotten, 0.5 mm of 0.4 mm.
+  CHECK_THAT(slows(0.5e-3), WithinRel(0.005 * 0.5 / 1.6, 1e-9));
+  CHECK_THAT(slows(0.5e-3), WithinRel(0.005 * 0.9 / 2.4, 1e-9));
   told_each_tenth goes_on;
   for (int n = 0; n < 20; ++n) (void)goes_on(2e-3);
   CHECK_THAT(goes_on(2e-3), WithinRel(0.02, 1e-9));
@@ -453,6 +460,104 @@ TEST_CASE("a surface is believed to go on by as much as it did after the last ne
   CHECK(goes_on(2e-3) == 0.0);
   for (int n = 0; n < 40; ++n) (void)goes_on(2e-3);
   CHECK_THAT(goes_on(2e-3), WithinRel(0.02, 1e-2));  // and it is believed again
+}
+
+TEST_CASE(
+    "a stated speed is believed as far as the surface moves, until it is wrong twice in a row",
+    "[contact]") {
+  const auto of = [](double speed) { return ph::lag<double>::account{speed, 0.0, true}; };
+  const auto is = [](double speed) { return WithinRel(speed, 1e-9); };
+  told_each_tenth steady;
+  CHECK(steady(5e-3) == 0.0);
+  CHECK_THAT(steady(5e-3, of(0.05)), is(0.05));
+  CHECK_THAT(steady(5e-3, of(0.2)), is(0.1 + 0.05 * 0.01));  // twice what it moved, and it grows
+  told_each_tenth stands;
+  CHECK_THAT(stands(0.0, of(0.03)), is(0.0195));  // what is not felt on 1000 N/m
+  told_each_tenth turns;
+  CHECK_THAT(turns(2e-3, of(0.02)), is(0.02));
+  CHECK_THAT(turns(3e-3, of(0.04)), is(0.04 + 0.2 * 1e-3));  // what it gained in 0.1 s, it gains
+  CHECK_THAT(turns(-3e-3, of(-0.06)), is(-0.06 - 0.06 / 0.08 * 1e-3));  // wrong for the first time
+  CHECK(turns(3e-3, of(0.05)) == 0.0);
+  CHECK(turns(-6e-3, of(-0.05)) == 0.0);
+  CHECK_THAT(turns(-5e-3, of(-0.05)),
+             is(-0.05 - 0.0195 - 0.5e-3));  // of the rest no more than that
+  told_each_tenth slows;
+  CHECK_THAT(slows(-6e-3, of(-0.06)), is(-0.06));
+  CHECK_THAT(slows(2e-3, of(0.02)), is(0.02 + 0.06 / 0.08 * 1e-3));
+}
+
+TEST_CASE("a surface with a stated speed is where it is by now, not where it was told",
+          "[contact]") {
+  const auto of = [](double speed, double age) {
+    return ph::lag<double>::account{speed, age, true};
+  };
+  told_each_tenth gains;
+  CHECK_THAT(gains(2e-3, of(0.02, 0.02), 0.4e-3), WithinRel(0.02, 1e-9));
+  CHECK_THAT(gains(3e-3, of(0.04, 0.02), 0.84e-3), WithinRel(0.044 + 0.2 * 1e-3, 1e-9));
+  told_each_tenth much;  // by no more than its speed in the age and the 0.08 s ahead
+  CHECK_THAT(much(-2e-3, of(-0.02, 0.02), -0.4e-3), WithinRel(-0.02, 1e-9));
+  CHECK_THAT(much(6e-3, of(0.1, 0.02), 2.2e-3), WithinRel(0.12 + 1e-3, 1e-9));
+  told_each_tenth old;  // no more than 0.1 s count
+  CHECK_THAT(old(2e-3, of(0.04, 0.5), 4e-3), WithinRel(0.04, 1e-9));
+
+  const ph::news_pace::at<double> pace({.ahead = 0.0625});
+  ph::lag<double> lag;
+  CHECK(lag.between(0.0) == ph::kernels::rounding<double>());
+  lag.grow_older(0.5);
+  CHECK(lag.between(0.0) == 0.5);
+  CHECK(lag.between(0.25) == 0.25);
+  CHECK(lag.between(0.375) == 0.25);
+  CHECK(lag.follows(0.5, 0.0));
+  CHECK(lag.follows(0.75, 0.25));
+  CHECK_FALSE(lag.follows(0.75, 0.125));
+  lag.hear(1e-3, 1e-3, 1e-3, 1e-3, pace, of(0.001, 0.0625));
+  lag.grow_older(0.03125);
+  CHECK(lag.taking_on());
+  CHECK(lag.taken_on() == 0.09375);
+  lag.grow_older(0.03125);
+  CHECK_FALSE(lag.taking_on());
+  lag.grow_older(0.03125);
+  CHECK(lag.taken_on() == 0.125);
+  CHECK(lag.between(0.03125) == 0.125);
+  CHECK(lag.follows(0.15625, 0.0));
+  lag.grow_older(0.0625);
+  CHECK(lag.silent());
+  CHECK(lag.taken_on() == 0.0);
+}
+
+TEST_CASE("a stated motion is used if it is a number and no older than never", "[contact]") {
+  using motion = ph::surface_motion<d1>;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  CHECK(motion{}.is_usable());
+  CHECK(motion{.velocity = 0.5, .age = 0.1}.is_usable());
+  CHECK_FALSE(motion{.age = -0.1}.is_usable());
+  CHECK_FALSE(motion{.age = infinite}.is_usable());
+  CHECK_FALSE(motion{.velocity = infinite}.is_usable());
+}
+
+TEST_CASE("a normal is believed to turn on no more than twice as fast as before, and not back",
+          "[contact]") {
+  const d3::vector up(0.0, 0.0, 1.0), side(0.1, 0.0, -0.1);
+  ph::turning<d3> turns;
+  const auto is_turned = [&turns, &up](double time, const d3::vector& wanted) {
+    return (turns.turned(up, time) - wanted.normalized()).norm() < 1e-12;
+  };
+  turns.hear(side, 0.1);
+  CHECK(turns.still());
+  turns.hear(side * 2.0, 0.1);
+  CHECK_FALSE(turns.still());
+  CHECK(is_turned(0.25, {0.5, 0.0, 0.5}));
+  turns.hear(side * 6.0, 0.1);
+  CHECK(is_turned(0.125, {0.5, 0.0, 0.5}));
+  turns.hear(side * -1.0, 0.1);
+  CHECK(turns.still());
+  CHECK(is_turned(0.25, up));
+  turns.hear(d3::vector(0.0, 0.0, -0.1), 0.1);
+  turns.hear(d3::vector(0.0, 0.0, -0.1), 0.1);
+  CHECK(is_turned(1.0, up));  // to no direction at all
+  turns.stop();
+  CHECK(turns.still());
+  CHECK(ph::turning<d1>{}.still());
 }
 
 TEST_CASE("a device comes to rest on a wall that yields to the force of the news before",
