@@ -223,6 +223,8 @@ def _call(header, i):
             yield "clamp", first, close, f"({header.between(*one)})"
     if text == "magnitude":
         yield "magnitude", first, i, ""
+    if text == "clamped":
+        given = given[1:]  # of the first two it takes the larger
     if text not in SYMMETRIC and len(given) > 1:
         one, other = header.between(*given[0]), header.between(*given[1])
         yield "arguments", given[0][0], given[1][1], f"{other}, {one}"

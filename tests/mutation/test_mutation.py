@@ -38,7 +38,8 @@ class Mistakes(unittest.TestCase):
                 ("magnitude", "x = kernels::magnitude(x);", "x = (x);"),
                 ("extreme", "x = kernels::smaller(x, y);", "x = kernels::larger(x, y);"),
                 ("clamp", "x = kernels::smaller(x, y);", "x = (y);"),
-                ("arguments", "x = g(x, y);", "x = g(y, x);")):
+                ("arguments", "x = g(x, y);", "x = g(y, x);"),
+                ("arguments", "x = kernels::clamped(x, y, 2);", "x = kernels::clamped(x, 2, y);")):
             self.assertIn((kind, mistaken), changes(line))
 
     def test_an_index_in_an_index_is_no_attribute(self):
