@@ -320,6 +320,11 @@ def together(text, numbered):
     return text.replace("#pragma once", "#pragma once\n#include <passive_haptics/mutation.hpp>", 1)
 
 
+def not_inlined(text):
+    """A header of which no function has to be inlined: with its mutants that takes a compiler minutes."""
+    return re.sub(r"(?:, )?gnu::(?:always_inline|flatten)", "", text)
+
+
 # What the headers include in the end; the environment says which mutant is executed.
 SWITCH = """#pragma once
 #include <cstdlib>

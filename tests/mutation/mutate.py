@@ -123,7 +123,8 @@ class Program:
             valid = {n: m for n, m in numbered.items() if names[n] not in invalid}
             for name, text in texts.items():
                 inside = {n: m for n, m in valid.items() if m.file == name}
-                self._write(INCLUDE / name, mutants.together(text, inside) if inside else text)
+                text = mutants.together(text, inside) if inside else text
+                self._write(INCLUDE / name, mutants.not_inlined(text))
             self._write(SWITCH, mutants.SWITCH)
             print(f"building the core tests with {len(valid)} mutants in them", flush=True)
             good, said = self._try("cmake", "--build", self.objects, "--target", "core_tests",

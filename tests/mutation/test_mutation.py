@@ -42,6 +42,10 @@ class Mistakes(unittest.TestCase):
                 ("arguments", "x = kernels::clamped(x, y, 2);", "x = kernels::clamped(x, 2, y);")):
             self.assertIn((kind, mistaken), changes(line))
 
+    def test_no_function_has_to_be_inlined(self):
+        self.assertEqual("[[nodiscard]] int f(); [[]] int g();", mutants.not_inlined(
+            "[[nodiscard, gnu::always_inline, gnu::flatten]] int f(); [[gnu::flatten]] int g();"))
+
     def test_an_index_in_an_index_is_no_attribute(self):
         self.assertIn(("arithmetic", "x = a[b[0]] - y;"), changes("x = a[b[0]] + y;"))
         self.assertIn(("arithmetic", "[[likely]] x = y - x;"), changes("[[likely]] x = y + x;"))
