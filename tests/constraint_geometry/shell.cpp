@@ -63,6 +63,12 @@ TEST_CASE("a shell measures depth from its rounded surface, in the core too",
              WithinAbs(0.001, 1e-15));  // off a corner, 3 mm
 }
 
+TEST_CASE("a segment is in the ball about its middle", "[geometry][curved]") {
+  const auto ball = ph::segment_core<d3>{{0.01, 0, 0}, {0.03, 0, 0}}.around();
+  CHECK((d3::vector(ball.centre) - d3::vector(0.02, 0, 0)).norm() < 1e-15);
+  CHECK_THAT(ball.radius, WithinAbs(0.01, 1e-15));
+}
+
 TEST_CASE("the depth of a shell does not jump where its core begins", "[geometry][curved]") {
   const auto cuboid = shell_of(box);
   std::mt19937 random(2);
