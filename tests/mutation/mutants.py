@@ -39,7 +39,7 @@ COMPILED = {"assumptions_of", "promise_of", "spends_ledger", "are_bounds", "redu
 EXTREMES = {"smaller": "larger", "larger": "smaller"}
 SYMMETRIC = {"smaller", "larger", "dot"}  # of their arguments
 # What `return {}` would return anyway.
-NOTHING = {"nullptr", "0", "scalar(0)", "S(0)", "Scalar(0)", "P::zero()", "Space::zero()"}
+NOTHING = {"nullptr", "std::nullopt", "0", "scalar(0)", "S(0)", "Scalar(0)", "P::zero()", "Space::zero()"}
 # A statement that begins so is needed by what follows it.
 KEPT = {"return", "else", "for", "while", "do", "switch", "case", "default", "using", "static",
         "constexpr", "const", "typename", "struct", "static_assert", "auto", "break"}
