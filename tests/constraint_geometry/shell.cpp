@@ -126,6 +126,8 @@ TEMPLATE_TEST_CASE("a shell that cannot be used is refused", "[geometry][curved]
     auto half = cube;
     half.half = {1, bad, 1};
     CHECK(usable(half) == (bad == 0));
+    half.half = {1, 1, bad};
+    CHECK(usable(half) == (bad == 0));
   }
   for (const scalar bad : {nan, inf}) {
     CHECK_FALSE(usable(ph::point_core<S>{{bad, scalar(0), scalar(0)}}));

@@ -119,6 +119,20 @@ TEST_CASE("a place that stays is believed after five samples at most, however fa
   }
 }
 
+TEST_CASE("a rejected sample doubles the accepted distance, and only one that was far off keeps it",
+          "[port][motion_check]") {
+  ph::motion_check<d1> check;
+  const auto judge = [&check](double travel) {
+    return check.judge(travel, 1.0, [](double, double, double) { return 1.0; });
+  };
+  check.see(0.0, 1.0);
+  CHECK_FALSE(judge(3.0));
+  CHECK(judge(0.2));
+  CHECK_FALSE(judge(1.5));
+  CHECK(judge(1.5));
+  CHECK(judge(1.5));
+}
+
 TEST_CASE("a blow on the handle costs some samples and not the wall", "[port][motion_check]") {
   for (const double blow : {20.0, 50.0, 200.0}) {
     CAPTURE(blow);
