@@ -181,6 +181,8 @@ TEST_CASE("the two-layer tank is not passive, with strict_bound behind it it is"
 
 TEST_CASE("the two-layer tank takes new parameters, refuses bad ones and starts anew",
           "[time domain]") {
+  CHECK(ph::two_layer_tank{.max_damping = -1.0}.check());
+  CHECK_FALSE(ph::two_layer_tank{.wanted = 0.015, .cap = 0.015}.check());
   const ph::two_layer_tank weak{.wanted = 0.015, .refill = 10.0, .max_damping = 5.0},
       bad{.cap = -1};
   check_upkeep(following_half_space<d1>(ph::spring{}, thesis_ledger(), level_tank), level_tank,
