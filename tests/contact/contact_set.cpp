@@ -151,6 +151,18 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a plane that has been let go is met where it is, whatever it lagged by",
+          "[contact_set]") {
+  auto port = corner<d3, 1>();
+  const d3::vector pressed(-2e-3, 0.0, 0.0), away(0.02, 0.0, 0.0);
+  for (int i = 0; i < 5; ++i) (void)port.tick(pressed, ph::seconds{T});
+  port.source().update(0, ph::half_space<d3>{d3::vector(4e-3, 0, 0), d3::vector::UnitX(), 1000.0});
+  CHECK(port.tick(pressed, ph::seconds{T}).force.x() < 2.5);
+  for (int i = 0; i < 3; ++i) (void)port.tick(away, ph::seconds{T});
+  (void)port.tick(d3::vector::Zero(), ph::seconds{T});
+  CHECK_THAT(port.tick(d3::vector::Zero(), ph::seconds{T}).force.x(), WithinRel(4.0, 1e-9));
+}
+
 TEST_CASE("what is released recedes, under a finger that follows it as well, and frees its slot",
           "[contact_set]") {
   for (const double follows : {0.0, 0.1}) {  // [m/s], faster than any surface recedes

@@ -51,6 +51,18 @@ TEST_CASE(
   CHECK(f.norm() > 0.7);                                            // and holds what it held
 }
 
+TEST_CASE("a bristle that heals holds by as much as it has healed", "[friction]") {
+  rubbed<d3> surface;
+  const d3::vector n = d3::vector::UnitZ(), along = d3::vector::UnitX();
+  for (int i = 0; i < 200; ++i) surface.move(along * 1e-4, 2.0, n);
+  const double slid = surface.bristle.coefficient();
+  // A damper that asks for more than the cone.
+  const d3::vector f =
+      surface.bristle.rub(surface.rule, 2.0, n, along * -1e-5, along, 1e3, 1e3, 0.1);
+  CHECK(surface.bristle.coefficient() > 1.05 * slid);
+  CHECK_THAT(f.norm(), WithinRel(2.0 * surface.bristle.coefficient(), 1e-12));
+}
+
 TEMPLATE_TEST_CASE("friction stays inside its cone and pushes across the normal only", "[friction]",
                    d2, d3, f3) {
   using scalar = typename TestType::scalar;
