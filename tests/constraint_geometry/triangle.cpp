@@ -103,6 +103,10 @@ TEMPLATE_TEST_CASE("degenerate and useless constraints are refused (A17)", "[geo
   const scalar huge = std::pow(ph::kernels::largest<scalar>(), scalar(0.3));
   t = {.a = {0, 0, 0}, .b = {huge, 0, 0}, .c = {0, huge, 0}, .stiffness = 1};
   CHECK_FALSE(usable(t));  // finite, and the square of its area is not
+  for (const scalar off : {scalar(4096), scalar(-4096)}) {  // large enough, wherever it is
+    CHECK(usable({.a = {off, 0, 0}, .b = {off + 1, 0, 0}, .c = {off, 1, 0}, .stiffness = 100}));
+    CHECK(usable({.a = {0, off, 0}, .b = {1, off, 0}, .c = {0, off + 1, 0}, .stiffness = 100}));
+  }
   for (const scalar bad : {nan, inf, -inf}) {
     t = good;
     t.b = {bad, 0, 0};

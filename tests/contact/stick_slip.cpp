@@ -54,6 +54,13 @@ TEST_CASE(
 TEST_CASE("a bristle that heals holds by as much as it has healed", "[friction]") {
   rubbed<d3> surface;
   const d3::vector n = d3::vector::UnitZ(), along = d3::vector::UnitX();
+  surface.move(d3::vector::Zero(), 2.0, n);
+  const d3::vector damped =
+      surface.bristle.rub(surface.rule, 2.0, n, d3::vector::Zero(), along, 1e3, 0.5, T);
+  CHECK((damped + along * 0.5).norm() < 1e-12);
+  const double weak = ph::stick_slip{}.weakening * 1e3;  // 2 N is pulled where 1.2 N are held
+  const double held = surface.move(along * 2e-3, 2.0, n).norm();
+  CHECK_THAT(held, WithinRel(2.0 * (0.4 + 0.2 * weak / (weak + 0.8)), 1e-9));
   for (int i = 0; i < 200; ++i) surface.move(along * 1e-4, 2.0, n);
   const double slid = surface.bristle.coefficient();
   // A damper that asks for more than the cone.

@@ -262,6 +262,8 @@ TEST_CASE("what is known of the last tick counts: its length, its doubt, and tha
   // (v + (a + r V)(T0 + t)/2) t with V = (v + a (T0/2 + t))/(1 − r (T0/2 + t))
   CHECK_THAT(k::longest_path(0.1, 1.0, 2.0, 0.1, 0.1),
              WithinRel(0.1 * (0.1 + (1.0 + 2.0 * 0.25 / 0.7) * 0.1), 1e-9));
+  CHECK_THAT(k::longest_path(0.0, 1.0, 0.5, 1.0, 0.5), WithinRel(0.75, 1e-9));  // r of the most
+  CHECK(k::longest_path(0.0, 1.0, 0.51, 1.0, 0.5) == std::numeric_limits<double>::max());
   const auto damping = at<d1>(ph::isotropic_damping{0.03});
   const auto done = [&](const ph::detail::seen_tick<d1>& seen) {
     return at<d1>(told).unseen(seen, damping, 9.0, 1e-3).done;
