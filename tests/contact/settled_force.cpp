@@ -141,6 +141,18 @@ TEST_CASE("most_stiffness settles however late the renderer is, and four times t
   }
 }
 
+TEST_CASE("a late loop is as late as its renderer, and the more often softer", "[settled_force]") {
+  CHECK_THAT(rule.most_stiffness(1e-3, 1, 2), WithinRel(rule.most_stiffness(1e-3, 3) / 3.0, 1e-12));
+  CHECK(rule.settles(1.0, 1e-3));
+  CHECK_FALSE(rule.settles(0.0, 1e-3));
+  ph::settled_force p = rule;
+  p.lead = 3.5;
+  CHECK(p.settles(1.0, 1e-3, 1, 1));
+  CHECK_FALSE(p.settles(1.0, 1e-3, 2, 1));
+  CHECK_FALSE(p.settles(1.0, 1e-3, 1, 2));
+  CHECK(p.settles(p.most_stiffness(1e-3, 0, 2), 1e-3, 0, 2));
+}
+
 TEST_CASE("what is steeper than it settles with is felt softer, and rests", "[settled_force]") {
   ph::settled_force as_steep = rule;
   as_steep.softens = false;
