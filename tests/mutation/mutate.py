@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Would a test notice? Makes small mistakes in the headers, one at a time, and runs the core tests.
+"""Would a test notice? Makes small mistakes in the headers, one at a time, and runs the core tests, and
+those of published/ and of two threads in one port.
 
     mutate.py --sample 150                    150 mutants, the same each time; --seed for others
     mutate.py --sample 40 'force_bound/*'     of these headers
@@ -95,12 +96,12 @@ def blamed(said, folder=FOLDER):
 
 
 class Program:
-    """The core tests, built with many mutants in them."""
+    """The core tests, those of published/ and of port/one_at_a_time.hpp, with many mutants in them."""
 
     def __init__(self, jobs):
         self.jobs = jobs
         self.source, self.objects = FOLDER / "source", FOLDER / "objects"
-        self.tests = self.objects / "tests" / "core_tests"
+        self.programs = "core_tests", "published_tests", "one_at_a_time_tests"
         # Not the long simulations of design.hpp, which notice by accident what no test of a part does.
         self.all = "".join(f"~[#{path.stem}]" for path in REPOSITORY.glob("tests/design/*.cpp"))
         self.known = FOLDER / "invalid.txt"  # what did not compile is not tried again next time
@@ -127,7 +128,7 @@ class Program:
                 self._write(INCLUDE / name, mutants.not_inlined(text))
             self._write(SWITCH, mutants.SWITCH)
             print(f"building the core tests with {len(valid)} mutants in them", flush=True)
-            good, said = self._try("cmake", "--build", self.objects, "--target", "core_tests",
+            good, said = self._try("cmake", "--build", self.objects, "--target", *self.programs,
                                    "--parallel", str(self.jobs), "--", "-k", "0")
             if good:
                 return valid
@@ -142,7 +143,7 @@ class Program:
         """The CPU time that the tests take without a mistake."""
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         if not self._pass(0, resource.RLIM_INFINITY, self.all):
-            raise Broken(f"{self.tests}: fails without a mutant")
+            raise Broken("the tests fail without a mutant")
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
@@ -162,10 +163,11 @@ class Program:
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
-        return subprocess.run(
-            [self.tests, "--abort", "-#", which], env={**os.environ, "MUTANT": str(number)}, cwd=FOLDER,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=limited,
-            check=False).returncode == 0
+        return all(subprocess.run(
+            [self.objects / "tests" / program, "--abort", "-#", which],
+            env={**os.environ, "MUTANT": str(number)}, cwd=FOLDER, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL, preexec_fn=limited, check=False).returncode == 0
+            for program in self.programs)
 
     def _copy(self):
         """Brings the copy of the tree up to date; what is the same keeps its time."""
