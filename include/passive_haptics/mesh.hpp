@@ -4,6 +4,7 @@
 // mesh between updates. The menu:
 //
 //   mesh/surface.hpp        mesh::surface      triangles, a tree of boxes, news of nodes and poses; 1 to 5e7
+//   mesh/smooth.hpp         mesh::smooth       its facets, felt as a smooth surface between creases; off by default
 //   mesh/material.hpp       mesh::material     stiffness, friction and viscosity, of a mesh or triangle by triangle
 //   mesh/proxy.hpp          mesh::proxy        a ball that is drawn to the device and does not pass through the mesh;
 //                                              usable alone, for a renderer, an engine, another language

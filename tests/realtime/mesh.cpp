@@ -8,7 +8,8 @@ using namespace meshes;
 
 TEST_CASE("a tick on a mesh allocates nothing, with news and without", "[mesh][realtime]") {
   const body b = sphere(3, 0.04);
-  ph::mesh::surface s(b.triangles, b.nodes);
+  const auto smooth = GENERATE(std::optional<ph::mesh::smooth>(), ph::mesh::smooth{});
+  ph::mesh::surface s(b.triangles, b.nodes, {}, smooth);
   ph::passive_port port{
       scene{}, ph::mesh_contact{.spring = {.mass = 0.1}}, ph::reduced_energy{.damping = 0.03},
       ph::reachable_bound{.mass = 0.1, .hand_force = 10}, ph::loop_limits{.longest_tick = T}};

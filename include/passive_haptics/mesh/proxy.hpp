@@ -17,7 +17,8 @@
 //   motion  Between two shapes each node goes straight, and the ball goes along with what it rests on. While a
 //           triangle at the distance d moves by less than d − r/2 relative to the ball, it stays r/2 away or more. A
 //           triangle that would move farther waits for the next tick.
-// With friction the ball is drawn to a place beside the device (stick()), by the same two.
+// With friction the ball is drawn to a place beside the device (stick()), by the same two. On a smooth mesh the ball
+// has half-spaces of the rounded surface besides (smooth.hpp); they only hold it farther off.
 // So the distance of the ball's centre from every triangle stays > 0 whatever news come, and the ball passes through
 // nothing. No test of an edge, a side or a crossing is made whose result rounding could turn.
 //
@@ -276,6 +277,20 @@ class proxy {
       return apart ? where.in(p - where.position) : p;
     }
     // In its own frame.
+    [[nodiscard]] corners normals(int i) const noexcept {  // linear in between, as the nodes are
+      corners n;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t its = slot(of->smooth.normal[slot(i)][k]);
+        n[k] = still ? to->normals[its] : between(from->normals[its], to->normals[its], done);
+      }
+      return n;
+    }
+    [[nodiscard]] detail::bulge bulge() const noexcept {
+      const detail::bulge &a = from->bulge, &b = to->bulge;
+      const auto mean = [&](double u, double v) { return u + (v - u) * done; };
+      if (still) return b;
+      return {mean(a.out, b.out), mean(a.in, b.in), mean(a.least_cosine, b.least_cosine)};
+    }
     /// Box i at the present share of the way. It holds the moved nodes, because each node and each bound go the same
     /// share of their ways, and no node is beyond its bound at either end.
     [[nodiscard]] box around(int i) const noexcept {
@@ -614,6 +629,10 @@ class proxy {
   /// how far it went [m].
   [[gnu::noinline]] double round_to(const triple& x, double reach) noexcept {
     collect(reach);
+    facets_ = count_;
+    for (int m = 0; m < meshes_; ++m) {
+      if (!parts_[slot(m)].news.mesh().smooth.none()) round_off(m, x);
+    }
     const double r = rule_.radius, slack = 1e-9 * r;
     const auto normal = [&](int i) { return planes_[slot(i)].normal; };
     const auto missing = [&](int i) {
@@ -645,7 +664,7 @@ class proxy {
   }
   /// True if the straight way to `goal` stays r/4 away from the triangles of all half-spaces and what is behind them.
   [[nodiscard]] bool keeps_off(const triple& goal) const noexcept {
-    for (int i = 0; i < count_; ++i) {
+    for (int i = 0; i < facets_; ++i) {
       const half_space_of& h = planes_[slot(i)];
       const double least = base_[slot(i)] + 0.25 * rule_.radius + behind();
       if (dot(h.normal, at_) < least || dot(h.normal, goal) < least) {
@@ -731,20 +750,28 @@ class proxy {
           found f = on(c, t, at_);
           if (!(f.distance < farthest)) return;
           f.mesh = mesh;
-          int i = have;
-          if (have < most_near) {
-            ++have;
-          } else {
-            farthest = beside[slot(have - 1)].distance;
-            if (!(f.distance < farthest)) return;
-            --i;
-          }
-          for (; i > 0 && f.distance < beside[slot(i - 1)].distance; --i) {
-            beside[slot(i)] = beside[slot(i - 1)];
-          }
-          beside[slot(i)] = f;
-          if (have == most_near) farthest = beside[slot(have - 1)].distance;
+          keep_closest(f, beside, have, farthest);
         });
+  }
+  /// Adds one to those that are closest, in order; once there are as many as can be, what is farther than the last is of
+  /// no interest.
+  template <std::size_t Most>
+  static void keep_closest(const found& f, std::array<found, Most>& beside, int& have,
+                           double& farthest) noexcept {
+    constexpr int most = static_cast<int>(Most);
+    int i = have;
+    if (have < most) {
+      ++have;
+    } else {
+      farthest = beside[slot(have - 1)].distance;
+      if (!(f.distance < farthest)) return;
+      --i;
+    }
+    for (; i > 0 && f.distance < beside[slot(i - 1)].distance; --i) {
+      beside[slot(i)] = beside[slot(i - 1)];
+    }
+    beside[slot(i)] = f;
+    if (have == most) farthest = beside[slot(have - 1)].distance;
   }
   [[nodiscard]] double tiny() const noexcept { return 1e-6 * rule_.radius; }
   [[nodiscard]] bool lies_behind(const corners& t, int i, double allowed) const noexcept {
@@ -769,7 +796,10 @@ class proxy {
         above = -above;
       }
       base = (std::max)({dot(n, t[0]), dot(n, t[1]), dot(n, t[2])});
-      flat = dot(n, at_) - base >= (std::min)(r, f.distance) * (1.0 - 1e-9);
+      const double high = dot(n, at_) - base;
+      // A ball that rests on a rounded surface is higher, and beside the triangle its plane would be in the way.
+      const bool lifted = !v.of->smooth.none() && high > r * (1.0 + 1e-6);
+      flat = high >= (lifted ? f.distance : (std::min)(r, f.distance)) * (1.0 - 1e-9);
     }
     if (!flat) {
       const triple off = at_ - f.point;
@@ -781,6 +811,85 @@ class proxy {
     ++count_;
   }
 
+  /// Adds the half-spaces of the rounded surface (smooth.hpp) at the feet of x over the triangles nearby that the ball
+  /// is above of, the closest first. Those of the facets stay, so the ball only stops earlier.
+  [[gnu::noinline]] void round_off(int mesh, const triple& x) noexcept {
+    view v = now(parts_[slot(mesh)]);
+    const bool apart = std::exchange(v.apart, false);
+    const pose where = apart ? v.where : pose{};
+    const triple ball = apart ? where.in(at_ - where.position) : at_;
+    const triple device = apart ? where.in(x - where.position) : x;
+    const detail::bulge bulge = v.bulge();
+    const double r = rule_.radius;
+    double farthest = reach_ + r + bulge.lift(1.0, r) + bulge.out;
+    std::array<found, most_feet> beside;  // NOLINT(*-member-init): read below `have` only
+    int have = 0;
+    v.of->tree.walk([&](int b) { return v.squared_distance(b, ball); },
+                    [&](double d2) { return d2 < farthest * farthest; },
+                    [&](int t) {
+                      const corners p = v.triangle(t);
+                      const found f = on(p, t, ball);
+                      if (!(f.distance < farthest) || !is_over(p, ball - f.point)) return;
+                      keep_closest(f, beside, have, farthest);
+                    });
+    std::array<triple, most_feet> known;  // normals in the mesh's own frame
+    const int first = count_;
+    for (int k = 0; k < have && count_ < most_planes - 1; ++k) {
+      const found& f = beside[slot(k)];
+      const corners p = v.triangle(f.triangle);
+      bool seen_through = false, hidden = false;
+      for (int i = 0; i < k && !seen_through; ++i) {
+        const corners q = v.triangle(beside[slot(i)].triangle);
+        const triple up = cross(q[1] - q[0], q[2] - q[0]);
+        const double low = dot(up, f.point - q[0]), high = dot(up, ball - q[0]);
+        seen_through = high > 0.0 ? low < -1e-6 * high : low > -1e-6 * high;
+      }
+      for (int i = first; i < count_ && !hidden; ++i) {
+        const triple& n = known[slot(i - first)];
+        const double most =
+            base_[slot(i)] - dot(planes_[slot(i)].normal, where.position) + behind();
+        hidden = dot(n, p[0]) <= most && dot(n, p[1]) <= most && dot(n, p[2]) <= most;
+      }
+      if (seen_through || hidden) continue;
+      detail::foot foot;  // NOLINT(*-member-init): written where it is found
+      if (!detail::find_foot(
+              v.of->smooth, [&](int i) { return v.triangle(i); },
+              [&](int i) { return v.normals(i); }, f.triangle,
+              before_focus(p, v.normals(f.triangle), ball, device), foot)) {
+        continue;
+      }
+      const triple off = ball - point_at(v.triangle(foot.triangle), foot.weights);
+      const double side = dot(cross(p[1] - p[0], p[2] - p[0]), ball - f.point) > 0.0 ? 1.0 : -1.0;
+      if (!(side * dot(foot.normal, off) > 0.0)) continue;  // it is the other side of a fold
+      if (dot(foot.beyond, off) > 0.0) continue;            // the ball goes over a sharp edge
+      known[slot(count_ - first)] = foot.normal * side;
+      const triple n = where.out(foot.normal * side);
+      base_[slot(count_)] = foot.level * side + dot(n, where.position);
+      planes_[slot(count_)] = {n, base_[slot(count_)] + bulge.lift(side, r) + r, foot.triangle,
+                               foot.weights, mesh};
+      ++count_;
+    }
+  }
+  /// True if the way from the closest point of a triangle is less than 60° off its normal.
+  [[nodiscard]] static bool is_over(const corners& t, const triple& way) noexcept {
+    const triple n = cross(t[1] - t[0], t[2] - t[0]);
+    const double above = dot(n, way);
+    return above * above > 0.25 * squared(n) * squared(way);
+  }
+  /// The device or, if it lies deeper below the ball than half of the radius of curvature, a point that does not: beyond
+  /// the centre of curvature there is no foot.
+  [[nodiscard]] static triple before_focus(const corners& p, const corners& n, const triple& ball,
+                                           const triple& device) noexcept {
+    double bent = 0.0;  // squared
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double edge = squared(p[(k + 1) % 3] - p[k]);
+      if (edge > 0.0) bent = (std::max)(bent, squared(n[(k + 1) % 3] - n[k]) / edge);
+    }
+    const double deep = squared(device - ball) * bent;
+    return deep > 0.25 ? between(ball, device, 0.5 / kernels::square_root(deep)) : device;
+  }
+
+  static constexpr int most_feet = 8;  ///< of a mesh
   static constexpr int patience = 50;  ///< ticks for which news that would crush the ball wait
 
   proxy_parameters rule_{};
@@ -792,6 +901,7 @@ class proxy {
   triple device_{};         ///< the device there [m]
   triple beside_device_{};  ///< what friction holds the ball back by [m]
   int count_ = 0;
+  int facets_ = 0;      ///< those of triangles; they are the first
   double reach_ = 0.0;  ///< how far the half-spaces count [m]
   std::array<half_space_of, most_planes> planes_{};
   std::array<double, most_planes> base_{};  ///< level of the farthest corner [m]

@@ -7,6 +7,7 @@
 //     organ.update(pose);                            // slow thread, where the whole of it has moved
 //     ph::mesh::surface knee(triangles, nodes, {.materials = {bone, skin}, .of = of_triangle});
 //     knee.update(ph::mesh::made_of{.materials = {bone, callus}, .of = of_triangle});
+//     ph::mesh::surface ball(triangles, nodes, {}, ph::mesh::smooth{.crease = 0.7});  // smooth.hpp
 //
 // The slow thread copies the nodes and fits the boxes of the tree. Each finger takes the newest shape as soon as it
 // has arrived at the one that it took before, and no thread waits for another (news.hpp). No side is the outside: a
@@ -17,6 +18,7 @@
 #include <passive_haptics/mesh/material.hpp>
 #include <passive_haptics/mesh/news.hpp>
 #include <passive_haptics/mesh/pose.hpp>
+#include <passive_haptics/mesh/smooth.hpp>
 
 #include <algorithm>
 #include <array>
@@ -28,6 +30,7 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -76,6 +79,8 @@ struct made_of {
 struct shape {
   std::vector<triple> nodes;
   std::vector<box> boxes;
+  std::vector<triple> normals;  ///< of a smooth mesh (smooth.hpp)
+  detail::bulge bulge;
 };
 
 namespace detail {
@@ -97,6 +102,7 @@ struct world {
 
   std::vector<std::array<int, 3>> triangles;
   box_tree tree;
+  neighbours smooth;  ///< none of a mesh that is not
   news<made_of> stuffs;
   news<shape> shapes;
   news<pose> poses;
@@ -156,11 +162,14 @@ class surface {
     return {};
   }
 
-  /// The mesh must pass check(), and so must what it is made of; a sentence is thrown as std::invalid_argument. A
-  /// surface cannot be copied or moved, because fingers hold its address.
+  /// The mesh must pass check(), and so must what it is made of; a sentence is thrown as std::invalid_argument. It is
+  /// felt as facets, or smooth between creases (smooth.hpp). A surface cannot be copied or moved, because fingers hold
+  /// its address.
   template <class Nodes>
-  surface(std::vector<triangle> triangles, const Nodes& nodes, made_of stuff = {})
+  surface(std::vector<triangle> triangles, const Nodes& nodes, made_of stuff = {},
+          std::optional<smooth> rounded = {})
       : world_(made(std::move(triangles), nodes, stuff)), count_(nodes.size()) {
+    if (rounded) smoothen(*rounded, nodes);
     fill(world_->shapes.blank(), nodes);
     world_->shapes.publish();
     world_->stuffs.blank() = std::move(stuff);
@@ -343,6 +352,16 @@ class surface {
     }
     return {};
   }
+  template <class Nodes>
+  void smoothen(const smooth& rounded, const Nodes& nodes) {
+    if (const auto fault = rounded.check()) {
+      believe("mesh: " + std::string(fault.parameter) + " is " + std::to_string(fault.value) +
+              "; give one that is " + fault.remedy);
+    }
+    std::vector<triple> places(nodes.size());
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = detail::node_of(nodes, i);
+    world_->smooth = detail::neighbours_of(world_->triangles, places, rounded.crease);
+  }
   static void believe(const std::string& fault) {
     if (fault.empty()) return;
 #if defined(__cpp_exceptions)
@@ -372,7 +391,7 @@ class surface {
     return std::make_unique<detail::world>(std::move(triangles), std::move(tree));
   }
   template <class Nodes>
-  void fill(shape& s, const Nodes& nodes) const {
+  void fill(shape& s, const Nodes& nodes) {
     const detail::world& w = *world_;
     s.nodes.resize(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) s.nodes[i] = detail::node_of(nodes, i);
@@ -380,12 +399,22 @@ class surface {
     w.tree.fit(s.boxes, [&](int t, box& b) {
       for (const int node : w.triangles[at(t)]) b.grow(s.nodes[at(node)]);
     });
+    if (w.smooth.none()) return;
+    detail::fit_normals(w.smooth, w.triangles, s.nodes, s.normals, problems_);
+    s.bulge = {};
+    for (std::size_t t = 0; t < w.triangles.size(); ++t) {
+      const auto three = [&](const auto& all, const auto& of) {
+        return corners{all[at(of[0])], all[at(of[1])], all[at(of[2])]};
+      };
+      s.bulge.include(three(s.nodes, w.triangles[t]), three(s.normals, w.smooth.normal[t]));
+    }
   }
 
   std::unique_ptr<detail::world> world_;
   std::size_t count_;  ///< number of nodes
   clock::time_point last_{};
   std::string fault_;
+  std::vector<detail::normal_problem> problems_;  ///< while normals are fitted
 };
 
 }  // namespace mesh
