@@ -183,6 +183,19 @@ TEST_CASE("a device is a member of a class, its parameters in place", "[simulati
   CHECK(bench.moved.exchange({0, 0, 1}).valid);
 }
 
+TEST_CASE("a device delivers what it holds times its gain, axis by axis, and reports what it holds",
+          "[simulation][device]") {
+  sim::device<d2> off({.damping = 0.0, .gain = {0.9, 1.1}});
+  sim::device<d2> right({.damping = 0.0});
+  const auto told = off.exchange({1.0, 1.0}).held;
+  (void)right.exchange({1.0, 1.0});
+  CHECK(told[0] == 1.0);
+  CHECK(told[1] == 1.0);
+  CHECK_THAT(off.velocity()[0], WithinRel(0.9 * right.velocity()[0], 1e-12));
+  CHECK_THAT(off.velocity()[1], WithinRel(1.1 * right.velocity()[1], 1e-12));
+  CHECK_THAT(off.residual(), WithinAbs(0.0, 1e-15));
+}
+
 TEST_CASE("device names its first bad parameter and then does not move", "[simulation][device]") {
   using parameters = sim::device_parameters<line>;
   CHECK_FALSE(parameters{}.check());

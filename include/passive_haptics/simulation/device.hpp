@@ -62,7 +62,8 @@ class device {
   device_sample<Space> exchange(const vector& force) noexcept {
     if (!sound_) return {};
     const vector held = driver_.next(force);
-    const state actuator = to_physical<Space>(held);
+    state actuator = to_physical<Space>(held);
+    for (int i = 0; i < Space::dof; ++i) component(actuator, i) *= component(parameters_.gain, i);
     const state load = parameters_.load;
     hold(time(), driven_, actuator, load);
     if (coasting_.duration() > 0.0) {

@@ -36,6 +36,7 @@ struct device_parameters {
   coordinates lower = every_axis<Space>(-infinity);  ///< end stops [m], inelastic
   coordinates upper = every_axis<Space>(infinity);   ///< end stops [m], inelastic
   coordinates load{};                                ///< constant force, such as a weight [N]
+  coordinates gain = every_axis<Space>(1.0);         ///< newtons delivered for each newton held
   double period = 1e-3;                              ///< T [s]
   coordinates start{};                               ///< position [m]
   coordinates start_velocity{};                      ///< [m/s]
@@ -60,6 +61,7 @@ struct device_parameters {
       const double v = component(start_velocity, i);
       if (!finite(v)) return {"start_velocity", v, "finite"};
       if (!finite(component(load, i))) return {"load", component(load, i), "finite"};
+      if (!finite(component(gain, i))) return {"gain", component(gain, i), "finite"};
     }
     if (!(period > 0.0) || !finite(period)) return {"period", period, "finite and > 0 s"};
     if (substeps < 1 || substeps > 10000) return {"substeps", double(substeps), "1 to 10000"};
