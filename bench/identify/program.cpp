@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program.hpp"
 
+#include "hung.hpp"
 #include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/identification/device_file.hpp>
 #include <passive_haptics/simulation/presets.hpp>
@@ -72,6 +73,46 @@ int identify_simulated(const settings& chosen, const std::atomic<bool>& stop) {
   return work(sim::device<line>(preset.parameters<line>()));
 }
 
+/// The simulated device does by itself what it is asked for, within 1.5 s.
+int weigh_simulated(const settings& chosen, const std::atomic<bool>& stop) {
+  const auto& preset = *preset_of(chosen.device);
+  std::cout << preset.name << ", simulated: up to " << chosen.how.force << " N; it has a gain of "
+            << chosen.gain << '\n';
+  const identification::weigh_in_parameters p{
+      .mass = chosen.hung, .force = chosen.how.force, .moves = preset.mass};
+  if (const auto fault = p.check()) {
+    ex::complain(std::string("weighing: ") + fault.parameter + " must be " + fault.remedy);
+  }
+  auto truth = preset.parameters<line>();
+  truth.gain = chosen.gain;
+  const auto work = [&](auto device) {
+    int asked = 0, waited = 0;
+    const auto ready = [&](const char* sentence) {
+      if (waited == 0) {
+        std::cout << sentence << '\n';
+        const double mass = asked == 1 ? chosen.hung : 0.0;
+        device.hang(mass, {.weight = {-9.80665 * mass}});
+      }
+      if (++waited < (asked == 0 ? 2 : 1500)) return false;
+      waited = 0;
+      ++asked;
+      return true;
+    };
+    const auto found =
+        identification::weigh<line>(device, identification::weigh_in<1>(p, {{.pulls = {-1.0}}}),
+                                    ready, [&] { return stop.load(); });
+    if (stop) throw ex::interrupted("stopped: the force is zero");
+    std::cout << identification::table_of(found);
+    return found.problem == nullptr ? 0 : 1;
+  };
+  if (preset.friction > 0.0 && chosen.presliding > 0.0) {
+    truth.friction = 0.0;
+    return work(
+        hung_device<line, sim::slider_and_spring>(truth, preset.friction_of(chosen.presliding)));
+  }
+  return work(hung_device<line>(truth));
+}
+
 }  // namespace
 
 settings parse(const std::vector<std::string>& arguments) {
@@ -92,6 +133,10 @@ settings parse(const std::vector<std::string>& arguments) {
        a_quantity("--stroke", "MM", "to either side (default: 8)", 1e-3, chosen.how.stroke),
        a_quantity("--workspace", "MM", "beyond this the force is zero (default: 40)", 1e-3,
                   chosen.how.workspace),
+       a_quantity("--weigh-in", "KG", "weigh this mass: which force is delivered?", 1.0,
+                  chosen.hung),
+       a_quantity("--gain", "SHARE", "that simulated motors deliver (default: 1)", 1.0,
+                  chosen.gain),
        ex::a_text("--write FILE", "keep what was found", chosen.file),
        ex::a_text("--json FILE", "write the description that a composition takes", chosen.json),
        ex::a_text("--read FILE", "show what was kept, and measure nothing", chosen.read),
@@ -116,6 +161,7 @@ int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop
     if (chosen.disturbed > 0) return run_disturbed(chosen, stop);
     if (chosen.study > 0) return run_study(chosen, stop);
     if (!chosen.read.empty()) return show_file(chosen.read, chosen.json);
+    if (chosen.hung > 0.0) return weigh_simulated(chosen, stop);
     return identify_simulated(chosen, stop);
   });
 }

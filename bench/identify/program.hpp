@@ -13,6 +13,8 @@ namespace ex = experiments;
 struct settings {
   std::string device = "Touch";  ///< simulated: a name of sim::all_presets
   double presliding = 15e-6;     ///< of its friction [m]
+  double hung = 0.0;             ///< mass to weigh by [kg]; 0: it is not weighed
+  double gain = 1.0;             ///< of the simulated motors
   std::string file;              ///< to write what was found; empty: none
   std::string json;              ///< to write the description; empty: none
   std::string read;              ///< a file to read instead

@@ -73,6 +73,15 @@ TEST_CASE(
   CHECK(run_quietly({"--device", "Touch", "--force", "0.1"}).code == 1);
 }
 
+TEST_CASE("the identify program weighs a mass, and says which one would do", "[identify]") {
+  CHECK(run_quietly({"--weigh-in", "0.15", "--gain", "0.9"}).code == 0);
+  CHECK(run_quietly({"--weigh-in", "0.15", "--presliding", "0", "--device", "omega"}).code == 0);
+  CHECK(run_quietly({"--weigh-in", "0.15", "--gain", "0.9"}, true).code == 130);
+  CHECK(run_quietly({"--weigh-in", "0.002"}).code == 1);
+  CHECK(run_quietly({"--weigh-in", "0.15", "--force", "0.5"}).code == 1);
+  CHECK(run_quietly({"--weigh-in", "much"}).code == 2);
+}
+
 TEST_CASE("the identify program says what it does not understand", "[identify]") {
   CHECK(run_quietly({"--device", "Nobody"}).complaint.find("Touch") != std::string::npos);
   CHECK(run_quietly({"--force", "many"}).code == 2);
