@@ -33,7 +33,7 @@ class weighed_axis {
  public:
   /// Begins a weighing about the place where it is, or about that of the last one.
   void begin(bool here) noexcept {
-    if (here) centre_ = record_.x();
+    if (here) centre_ = end_ = record_.x();
     found_ = {};
     restart();
   }
@@ -91,7 +91,6 @@ class weighed_axis {
     limited_ = lasted_ = 0.0;
     now_ = {record_.x(), 0.0, 0.0};
     turns_ = {now_, now_};
-    end_ = now_.x;
   }
   /// It is across, so the turn behind it is known, and the way up to there from the turn before.
   void turn() noexcept {
