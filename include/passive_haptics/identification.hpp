@@ -5,8 +5,7 @@
 //   identify.hpp               identify<P>(device): every axis, in a loop of its own
 //   axis_identification.hpp    tick(position, dt) → force, then result(): one axis, in yours
 //   axis_found.hpp             the bounds found, and stated(), the numbers for a composition
-//   weigh_in.hpp               weigh(device, ...): force delivered for a force commanded, by a known mass
-//   known_gains.hpp            a device whose commands are divided by that, and a margin for what is left
+//   weigh_in.hpp               weigh(device, ...): force delivered for one commanded; known_gains.hpp divides by it
 //   describe.hpp               a table, the composition to paste, its stiffness budget
 //   in_numbers.hpp             what explain() says, with numbers, and by how much what raises it has to change
 //   recording_file.hpp         load_recording(): a log of a device; CSV, MAT 5, NumPy
@@ -22,7 +21,6 @@
 #include <passive_haptics/identification/identification_file.hpp>
 #include <passive_haptics/identification/identify.hpp>
 #include <passive_haptics/identification/in_numbers.hpp>
-#include <passive_haptics/identification/known_gains.hpp>
 #include <passive_haptics/identification/recording_file.hpp>
 #include <passive_haptics/identification/replay.hpp>
 #include <passive_haptics/identification/weigh_in.hpp>

@@ -8,7 +8,9 @@
 #include <passive_haptics/simulation/friction.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace ph = passive_haptics;
 namespace sim = ph::simulation;
@@ -101,6 +103,7 @@ struct drawn {
 
 struct tally {
   int drawn = 0, stated = 0, within = 0, wide = 0;
+  std::vector<double> errors{}, tolerances{};
 
   template <class Space>
   void add(std::uint64_t seed, double said = 1.0) {
@@ -111,6 +114,10 @@ struct tally {
     stated += found.problem == nullptr ? 1 : 0;
     within += d.within(found) ? 1 : 0;
     wide += found.tolerance(true) > 0.025 ? 1 : 0;
+    tolerances.push_back(found.tolerance(true));
+    for (std::size_t i = 0; i < d.dof; ++i) {
+      errors.push_back(std::abs(found.likely[i] / d.gains[i] - 1.0));
+    }
   }
 };
 
@@ -121,6 +128,12 @@ TEST_CASE("a gain is within what a weighed mass states, on devices drawn at rand
   tally all;
   for (std::uint64_t seed = 1; seed <= 190; ++seed) all.add<d1>(seed);
   for (std::uint64_t seed = 1; seed <= 12; ++seed) all.add<d3>(1000 + seed);
+  std::sort(all.errors.begin(), all.errors.end());
+  std::sort(all.tolerances.begin(), all.tolerances.end());
+  INFO("error " << all.errors[all.errors.size() / 2] << " in the median, at most "
+                << all.errors.back() << "; tolerance left "
+                << all.tolerances[all.tolerances.size() / 2] << ", at most "
+                << all.tolerances.back());
   CHECK(all.drawn == 202);
   CHECK(all.stated >= 200);
   CHECK(all.within >= 200);

@@ -5,6 +5,7 @@
 //     const std::vector<weighed_pose<3>> poses{{.pulls = {1, 0, 0}}, {.pulls = {0, 1, 0}}, {.pulls = {0, 0, 1}}};
 //     const auto found = weigh<scene>(device, weigh_in<3>({.mass = 0.2}, poses), ready, stop);
 //     if (found.problem) std::puts(found.problem);
+//     known_gains<scene, my_device> grip{device, found.likely, found.tolerance(true)};        // known_gains.hpp
 //
 // ready(sentence) shows what is to be done, and says once a tick whether it has been. Each pose is weighed three times:
 // with nothing hung on the handle, with the mass, with nothing again. What the mass changes is d = w/g, w = m g₀ along
@@ -18,6 +19,7 @@
 
 #include <passive_haptics/identification/describe.hpp>
 #include <passive_haptics/identification/identify.hpp>
+#include <passive_haptics/identification/known_gains.hpp>
 #include <passive_haptics/identification/weighed_axis.hpp>
 
 #include <utility>
