@@ -166,14 +166,16 @@ class surface {
   /// felt as facets, or smooth between creases (smooth.hpp). A surface cannot be copied or moved, because fingers hold
   /// its address.
   template <class Nodes>
-  surface(std::vector<triangle> triangles, const Nodes& nodes, made_of stuff = {},
-          std::optional<smooth> rounded = {})
+  surface(std::vector<triangle> triangles, const Nodes& nodes, made_of stuff = {})
+      : world_(made(std::move(triangles), nodes, stuff)), count_(nodes.size()) {
+    publish(nodes, std::move(stuff));
+  }
+  template <class Nodes>
+  surface(std::vector<triangle> triangles, const Nodes& nodes, made_of stuff,
+          std::optional<smooth> rounded)
       : world_(made(std::move(triangles), nodes, stuff)), count_(nodes.size()) {
     if (rounded) smoothen(*rounded, nodes);
-    fill(world_->shapes.blank(), nodes);
-    world_->shapes.publish();
-    world_->stuffs.blank() = std::move(stuff);
-    world_->stuffs.publish();
+    publish(nodes, std::move(stuff));
   }
   surface(const surface&) = delete;
   surface& operator=(const surface&) = delete;
@@ -361,6 +363,23 @@ class surface {
     std::vector<triple> places(nodes.size());
     for (std::size_t i = 0; i < places.size(); ++i) places[i] = detail::node_of(nodes, i);
     world_->smooth = detail::neighbours_of(world_->triangles, places, rounded.crease);
+    rounds_off_ = [](const detail::world& w, shape& s, problems& its) {
+      detail::fit_normals(w.smooth, w.triangles, s.nodes, s.normals, its);
+      s.bulge = {};
+      for (std::size_t t = 0; t < w.triangles.size(); ++t) {
+        const auto three = [&](const auto& all, const auto& of) {
+          return corners{all[at(of[0])], all[at(of[1])], all[at(of[2])]};
+        };
+        s.bulge.include(three(s.nodes, w.triangles[t]), three(s.normals, w.smooth.normal[t]));
+      }
+    };
+  }
+  template <class Nodes>
+  void publish(const Nodes& nodes, made_of stuff) {
+    fill(world_->shapes.blank(), nodes);
+    world_->shapes.publish();
+    world_->stuffs.blank() = std::move(stuff);
+    world_->stuffs.publish();
   }
   static void believe(const std::string& fault) {
     if (fault.empty()) return;
@@ -399,22 +418,17 @@ class surface {
     w.tree.fit(s.boxes, [&](int t, box& b) {
       for (const int node : w.triangles[at(t)]) b.grow(s.nodes[at(node)]);
     });
-    if (w.smooth.none()) return;
-    detail::fit_normals(w.smooth, w.triangles, s.nodes, s.normals, problems_);
-    s.bulge = {};
-    for (std::size_t t = 0; t < w.triangles.size(); ++t) {
-      const auto three = [&](const auto& all, const auto& of) {
-        return corners{all[at(of[0])], all[at(of[1])], all[at(of[2])]};
-      };
-      s.bulge.include(three(s.nodes, w.triangles[t]), three(s.normals, w.smooth.normal[t]));
-    }
+    if (rounds_off_ != nullptr) rounds_off_(w, s, problems_);
   }
 
+  using problems = std::vector<detail::normal_problem>;
   std::unique_ptr<detail::world> world_;
   std::size_t count_;  ///< number of nodes
   clock::time_point last_{};
   std::string fault_;
-  std::vector<detail::normal_problem> problems_;  ///< while normals are fitted
+  problems problems_;  ///< while normals are fitted
+  /// Of a smooth mesh. A program that makes none links nothing of it.
+  void (*rounds_off_)(const detail::world&, shape&, problems&) = nullptr;
 };
 
 }  // namespace mesh
