@@ -582,6 +582,26 @@ TEST_CASE("a device comes to rest on a wall that yields to the force of the news
   CHECK(fastest < 1e-3);
 }
 
+TEST_CASE("what is damped is a swing, and neither a speed that stays nor one that jumps once",
+          "[contact]") {
+  ph::swing<double> swing;
+  CHECK(swing.damped(0.1, 4000.0, 1e-3) == 0.1);  // a contact begins with a damper
+  for (int n = 0; n < 1000; ++n) (void)swing.damped(0.1, 4000.0, 1e-3);
+  CHECK(swing.damped(0.1, 4000.0, 1e-3) < 1e-9);
+  CHECK(swing.damped(0.104, 4000.0, 1e-3) < 1e-9);  // 4 m/s² for a millisecond
+  double damped = 0.0;
+  for (int n = 0; n < 1000; ++n) {
+    const double now = swing.damped(0.1 * std::sin(0.04 * n), 4000.0, 1e-3);  // 40/s
+    if (n >= 500) damped = std::max(damped, now);
+  }
+  CHECK(damped > 0.099);
+
+  auto law = at<d1>(ph::eased{damper});
+  for (int n = 0; n < 1000; ++n) (void)law.swinging(0.1, 1e-3);
+  law.let_go();
+  CHECK(law.swinging(0.1, 1e-3) == 0.1);  // the next contact begins anew
+}
+
 TEST_CASE("two news between two ticks are one", "[contact]") {
   auto model = touching(ph::eased{damper});
   REQUIRE(model.update({0.0, 1.0, 1000.0}));

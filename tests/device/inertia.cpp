@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include <passive_haptics/device/rigid_inertia.hpp>
 
 using Catch::Matchers::WithinRel;
 
@@ -50,4 +51,14 @@ TEST_CASE("M₁₁ − |M₁₂| on the diagonal is nowhere above a coupled iner
     above = above || diagonal.norm(f) < std::sqrt(square);
   }
   CHECK(above);
+}
+
+TEST_CASE("a handle off the centre of mass has the least share of mass and moment", "[inertia]") {
+  CHECK(ph::rigid_inertia{.mass = 0.15, .least = 1e-4}.at_handle() == 1.0);
+  for (const double offset : {0.005, 0.02, 0.1}) {
+    const double r = ph::rigid_inertia{.mass = 0.15, .least = 1e-4, .offset = offset}.at_handle();
+    CHECK(r < 1.0);
+    // m and I + m|c|² with m|c| beside them, less r times m and I, have a determinant of 0: (1 − r)² = r q.
+    CHECK_THAT((1.0 - r) * (1.0 - r), WithinRel(r * 0.15 * offset * offset / 1e-4, 1e-12));
+  }
 }

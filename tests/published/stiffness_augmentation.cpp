@@ -69,6 +69,11 @@ TEST_CASE("nonlinear_coupling grows by rate·dt in series with the wall, up to i
     (void)felt(shaper, {.depth = 1e-3, .moved = 0.0, .energy = 1.0, .motion_known = false});
     CHECK(shaper.coupling() == 0.0);
   }
+  SECTION("it starts again when it is reset") {
+    CHECK(shaper.coupling() > 50.0);
+    shaper.reset();
+    CHECK(shaper.coupling() == 0.0);
+  }
 }
 
 TEST_CASE("stiffness_increment grows once when a press follows a release",
