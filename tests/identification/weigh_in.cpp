@@ -124,7 +124,7 @@ struct tally {
 }  // namespace
 
 TEST_CASE("a gain is within what a weighed mass states, on devices drawn at random",
-          "[identification][weigh_in]") {
+          "[identification][weigh_in][long]") {
   tally all;
   for (std::uint64_t seed = 1; seed <= 190; ++seed) all.add<d1>(seed);
   for (std::uint64_t seed = 1; seed <= 12; ++seed) all.add<d3>(1000 + seed);
