@@ -182,6 +182,20 @@ constexpr void fit(proxy_spring& spring, const auto& d, double most) noexcept {
   spring.force_limit = d.force_limit;
   spring.most = most;
 }
+/// Surfaces in slots, as stiff as the device and its dry friction bear in a loop `late` ticks late.
+[[nodiscard]] constexpr auto set_of(const auto& d, const auto& hand, int late,
+                                    const auto&... room) noexcept {
+  proxy_spring spring{};
+  fit(spring, d, budget_of(d, hand, late));
+  const pursuit turned{.speed = 0.5, .force_rate = 5.5 * d.force_limit};  // [rad/s], [N·m/s]
+  return contact_set{spring, d.rotary ? turned : pursuit{}, room...};
+}
+/// The port of a source that was made for this device.
+template <class Space, class Limits>
+[[nodiscard]] constexpr auto port_of(const auto& source, const auto& d, const auto& hand,
+                                     const auto& bounds) noexcept {
+  return passive_port{Space{}, source, sums_of(d, hand), bounds, limits_of<Limits>(d), eyes_of(d)};
+}
 }  // namespace detail
 
 /// One surface: touch.update(plane), touch.tick(sample). Its normal turns with the rate of the updates, and catches
@@ -212,16 +226,8 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
           detail::stated_hand Hand = known_hand, class... Room>
 [[nodiscard]] constexpr auto make_contacts(const Device& device, const Hand& hand,
                                            const Room&... room) noexcept {
-  proxy_spring spring{};
-  detail::fit(spring, device, detail::budget_of(device, hand, Limits::latency));
-  pursuit pace{};
-  if (device.rotary) pace = {.speed = 0.5, .force_rate = 5.5 * device.force_limit};
-  return passive_port{Space{},
-                      contact_set{spring, pace, room...},
-                      detail::sums_of(device, hand),
-                      detail::bounds_of(device, hand),
-                      detail::limits_of<Limits>(device),
-                      detail::eyes_of(device)};
+  const auto source = detail::set_of(device, hand, Limits::latency, room...);
+  return detail::port_of<Space, Limits>(source, device, hand, detail::bounds_of(device, hand));
 }
 
 /// For a force that you, a renderer, a simulator or an SDK compute: port.tick(sample, wanted). The contact comes to
@@ -231,17 +237,12 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
           detail::stated_hand Hand = known_hand>
 [[nodiscard]] constexpr auto make_guard(const Device& device, const Hand& hand) noexcept {
   const double budget = detail::budget_of(device, hand, Limits::latency);
-  const double steep = device.rotary ? 50.0 * device.force_limit : 40e3;
-  const double most = kernels::smaller(budget, steep);
-  return passive_port{Space{},
-                      settled_force{.mass = device.mass,
-                                    .damping_fraction = detail::braking(device, most, most / 40.0),
-                                    .force_limit = device.force_limit,
-                                    .most = budget},
-                      detail::sums_of(device, hand),
-                      detail::bounds_of(device, hand),
-                      detail::limits_of<Limits>(device),
-                      detail::eyes_of(device)};
+  const double most = kernels::smaller(budget, device.rotary ? 50.0 * device.force_limit : 40e3);
+  const settled_force source{.mass = device.mass,
+                             .damping_fraction = detail::braking(device, most, most / 40.0),
+                             .force_limit = device.force_limit,
+                             .most = budget};
+  return detail::port_of<Space, Limits>(source, device, hand, detail::bounds_of(device, hand));
 }
 
 // The types that they return, for members of a class.

@@ -29,12 +29,7 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
 [[nodiscard]] constexpr auto make_mesh_touch(const Device& device, const Hand& hand,
                                              mesh_contact shape = {}) noexcept {
   detail::fit(shape.spring, device, detail::budget_of(device, hand, Limits::latency));
-  return passive_port{Space{},
-                      shape,
-                      detail::sums_of(device, hand),
-                      detail::bounds_of(device, hand),
-                      detail::limits_of<Limits>(device),
-                      detail::eyes_of(device)};
+  return detail::port_of<Space, Limits>(shape, device, hand, detail::bounds_of(device, hand));
 }
 
 /// The type that make_mesh_touch returns, for members of a class.

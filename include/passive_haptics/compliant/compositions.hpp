@@ -40,6 +40,12 @@ template <int Late, int N>
           t.friction,  d.longest_tick,
           t.tolerance, t.loss_tolerance};
 }
+/// The same, and the motors' limit.
+template <class Limits>
+[[nodiscard]] constexpr auto bounds_through(const auto& d, const auto& transmission,
+                                            const known_hand& hand) noexcept {
+  return bound_chain{bound_of<Limits::latency>(d, transmission, hand), motors_of(d)};
+}
 /// The mass [kg] for which the contact law is designed: the mass that moves with the encoder within a tick.
 [[nodiscard]] constexpr double rotor_of(const auto& d, const any_transmission& /*t*/) noexcept {
   return d.mass;
@@ -82,8 +88,7 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
                      turn_limited{.rate = turn_rate},
                      detail::law_of(seen, hand, most),
                      detail::sums_of(seen, hand),
-                     bound_chain{detail::bound_of<Limits::latency>(seen, transmission, hand),
-                                 detail::motors_of(seen)},
+                     detail::bounds_through<Limits>(seen, transmission, hand),
                      detail::limits_of<Limits>(seen),
                      detail::eyes_of_touch(seen, most)};
 }
@@ -94,17 +99,9 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
 [[nodiscard]] constexpr auto make_contacts(const Device& device, const Transmission& transmission,
                                            const known_hand& hand, const Room&... room) noexcept {
   const Device seen = detail::seen_through(device, transmission);
-  proxy_spring spring{};
-  detail::fit(spring, seen, detail::budget_of(seen, hand, Limits::latency));
-  pursuit pace{};
-  if (seen.rotary) pace = {.speed = 0.5, .force_rate = 5.5 * seen.force_limit};
-  return passive_port{Space{},
-                      contact_set{spring, pace, room...},
-                      detail::sums_of(seen, hand),
-                      bound_chain{detail::bound_of<Limits::latency>(seen, transmission, hand),
-                                  detail::motors_of(seen)},
-                      detail::limits_of<Limits>(seen),
-                      detail::eyes_of(seen)};
+  const auto source = detail::set_of(seen, hand, Limits::latency, room...);
+  return detail::port_of<Space, Limits>(source, seen, hand,
+                                        detail::bounds_through<Limits>(seen, transmission, hand));
 }
 
 /// A force of your own, as in compositions.hpp.
@@ -113,13 +110,9 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
 [[nodiscard]] constexpr auto make_guard(const Device& device, const Transmission& transmission,
                                         const known_hand& hand) noexcept {
   const Device seen = detail::seen_through(device, transmission);
-  return passive_port{Space{},
-                      settled_force{.mass = seen.mass, .force_limit = seen.force_limit},
-                      detail::sums_of(seen, hand),
-                      bound_chain{detail::bound_of<Limits::latency>(seen, transmission, hand),
-                                  detail::motors_of(seen)},
-                      detail::limits_of<Limits>(seen),
-                      detail::eyes_of(seen)};
+  const settled_force source{.mass = seen.mass, .force_limit = seen.force_limit};
+  return detail::port_of<Space, Limits>(source, seen, hand,
+                                        detail::bounds_through<Limits>(seen, transmission, hand));
 }
 
 }  // namespace v0

@@ -129,12 +129,7 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
   const double steepest = kernels::larger(shape.stiffness, shape.stop_stiffness);
   const double shown = kernels::smaller(shape.most, steepest);
   shape.rest.damping_fraction = detail::braking(device, shown, shown);
-  return passive_port{Space{},
-                      shape,
-                      detail::sums_of(device, hand),
-                      detail::bounds_of(device, hand),
-                      detail::limits_of<Limits>(device),
-                      detail::eyes_of(device)};
+  return detail::port_of<Space, Limits>(shape, device, hand, detail::bounds_of(device, hand));
 }
 
 /// The type that make_detents returns, for members of a class.
