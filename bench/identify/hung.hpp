@@ -4,7 +4,9 @@
 
 #include <passive_haptics/simulation/device.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace identify {
