@@ -223,28 +223,13 @@ TEST_CASE("no joule comes out of a rough mesh, however it moves, and what rests 
       ph::mesh::surface s(m.rest.triangles, m.nodes(0.0));
       auto port = port_of(0.2, 0.0, 2000, 0.1, bound);
       port.source().touch(s);
-      std::mt19937 random(seed);
-      std::uniform_real_distribution<> any(-0.06, 0.06);
-      sim::impedance_hand<scene> hand;
-      hand.stiffness = 400;
-      hand.damping = 2;
-      hand.limit = 10;
-      sim::device<scene, sim::impedance_hand<scene>> dev({.mass = 0.1, .start = vector(0.1, 0, 0)},
-                                                         hand);
+      restless in_hand(seed);
       return sim::run(
-                 dev, port, 3000,
+                 in_hand.device, port, 3000,
                  [&](auto& now) {
                    if (now.tick % 33 == 0) REQUIRE(s.update(m.nodes(now.time)));
                  },
-                 [&](auto& now) {  // a hand that wanders, and one that taps
-                   if (seed % 2 == 0 && now.tick % 200 == 0) {
-                     dev.hand().target = vector(any(random), any(random), any(random));
-                   } else if (seed % 2 == 1) {
-                     const vector out = now.force;
-                     dev.hand().target = out.norm() > 0.5 ? vector(now.position + out * 0.1)
-                                                          : vector(vector::Zero());
-                   }
-                 })
+                 [&](auto& now) { in_hand.move(now); })
           .least_energy;
     };
     INFO(m.name);

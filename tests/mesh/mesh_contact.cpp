@@ -117,25 +117,13 @@ TEST_CASE("no joule comes out of a mesh, however it moves, behind a strict and a
       ph::mesh::surface s(m.rest.triangles, m.nodes(0.0));
       auto port = port_of(2000, 0.1, bound);
       port.source().touch(s);
-      std::mt19937 random(seed);
-      std::uniform_real_distribution<> any(-0.06, 0.06);
-      device dev({.mass = 0.1, .start = vector(0.1, 0, 0)}, drawn(vector::Zero(), 10));
+      restless in_hand(seed);
       const auto seen = sim::run(
-          dev, port, 3000,
+          in_hand.device, port, 3000,
           [&](auto& now) {
             if (now.tick % 33 == 0) REQUIRE(s.update(m.nodes(now.time)));
           },
-          [&](auto& now) {
-            // Half of them wander, half tap: inwards in the air, outwards when they are pushed out.
-            if (seed % 2 == 0 && now.tick % 200 == 0) {
-              dev.hand().target = vector(any(random), any(random), any(random));
-            }
-            if (seed % 2 == 1) {
-              const vector out = now.force;
-              dev.hand().target =
-                  out.norm() > 0.5 ? vector(now.position + out * 0.1) : vector(vector::Zero());
-            }
-          });
+          [&](auto& now) { in_hand.move(now); });
       largest = std::max(largest, seen.largest_force);
       return seen.least_energy;
     };

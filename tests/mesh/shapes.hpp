@@ -52,6 +52,31 @@ inline void show(sim::quiet_judge<scene>& judge, const ph::mesh::proxy& ball, co
   judge.add_at(now.force, now.sample.position, T, std::span(pressing.data(), count));
 }
 
+/// A device of 0.1 kg in a hand of at most 10 N that wanders, with an even seed, or taps: inwards in the air, outwards
+/// when it is pushed out.
+class restless {
+ public:
+  explicit restless(unsigned seed) : random_(seed), wanders_(seed % 2 == 0) {}
+
+  sim::device<scene, sim::impedance_hand<scene>> device{
+      {.mass = 0.1, .start = vector(0.1, 0, 0)}, {.stiffness = 400, .damping = 2, .limit = 10}};
+
+  void move(const auto& now) {
+    if (wanders_ && now.tick % 200 == 0) {
+      device.hand().target = vector(any_(random_), any_(random_), any_(random_));
+    } else if (!wanders_) {
+      const vector out = now.force;
+      device.hand().target =
+          out.norm() > 0.5 ? vector(now.position + out * 0.1) : vector(vector::Zero());
+    }
+  }
+
+ private:
+  std::mt19937 random_;
+  std::uniform_real_distribution<> any_{-0.06, 0.06};
+  bool wanders_;
+};
+
 /// A plate of 12 triangles, its upper side at z = 0.
 inline body plate(double half = 0.05, double thickness = 0.002) {
   body b;

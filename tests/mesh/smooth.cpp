@@ -345,20 +345,13 @@ TEST_CASE("no smooth mesh lets the ball through, and no joule comes out of it", 
         ph::mesh::surface s(m.rest.triangles, m.nodes(0.0), {}, rounded);
         const auto run = [&](auto port) {
           port.source().touch(s);
-          std::mt19937 random(seed);
-          std::uniform_real_distribution<> any(-0.06, 0.06);
-          sim::impedance_hand<scene> hand;
-          hand.stiffness = 400;
-          hand.damping = 2;
-          hand.limit = 10;
-          sim::device<scene, sim::impedance_hand<scene>> dev(
-              {.mass = 0.1, .start = vector(0.1, 0, 0)}, hand);
+          restless in_hand(seed);
           witness looks;
           int through = 0;
           double winds = -1e9;
           const auto& ball = port.source().ball();
           const auto seen = sim::run(
-              dev, port, 3000,
+              in_hand.device, port, 3000,
               [&](auto& now) {
                 if (now.tick % 33 == 0) REQUIRE(s.update(m.nodes(now.time)));
                 if (!ball.placed() || !m.closed || now.tick % 4 != 0) return;
@@ -366,16 +359,7 @@ TEST_CASE("no smooth mesh lets the ball through, and no joule comes out of it", 
                 through += winds > -1e8 && std::abs(about - winds) > 0.5 ? 1 : 0;
                 winds = about;
               },
-              [&](auto& now) {
-                if (seed == 2 && now.tick % 200 == 0) {
-                  dev.hand().target = vector(any(random), any(random), any(random));
-                }
-                if (seed == 1) {
-                  const vector out = now.force;
-                  dev.hand().target =
-                      out.norm() > 0.5 ? vector(now.position + out * 0.1) : vector(vector::Zero());
-                }
-              });
+              [&](auto& now) { in_hand.move(now); });
           INFO(m.name << ", seed " << seed << ", strict: " << strict);
           CHECK(through == 0);
           port.source().let_go();
