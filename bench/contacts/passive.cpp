@@ -101,6 +101,7 @@ struct passive_row {
   int latency = 0;
   carried by{};
   int runs = 1000;
+  double jitter = 0.0;        ///< share of a tick by which one is shorter than another, at most
   double least_energy = 0.0;  ///< [J]
   std::string worst{};
   double largest_force = 0.0;  ///< [N]
@@ -115,6 +116,7 @@ ex::record record_of(const passive_row& r) {
                                                       : "strict"},
                    {"late", r.latency},
                    {"carried_by", std::string(to_string(r.by))},
+                   {"jitter", r.jitter},
                    {"runs", r.runs},
                    {"least_energy_J", r.least_energy},
                    {"worst", r.worst},
@@ -147,7 +149,7 @@ void hold_after_news(passive_row& row, const one_port<Port, Count>& model) {
       return true;
     };
     vector end;
-    const quiet_run run = held_still<Late>(port, Count, p, world, &end);
+    const quiet_run run = held_still<Late>(port, Count, p, world, &end, row.jitter);
     if (row.by == carried::one_ledger) {
       row.least_energy = std::min(row.least_energy, run.least_energy);
     }
@@ -232,7 +234,9 @@ std::vector<std::string> run_passive(const session& s) {
       "with --seed " +
           std::to_string(s.chosen.seed) +
           ", a relaxed hand (100 N/m, 1 N·s/m) presses 0.1 to 0.5 kg, of which 0.1 kg are told, "
-          "while the world goes on so for 0.6 s and then stays as it is." +
+          "while the world goes on so for 0.6 s and then stays as it is. With jitter, each of the "
+          "ticks "
+          "of these runs is shorter than the longest by up to that share." +
           ex::quiet_columns);
   std::vector<passive_row> jobs;
   const int runs = s.chosen.quick ? 60 : 1200;
@@ -243,6 +247,11 @@ std::vector<std::string> run_passive(const session& s) {
           jobs.push_back({n, rough, reachable, latency, carried::one_ledger, runs});
         }
       }
+    }
+  }
+  for (const double jitter : {0.05, 0.5}) {
+    for (const bool reachable : {false, true}) {
+      jobs.push_back({3, false, reachable, 0, carried::one_ledger, runs, jitter});
     }
   }
   for (const bool reachable : {false, true}) {

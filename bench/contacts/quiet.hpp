@@ -53,7 +53,7 @@ class draws {
   ph::laws::samples random_;
 };
 
-/// m ẍ + (b + b_h) ẋ + k (x − goal) = f + load, f held for T: exact, by the power series of its solution.
+/// m ẍ + (b + b_h) ẋ + k (x − goal) = f + load, f held for a tick: exact, by the power series of its solution.
 /// The energy at the port is what the device's own damper took less what f brought in.
 class held_point {
  public:
@@ -63,14 +63,18 @@ class held_point {
     still_hand hand = still_hands[0];
     vector load = vector::Zero(), goal = vector::Zero(), start = vector::Zero();
   };
-  explicit held_point(const parameters& p) noexcept : p_(p), x_(p.start) {
-    const double rate = (p.damping + p.hand.damping) / p.mass, spring = p.hand.stiffness / p.mass;
-    double term = 1.0, before = 0.0;  // s(t) = Σ aₙ tⁿ, s(0) = 0, s'(0) = 1; as aₙ Tⁿ⁻¹
+  explicit held_point(const parameters& p) noexcept : p_(p), x_(p.start) { last_for(T); }
+  /// Sets the length of the coming ticks [s].
+  void last_for(double dt) noexcept {
+    const double rate = (p_.damping + p_.hand.damping) / p_.mass;
+    const double spring = p_.hand.stiffness / p_.mass;
+    slope_ = reach_ = swing_ = 0.0;
+    double term = 1.0, before = 0.0;  // s(t) = Σ aₙ tⁿ, s(0) = 0, s'(0) = 1; as aₙ dtⁿ⁻¹
     for (int n = 1; n < 40; ++n) {
       slope_ += n * term;
-      reach_ += term * T;
-      swing_ += term * T * T / (n + 1);
-      const double next = -(rate * T * n * term + spring * T * T * before) / ((n + 1) * n);
+      reach_ += term * dt;
+      swing_ += term * dt * dt / (n + 1);
+      const double next = -(rate * dt * n * term + spring * dt * dt * before) / ((n + 1) * n);
       before = term;
       term = next;
     }
@@ -151,25 +155,29 @@ class asked_stiffness {
 };
 
 /// Holds a device in a still hand until it is quiet after the last news; world(tick, x) publishes to the port before each
-/// tick, and returns true if that is news. `Late` ticks pass before a command is held.
+/// tick, and returns true if that is news. `Late` ticks pass before a command is held. A tick is shorter than T by up to
+/// that share of it.
 template <int Late = 0>
 [[nodiscard]] quiet_run held_still(auto& port, int slots, const held_point::parameters& p,
-                                   const auto& world, vector* end = nullptr) {
+                                   const auto& world, vector* end = nullptr, double jitter = 0.0) {
   held_point device(p);
+  draws length(1);
   sim::quiet_judge<d3> judge;
   quiet_run run;
   std::array<vector, std::size_t{Late} + 1> due{};  // commands on their way, the newest last
   due.fill(vector::Zero());
   std::vector<vector> room;
+  double dt = T;  // of the last tick [s]
   int until = static_cast<int>(watched / T);
   for (int tick = 0; tick < until; ++tick) {
     if (world(tick, device.position())) {
       judge.news();
       until = tick + static_cast<int>(watched / T);
     }
-    due.back() = port.tick(device.position(), ph::seconds{T}).force;
+    due.back() = port.tick(device.position(), ph::seconds{dt}).force;
     const auto normals = ex::pressing(port.source(), slots, room);
-    judge.add(due.back(), device.velocity(), T, normals);
+    judge.add(due.back(), device.velocity(), dt, normals);
+    if (jitter > 0.0) device.last_for(dt = T * (1.0 - jitter * length.between(0.0, 1.0)));
     device.step(due.front());
     std::rotate(due.begin(), due.begin() + 1, due.end());
     if (!normals.empty()) run.touched = tick * T;

@@ -54,6 +54,23 @@ TEST_CASE("a motion that refutes what observed_reach was told is reported, and b
   CHECK(port.tick(x, ph::seconds{1e-3}, 0.0).what == ph::event::nominal);
 }
 
+TEST_CASE("a force that observed_reach bounds at rest does not tremble as the ticks do",
+          "[compliant][observed_reach]") {
+  for (const double pull : {5.0, ph::detail::no_limit}) {
+    ph::passive_port port{
+        d1{}, ph::given_force{}, ph::reduced_energy{.damping = 0.1, .loan = 1e-6},
+        ph::observed_reach{.mass = 0.1, .slew = 1000.0, .friction = 0.2, .pull = pull},
+        ph::loop_limits{.longest_tick = 1e-3}};
+    double steady = 0.0;
+    for (int n = 0; n < 100; ++n) steady = port.tick(0.0, ph::seconds{1e-3}, 4.0).force;
+    REQUIRE(steady < 4.0);
+    for (const double dt : {0.95e-3, 1e-3, 0.5e-3, 0.2e-3, 0.7e-3}) {
+      CHECK_THAT(port.tick(0.0, ph::seconds{dt}, 4.0).force,
+                 Catch::Matchers::WithinRel(steady, 1e-9));
+    }
+  }
+}
+
 TEST_CASE("observed_reach names what is wrong with its numbers", "[compliant][observed_reach]") {
   ph::observed_reach p{.mass = 0.1, .slew = 100.0};
   CHECK_FALSE(p.check());

@@ -28,7 +28,7 @@ template <class Space, int Late>
 outcome run(const world& w, const ph::observed_reach& told, unsigned seed, int style) {
   using vector = typename Space::vector;
   using scalar = typename Space::scalar;
-  constexpr double T = 1e-3;
+  constexpr double T = 1e-3, top_speed = 100.0;
   constexpr int axes = Space::dof, normal = axes - 1, steps = 32;
   ph::local_model touch{
       Space{},
@@ -38,7 +38,7 @@ outcome run(const world& w, const ph::observed_reach& told, unsigned seed, int s
       ph::reduced_energy{.damping = w.b},
       told,
       ph::late_loop_limits<Late>{
-          .longest_tick = T * (1.0 + w.jitter), .top_speed = 100.0, .workspace = 100.0}};
+          .longest_tick = T * (1.0 + w.jitter), .top_speed = top_speed, .workspace = 100.0}};
   vector n = Space::zero();
   Space::component(n, normal) = scalar(1);
   (void)touch.update({Space::zero(), n, scalar(w.K)});
@@ -105,7 +105,8 @@ outcome run(const world& w, const ph::observed_reach& told, unsigned seed, int s
       }
       least.port = std::min(least.port, energy);
     }
-    if (std::abs(x[normal]) > 1.0) break;
+    const double speed = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (std::abs(x[normal]) > 1.0 || speed > 0.9 * top_speed) break;  // not what the port was told
   }
   return least;
 }

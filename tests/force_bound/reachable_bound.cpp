@@ -60,6 +60,22 @@ TEST_CASE("reachable_bound lets a device press that cannot turn round, and no ot
   }
 }
 
+TEST_CASE("a force that is bounded at rest does not tremble as the ticks do", "[bound]") {
+  const ph::reachable_work_bound<1> in_joules{.inertia = {{0.1}}, .hand = 15.0};
+  situation<d1> now{.energy = 1e-6, .held = 2.0};
+  const double newtons = limit(told, -4.0, now), joules = limit(in_joules, -4.0, now);
+  REQUIRE(newtons > -4.0);
+  REQUIRE(joules > -4.0);
+  for (const double dt : {0.2e-3, 0.5e-3, 0.93e-3}) {
+    now.dt = dt;
+    CHECK(limit(told, -4.0, now) == newtons);
+    CHECK(limit(in_joules, -4.0, now) == joules);
+  }
+  now.dt = 1.2e-3;  // a late one counts in full
+  CHECK(limit(told, -4.0, now) > newtons);
+  CHECK(limit(in_joules, -4.0, now) > joules);
+}
+
 TEST_CASE("reachable_bound with friction lets out what no reachable travel can spend",
           "[bound][friction]") {
   // F s − B s² − f_c s ≤ E for 0 ≤ s ≤ δ: the F of § 2(a′), plus f_c

@@ -84,6 +84,19 @@ TEST_CASE("along one direction rigid_reachable_bound is reachable_bound", "[rigi
   }
 }
 
+TEST_CASE("a wrench that is bounded at rest does not tremble as the ticks do", "[rigid]") {
+  const ph::part_at<ph::rigid_reachable_bound, body> bound(reachable);
+  const body::effort w = body::join({1, 0, -6}, {0, 0, 0});
+  const auto left = [&](double dt) {
+    auto now = quiet.with(body::zero(), 1e-6);
+    now.dt = dt;
+    return bound.limit(w, now).factor;
+  };
+  REQUIRE(left(T) < 1.0);
+  for (const double share : {0.2, 0.5, 0.93}) CHECK(left(share * T) == left(T));
+  CHECK(left(1.2 * T) < left(T));
+}
+
 TEST_CASE("no torque passes of which lemma C does not speak", "[rigid]") {
   const double most = 4 * damping.angular / T;
   const body::effort huge = body::join({1, 0, 0}, {0, 100 * most, 0});

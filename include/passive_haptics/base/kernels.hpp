@@ -193,14 +193,14 @@ template <real S>
 }
 
 /// δ [m]: the farthest that a mass m [kg] can travel along the force in the next tick, which lasts T [s] at most:
-///     δ = outward T/T₀ + (held + other) T₀T/(2m) + (next + other) T²/(2m)
-/// `outward` is the travel along the force in the last tick [m], which lasted T₀ [s]; `held` and `next`
-/// are the sizes of the force over the last and the next tick [N]; `other` bounds all other forces [N].
-/// A free mass reaches it; the terms beside `outward` are rounded up. (L6)
+///     δ = outward T/T₀ + (held + other) max(T₀, T) T/(2m) + (next + other) T²/(2m)
+/// `outward` is the travel along the force in the last tick [m], which lasted T₀ [s]; `held` and `next` are the sizes
+/// of the force over the last and the next tick [N]; `other` bounds all other forces [N]. A free mass reaches it if
+/// T₀ ≥ T; with a shorter T₀ itself the force would tremble as the ticks do. Other terms than the first round up. (L6)
 template <real S>
 [[nodiscard]] constexpr S outward_reach(S outward, S held, S next, S other, S m, S T0,
                                         S T) noexcept {
-  const S last = (held + other) * T0 * T / (S(2) * m);
+  const S last = (held + other) * larger(T0, T) * T / (S(2) * m);
   const S coming = (next + other) * T * T / (S(2) * m);
   return outward * T / T0 + (last + coming) * (S(1) + rounding<S>());
 }

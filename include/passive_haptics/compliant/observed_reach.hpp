@@ -188,7 +188,7 @@ class observed_reach::on {
     const auto speeds_up = [&](int i) {
       return kernels::larger(by_mass(h[static_cast<std::size_t>(i)] + most), scalar(0));
     };
-    scalar speed = (moved + e) / T0 + speeds_up(0) * T0 / scalar(2);
+    scalar speed = (moved + e) / T0 + speeds_up(0) * kernels::larger(T0, T) / scalar(2);
     for (int i = 1; i < j; ++i) speed += speeds_up(i) * T;
     return speed * T + speeds_up(j) * T * T / scalar(2) +
            scalar(8) * kernels::rounding<scalar>() *
@@ -206,18 +206,18 @@ class observed_reach::on {
     const auto speeds_up = [&](int i) {
       return a + by_mass(h[static_cast<std::size_t>(i)] - held);
     };
-    // w_j rises in the last tick, is 1 in those between and falls in tick j: its area, and its delay after w_0
-    const scalar S = scalar(j - 1) * T;
-    const scalar area = (T0 + T) * half + S;
-    const scalar moment = -T0 * T0 / scalar(6) + S * S * half + S * T * half + T * T / scalar(6);
-    const scalar later = moment / area + (scalar(2) * T0 + T1) / scalar(3);
+    // w_j rises in the last tick, is 1 in those between and falls in tick j: its area, and its delay after w_0. Both
+    // grow with T0 and T1, and are taken at T if that is longer, so that the bound does not tremble as the ticks do.
+    const scalar S = scalar(j - 1) * T, t0 = kernels::larger(T0, T), t1 = kernels::larger(T1, T);
+    const scalar area = (t0 + T) * half + S, since = (scalar(2) * t0 + t1) / scalar(3);
+    const scalar moment = -t0 * t0 / scalar(6) + S * S * half + S * T * half + T * T / scalar(6);
+    const scalar later = moment / area + since;
     // the damper pulls back less where the rotor slows down
     scalar least = kernels::smaller(h[0], held_before);
     for (int i = 1; i < j; ++i) least = kernels::smaller(least, h[static_cast<std::size_t>(i)]);
     least = kernels::smaller(least, scalar(0));
     const scalar slows = kernels::larger(
-        scalar(0), -(m_ * a - held + least) +
-                       R_ * (scalar(j) * T + (scalar(2) * T0 + T1) / scalar(3)) + scalar(2) * c_);
+        scalar(0), -(m_ * a - held + least) + R_ * (scalar(j) * T + since) + scalar(2) * c_);
     const scalar unsure = R_ * later + scalar(2) * c_ + b_ * later * slows / m_;
 
     scalar speed = V0 + speeds_up(0) * T0 * half;

@@ -16,15 +16,14 @@ inline namespace v0 {
 
 /// reachable_work_bound for a rigid_body. With ‖w‖ of rigid_inertia and W = ¼wᵀB⁻¹w, the most work that w can
 /// do in the tick that begins now is
-///     η = w·Δξ T/T₀ + ‖w‖ ((‖held‖ + F) T₀T + (‖w‖ + F) T²)/2 + |τ|(|θ| + α T₀²)α T₀T/12
+///     η = w·Δξ T/T₀ + ‖w‖ ((‖held‖ + F) max(T₀, T) T + (‖w‖ + F) T²)/2 + |τ|(|θ| + α T₀²)α T₀T/12
 /// where F [√J/s] is a bound on the norm of all forces but the motors', the sum of
 ///     hand_force + 2 b_max|Δp|/T₀, hand_torque + 2 b_ω,max|θ|/T₀      the hand, and the damper at most
 ///     |ω|² √(m|c|² + (I_max − I_min)²/(4I)), |ω| = 2|θ|/T₀            centrifugal and gyroscopic forces
 /// The last term bounds the error of the turn that the end poses of the last tick show (docs/design/six_dof.md),
 /// with α = (‖held‖ + F)/√I [rad/s²] the largest angular acceleration. The wrench is scaled by the share s ≤ 1:
 ///     s = E1/η + η/(4W) where η² < 4 W E1,  √(E1/W) elsewhere
-/// In a loop that is one tick late, the wrench commanded before is covered first, and w in the tick after it, as in
-/// reachable_work_bound.
+/// In a loop one tick late, the wrench commanded before is covered first, and then w, as in reachable_work_bound.
 ///
 /// Passive (the true E ≥ 0; the ledger is a lower bound of E and may show a debt) under ALL of these:
 ///   - the inertia is nowhere below that of rigid_inertia, in any pose; the hand's wrench at the handle point
@@ -181,8 +180,8 @@ class rigid_reachable_bound::on {
     const scalar T = state.longest_tick;
     const auto work = P::work(w, state.travel);
     const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
-    const scalar pushed =
-        norm * ((all.held + all.pushed) * state.dt * T + (next + all.pushed) * T * T) / scalar(2);
+    const scalar last = (all.held + all.pushed) * kernels::larger(state.dt, T);
+    const scalar pushed = norm * (last + (next + all.pushed) * T) * T / scalar(2);
     const scalar beside = inertia_.template length<3>(w) *
                           kernels::unseen_turn(all.turn, all.turning, state.dt) * T / state.dt;
     return outward * T / state.dt + (pushed + beside) * (scalar(1) + kernels::rounding<scalar>());
