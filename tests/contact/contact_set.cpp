@@ -615,3 +615,32 @@ TEST_CASE("what sleeps is looked at twenty times in a second, whatever else is p
   CHECK(in_a_second(-1e-3) == Approx(20).margin(1));  // 1 N
   CHECK(in_a_second(-0.095) == 1000);                 // the control: within reach
 }
+
+TEST_CASE("a plane that is sent again as it is, is no news", "[contact_set]") {
+  ph::laws::samples random(1);
+  for (int n = 0; n < 20; ++n) {
+    auto port = planes<d3, 3>();
+    const auto tell = [&](int i, const d3::vector& normal) {
+      REQUIRE(port.source().update(i, ph::half_space<d3>{d3::zero(), normal, 2000.0}));
+    };
+    std::array<d3::vector, 3> normals{d3::vector(0, 0, 1), {}, {}};
+    for (int i : {1, 2}) {
+      const d3::vector side = random.direction<d3>();
+      normals[static_cast<std::size_t>(i)] = (d3::vector(0, 0, 1.5) + side).normalized();
+    }
+    for (int i = 0; i < 3; ++i) tell(i, normals[static_cast<std::size_t>(i)]);
+    d3::vector x(0, 0, 5e-3), v = d3::zero(), goal = x;
+    double lag = 0.0;
+    for (int tick = 0; tick < 1500; ++tick) {
+      if (tick % 100 == 0) goal = 4e-3 * random.direction<d3>() - d3::vector(0, 0, 8e-3);
+      const d3::vector f = port.tick(x, ph::seconds{T}).force;
+      for (int i = 0; i < 3; ++i) lag = std::max(lag, std::abs(port.source().slot(i).lag()));
+      if (tick % 33 == 0) {
+        for (int i = 0; i < 3; ++i) tell(i, normals[static_cast<std::size_t>(i)]);
+      }
+      v += (f + 200.0 * (goal - x) - 3.0 * v) * (T / 0.1);
+      x += v * T;
+    }
+    CHECK(lag < 1e-12);
+  }
+}

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Parameters. A user states them in double, check() names one that is out of range, and a port computes with them
-// in its scalar.
+// Parameters. A user states them in double, check() names one out of range, and a port computes in its own scalar.
 //
 // A part of a composition is a plain struct of its parameters, which does not depend on the port's type:
 //     ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}

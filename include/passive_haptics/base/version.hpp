@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The version of the library, in the only place that states it: CMakeLists.txt and conan/conanfile.py
-// read this header.
+// The version of the library, stated here alone: CMakeLists.txt and conan/conanfile.py read this header.
 
 #include <passive_haptics/base/language.hpp>
 

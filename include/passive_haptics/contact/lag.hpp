@@ -118,8 +118,7 @@ class lag {
   /// True if ℓ is 0 and nothing moves.
   [[nodiscard]] constexpr bool settled() const noexcept { return settled_; }
 
-  /// The time for which the last update is extrapolated so far [s], 0 if the surface may have stopped; and whether
-  /// it still is.
+  /// The time for which the last update is extrapolated so far [s], 0 if the surface may have stopped; whether it is.
   [[nodiscard]] constexpr Scalar taken_on() const noexcept {
     return silent() ? Scalar(0) : age_ + kernels::smaller(since_, ahead_);
   }

@@ -4,7 +4,8 @@
 // felt and follows it at a limited rate. The device's own motion is never limited:
 //
 //   update        the own depth d [m] is kept; the lag ℓ [m] becomes the difference          d = d_target − ℓ
-//   appears       d is at most the depth up to which the contact's force is λ = 0 beside the other contacts
+//   appears       d is at most the depth up to which the contact's force is λ = 0 beside the other contacts, or its d
+//                 before the update, if it was there without pressing: what is sent again as it is, is no news
 //   every tick    |ℓ| falls by ρ dt, or as fast as removes ℓ within t_c if that is more; the own normal turns
 //                 with the target's as the device slides along it, and catches up with the turn of an update
 //                 at turn_rate, or within t_c if that is faster
@@ -140,10 +141,10 @@ class pursued {
                         const pursuit::on<Space>& pace) noexcept {
     if (!next.prepare()) return false;
     const auto spring = rule.sampled(next.stiffness);
+    const auto shown = next.at(here);
+    const scalar own = target_.at(was).depth - lag_;
     if (pressed_ > scalar(0)) {
-      const auto shown = next.at(here);
       const vector normal = shown.outward();
-      const scalar own = target_.at(was).depth - lag_;
       const scalar lag = shown.depth - own * (spring_.stiffness * spring.compliance);
       if (!kernels::is_finite(lag) || !Space::is_finite(normal)) return false;
       lag_ = lag;
@@ -152,7 +153,9 @@ class pursued {
       if constexpr (turns_along) shown_ = normal;
       state_ = state::there;
     } else {
-      state_ = state::expected;
+      const scalar moved = shown.depth - own;
+      const bool known = state_ == state::there || state_ == state::expected;
+      expect(known && kernels::is_finite(moved) ? kernels::larger(moved, scalar(0)) : anything);
     }
     target_ = next;
     spring_ = spring;
@@ -183,7 +186,7 @@ class pursued {
   /// Ends a contact with λ = 0: the slot becomes empty, or expects the surface to cover the device again.
   constexpr bool vanish() noexcept {
     if (state_ == state::leaving || state_ == state::stale) state_ = state::empty;
-    if (state_ == state::there) state_ = state::expected;
+    if (state_ == state::there) expect(anything);
     return false;
   }
   /// Adds dt [s] to the age; a surface without updates for too long becomes stale.
@@ -283,10 +286,15 @@ class pursued {
       return before;
     }
   }
+  static constexpr scalar anything = kernels::largest<scalar>();  ///< any lag [m]
+  constexpr void expect(scalar lag) noexcept {
+    state_ = state::expected;
+    lag_ = lag;
+  }
   /// Begins a surface that has just appeared with at most the depth up to which λ = 0 for any speed (S2).
   constexpr void meet(const felt& here, scalar most, const pursuit::on<Space>& pace) noexcept {
     if (most > scalar(0)) most = most / scalar(inward_limit);
-    keep(here.depth - kernels::smaller(here.depth, most), here.normal);
+    keep(kernels::smaller(lag_, here.depth - kernels::smaller(here.depth, most)), here.normal);
     speed_ = pace.speed_for(scalar(0));
     hurry_ = scalar(1);
     state_ = state::there;

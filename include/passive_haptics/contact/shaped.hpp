@@ -10,8 +10,7 @@
 //   published/set_position_modulation.hpp    PSPM, which limits the energy of jumps of the surface
 //   published/reference_energy.hpp           PO/PC that dissipates during the whole release
 //
-// A shaper may read the contact and the ledger. It gives no guarantee; the bound does, for any desired
-// force.
+// A shaper may read the contact and the ledger. It gives no guarantee; the bound does, for any desired force.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/composing.hpp>

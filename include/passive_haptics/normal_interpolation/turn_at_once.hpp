@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Normal interpolation: how fast the contact direction may turn from the local model's to the
-// environment's.
+// Normal interpolation: how fast the contact direction may turn from the local model's to the environment's.
 //
 //   turn_at_once     n ← n_VE                     flat walls, one degree of freedom, comparison
 //   turn_limited     by at most `rate` [rad/s]    surfaces that deform or have edges

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The composition of parts: bounds and shapers are applied to an effort in order, and parts take new parameters
-// between ticks.
+// The composition of parts: bounds and shapers act on an effort in order, and parts take parameters between ticks.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>

@@ -70,8 +70,7 @@ class guard : public last_tick<P, Latency> {
     const scalar square = P::squared(travel);
     return square + dt <= largest && square <= farthest * farthest;
   }
-  /// True if |x| ≤ workspace [m], which finds positions in a wrong unit. The rule does not apply to joints; of a pose
-  /// it uses place().
+  /// True if |x| ≤ workspace [m], which finds positions in a wrong unit. It is no rule for joints; poses have place().
   [[nodiscard, gnu::always_inline]] static constexpr bool within(const pose& position,
                                                                  scalar workspace) noexcept {
     if constexpr (requires { P::place(position); }) {

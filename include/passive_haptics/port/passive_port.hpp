@@ -13,8 +13,7 @@
 // (one_at_a_time.hpp). Other threads use an `exchange` (base/exchange.hpp).
 //
 // The order is that of the thesis (Fig. 2.7, A27). Rare cases are not inlined, so that the compiler optimises
-// the ordinary tick as a whole. In a tick: no exception, heap, lock, clock, virtual call, I/O or
-// recursion.
+// the ordinary tick as a whole. In a tick: no exception, heap, lock, clock, virtual call, I/O, recursion.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/base/seconds.hpp>
