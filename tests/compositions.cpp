@@ -315,7 +315,7 @@ TEST_CASE("every composition keeps to the motors' limit, whatever it is asked", 
 TEST_CASE("a corner on encoders comes to rest at what its friction pays for", "[local_model]") {
   const double q = grip.quantum, K = 2000.0;
   auto corner = ph::make_contacts<d1>(grip, hand, room);
-  corner.source().update(0, {0.0, 1.0, 1e4});
+  const auto taken = corner.source().update(0, {0.0, 1.0, 1e4});
   sim::device<d1, sim::impedance_hand<d1>, sim::slider_and_spring> device(
       {.mass = 0.045, .damping = 0.1, .force_limit = 3.3, .quantum = q, .start = 5e-3},
       {.stiffness = 300.0, .damping = 1.0, .limit = 4.0, .target = -6e-3},
@@ -330,6 +330,8 @@ TEST_CASE("a corner on encoders comes to rest at what its friction pays for", "[
   const auto said = corner.explain();
   CHECK(said.asked == 1e4);
   CHECK(said.shown < 1.1 * K);
+  CHECK(taken.stiffness == said.shown);
+  CHECK_FALSE(corner.source().update(0, {0.0, 0.0, 1e4}));
   CHECK(said.stiffness != ph::softened_by::nothing);
   CHECK(last > 0.5);
   CHECK(step <= said.shown * q);

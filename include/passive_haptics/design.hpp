@@ -154,8 +154,7 @@ template <class Z>
   return l.quantum > 0.0 ? kernels::smaller(sampled, 2.0 * l.friction / l.quantum) : sampled;
 }
 
-/// The same without delay, K ≤ min(2b/T, 2 f_c/Δ): Abbott and Okamura (2005), confirmed in one
-/// secondary source.
+/// The same without delay, K ≤ min(2b/T, 2 f_c/Δ): Abbott and Okamura (2005), from one secondary source.
 [[nodiscard]] constexpr double abbott_okamura(const loop& l) noexcept {
   return l.delay == 0 ? diolaiti(l) : 0.0;
 }

@@ -8,15 +8,6 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-/// The result of update(). It converts to true if the surface was accepted; otherwise the last good one stays.
-template <class Scalar>
-struct news_taken {
-  bool taken = false;
-  Scalar stiffness{};  ///< the stiffness displayed at rest [N/m]; explain() says why
-
-  constexpr operator bool() const noexcept { return taken; }  // NOLINT(google-explicit-constructor)
-};
-
 /// Compose by value; class template argument deduction finds the type:
 ///     ph::local_model wall{scene{},
 ///                          ph::fixed{ph::half_space<scene>{0.0, -1.0, 1e4}},

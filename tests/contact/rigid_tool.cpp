@@ -44,8 +44,9 @@ TEMPLATE_TEST_CASE("a point of a tool presses with its force and its torque", "[
   using scalar = TestType;
   auto port = open_port<scalar, 4>();
   const scalar tiny = sizeof(scalar) == 4 ? scalar(1e-4) : scalar(1e-12);
-  REQUIRE(port.source().update(0, {scalar(0.05), scalar(0), scalar(-0.02)},
-                               plane_of<scalar>{{0, 0, 0}, {0, 0, 1}, scalar(1000)}));
+  const auto taken = port.source().update(0, {scalar(0.05), scalar(0), scalar(-0.02)},
+                                          plane_of<scalar>{{0, 0, 0}, {0, 0, 1}, scalar(1000)});
+  REQUIRE(taken);
   (void)port.tick({{0, 0, scalar(0.021)}, {}}, ph::seconds{scalar(T)});
   (void)port.tick({{0, 0, scalar(0.019)}, {}}, ph::seconds{scalar(T)});
   const auto out = port.tick({{0, 0, scalar(0.019)}, {}}, ph::seconds{scalar(T)});
@@ -59,6 +60,7 @@ TEMPLATE_TEST_CASE("a point of a tool presses with its force and its torque", "[
   const auto said = port.explain();
   CHECK(said.asked == 1000.0);
   CHECK_THAT(said.shown, WithinRel(felt, 1e-3));
+  CHECK_THAT(taken.stiffness, WithinRel(scalar(said.shown), scalar(1e-6)));
   CHECK_THAT(said.depth, WithinRel(1e-3, 1e-3));
   CHECK(said.force == static_cast<double>(out.force(2)));
   CHECK(said.stiffness == ph::softened_by::coupling);  // the lever gives

@@ -129,24 +129,15 @@ class contact_engine {
   /// Explains the contact with the largest λ, at its place on the device, or the first one.
   constexpr void explain(explanation& e, const auto& /*device*/, scalar /*T*/,
                          int /*late*/) const noexcept {
-    const struct {
-      typename frame::stored position;
-      typename Port::effort travel;
-      scalar dt;
-    } rest{last_, Port::zero(), scalar(1)};
-    const auto now = frame::now(rest, rest, last_);
     scalar most(-1);
     e.stiffness = softened_by::no_surface;
     slots_.for_each([&](const auto& slot, std::size_t) {
       if (!slot.taken() || !(slot.pressed() > most)) return;
       most = slot.pressed();
       e.stiffness = softened_by::nothing;
-      const auto here = now.at(slot.point);
-      const row r = now.row_of(here, slot.target().at(here.position).outward());
-      const scalar K = slot.target().stiffness;
-      explain_surface(e, slot.target(), here.position,
-                      scalar(1) / frame::coupling(spring_).own(r, spring_.sampled(K).compliance),
-                      spring_.softener(K), !(slot.lag() == scalar(0)), slot.stale());
+      explain_surface(e, slot.target(), frame::place(last_, slot.point), displayed(slot),
+                      spring_.softener(slot.target().stiffness), !(slot.lag() == scalar(0)),
+                      slot.stale());
     });
   }
 
@@ -245,14 +236,17 @@ class contact_engine {
   }
   /// Sets the newest surface of slot i of its kind, at that point of the device.
   template <class Surface>
-  constexpr bool put(int i, const point_type& point, const Surface& next) noexcept {
-    bool taken = false;
+  constexpr news_taken<scalar> put(int i, const point_type& point, const Surface& next) noexcept {
+    news_taken<scalar> taken;
     news();
     slots_.template visit<Surface>(i, [&](auto& slot) {
-      taken = frame::is_point(point) && slot.update(next, frame::place(last_, slot.point),
-                                                    frame::place(last_, point), spring_, pace_);
-      if (taken) slot.point = point;
+      taken.taken =
+          frame::is_point(point) && slot.update(next, frame::place(last_, slot.point),
+                                                frame::place(last_, point), spring_, pace_);
       slot.asleep = false;
+      if (!taken) return;
+      slot.point = point;
+      taken.stiffness = displayed(slot);
     });
     refused_ = refused_ || !taken;
     return taken;
@@ -266,6 +260,19 @@ class contact_engine {
   struct no_friction {
     constexpr explicit no_friction(const Friction& /*f*/) noexcept {}
   };
+  /// The stiffness that a slot displays at rest, where the device was last [N/m].
+  [[nodiscard]] constexpr scalar displayed(const auto& slot) const noexcept {
+    const struct {
+      typename frame::stored position;
+      typename Port::effort travel;
+      scalar dt;
+    } rest{last_, Port::zero(), scalar(1)};
+    const auto now = frame::now(rest, rest, last_);
+    const auto here = now.at(slot.point);
+    const row r = now.row_of(here, slot.target().at(here.position).outward());
+    const scalar yield = spring_.sampled(slot.target().stiffness).compliance;
+    return scalar(1) / frame::coupling(spring_).own(r, yield);
+  }
   template <class T>
   using if_it_rubs = std::conditional_t<rubs, std::array<T, cells>, nothing_kept>;
 

@@ -138,10 +138,10 @@ class contact_set<Friction, Slots...>::on
   constexpr on() noexcept : on(contact_set{}) {}
   constexpr explicit on(const contact_set& p) noexcept : engine(p) {}
 
-  /// Sets the newest surface of slot i, counted among those of its kind. Returns false if there is no such slot or the
-  /// surface is unusable; then the last good one stays, and the next tick has event::rejected_target.
+  /// Sets the newest surface of slot i, counted among those of its kind, and returns the stiffness it displays. False:
+  /// there is no such slot or the surface is unusable; the last good one stays, the next tick has event::rejected_target.
   template <class Surface = typename engine::first_kind>
-  constexpr bool update(int i, const Surface& next) noexcept {
+  constexpr news_taken<typename engine::scalar> update(int i, const Surface& next) noexcept {
     return this->put(i, {}, next);
   }
 };

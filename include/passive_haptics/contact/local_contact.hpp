@@ -25,6 +25,15 @@ struct tick_result {
   bool limited = false;           ///< shaper or bound changed the desired force
 };
 
+/// The result of update(). It converts to true if the surface was accepted; otherwise the last good one stays.
+template <class Scalar>
+struct news_taken {
+  bool taken = false;
+  Scalar stiffness{};  ///< the stiffness displayed at rest [N/m]; explain() says why
+
+  constexpr operator bool() const noexcept { return taken; }  // NOLINT(google-explicit-constructor)
+};
+
 namespace detail {
 template <class Law, class Space>
 inline constexpr bool is_shaped = requires(part_at<Law, Space> law) {

@@ -68,8 +68,7 @@ template <class Surface, class Spring, class Friction, class... Groups>
 
 }  // namespace detail
 
-/// Assigns surfaces to the first `Count` slots of their kind of a contact_set or a rigid_tool. Further slots are not
-/// touched.
+/// Assigns surfaces to the first `Count` slots of their kind of a contact_set or a rigid_tool, and leaves the others.
 template <class Surface, int Count, class Space = typename Surface::space_type>
 requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
  public:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Several contacts at once, as one spring: a massless proxy in the free space, and the coupling that pulls the device
-// to it.
+// Several contacts at once, as one spring: a massless proxy in the free space, to which a coupling pulls the device.
 //
 //     λ ≥ 0 minimises ½ λᵀAλ − d'ᵀλ,   A_ii = c_i = 1/K_i,   f* = Σ λ_i n_i
 //                                      A_ij = (1 − ε) n_i·n_j min(c_i, c_j)                            (S1)

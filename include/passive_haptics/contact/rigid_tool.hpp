@@ -240,23 +240,23 @@ class rigid_tool<Friction, Slots...>::on
   constexpr on() noexcept : on(rigid_tool{}) {}
   constexpr explicit on(const rigid_tool& p) noexcept : engine(p) {}
 
-  /// The position in the world [m] of a point of the tool, given in the frame of the handle [m], for a pose of the
-  /// handle.
+  /// The position in the world [m] of a point of the tool, given in the frame of the handle [m], at a pose.
   [[nodiscard]] static auto place(const typename Body::pose& handle, const point& at) noexcept {
     typename detail::body_frame<Body>::stored pose = handle;
     pose.orientation = rotation::normalised(pose.orientation);
     return detail::body_frame<Body>::place(pose, at);
   }
   /// Sets slot i, counted among those of its kind: a point of the tool, in the frame of the handle [m], and its newest
-  /// surface. Returns false if there is no such slot, or one of both is unusable; then the last good ones stay, and the
-  /// next tick has event::rejected_target.
+  /// surface. Returns the stiffness displayed along its normal, or false if there is no such slot or one of both is
+  /// unusable; then the last good ones stay, and the next tick has event::rejected_target.
   template <class Surface>
-  constexpr bool update(int i, const point& at, const Surface& next) noexcept {
+  constexpr news_taken<typename engine::scalar> update(int i, const point& at,
+                                                       const Surface& next) noexcept {
     return this->put(i, at, next);
   }
   /// The same with the slot's present point.
   template <class Surface>
-  constexpr bool update(int i, const Surface& next) noexcept {
+  constexpr news_taken<typename engine::scalar> update(int i, const Surface& next) noexcept {
     return this->put(i, this->template point_of<Surface>(i), next);
   }
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Force in, force out, and at rest when the hand is: given_force with a damper, for the force of a renderer without
-// one.
+// Force in, force out, and at rest when the hand is: given_force with a damper, for a renderer that has none.
 //
 //     ph::make_guard<scene>({.mass = 0.1, .damping = 0.03, .force_limit = 9, .longest_tick = 0.0011}, {.force = 5})
 //

@@ -41,8 +41,7 @@ template <real S>
 [[nodiscard]] constexpr bool is_unit(const quaternion<S>& q) noexcept {
   return kernels::magnitude(S(squared_norm(q) - S(1))) <= S(2e-3);
 }
-/// q/|q|, for any norm but zero. Next to norm one, (1 + e)^(−1/2) comes from its series, without a root or a
-/// division.
+/// q/|q|, for any norm but zero. Next to norm one, (1 + e)^(−1/2) comes from its series: no root, no division.
 template <real S>
 [[nodiscard]] constexpr quaternion<S> normalised(const quaternion<S>& q) noexcept {
   const S square = squared_norm(q);

@@ -9,8 +9,7 @@
 //     ph::dual_ledger{.damping = {.coefficient = 0.05, .coulomb = 0.13, .presliding = 15e-6},
 //                     .quantum = 55e-6}
 //
-// On encoders dry friction pays for the steps. design/stiffness_budget.hpp computes the stiffest wall for which it
-// pays without end.
+// On encoders dry friction pays for the steps, without end up to the stiffness of design/stiffness_budget.hpp.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/device/dry_friction.hpp>
