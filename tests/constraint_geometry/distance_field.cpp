@@ -273,3 +273,21 @@ TEST_CASE("nowhere in a brick is more than twice its stiffness felt, whichever c
     CHECK_THAT(d3::norm(brick.at(there).push()), WithinAbs(std::sqrt(2.0), 1e-2));
   }
 }
+
+TEST_CASE("a brick whose slope is no number is refused, and a flat one is as it was",
+          "[geometry]") {
+  const auto with = [](double height, double spacing) {
+    ph::distance_brick<d3> brick;
+    brick.spacing = spacing;
+    brick.stiffness = 500;
+    brick.thickness = 1.0;
+    for (std::size_t i = 0; i < brick.coefficients.size(); ++i) {
+      brick.coefficients[i] = height * static_cast<double>(i % 4);
+    }
+    return brick.prepare();
+  };
+  CHECK(with(1e-3, 1e-3));
+  CHECK_FALSE(with(1e300, 1e-10));  // 1e310
+  CHECK_FALSE(with(1e200, 1.0));    // whose square overflows
+  CHECK(with(0.0, 1e-3));
+}

@@ -74,7 +74,7 @@ requires(Space::dof == 3) struct distance_brick {
       return false;
     }
     const scalar slope = slope_at_the_surface();
-    if (!kernels::is_finite(slope) || !kernels::is_finite(scalar(1) / slope)) return false;
+    if (!kernels::is_finite(slope)) return false;
     if (kernels::magnitude(slope - scalar(1)) > scalar(1) / scalar(16)) {
       for (scalar& c : coefficients) c /= slope;
     }
@@ -133,7 +133,7 @@ requires(Space::dof == 3) struct distance_brick {
     }
     const scalar slope =
         kernels::larger(Space::norm(at(x).pushing), steepest * scalar(0.7071067811865476));
-    return slope > scalar(0) ? slope : scalar(1);
+    return slope == scalar(0) ? scalar(1) : slope;  // a NaN stays
   }
   /// The values and slopes of the three B-splines along one axis that are not zero.
   struct basis {
