@@ -153,3 +153,19 @@ TEMPLATE_TEST_CASE("a patch that cannot be used is refused", "[geometry][curved]
           }) == !std::isfinite(bad));
   }
 }
+
+TEST_CASE("the ball around a patch is about the mean of its nodes and reaches the farthest",
+          "[geometry][curved]") {
+  auto p = curved::saddle<d3>();
+  for (std::size_t turn = 0; turn < p.node_count; ++turn) {
+    std::rotate(p.nodes.begin(), p.nodes.begin() + 1, p.nodes.begin() + long(p.node_count));
+    Vector3d mean = Vector3d::Zero();
+    for (std::size_t i = 0; i < p.node_count; ++i) mean += Vector3d(p.nodes[i]) / 5.0;
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < p.node_count; ++i) {
+      farthest = std::max(farthest, (Vector3d(p.nodes[i]) - mean).norm());
+    }
+    CHECK_THAT((Vector3d(p.around().centre) - mean).norm(), WithinAbs(0.0, 1e-15));
+    CHECK_THAT(p.around().radius, WithinAbs(farthest, 1e-15));
+  }
+}

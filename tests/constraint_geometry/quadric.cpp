@@ -155,3 +155,26 @@ TEMPLATE_TEST_CASE("a quadric that cannot be used, or folds, is refused", "[geom
   CHECK_FALSE(refused([&](auto& q) { q.normal = {scalar(0), scalar(0), tiny}; }));
   CHECK_FALSE(refused([&](auto& q) { q.normal = {scalar(0), scalar(0), huge}; }));
 }
+
+TEST_CASE("a quadric that follows another lies where it is told to, as curved and along its axis",
+          "[geometry][curved]") {
+  const auto target = prepared(bulge<d3>(20, -30));
+  auto own = prepared(bulge<d3>(1, 1));
+  for (const Vector3d& n : {Vector3d(0, 0, 1), Vector3d(0.6, 0, 0.8), Vector3d(0.8, 0.6, 0)}) {
+    const Vector3d x(0.01, -0.02, 0.003);
+    const auto moved = own.toward(target, x, n, 0.004);
+    const auto seen = moved.at(x);
+    CHECK_THAT(seen.depth, WithinAbs(0.004, 1e-15));
+    CHECK_THAT((seen.outward() - n).norm(), WithinAbs(0.0, 1e-12));
+    CHECK(moved.curvature == 20);
+    CHECK(moved.cross_curvature == -30);
+    CHECK(moved.stiffness == target.stiffness);
+    const Vector3d t = moved.tangent, across = Vector3d(target.tangent) - n * n.x();
+    CHECK_THAT(t.norm(), WithinAbs(1.0, 1e-12));
+    CHECK_THAT(t.dot(n), WithinAbs(0.0, 1e-12));
+    CHECK_THAT(t.dot(across.normalized()), WithinAbs(1.0, 1e-12));
+  }
+  const auto steep = own.toward(target, {0, 0, 0}, {1, 0, 0}, 0.0);  // along its own axis
+  CHECK_THAT(Vector3d(steep.tangent).dot(Vector3d::UnitX()), WithinAbs(0.0, 1e-12));
+  CHECK_THAT(Vector3d(steep.tangent).norm(), WithinAbs(1.0, 1e-12));
+}

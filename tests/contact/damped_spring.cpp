@@ -125,3 +125,12 @@ TEST_CASE("parameters of damped_spring are refused with their name", "[contact]"
   CHECK(refused({.mass = 0.1, .force_limit = 0.0}) == "force_limit");
   CHECK(refused({.mass = 0.1, .force_limit = std::nan("")}) == "force_limit");
 }
+
+TEST_CASE("no force has no depth, however fast the device leaves", "[contact]") {
+  ph::damped_spring::on<d1> law({.mass = 0.1});
+  law.adopt(5000.0, 1e-3);
+  CHECK(law.depth(0.0, 1.0) == 0.0);
+  CHECK(law.depth(-1.0, 1.0) == 0.0);
+  CHECK(law.depth(1e-9, 1.0) > 1e-3);
+  CHECK(law.force(0.0, -1.0) == 0.0);
+}

@@ -203,3 +203,19 @@ TEST_CASE("a surface that appears over the device costs what an update costs", "
     CHECK_THAT(model.tick(0.002, 1ms).force, WithinRel(-20.0, 1e-12));
   }
 }
+
+TEST_CASE("what has faded away has no depth", "[local_model]") {
+  ph::local_model wall{d1{},
+                       ph::followed<ph::half_space<d1>>{{.stale_after = 0.01, .fade = 0.01}},
+                       ph::turn_at_once{},
+                       ph::spring{},
+                       ph::no_observer{},
+                       ph::no_bound{},
+                       thesis_loop};
+  REQUIRE(wall.update({0.0, 1.0, 1000.0}));
+  for (int n = 0; n < 50; ++n) {
+    const auto out = wall.tick(-1e-3, 1ms);
+    CHECK((out.depth > 0.0) == (out.force > 0.0));
+  }
+  CHECK(wall.tick(-1e-3, 1ms).depth == 0.0);
+}

@@ -142,3 +142,10 @@ TEST_CASE("a device is not believed to hold more than twice what its motors can"
       refuses(ph::strict_bound{}, 1e3));  // who is not told of motors asks for a number only
   CHECK(refuses(ph::strict_bound{}, HUGE_VAL));
 }
+
+TEST_CASE("a chain within a chain lets through what both together do", "[bound]") {
+  auto inner = at<d1>(ph::bound_chain{motors{.most = 2.0}, motors{.most = 0.5}});
+  const situation<d1> now{.energy = 0.01};
+  CHECK(inner.limit(-3.0, now.port()) == -0.5);
+  CHECK(inner.limit(0.25, now.port()) == 0.25);
+}

@@ -2,11 +2,15 @@
 // What the motion refutes of what was stated, what it does not, and what becomes of it.
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/simulation/compliant_device.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
 #include <random>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace sim = ph::simulation;
 
@@ -331,4 +335,275 @@ TEST_CASE("a compliant device told its whole mass falls back and loses little",
   CAPTURE(without, with);
   CHECK(without > 1.0);
   CHECK(with < 0.2);
+}
+
+namespace {
+
+/// What a port tells a bound that looks, as far as it looks at it.
+template <class Space>
+struct told_ledger {
+  ph::part_at<ph::isotropic_damping, Space> viscous{ph::isotropic_damping{0.5}};
+  double error = 0.0;
+  [[nodiscard]] constexpr const auto& damping() const noexcept { return viscous; }
+  [[nodiscard]] constexpr double travel_error() const noexcept { return error; }
+};
+
+/// One tick as a device shows it, and a contact of such ticks.
+template <class Space>
+struct shown {
+  typename Space::vector travel = Space::zero(), told = Space::zero(), held = Space::zero();
+  double dt = 0.0;
+};
+template <class Space>
+struct contact_of {
+  using stored = typename Space::stored_effort;
+  ph::part_at<ph::watched<ph::reachable_bound>, Space> bound;
+  told_ledger<Space> ledger{};
+
+  contact_of(double mass, double force)
+      : bound(ph::watched{ph::reachable_bound{.mass = mass, .hand_force = force}}) {
+    bound.look_on(true);
+  }
+  /// True if the tick is looked at.
+  template <bool Exact = false>
+  bool see(const shown<Space>& now, bool known = true) {
+    const bool looks = bound.looks();
+    if (looks) {
+      bound.template look<Exact>(known, stored(now.travel), stored(now.told), stored(now.held),
+                                 now.dt, ledger);
+    }
+    bound.look_on(true);
+    return looks;
+  }
+};
+
+/// By how much a window goes beyond what may be, over its reach (§ 12): the hat is integrated in small steps, and the
+/// directions that the sensor leaves open are tried one after the other.
+double beyond(const std::vector<shown<d2>>& window, double m, double F, double b, double e,
+              bool opposite = false) {
+  const std::size_t half = window.size() / 2;
+  std::array<d2::vector, 2> V{d2::zero(), d2::zero()};
+  std::array<double, 2> length{};
+  for (std::size_t i = 0; i < window.size(); ++i) {
+    V[i / half] += window[i].travel;
+    length[i / half] += window[i].dt;
+  }
+  for (std::size_t k = 0; k < 2; ++k) V[k] /= length[k];
+  d2::vector L = d2::zero();
+  double t = 0.0;
+  for (const auto& tick : window) {
+    for (int k = 0; k < 20; ++k) {
+      const double mid = t + (k + 0.5) * tick.dt / 20;
+      const double hat =
+          mid < length[0] ? mid / length[0] : (length[0] + length[1] - mid) / length[1];
+      L += (opposite ? d2::vector(-tick.told) : tick.held) * (hat * tick.dt / 20);
+    }
+    t += tick.dt;
+  }
+  const d2::vector J = (V[1] - V[0]) * m;
+  const double off = m * e * (1.0 / length[0] + 1.0 / length[1]);
+  const double reach = t / 2 * (9.0 / 8.0 * F + 2.0 * b * (V[0].norm() + V[1].norm()));
+  if (J.norm() <= off) return -1.0;
+  const double widest = std::asin(off / J.norm());
+  double along = -1e9;
+  for (int k = -500; k <= 500; ++k) {
+    const double a = std::atan2(J.y(), J.x()) + widest * k / 500;
+    along = std::max(along, L.dot(d2::vector(std::cos(a), std::sin(a))));
+  }
+  return (J.norm() - off - along - reach) / reach;
+}
+
+}  // namespace
+
+TEST_CASE("a window is refuted by what no force within 9/8 F, damper and sensor explains",
+          "[force_bound][watched]") {
+  ph::laws::samples random(12);
+  const double m = 0.1, F = 5.0, b = 0.5;
+  int refuted = 0, opposite = 0, close = 0;
+  for (int n = 0; n < 600; ++n) {
+    const bool fine = n % 2 == 0;  // a sensor so fine that two ticks a half are enough
+    contact_of<d2> contact(m, F);
+    contact.ledger.error = fine ? 2e-5 : 2e-4;
+    const auto number = [&] { return random.number<double>(); };
+    const double strong = 8.0 + 8.0 * number(), turned = n % 5 == 0 ? -1.0 : 1.0;
+    const d2::vector steady = random.vector<d2>() * strong;
+    d2::vector v = random.vector<d2>() * 0.3;
+    const d2::vector pushed = random.vector<d2>() * (n % 3 == 0 ? 20.0 : 8.0);
+    std::vector<shown<d2>> window(fine ? 4 : 8);
+    for (auto& tick : window) {
+      tick.dt = 1e-3 * (1.0 + 0.2 * number());
+      tick.told = tick.held = steady + random.vector<d2>() * 2.0;
+      v += (tick.held * turned + pushed) * (tick.dt / m);
+      tick.travel = v * tick.dt + random.vector<d2>() * (contact.ledger.error / 4);
+    }
+    const double over = beyond(window, m, F, b, contact.ledger.error);
+    const double otherwise = beyond(window, m, F, b, contact.ledger.error, true);
+    for (const auto& tick : window) {
+      CHECK(contact.bound.seen() == ph::event::nominal);
+      CHECK(contact.see(tick));
+    }
+    if (std::abs(over) < 1e-3 || std::abs(otherwise) < 1e-3) continue;
+    CAPTURE(n, over, otherwise);
+    CHECK((contact.bound.seen() == ph::event::outside_force) == (over > 0.0));
+    CHECK(contact.bound.lets_go() == (over > 0.0 && otherwise < 0.0));
+    CHECK(contact.bound.forgives() == false);
+    refuted += over > 0.0 ? 1 : 0;
+    opposite += over > 0.0 && otherwise < 0.0 ? 1 : 0;
+    close += std::abs(over) < 0.3 ? 1 : 0;
+  }
+  CHECK(refuted > 100);
+  CHECK(refuted < 400);
+  CHECK(opposite > 20);
+  CHECK(close > 60);
+}
+
+TEST_CASE("what rests is looked at ever less often, and what pushes without a pause",
+          "[force_bound][watched]") {
+  contact_of<d1> contact(0.1, 5.0);
+  const auto pauses = [&](double a, int many) {  // of a steady acceleration
+    std::vector<int> found;
+    double v = 0.0;
+    int paused = 0;
+    while (int(found.size()) < many) {
+      v += a * T;
+      const bool looked = contact.see({v * T, 1e-9, 1e-9, T});
+      if (!looked) ++paused;
+      if (looked && paused > 0) found.push_back(std::exchange(paused, 0));
+    }
+    return found;
+  };
+  CHECK(pauses(0.0, 7) == std::vector<int>{4, 12, 28, 60, 124, 124, 124});
+  CHECK(contact.bound.seen() == ph::event::nominal);
+  // A quarter of 9/8 F, above an eighth: the pause stays as it has become.
+  CHECK(pauses(0.25 * 9.0 / 8.0 * 5.0 / 0.1, 3) == std::vector<int>{124, 124, 124});
+  contact.bound.look_on(false);  // the next contact is looked at from its beginning
+  CHECK(contact.bound.looks() == false);
+  contact.bound.look_on(true);
+  CHECK(contact.bound.looks());
+  int looked = 0;
+  double v = 0.0;
+  for (int n = 0; n < 100; ++n) {  // nine tenths of it
+    v += 0.9 * 9.0 / 8.0 * 5.0 / 0.1 * T;
+    looked += contact.see({v * T, 1e-9, 1e-9, T}) ? 1 : 0;
+  }
+  CHECK(looked == 100);
+  CHECK(contact.bound.seen() == ph::event::nominal);
+}
+
+TEST_CASE(
+    "what is refuted once is forgiven after 0.1 s, forgotten after 0.25 s, and four times never",
+    "[force_bound][watched]") {
+  // A tick of 1 mm more than the last is 100 N on 0.1 kg; told and held are across it, so no sign explains it.
+  const shown<d2> still{.told = {0, 1}, .held = {0, 1}, .dt = T},
+      pushed{.travel = {1e-3, 0}, .told = {0, 1}, .held = {0, 1}, .dt = T};
+  const auto refute = [&](contact_of<d2>& contact) {  // by one tick, the second that is looked at
+    int ticks = 0, looked = 0;
+    while (contact.bound.seen() == ph::event::nominal && ++ticks < 1000) {
+      looked += contact.see(looked == 1 && contact.bound.looks() ? pushed : still) ? 1 : 0;
+    }
+    return ticks < 1000;
+  };
+  const auto rests = [&](contact_of<d2>& contact, int most, const auto& until) {
+    for (int n = 0; n < most; ++n) {
+      if (until(contact.bound)) return n;
+      contact.see(still);
+    }
+    return most;
+  };
+  const auto trusted = [](const auto& bound) { return bound.seen() == ph::event::nominal; };
+  const auto forgotten = [](const auto& bound) { return !bound.forgives(); };
+  contact_of<d2> contact(0.1, 5.0);
+  REQUIRE(refute(contact));
+  CHECK_FALSE(contact.bound.forgives());
+  CHECK_FALSE(contact.bound.lets_go());
+  const int doubted = rests(contact, 1000, trusted);
+  CHECK(doubted >= 100);
+  CHECK(doubted <= 116);  // in windows, of which the first are what it stopped by
+  CHECK(contact.bound.forgives());
+  const int remembered = rests(contact, 1000, forgotten);
+  CHECK(doubted + remembered >= 250);
+  CHECK(doubted + remembered <= 266);
+  for (int n = 0; n < 6; ++n) {  // as often as that
+    REQUIRE(refute(contact));
+    CHECK(rests(contact, 1000, trusted) < 120);
+    CHECK(rests(contact, 1000, forgotten) < 200);
+  }
+  for (int n = 0; n < 3; ++n) {  // soon after one another
+    REQUIRE(refute(contact));
+    CHECK(rests(contact, 1000, trusted) < 120);
+    CHECK(contact.bound.forgives() == (n == 0));
+  }
+  REQUIRE(refute(contact));
+  CHECK(rests(contact, 3000, trusted) == 3000);
+  CHECK(contact.bound.seen() == ph::event::outside_force);
+  contact.bound.look_on(false);
+  CHECK(rests(contact, 300, trusted) == 300);  // nor in another contact
+  contact.bound.set(ph::watched{ph::reachable_bound{.mass = 0.2, .hand_force = 4.0}});
+  CHECK(contact.bound.parameters().bound.mass == 0.2);
+  CHECK(contact.bound.seen() == ph::event::outside_force);
+  contact.bound.reset();
+  CHECK(contact.bound.seen() == ph::event::nominal);
+  CHECK(contact.bound.parameters().bound.hand_force == 4.0);
+}
+
+TEST_CASE("a cause that explains all is let go for 25 ms, and named the third time",
+          "[force_bound][watched]") {
+  contact_of<d1> contact(0.1, 5.0);
+  double v = 0.0;
+  const auto tick = [&](double obeyed) {  // the motion under `obeyed` times a force of 20 N
+    const double f = contact.bound.lets_go() ? 0.0 : 20.0;
+    v += obeyed * f / 0.1 * T;
+    contact.see({v * T, f, f, T});
+  };
+  for (int time = 1; time <= 3; ++time) {
+    int ticks = 0;
+    while (contact.bound.seen() == ph::event::nominal && ++ticks < 100) tick(-1.0);
+    REQUIRE(ticks < 100);
+    if (time == 3) break;
+    CHECK(contact.bound.seen() == ph::event::outside_force);
+    CHECK(contact.bound.lets_go());
+    for (ticks = 0; contact.bound.lets_go() && ticks < 100; ++ticks) tick(0.0);
+    CHECK(ticks >= 25);
+    CHECK(ticks <= 41);
+    CHECK(contact.bound.seen() == ph::event::nominal);
+  }
+  CHECK(contact.bound.seen() == ph::event::wrong_sign);
+  CHECK(contact.bound.lets_go());
+}
+
+TEST_CASE("the largest distance from how it went on is what motors, hand and damper can do",
+          "[force_bound][watched]") {
+  contact_of<d1> contact(0.25, 8.0);  // 9/8 F is 9 N; the damper 2 b v = v
+  const auto far_off = [&]<bool Exact>(std::bool_constant<Exact>, double T0, double t, double v,
+                                       double most) {
+    return contact.bound.far_off<Exact>(T0, t, v, most, contact.ledger);
+  };
+  using exact = std::true_type;
+  using stepped = std::false_type;
+  // ½ t (T₀ + t) (F_motors + 9 + v)/m, and what the sensor may hide, seen over T₀
+  contact.ledger.error = 0.5;
+  CHECK(far_off(stepped{}, 1.0, 2.0, 3.0, 4.0) == 3.0 * 16.0 / 0.25 + 0.5 * 3.0);
+  CHECK(far_off(stepped{}, 4.0, 2.0, 0.0, 7.0) == 6.0 * 16.0 / 0.25 + 0.5 * 1.5);
+  contact.ledger.error = 0.0;
+  CHECK(far_off(stepped{}, 1e-6, 1e-6, 0.0, 0.0) == 120e-6);  // less is in no time stamp
+  using Catch::Matchers::WithinRel;
+  CHECK_THAT(far_off(exact{}, 1.0, 2.0, 3.0, 4.0), WithinRel(192.0 + 120e-6 * 3.0, 1e-15));
+  contact.see<true>({1e-5, 0.0, 0.0, T}, false);  // a motion that is not known shows no step
+  CHECK_THAT(far_off(exact{}, 1e-3, 1e-3, 0.0, 0.0), WithinRel(36e-6 + 240e-6, 1e-12));
+  contact.see<true>({0.0, 0.0, 0.0, T});
+  CHECK_THAT(far_off(exact{}, 1e-3, 1e-3, 0.0, 0.0), WithinRel(36e-6 + 240e-6, 1e-12));
+  contact.see<true>({-25e-6, 0.0, 0.0, T});
+  CHECK_THAT(far_off(exact{}, 1e-3, 1e-3, 0.0, 0.0), WithinRel(36e-6 + 100e-6, 1e-12));
+  contact.see<true>({50e-6, 0.0, 0.0, T});
+  CHECK_THAT(far_off(exact{}, 1e-3, 1e-3, 0.0, 0.0), WithinRel(36e-6 + 100e-6, 1e-12));
+}
+
+TEST_CASE("what refutes a statement has to be one that can be", "[force_bound][watched]") {
+  const auto fault = ph::watched{ph::reachable_bound{.mass = -1.0, .hand_force = 5.0}}.check();
+  CHECK(fault.parameter == std::string_view("mass"));
+  CHECK_FALSE(ph::watched{ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}}.check());
+  contact_of<d1> contact(0.1, 5.0);
+  contact.bound.take(ph::reachable_bound{.mass = 0.3, .hand_force = 2.0});
+  CHECK(contact.bound.parameters().bound.mass == 0.3);
+  CHECK(contact.bound.parameters().bound.hand_force == 2.0);
 }

@@ -88,3 +88,22 @@ TEST_CASE("news may be stale at once, and its rule may change meanwhile", "[fres
   CHECK(news.weight() == 1.0);
   CHECK(news.parameters().stale_after == 1.0);
 }
+
+TEST_CASE("news counts in full up to the very age at which it is stale", "[freshness]") {
+  clock_of_news news({.stale_after = 0.125, .fade = 0.25});
+  news.hear();
+  news.grow_older(0.125);
+  CHECK(news.current());
+  CHECK_FALSE(news.stale());
+  CHECK(news.weight() == 1.0);
+  news.grow_older(0.125);
+  CHECK(news.weight() == 0.5);
+  news.grow_older(0.125);
+  CHECK(news.weight() == 0.0);
+  news.reset();
+  CHECK_FALSE(news.heard());
+  news.release();
+  CHECK_FALSE(news.heard());
+  news.hear();
+  CHECK(news.weight() == 1.0);
+}

@@ -287,3 +287,30 @@ TEST_CASE("a debt is an event, and events say what they are", "[fault]") {
   }
   CHECK(std::string(ph::to_string(static_cast<ph::event>(200))) == "unknown event");
 }
+
+TEST_CASE("the guard believes up to the largest number and the top speed themselves", "[guard]") {
+  const double most = ph::kernels::largest<double>();
+  ph::guard<d1, 0> guard;
+  CHECK(guard.believes(0.0, 0.0, most, slow<d1>));
+  guard.see_again();
+  constexpr ph::loop_limits::on<d1> loose({.longest_tick = 1.0, .top_speed = 1e-200});
+  CHECK(guard.believes(0.0, 0.0, most, loose));
+  constexpr ph::loop_limits::on<d1> exact({.longest_tick = 1.0, .top_speed = 4.0});
+  CHECK(guard.believes(1.0, 1.0, 0.25, exact));
+  CHECK_FALSE(guard.believes(1.0, 1.0001, 0.25, exact));
+  guard.lose_sight(0.25);
+  CHECK(guard.blind() == 0.25);
+  CHECK_FALSE(guard.knows_motion());
+  CHECK(guard.believes(1.0, -2.0, 0.25, exact));
+  CHECK_FALSE(guard.believes(1.0, -2.0001, 0.25, exact));
+  CHECK(guard.believes(2.0, 0.0, 0.25, exact));  // the default workspace ends at 2 m
+  CHECK_FALSE(guard.believes(2.0001, 0.0, 0.25, exact));
+  guard.see_again();
+  CHECK(guard.blind() == 0.0);
+  guard.move_to(1.0);
+  guard.command(3.0);
+  guard.reset();
+  CHECK(guard.last() == 0.0);
+  CHECK(guard.commanded()[0] == 0.0);
+  CHECK_FALSE(guard.has_seen());
+}

@@ -171,3 +171,79 @@ TEST_CASE("what has moved on meanwhile is believed after any number of lost tick
     CHECK(port.tick(x -= (lost < 5 ? 4e-4 : 2e-4), 1ms).what == ph::event::nominal);
   }
 }
+
+TEST_CASE("what is off is told in the distance that is possible and a quarter of the step",
+          "[port][motion_check]") {
+  // Numbers that nothing rounds: 4 m in 2 s would be 2 m in the next second.
+  ph::motion_check<d1> check;
+  const auto possible = [](double T0, double t, double v) {
+    return T0 == 2.0 && t == 1.0 && v > 0.0 ? v / 8.0 : 1e9;
+  };
+  CHECK(check.is_possible(1e9, 1.0, possible));  // there was no motion to compare with
+  CHECK(check.judge(1e9, 1.0, possible));
+  CHECK(check.last()[0] == ph::kernels::largest<double>());
+  CHECK(check.last()[1] == 1.0);
+  check.see(4.0, 2.0);
+  CHECK(check.last()[0] == 16.0);
+  CHECK(check.last()[1] == 2.0);
+  // At 3.25 m in 1 s the speeds add up to 5.25, and 5.25/8 + 2/4 is less than the 1.25 m beside.
+  const auto largest = 22.0 / 7.0;  // |x − 2| = (2 + x)/8 + 1/2
+  CHECK(check.is_possible(largest - 1e-12, 1.0, possible));
+  CHECK_FALSE(check.is_possible(largest + 1e-12, 1.0, possible));
+  const auto least = 10.0 / 9.0;  // on the other side of 2
+  CHECK(check.is_possible(least + 1e-12, 1.0, possible));
+  CHECK_FALSE(check.is_possible(least - 1e-12, 1.0, possible));
+}
+
+TEST_CASE("what is off by just what is accepted is believed, and a quarter of it keeps nothing",
+          "[port][motion_check]") {
+  ph::motion_check<d1> check;
+  const auto one = [](double, double, double) { return 1.0; };
+  const auto off = [&](double by) { return check.is_possible(by, 1.0, one); };
+  const auto judge = [&](double by) { return check.judge(by, 1.0, one); };
+  check.see(0.0, 1.0);
+  CHECK(judge(1.0));
+  CHECK(off(1.0));
+  CHECK_FALSE(off(1.0000001));
+  CHECK_FALSE(judge(1.5));
+  CHECK(off(2.0));
+  CHECK(judge(0.25));
+  CHECK_FALSE(off(1.0000001));
+  CHECK_FALSE(judge(1.5));
+  CHECK(judge(0.2500001));
+  CHECK(off(2.0));
+  CHECK_FALSE(off(2.0000001));
+  for (int n = 0; n < 20; ++n) CHECK_FALSE(judge(1e9));
+  CHECK(off(1024.0));
+  CHECK_FALSE(off(1024.001));
+  CHECK(judge(1024.0));
+  CHECK(off(1024.0));
+  check.ease(one, 1.0, 8.0);  // 0.2 % less
+  CHECK(off(1024.0 * 0.998));
+  CHECK_FALSE(off(1024.0 * 0.9981));
+  for (int n = 0; n < 5000; ++n) check.ease(one, 1.0, 8.0);
+  CHECK(off(1.0));
+  CHECK_FALSE(off(1.0000001));
+}
+
+TEST_CASE("a motion is easy up to the change that is possible, and calm in ticks that are long",
+          "[port][motion_check]") {
+  ph::motion_check<d1> check;
+  const auto far_off = [](double T0, double t, double v) {
+    return T0 == 2.0 && t == 2.0 && v == 0.0 ? 4.0 : 1e9;
+  };
+  CHECK_FALSE(check.is_calm(0.0, 1.0));  // nothing is, until it has been eased
+  CHECK_FALSE(check.is_easy(0.0));
+  check.ease(far_off, 2.0, 8.0);
+  CHECK(check.is_calm(16.0, 0.5));
+  CHECK_FALSE(check.is_calm(16.1, 0.5));
+  CHECK_FALSE(check.is_calm(16.0, 0.49));
+  check.see(10.0, 2.0);
+  CHECK(check.is_easy(14.0));
+  CHECK(check.is_easy(6.0));
+  CHECK_FALSE(check.is_easy(14.1));
+  CHECK_FALSE(check.is_easy(5.9));
+  check.think();
+  CHECK_FALSE(check.is_easy(10.0));
+  CHECK_FALSE(check.is_calm(0.0, 1.0));
+}
