@@ -5,7 +5,14 @@
 #include <passive_haptics/contact/settled_force.hpp>
 #include <passive_haptics/simulation/device.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <deque>
+#include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
@@ -384,4 +391,145 @@ TEST_CASE("what a settled force may not be told is refused with its name", "[set
           p.damping_fraction = 0.5, p.lead = 0, p.slide_fraction = 0;
         }).empty());
   CHECK(refused([](auto& p) { p.lead = 10, p.slide_fraction = 0.1; }).empty());
+}
+
+namespace {
+
+/// The stiffness of a renderer by what has been seen of it: all ticks anew, each along the force and across it, with
+/// weights that fall with a time constant of 30 ms.
+struct slopes {
+  struct tick {
+    std::array<double, 2> way, change;
+    double moved, keep;
+  };
+  double most;  ///< K_m [N/m]
+  std::vector<tick> seen{};
+  d2::vector last = d2::zero();
+  bool begun = false, steep = false;
+  double shown = 1.0;
+
+  [[nodiscard]] double share(std::size_t k) const {  // K_m over the slope, 100 for what is none
+    double work = 0.0, moved = 0.0, changed = 0.0, weight = 1.0;
+    for (std::size_t i = seen.size(); i-- > 0;) {
+      const tick& t = seen[i];
+      work -= weight * t.way[k] * t.change[k];
+      moved += weight * (t.way[k] * t.way[k] + 1e-4 * t.moved);
+      changed += weight * t.change[k] * t.change[k];
+      weight *= t.keep;
+    }
+    const double correlation = work * work / (moved * changed), slope = work / moved;
+    const double rest = moved * changed * (1.0 - correlation);
+    const bool sure = correlation > 0.25 && rest <= 8.0 * std::pow(work - most * moved, 2);
+    return sure && slope > most / 100.0 ? most / slope : 100.0;
+  }
+  void look(const d2::vector& w, const d2::vector& way, double dt) {
+    const d2::vector change = w - last;
+    last = w;
+    if (!std::exchange(begun, true) || way.norm() <= 1e-3 * dt) return;
+    const d2::vector along = w / w.norm(), across(-along.y(), along.x());
+    seen.push_back({{way.dot(along), way.dot(across)},
+                    {change.dot(along), change.dot(across)},
+                    way.squaredNorm(),
+                    0.03 / (0.03 + dt)});
+    steep = steep || -change.dot(way) > most * way.squaredNorm();
+    double ticks = 0.0, weight = 1.0;
+    for (std::size_t i = seen.size(); i-- > 0; weight *= seen[i].keep) ticks += weight;
+    const double s = steep && ticks > 3.0 ? std::min(share(0), share(1)) : 1.0;
+    if (s < shown) {
+      shown = 0.75 * s;
+    } else if (s > 8.0 / 3.0 * shown) {
+      shown = std::min(shown * (1.0 + dt), 1.0);
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the share that is shown is that of the slope which all ticks together have",
+          "[settled_force]") {
+  const double most = rule.most_stiffness(1e-3);
+  ph::laws::samples random(8);
+  const auto part = [&] { return 0.5 + 0.5 * random.number<double>(); };
+  int softer = 0, rises = 0, whole = 0;
+  for (int scene = 0; scene < 150; ++scene) {
+    auto guard = guard_of<d2>(rule);
+    slopes expected{most};
+    const double along = 8.0 * most * part(), across = 4.0 * most * part();
+    const double noise = scene % 3 == 0 ? 0.0 : 0.4 * most * 1e-5 * part() * (scene % 3);
+    d2::vector x(0, 0), w(0, 3);
+    (void)guard.tick(x, 1ms, w);
+    x = {0.0, 1e-4};  // so steep a tick that all the next are looked at
+    (void)guard.tick(x, 1ms, d2::vector(0, 3 - 8.0 * most * 1e-4));
+    for (int n = 0; n < 120; ++n) {
+      const double dt = 1e-3 * (n % 5 == 4 ? 0.7 : 1.0);
+      const double fast = n % 11 == 10 ? 1e-7 : 1e-5, softens = n > 60 ? 0.3 : 1.0;
+      const d2::vector way = random.vector<d2>() * fast;
+      x += way;
+      w = d2::vector(1.0 - softens * across * x(0), 9.0 - softens * along * x(1)) +
+          random.vector<d2>() * noise;
+      (void)guard.tick(x, ph::seconds{dt}, w);
+      const double before = expected.shown;
+      expected.look(w, way, dt);
+      CAPTURE(scene, n);
+      REQUIRE_THAT(guard.source().shown(), WithinRel(expected.shown, 1e-6));
+      softer += expected.shown < 0.7 ? 1 : 0;
+      rises += expected.shown > before ? 1 : 0;
+      if (n > 25 && expected.shown == 1.0) {  // nothing is looked at any more
+        ++whole;
+        break;
+      }
+    }
+  }
+  CHECK(softer > 2000);
+  CHECK(rises > 50);
+  CHECK(whole > 3);
+}
+
+TEST_CASE("a port says what settles in its own loop, and why it shows less", "[settled_force]") {
+  ph::settled_force told = rule;
+  told.most = 5e4;
+  const auto port = [&](const auto& limits) {
+    return ph::passive_port{d1{}, ph::settled_force{told}, ph::no_observer{}, ph::no_bound{},
+                            limits};
+  };
+  auto prompt = port(ph::loop_limits{.longest_tick = 2e-3, .top_speed = 100});
+  const double most =
+      rule.most_stiffness(2e-3);  // B (k + l + 3/2) T, four times softer than at 1 ms
+  CHECK_THAT(most, WithinRel(0.25 * 0.1 / (1.5 * 4e-6), 1e-12));
+  CHECK(prompt.source().settles(most * 0.999));
+  CHECK_FALSE(prompt.source().settles(most * 1.001));
+  CHECK(prompt.source().settles(most * 0.599, 1));
+  CHECK_FALSE(prompt.source().settles(most * 0.601, 1));
+  CHECK_FALSE(prompt.source().settles(1.0, 5));  // across w a lead of 5 ticks is needed
+  CHECK(prompt.explain().shown == most);
+  CHECK(prompt.explain().asked == std::numeric_limits<double>::infinity());
+  const auto late = port(ph::late_loop_limits<1>{.longest_tick = 1e-3, .top_speed = 100});
+  CHECK(late.source().settles(rule.most_stiffness(1e-3, 0, 1) * 0.999));
+  CHECK_FALSE(late.source().settles(rule.most_stiffness(1e-3, 0, 1) * 1.001));
+  CHECK_THAT(rule.most_stiffness(1e-3, 0, 1), WithinRel(0.25 * 0.1 / (2.0 * 2.5 * 1e-6), 1e-12));
+  told.most = 500.0;  // what the friction on encoders pays for
+  CHECK(port(ph::loop_limits{.longest_tick = 1e-3}).explain().shown == 500.0);
+
+  const auto steepened = [&](auto& guard, double K) {
+    for (int n = 0; n < 500; ++n) {
+      const double x = 2e-4 * std::sin(0.05 * n);
+      (void)guard.tick(x, 1ms, std::max(0.0, 3.0 - K * x));
+    }
+  };
+  told.most = 1000.0;  // is what is learned from, too
+  auto thrifty = port(ph::loop_limits{.longest_tick = 1e-3, .top_speed = 100});
+  steepened(thrifty, 4000.0);
+  CHECK_THAT(thrifty.source().shown(), WithinRel(0.75 / 4.0, 0.03));
+  CHECK_THAT(thrifty.explain().shown, WithinRel(750.0, 1e-9));
+  CHECK_THAT(thrifty.explain().asked, WithinRel(4000.0, 0.03));
+  told.lead = 4.0;
+  CHECK_FALSE(thrifty.set(told));  // it goes on with what it has learned
+  CHECK(thrifty.source().shown() < 0.2);
+  told.softens = false;
+  CHECK_FALSE(thrifty.set(told));
+  CHECK(thrifty.source().shown() == 1.0);
+  steepened(thrifty, 4000.0);
+  CHECK(thrifty.source().shown() == 1.0);
+  told.most = 0.0;
+  CHECK(told.check().parameter == std::string_view("most"));
 }
