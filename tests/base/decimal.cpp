@@ -119,3 +119,21 @@ TEST_CASE("to_decimal keeps its point in a locale that writes a comma", "[decima
   CHECK(stream == 1234.5);
   CHECK_FALSE(no_comma);
 }
+
+namespace {
+
+/// A number that no from_chars reads.
+struct own_number {
+  double value = 0.0;
+  own_number(double v) : value(v) {}  // NOLINT(google-explicit-constructor)
+};
+static_assert(!ph::detail::read_by_charconv<own_number>);
+
+}  // namespace
+
+TEST_CASE("a number of one's own is read by a stream, and from text that is none not at all",
+          "[decimal]") {
+  CHECK(ph::to_decimal<own_number>("-1.25e2")->value == -125.0);
+  CHECK_FALSE(ph::to_decimal<own_number>("1.25x"));
+  CHECK_FALSE(ph::to_decimal("1.25x"));
+}

@@ -18,6 +18,7 @@ TEST_CASE("fixed says what its constraint lacks", "[supply]") {
   };
   const double nan = std::nan("");
   CHECK(refused(wall<d1>(100)).empty());
+  CHECK(refused(wall<d1>(0.1)).empty());
   CHECK(refused(wall<d1>(0)) == "stiffness");
   CHECK(refused(wall<d1>(-5)) == "stiffness");
   CHECK(refused(wall<d1>(nan)) == "stiffness");

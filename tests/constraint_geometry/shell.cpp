@@ -3,6 +3,8 @@
 #include "support/curved.hpp"
 #include "support/obedience.hpp"
 
+#include <algorithm>
+#include <array>
 #include <random>
 
 using Catch::Matchers::WithinAbs;
@@ -145,4 +147,37 @@ TEMPLATE_TEST_CASE("a shell that cannot be used is refused", "[geometry][curved]
   CHECK_FALSE(usable(b));
   b.first = {0, 5, 0};  // parallel to the second
   CHECK_FALSE(usable(b));
+}
+
+TEST_CASE("the ball around a core is the one that its corners reach from its middle",
+          "[geometry][curved]") {
+  std::array<Vector3d, 3> corner{Vector3d(0.01, 0.002, 0), Vector3d(0.03, 0, 0.001),
+                                 Vector3d(-0.02, 0.04, 0.005)};
+  const Vector3d middle = (corner[0] + corner[1] + corner[2]) / 3.0;
+  double farthest = 0.0;
+  for (const auto& x : corner) farthest = std::max(farthest, (x - middle).norm());
+  for (int turn = 0; turn < 3; ++turn) {
+    std::rotate(corner.begin(), corner.begin() + 1, corner.end());
+    const auto ball = ph::triangle_core<d3>{corner[0], corner[1], corner[2]}.around();
+    CHECK_THAT((Vector3d(ball.centre) - middle).norm(), WithinAbs(0.0, 1e-15));
+    CHECK_THAT(ball.radius, WithinAbs(farthest, 1e-15));
+  }
+  const auto of_box = box.around();
+  CHECK_THAT(of_box.radius, WithinAbs(std::sqrt(6.0) * 0.01, 1e-15));
+  CHECK(Vector3d(of_box.centre) == Vector3d(0.01, 0, 0));
+  const auto of_point = shell_of(ph::point_core<d3>{{0.01, 0, 0}}).around();
+  CHECK(of_point.radius == 0.008);
+  const auto of_line = ph::segment_core<d3>{{0.01, 0, 0.04}, {0.03, 0, 0.04}}.around();
+  CHECK_THAT((Vector3d(of_line.centre) - Vector3d(0.02, 0, 0.04)).norm(), WithinAbs(0.0, 1e-15));
+}
+
+TEST_CASE("a box with an edge below zero is none, with one of zero it is a plate",
+          "[geometry][curved]") {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    auto core = box;
+    core.half.values[axis] = 0.0;
+    CHECK(core.prepare());
+    core.half.values[axis] = -1e-9;
+    CHECK_FALSE(core.prepare());
+  }
 }

@@ -287,6 +287,7 @@ TEST_CASE("eased forgets at a reset, and changes live", "[contact]") {
   CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(3.0, 1e-9));
   REQUIRE_FALSE(model.set(ph::damped_spring{.mass = 0.01}));
   CHECK(model.law().stiffness() == 1000.0);
+  CHECK(model.law().parameters().law.mass == 0.01);
   REQUIRE_FALSE(model.set(ph::eased{ph::damped_spring{.mass = 0.02}, {.ahead = 0.05}}));
   CHECK(model.law().parameters().law.mass == 0.02);
   CHECK(model.law().parameters().pace.ahead == 0.05);
@@ -669,4 +670,46 @@ TEST_CASE("a triangle that comes over a device is not taken for one that was the
   CHECK(model.tick(here, 1ms).force.norm() < 0.051);
   for (int n = 0; n < 400; ++n) (void)model.tick(here, 1ms);
   CHECK_THAT(model.tick(here, 1ms).force.norm(), WithinRel(2.0, 1e-9));
+}
+
+TEST_CASE("news go on for no longer because samples are lost", "[contact]") {
+  const auto felt = [](int lost) {
+    auto model = touching(ph::eased{damper});
+    for (int n = 0; n < 331; ++n) {  // rises by 10 mm/s, and is told so at 30 Hz
+      if (n % 33 == 0) REQUIRE(model.update({1e-5 * n, 1.0, 1000.0}));
+      (void)model.tick(-1e-3, 1ms);
+    }
+    for (int n = 0; n < lost; ++n) (void)model.tick(std::nan(""), 1ms);
+    const double before = model.tick(-1e-3, 1ms).force;
+    double after = before;
+    for (int n = 0; n < 20; ++n) after = model.tick(-1e-3, 1ms).force;
+    return after - before;
+  };
+  CHECK(felt(0) > 0.1);
+  CHECK(felt(100) < 0.01);  // it has been told nothing for so long that it may have stopped
+}
+
+TEST_CASE("what was stated of a surface is forgotten at a reset and with what is refused",
+          "[contact]") {
+  auto model = touching(ph::eased{damper}, {.stale_after = 10.0});
+  const ph::surface_motion<d1> rising{.velocity = 0.05, .age = 0.02};
+  for (const bool reset : {true, false}) {
+    REQUIRE(model.update({0.0, 1.0, 1000.0}, rising));
+    if (reset) model.reset();
+    REQUIRE(model.update({0.0, 1.0, 1000.0}));  // as a world that states no motion
+    (void)model.tick(1e-3, 1ms);
+    double last = 0.0;
+    for (int n = 0; n < 30; ++n) last = model.tick(-1e-3, 1ms).force;
+    CHECK_THAT(last, WithinRel(1.0, 1e-12));
+  }
+}
+
+TEST_CASE("a contact that begins anew is damped from the first tick on", "[contact]") {
+  // A hand that moves for half a second at one speed is not damped any more; the next contact is.
+  auto law = at<d1>(ph::eased{damper});
+  law.adopt(1000.0, 1e-3, 0);
+  for (int n = 0; n < 500; ++n) (void)law.swinging(0.02, 1e-3);
+  CHECK(law.swinging(0.02, 1e-3) < 0.002);
+  law.let_go();
+  CHECK(law.swinging(0.02, 1e-3) == 0.02);
 }

@@ -37,7 +37,11 @@ TEST_CASE("nothing is given before the first force", "[given_force]") {
   CHECK(guard.source().update(2.0));
   CHECK(guard.tick(0.0, 1ms).force == 2.0);
   CHECK(guard.tick(0.0, 1ms).force == 2.0);
+  CHECK(guard.source().newest() == 2.0);
   guard.reset();
+  CHECK(guard.source().newest() == 0.0);
+  CHECK_FALSE(guard.source().update(std::nan("")));
+  CHECK(guard.tick(0.0, 1ms).what == ph::event::rejected_target);
   CHECK(guard.tick(0.0, 1ms).what == ph::event::no_target);
 }
 

@@ -319,6 +319,7 @@ TEST_CASE("new parameters reach a forgiving ledger and what it keeps", "[forgivi
   CHECK(touch.observer().parameters().amends == 2.5e-3 * 9.0);
   CHECK_FALSE(touch.set(ph::forgiving{ph::reduced_energy{.damping = 0.3}, 0.5}));
   CHECK(touch.observer().parameters().amends == 0.5);
+  CHECK(touch.observer().parameters().ledger.damping.coefficient == 0.3);
   CHECK(touch.set(ph::forgiving{ph::reduced_energy{.damping = 0.3}, std::nan("")}));
 }
 

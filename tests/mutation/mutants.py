@@ -37,7 +37,7 @@ COMPILED = {"assumptions_of", "promise_of", "spends_ledger", "are_bounds", "redu
             "count_takers", "chain_promise", "wants_local_model", "shapers_reduce",
             "shapers_keep_zero"}
 EXTREMES = {"smaller": "larger", "larger": "smaller"}
-SYMMETRIC = {"smaller", "larger", "dot"}  # of their arguments
+SYMMETRIC = {"smaller", "larger", "dot", "work", "worse", "worse_yet"}  # of their arguments
 # What `return {}` would return anyway.
 NOTHING = {"nullptr", "std::nullopt", "0", "scalar(0)", "S(0)", "Scalar(0)", "P::zero()", "Space::zero()"}
 # A statement that begins so is needed by what follows it.
