@@ -607,3 +607,53 @@ TEST_CASE("what refutes a statement has to be one that can be", "[force_bound][w
   CHECK(contact.bound.parameters().bound.mass == 0.3);
   CHECK(contact.bound.parameters().bound.hand_force == 2.0);
 }
+
+TEST_CASE("a new contact is believed at once, and counts for 0.05 s of what is remembered",
+          "[force_bound][watched]") {
+  contact_of<d2> contact(0.1, 5.0);
+  const shown<d2> still{.told = {0, 1}, .held = {0, 1}, .dt = T};
+  auto pushed = still;
+  pushed.travel = {1e-3, 0};
+  for (int n = 0; n < 8; ++n) contact.see(n == 2 ? pushed : still);
+  REQUIRE(contact.bound.seen() == ph::event::outside_force);
+  for (int next = 1; next <= 5; ++next) {
+    contact.bound.look_on(false);
+    contact.bound.look_on(true);
+    contact.see(still);
+    CHECK(contact.bound.seen() == ph::event::nominal);
+    for (int n = 0; n < 9; ++n) contact.see(still);
+    CHECK(contact.bound.forgives() == (next < 5));
+  }
+}
+
+TEST_CASE("what comes after a motion that is not known is not compared with what was before",
+          "[force_bound][watched]") {
+  const shown<d2> still{.told = {0, 1}, .held = {0, 1}, .dt = T};
+  auto moving = still;
+  moving.travel = {1e-3, 0};
+  for (const bool known : {false, true}) {
+    contact_of<d2> contact(0.1, 5.0);
+    for (int n = 0; n < 2; ++n) contact.see(still);
+    contact.see(moving, known);
+    for (int n = 0; n < 20; ++n) contact.see(moving);
+    CHECK((contact.bound.seen() == ph::event::nominal) == !known);
+  }
+}
+
+TEST_CASE("a force that is reported 3 % wrong is as told, and 4 % is another however small it is",
+          "[force_bound][watched]") {
+  const auto looked = [](double wrong) {
+    contact_of<d1> contact(0.1, 5.0);
+    int ticks = 0;
+    for (int n = 0; n < 200; ++n) {
+      const double asked = n % 2 == 0 ? 0.01 : 0.02;
+      ticks += contact.see({0.0, asked, asked * wrong, T}) ? 1 : 0;
+    }
+    CHECK(contact.bound.seen() == ph::event::nominal);
+    return ticks;
+  };
+  CHECK(looked(1.03) < 60);
+  CHECK(looked(0.97) < 60);
+  CHECK(looked(1.04) == 200);
+  CHECK(looked(0.96) == 200);
+}
