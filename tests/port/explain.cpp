@@ -258,3 +258,25 @@ TEST_CASE("every reason has a name and a sentence", "[port]") {
   }
   CHECK(std::string(to_string(static_cast<softened_by>(99))) == "unknown reason");
 }
+
+TEST_CASE("a force that the ledger has cut is no news in the air, nor after a reset", "[explain]") {
+  ph::local_model wall{d1{},
+                       ph::followed<ph::half_space<d1>>{},
+                       ph::turn_at_once{},
+                       ph::spring{},
+                       thesis_ledger(),
+                       ph::strict_bound{},
+                       thesis_loop};
+  const auto press = [&] {
+    REQUIRE(wall.update({0.0, 1.0, 1000.0}));
+    for (int n = 0; n < 50; ++n) (void)wall.tick(1e-3 - 1e-4 * n, 1ms);
+  };
+  press();
+  CHECK(wall.explain().now == ph::softened_by::ledger);
+  for (int n = 0; n < 80; ++n) (void)wall.tick(-4e-3 + 1e-4 * n, 1ms);
+  CHECK(wall.explain().now == ph::softened_by::nothing);
+  press();
+  CHECK(wall.explain().now == ph::softened_by::ledger);
+  wall.reset();
+  CHECK(wall.explain().now == ph::softened_by::nothing);
+}

@@ -109,7 +109,7 @@ struct session {
 /// A device of 0.1 kg in a hand that presses, rubs and lets go, in the port's loop; late and short ticks, lost
 /// samples, outliers, and forces that are held otherwise than told.
 template <class space, class Port, class News, class Tick>
-session lived(Port port, const units& u, const News& news, const Tick& tick, int ticks = 1200) {
+session lived(Port& port, const units& u, const News& news, const Tick& tick, int ticks = 1200) {
   constexpr int dof = space::dof;
   session out;
   std::array<double, 3> x{}, v{}, f{};
@@ -197,15 +197,26 @@ template <class Space>
 void indifferent(const units& others, const auto& make, const auto& news, const auto& tick) {
   auto own = si;
   own.q = others.q;
-  REQUIRE_FALSE(make(own).check());
-  const session plain = lived<Space>(make(own), own, news(own), tick);
-  const session other = lived<Space>(make(others), others, news(others), tick);
+  auto worn = make(own);
+  REQUIRE_FALSE(worn.check());
+  const session plain = lived<Space>(worn, own, news(own), tick);
+  auto elsewhere = make(others);
+  const session other = lived<Space>(elsewhere, others, news(others), tick);
   CHECK(differs(plain, other) == -1);
   CHECK(plain.pressed > 0.1);
   CHECK(plain.said.size() > 5000);
   auto told_wrong = others;  // the control
   told_wrong.N *= 2.0;
-  CHECK(differs(plain, lived<Space>(make(others), told_wrong, news(told_wrong), tick)) != -1);
+  elsewhere.reset();
+  CHECK(differs(plain, lived<Space>(elsewhere, told_wrong, news(told_wrong), tick)) != -1);
+
+  // What a port has lived is forgotten at a reset, wherever it is.
+  for (const int ticks : {405, 1200}) {
+    worn.reset();
+    (void)lived<Space>(worn, own, news(own), tick, ticks);
+    worn.reset();
+    CHECK(differs(plain, lived<Space>(worn, own, news(own), tick)) == -1);
+  }
 }
 template <class Space>
 inline constexpr auto planes = [](const units& u) {

@@ -156,6 +156,7 @@ class passive_port {
     detail::restart(motion_);
     guard_.reset();
     watch_.reset();
+    is_cut_ = false;
     if (stopped_ != event::forces_off) stopped_ = event::nominal;
     begin();
   }
@@ -233,11 +234,10 @@ class passive_port {
     source_.explain(e, where(), limits_.longest_tick, latency);
     detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
     if constexpr (!Observer::exact) e.floor = e.shown * static_cast<double>(travel_error());
-    const bool as_stiff = e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth;
-    if (is_cut_ ? e.now == softened_by::nothing : as_stiff) {
-      e.now = is_cut_ ? softened_by::ledger : softened_by::nothing;
-    }
-    const bool asks = is_cut_ || e.depth > 0.0;
+    const bool cut = is_cut_ && !(zero_stays_zero && e.depth == 0.0 && e.force == 0.0);
+    if (cut && e.now == softened_by::nothing) e.now = softened_by::ledger;
+    if (!cut && e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth) e.now = softened_by::nothing;
+    const bool asks = cut || e.depth > 0.0;
     if (asks && !(e.force > 0.0) && !(energy() > scalar(0))) e.now = softened_by::started_inside;
     return e;
   }
