@@ -219,3 +219,16 @@ TEST_CASE("a held spring leaks K Δx²/2 a tick, and the wrong pairing hides it 
   CHECK_THAT(same_sample, WithinAbs(stored + squares, 1e-9));
   CHECK(squares > 1.0);
 }
+
+TEST_CASE("what bounds a path or a turn is what its formula says, rounded up", "[kernels]") {
+  using namespace passive_haptics::kernels;
+  const auto just_above = [](double bound, double exact) {
+    return bound > exact && bound < exact * (1.0 + 1e-14);
+  };
+  CHECK(just_above(later_reach(2.0, 3.0, 5.0, 4.0, 0.5), 4.0));
+  CHECK(just_above(later_reach(0.5, 1.0, 0.0, 2.5, 2.0), 6.0));
+  CHECK(just_above(coning(72.0, 0.5, 2.0), 8.0));
+  CHECK(just_above(longest_path(1.0, 2.0, 0.25, 2.0, 1.0), 7.75));  // r (T₀/2 + t) is ½
+  CHECK(longest_path(1.0, 2.0, 0.2500001, 2.0, 1.0) == largest<double>());
+  CHECK(unseen_turn(2.0, 3.0, 2.0) == 14.0);
+}

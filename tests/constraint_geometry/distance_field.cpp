@@ -291,3 +291,13 @@ TEST_CASE("a brick whose slope is no number is refused, and a flat one is as it 
   CHECK_FALSE(with(1e200, 1.0));    // whose square overflows
   CHECK(with(0.0, 1e-3));
 }
+
+TEST_CASE("a brick is looked for around the middle of its cube", "[geometry]") {
+  ph::distance_brick<d3> brick;
+  brick.origin = {1.0, 2.0, 3.0};
+  brick.spacing = 0.5;
+  const auto ball = brick.around();
+  CHECK(d3::vector(ball.centre) == d3::vector(1.75, 2.75, 3.75));
+  CHECK(ball.radius > std::sqrt(3.0) * 0.5);  // the cube's corners are within
+  CHECK(ball.radius < 2.0 * 0.5);
+}

@@ -72,3 +72,10 @@ TEST_CASE("a stylus whose quaternion is no rotation, or whose tip is no place, p
   CHECK(wrong.tick(pose{}, T).force == vector::Zero());
   CHECK_FALSE(pen().check());
 }
+
+TEST_CASE("the contact at a tip is one, whoever looks at it", "[at_tip]") {
+  auto port = pen();
+  const auto& seen = port.source();
+  CHECK(&seen.contact() == &port.source().contact());
+  CHECK(seen.contact().slot(0).taken());
+}

@@ -644,3 +644,52 @@ TEST_CASE("a plane that is sent again as it is, is no news", "[contact_set]") {
     CHECK(lag < 1e-12);
   }
 }
+
+TEST_CASE("a plane that is told to be tilted turns under a finger that rests", "[contact_set]") {
+  auto port = planes<d3, 1>();
+  const d3::vector tilted = d3::vector(0.2, 0, 1).normalized();
+  port.source().update(0, ph::half_space<d3>{d3::zero(), d3::vector(0, 0, 1), 1000.0});
+  (void)port.tick(d3::vector(0, 0, 1e-3), ph::seconds{T});
+  for (int n = 0; n < 50; ++n) (void)port.tick(d3::vector(0, 0, -1e-3), ph::seconds{T});
+  port.source().update(0, ph::half_space<d3>{d3::zero(), tilted, 1000.0});
+  d3::vector f;
+  for (int n = 0; n < 20; ++n) f = port.tick(d3::vector(0, 0, -1e-3), ph::seconds{T}).force;
+  const double turned = std::atan2(f.x(), f.z());
+  CHECK(turned > 0.03);  // within t_c, or at 2 rad/s if that is faster
+  CHECK(turned < 0.15);
+  for (int n = 0; n < 100; ++n) f = port.tick(d3::vector(0, 0, -1e-3), ph::seconds{T}).force;
+  CHECK_THAT(f.normalized().dot(tilted), WithinRel(1.0, 1e-12));
+}
+
+TEST_CASE("a set explains what presses most, what does not yet, and that it follows news",
+          "[contact_set]") {
+  auto port = planes<d3, 2>();
+  CHECK(port.explain().stiffness == ph::softened_by::no_surface);
+  port.source().update(0, ph::half_space<d3>{d3::zero(), d3::vector(0, 0, 1), 300.0});
+  (void)port.tick(d3::vector(0, 0, 1e-3), ph::seconds{T});
+  CHECK(port.explain().asked == 300.0);  // in the air, the first one
+  CHECK(port.explain().stiffness == ph::softened_by::nothing);
+  port.source().update(1, ph::half_space<d3>{d3::zero(), d3::vector(1, 0, 0), 700.0});
+  for (int n = 0; n < 50; ++n) (void)port.tick(d3::vector(-1e-3, 0, 1e-3), ph::seconds{T});
+  CHECK(port.explain().asked == 700.0);
+  CHECK(port.explain().now == ph::softened_by::nothing);
+  port.source().update(1, ph::half_space<d3>{d3::vector(1e-3, 0, 0), d3::vector(1, 0, 0), 700.0});
+  (void)port.tick(d3::vector(-1e-3, 0, 1e-3), ph::seconds{T});
+  CHECK(port.explain().now == ph::softened_by::news);
+  for (int n = 0; n < 500; ++n) (void)port.tick(d3::vector(-1e-3, 0, 1e-3), ph::seconds{T});
+  CHECK(port.explain().now == ph::softened_by::nothing);
+}
+
+TEST_CASE("news that overflow under a pressed contact are refused, and it presses on",
+          "[contact_set]") {
+  auto port = planes<d3, 1>();
+  port.source().update(0, ph::half_space<d3>{d3::zero(), d3::vector(0, 0, 1), 1000.0});
+  (void)port.tick(d3::vector(0, 0, 1e-3), ph::seconds{T});
+  for (int n = 0; n < 5; ++n) (void)port.tick(d3::vector(0, 0, -1e-3), ph::seconds{T});
+  const double beyond = 1.5e308;
+  CHECK_FALSE(port.source().update(
+      0, ph::half_space<d3>{d3::vector(beyond, beyond, beyond), d3::vector(1, 1, 1), 1000.0}));
+  const auto out = port.tick(d3::vector(0, 0, -1e-3), ph::seconds{T});
+  CHECK(out.what == ph::event::rejected_target);
+  CHECK_THAT(out.force.z(), WithinRel(1.0, 1e-3));
+}

@@ -396,6 +396,8 @@ TEST_CASE("a rule that is none names its fault, and matches nothing", "[manifold
   CHECK_FALSE(ph::contact_manifold<plane, 2>{}.check());
   CHECK(ph::contact_manifold<plane, 2>{{.within = 0.02}}.parameters().within == 0.02);
   CHECK(std::string_view(ph::same_surface{.within = nan_value}.check().parameter) == "within");
+  CHECK(std::string_view(ph::contact_manifold<plane, 2>{{.within = -1}}.check().parameter) ==
+        "within");
   CHECK(std::string_view(ph::same_surface{.lever = 0}.check().parameter) == "lever");
   CHECK(std::string_view(ph::same_surface{.stay = -1}.check().parameter) == "stay");
   CHECK(std::string_view(ph::same_surface{.twin = nan_value}.check().parameter) == "twin");
@@ -403,4 +405,24 @@ TEST_CASE("a rule that is none names its fault, and matches nothing", "[manifold
   ph::contact_manifold<plane, 2> seen{ph::same_surface{.within = nan_value}};
   seen.show(port.source(), std::array{floor_at(0)}, d3::zero());
   CHECK(seen.show(port.source(), std::array{floor_at(0)}, d3::zero()).matched == 0);
+}
+
+namespace {
+
+/// A surface that is usable as it is made.
+struct ready_made : plane {
+  using space_type = d3;
+  ready_made() : plane(floor_at(0)) {}
+};
+
+}  // namespace
+
+TEST_CASE("what is refused takes no slot, whatever a surface is by default", "[manifold]") {
+  auto port = set_of<d3, ready_made, 2>();
+  ph::contact_manifold<ready_made, 2> seen;
+  ready_made bad;
+  bad.stiffness = nan_value;
+  CHECK(seen.show(port.source(), std::array{bad}, d3::zero()).refused == 1);
+  CHECK_FALSE(port.source().template slot<ready_made>(0).taken());
+  CHECK(port.tick(d3::zero(), 1ms).what == ph::event::rejected_target);
 }

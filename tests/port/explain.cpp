@@ -280,3 +280,13 @@ TEST_CASE("a force that the ledger has cut is no news in the air, nor after a re
   wall.reset();
   CHECK(wall.explain().now == ph::softened_by::nothing);
 }
+
+TEST_CASE("a contact has started inside if it has neither force nor energy", "[explain]") {
+  const auto told = [](double force, double energy) {
+    return ph::detail::cut_short<d1>({force, energy, ph::event::nominal, true});
+  };
+  CHECK(told(0.0, 0.0) == ph::event::started_inside);
+  CHECK(told(0.0, 0.5) == ph::event::nominal);
+  CHECK(told(1.0, 0.0) == ph::event::nominal);
+  CHECK(told(0.0, -1.0) == ph::event::started_inside);
+}
