@@ -317,3 +317,78 @@ TEST_CASE("however many planes, the force changes by no more than the coupling a
   CHECK(steepest > 0.9);
   CHECK(of_the_sum > 2.0);  // springs that are added are steeper
 }
+
+TEST_CASE("a spring for slots is what its parameters say, in numbers that nothing rounds",
+          "[proxy]") {
+  ph::proxy_spring p{.mass = 2.0,
+                     .stiffness_fraction = 0.25,
+                     .damping_ratio = 0.5,
+                     .damping_fraction = 0.5,
+                     .softness = 0.5,
+                     .force_limit = 4.0,
+                     .most = 1000.0};
+  const auto rule = [&p] {
+    ph::proxy_spring::at<double> made(p);
+    made.adopt(1.0 / 64.0);
+    return made;
+  };
+  const auto told = rule().parameters();
+  CHECK(told.mass == 2.0);
+  CHECK(told.stiffness_fraction == 0.25);
+  CHECK(told.damping_ratio == 0.5);
+  CHECK(told.damping_fraction == 0.5);
+  CHECK(told.softness == 0.5);
+  CHECK(told.force_limit == 4.0);
+  CHECK(told.most == 1000.0);
+  CHECK(rule().softness() == 0.5);
+  // (1 − ε) κ m/T² is 1024 N/m, 2ζ√(Km) of 512 N/m is 32 N·s/m, and β m/T 64
+  CHECK(rule().sampled(512.0).stiffness == 512.0);
+  CHECK(rule().sampled(512.0).settling == 1.0 / 16.0);
+  CHECK(rule().sliding(rule().sampled(512.0)) == 1.0 / 16.0);
+  CHECK(rule().sampled(2000.0).stiffness == 1000.0);
+  CHECK(rule().softener(1000.0) == ph::softened_by::coupling);
+  CHECK(rule().softener(1001.0) == ph::softened_by::encoder_steps);
+  p.most = 1024.0;
+  CHECK(rule().softener(2000.0) == ph::softened_by::encoder_steps);
+  p.most = 1025.0;
+  CHECK(rule().sampled(2000.0).stiffness == 1024.0);
+  CHECK(rule().softener(2000.0) == ph::softened_by::mass_and_tick);
+  using spring = ph::sampled_spring<double>;
+  CHECK_FALSE(rule().saturates(spring::of(1024.0, 8.0), 1.0 / 256.0));  // just 4 N
+  CHECK(rule().saturates(spring::of(1024.0, 8.0), 1.01 / 256.0));
+  const auto deep = rule().saturated(spring::of(1024.0, 64.0), 1.0 / 32.0);
+  CHECK(deep.stiffness == 128.0);
+  CHECK(deep.settling == 16.0 / 128.0);
+  CHECK(rule().saturated(spring::of(1024.0, 8.0), 1.0 / 32.0).settling == 8.0 / 128.0);
+}
+
+TEST_CASE("what a spring for slots may not be told is refused with its name, up to the very limit",
+          "[proxy]") {
+  const auto refused = [](double ph::proxy_spring::*member, double value) {
+    ph::proxy_spring p{.mass = 0.1};
+    p.*member = value;
+    const auto fault = p.check();
+    return std::string_view(fault ? fault.parameter : "");
+  };
+  using p = ph::proxy_spring;
+  CHECK(refused(&p::mass, 0.0) == "mass");
+  CHECK(refused(&p::stiffness_fraction, 0.0) == "stiffness_fraction");
+  CHECK(refused(&p::stiffness_fraction, 1.5) == "stiffness_fraction");
+  CHECK(refused(&p::damping_ratio, -0.1) == "damping_ratio");
+  CHECK(refused(&p::damping_fraction, -0.1) == "damping_fraction");
+  CHECK(refused(&p::damping_fraction, 0.0).empty());
+  CHECK(refused(&p::damping_fraction, 1.0).empty());
+  CHECK(refused(&p::damping_fraction, 1.1) == "damping_fraction");
+  CHECK(refused(&p::softness, 0.0) == "softness");
+  CHECK(refused(&p::softness, 1.0) == "softness");
+  CHECK(refused(&p::force_limit, 0.0) == "force_limit");
+  CHECK(refused(&p::most, 0.0) == "most");
+  const ph::detail::late_limits<double> late(1);  // 0.2 and 0.9/2 over (k + 1)²
+  CHECK(late.stiffness == 0.05);
+  CHECK(late.ticks == 4.5);
+  CHECK(late.least_ticks == 3.0);
+  CHECK_THAT(late.damping, WithinRel(0.225, 1e-15));
+  CHECK(ph::detail::late_limits<double>(1, 6.0).ticks == 12.0);
+  CHECK(ph::detail::late_limits<double>(0).ticks == 5.0);
+  CHECK(ph::detail::late_limits<double>(0).least_ticks == 0.0);
+}
