@@ -129,6 +129,11 @@
     $('next').disabled = step === titles.length - 1;
     $('counted').hidden = !wide();
     document.body.classList.toggle('wide', wide());
+    // One picture is looked at first, two are told of first. What is focused stays where it is, and keeps the focus.
+    const steer = $('steer'),
+      pictures = document.querySelector('main');
+    steer[wide() ? 'before' : 'after'](pictures);
+    steer[wide() ? 'after' : 'before']($('step'));
     count(false);
     pressed('problems', p ? titles[step] : '');
     $('slider').replaceChildren(...(p ? [knob(p.knob)] : []));
@@ -220,7 +225,11 @@
     return b;
   }
   function pressed(id, label) {
-    for (const b of $(id).children) b.setAttribute('aria-pressed', String(b.dataset.key === label));
+    const row = $(id);
+    for (const b of row.children) {
+      b.setAttribute('aria-pressed', String(b.dataset.key === label));
+      if (b.dataset.key === label) row.scrollLeft = b.offsetLeft - (row.clientWidth - b.offsetWidth) / 2 - row.offsetLeft;
+    }
   }
   function fillMenus() {
     all('.side').forEach((side, w) => {
@@ -600,12 +609,18 @@
     );
   }
   /** The contact, fifty times as large: the surface, the local model, the way of the last quarter of a second. */
-  function drawGlass(w, {g, h}, rows, rowWidth, kept, count, colour) {
-    const now = ((count - 1) % kept) * rowWidth,
-      radius = Math.max(26, Math.min(0.3 * h, 90)),
+  function drawGlass(w, {g, w: width, h}, rows, rowWidth, kept, count, colour) {
+    // It follows the mean of the way, so that a device that buzzes moves in it, and not the surface.
+    const first = Math.max(0, count - 250),
+      mean = column => {
+        let sum = 0;
+        for (let i = first; i < count; ++i) sum += rows[(i % kept) * rowWidth + column];
+        return sum / (count - first);
+      };
+    const radius = Math.max(26, Math.min(0.3 * h, 0.21 * width, 90)), // beside the device, not over it
       scale = (50 * h) / scenes[state.scene].view[2],
-      x0 = rows[now + 1],
-      y0 = rows[now + 2],
+      x0 = mean(1),
+      y0 = mean(2),
       ox = radius + 8,
       oy = radius + 8;
     const near = planesOf(w, 0).some(([px, py, nx, ny]) => Math.abs((x0 - px) * nx + (y0 - py) * ny) * scale < 3 * radius);
@@ -632,7 +647,7 @@
       g.fill();
     }
     const trail = [];
-    for (let i = Math.max(0, count - 250); i < count; ++i) {
+    for (let i = first; i < count; ++i) {
       const r = (i % kept) * rowWidth;
       trail.push([scenes[state.scene].dof === 1 ? ox - radius + (2 * radius * (i - count + 250)) / 250 : X(rows[r + 1]), Y(rows[r + 2])]);
     }

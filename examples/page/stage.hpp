@@ -83,6 +83,7 @@ class record {
     const int n = static_cast<int>(count_ < window ? count_ : window);
     if (n < window) return v;
     double mean = 0, low = 1e9, high = -1e9, lowest = 1e9, highest = -1e9;
+    auto worst = ph::event::nominal;
     for (int i = 0; i < n; ++i) {
       const row& r = ago(i);
       const double f = size(r);
@@ -92,8 +93,9 @@ class record {
       lowest = r.y < lowest ? r.y : lowest;
       highest = r.y > highest ? r.y : highest;
       v.touching = r.touching > v.touching ? r.touching : v.touching;
-      v.event = r.event > v.event ? r.event : v.event;
+      worst = ph::worse(worst, static_cast<ph::event>(static_cast<int>(r.event)));
     }
+    v.event = static_cast<int>(worst);
     const row& now = ago(0);
     v.force = size(now);
     v.behind = now.behind;

@@ -315,15 +315,21 @@ const verdictNames = (
 ).split(' ');
 const verdictOf = at => Object.fromEntries(verdictNames.map((name, i) => [name, at[i]]));
 
+/** What ph::to_string says of each event, by its number. */
+const events = (
+  'nominal,debt,late tick,repeated sample,no target,rejected target,stale target,outside workspace,rejected sample,' +
+  'rejected parameters,outside force,untold latency,wrong sign,started inside,forces off,wall lost,wall back'
+).split(',');
+
 /** The judge's verdict on the last 100 ms, and the bars where encoder steps have raised them. */
 function quietness(v) {
-  const of = (x, bar, usual, unit) =>
-    `${figures(x, 2)}${bar > 1.001 * usual ? ` of ${figures(bar, 2)}` : ''} ${unit}`;
+  const of = (x, bar, usual, unit) => // a twentieth of a bar, or less, is none
+    `${figures(x < 5e-4 ? 0 : x, 2)}${bar > 1.001 * usual ? ` of ${figures(bar, 2)}` : ''} ${unit}`;
   const felt =
     `${of(v.rms, v.rms_bar, 0.02, 'N rms above 10 Hz')}, ` +
     `${of(v.speed * 1e3, v.speed_bar * 1e3, 1, 'mm/s')}, ${of(v.step, v.step_bar, 0.02, 'N a tick')}`;
   const floor = v.step_bar > 0.0201 ? ' (encoder steps are the floor)' : '';
-  if (v.still < 0.1) return [`moves: ${felt}`, ''];
+  if (v.still < 0.1) return [v.rms > 0 ? `moves: ${felt}` : 'moves', ''];
   if (v.quiet) return [`quiet after ${figures(v.since, 2)} s: ${felt}${floor}`, 'good'];
   return [`not quiet for ${figures(v.still, 2)} s: ${felt}${floor}`, v.still < 1 ? 'price' : 'bad'];
 }
@@ -346,6 +352,7 @@ function remarks(v) {
   else if (v.touching && v.force > 0.02) {
     if (!v.buzz) said.push([`pushes with ${figures(v.force, 2)} N`, '']);
   } else if (!v.buzz) said.push(['in free air', '']);
+  if (v.event > 0) said.push([`event: ${events[v.event]}`, 'price']);
   if (v.rubs > 0.1) said.push([`rubs with ${figures(v.rubs, 2)} N`, '']);
   return said;
 }
@@ -648,6 +655,7 @@ if (typeof module !== 'undefined') {
     figures,
     joules,
     remarks,
+    events,
     broken,
     readDevice,
     verdictNames,
