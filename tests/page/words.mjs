@@ -303,6 +303,13 @@ expect(
   speak({settled: 0, buzz: 15, swing: 2}).includes('jumps 15 times a second by 2 N'),
   'what comes with the news jumps'
 );
+const named = fs.readFileSync(`${source}/include/passive_haptics/base/event.hpp`, 'utf8').match(/names\[\] = \{([^}]*)\}/)[1];
+expect(
+  words.events.join() === [...named.matchAll(/"([^"]*)"/g)].map(([, name]) => name).join() && words.events.length > 16,
+  `the events are those of base/event.hpp: ${words.events}`
+);
+expect(speak({event: 2}).endsWith('event: late tick') && !/event/.test(speak({event: 0})), speak({event: 2}));
+expect(speak({rms: 1e-7, speed: 2e-11, step: 3e-8}).includes(': 0 N rms above 10 Hz, 0 mm/s, 0 N a tick'), 'no 1e-7');
 expect(speak({made: 5e-10}).includes('made no energy'), 'rounding is no energy');
 
 console.log(
