@@ -196,22 +196,60 @@ def example_page(source, label):
     return "\n".join(out) + "\n"
 
 
-def shown_at(root, examples):
-    """A line for each function that composes something: its header, the function, the program that is shown at it,
-    and the pages of others that call it. header.awk puts them there."""
+TYPE = r"^(?:[^\n;{}/]*\) )?(?:struct|class|using|concept) (\w+)\b(?!;)"
+# Short for a namespace inside where a program includes the line that says so.
+SHORT = {"ph": "", "passive_haptics": "", "sim": "simulation", "env": "environment"}
+
+
+def uses(text, inner):
+    """(namespace inside, name) of all that `text` calls by its full name; `inner`: the namespaces there are."""
+    names = {**{name: name for name in inner}, **SHORT}
+    names.update(re.findall(r"namespace (\w+) = (?:ph|passive_haptics)::(\w+);", text))
+    found = set()
+    for first, *rest in (m.split("::") for m in re.findall(r"\b\w+(?:::\w+)+", text)):
+        if first in names:
+            inside = names[first]
+            found.add((inside, rest[0]))
+            if not inside and len(rest) > 1:
+                found.add((rest[0], rest[1]))
+    return found
+
+
+def shown_at(root, examples, problems):
+    """What header.awk puts at a function or a type: for each that composes something its header, its name, the program
+    that is shown and the pages of others that call it; for each type or alias its header, its name, "=", and up to
+    three pages of programs that use it, or the test that tries it."""
     folder = root / "include/passive_haptics"
     core = (folder / "passive_haptics.hpp").read_text("utf-8")
     texts = {p: p.read_text("utf-8") for p in sorted(examples, key=lambda p: (p.parent.name != "first", p.name))}
+    tests = {p.relative_to(root).as_posix(): p.read_text("utf-8") for p in sorted((root / "tests").rglob("*.cpp"))
+             if "compile_fail" not in p.parts}
+    codes = {p: p.read_text("utf-8") for p in sorted(folder.rglob("*.hpp"))}
+    inside_of = {p: next((n for n in re.findall(r"^namespace (\w+) \{$", code, re.M)
+                          if n not in ("passive_haptics", "detail")), "") for p, code in codes.items()}
+    of_examples = {p: uses(text, inside_of.values()) for p, text in texts.items()}
+    of_tests = {p: uses(text, inside_of.values()) for p, text in tests.items()}
     lines = []
-    for header in sorted(folder.rglob("*.hpp")):
+    for header, code in codes.items():
         path = header.relative_to(folder).as_posix()
+        inside = inside_of[header]
         included = f"<passive_haptics/{path}>"
-        for name in sorted(set(re.findall(r"\bauto\s(make_\w+)\(", header.read_text("utf-8")))):
+        for name in sorted(set(re.findall(r"\bauto\s(make_\w+)\(", code))):
             calls = [p for p, text in texts.items()
                      if re.search(rf"ph::{name}[<(]", text) and (included in text or included in core)]
             if calls:
                 others = [f"example_{label_of(p.stem)}" for p in calls[1:] if p.parent.name == "first"]
                 lines.append(" ".join([path, name, calls[0].as_posix(), *others]))
+            elif not re.search(rf"deprecated\((?:[^;{{}}]|\{{[^}}]*\}})*\b{name}\(", code):
+                problems.append(f"{path}: no program of examples/ calls {name}")
+        for name in sorted(set(re.findall(TYPE, code, re.M))):
+            told = [f"example_{label_of(p.stem)}" for p, used in of_examples.items() if (inside, name) in used][:3]
+            if not told:  # the test of the header first
+                tried = sorted((p for p, used in of_tests.items() if (inside, name) in used),
+                               key=lambda p: (not p.endswith(f"/{header.stem}.cpp"), p))
+                told = tried[:1]
+            if told:
+                lines.append(" ".join([path, name, "=", *told]))
     return "\n".join(lines) + "\n"
 
 
@@ -303,7 +341,7 @@ def main():
         write(label, f"# {title} {{#{label}}}\n\n{text}\n\n" + "".join(f"- @subpage {e}\n" for e in entries))
 
     (given.pages / "names.dox").write_text(NAMES, "utf-8")
-    (given.pages / "examples.txt").write_text(shown_at(root, examples), "utf-8")
+    (given.pages / "examples.txt").write_text(shown_at(root, examples, site.problems), "utf-8")
     write("index", site.page("README.md"))
     menu("tasks", "What do you have?", "A page each: what to compose, the whole program, which numbers, and what to read next.",
          [label for _, label in tasks])

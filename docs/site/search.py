@@ -246,6 +246,13 @@ def mend(site):
             text = text.replace('<div class="contents">', '<div class="header"><div class="headertitle"><div class="title" '
                                 f'role="heading" aria-level="1">{title}</div></div></div>\n<div class="contents">', 1)
             text = text.replace("<h3>", "<h2>").replace("</h3>", "</h2>")
+        # Two headers may have one name: a page says which it is of.
+        folders = re.findall(r'<li class="navelem"><a class="el" href="dir_[^"]*">([^<]*)</a></li>', text)
+        text = re.sub(r'(<div class="title"[^>]*>)([\w.]+\.hpp)( File Reference)?(?=<)',
+                      lambda found: found[1] + "/".join([*folders[1:], found[2]]), text, count=1)
+        # All names are in one namespace, and need not say so again.
+        text = re.sub(r'(<td class="mem(?:name|ItemRight|TemplItemRight)"[^\n]*|<div class="title"[^\n]*)',
+                      lambda found: re.sub(r"(?<![:\w])passive_haptics::(?=\w)", "", found[1]), text)
         # A drawing has a name, and so has the link from an icon; a column without a heading heads nothing.
         text = re.sub(r'<a href="([^"]*)"><span class="icondoc"></span></a>',
                       r'<a href="\1" aria-label="source"><span class="icondoc"></span></a>', text)
