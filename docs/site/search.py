@@ -38,13 +38,13 @@ BOX = ('<form id="find" role="search"><input type="search" placeholder="Search" 
 
 
 def words(text):
-    """Small letters; a name with underscores also counts by its parts."""
+    """Small letters; a name with underscores also counts by its parts, but for the library's, which is everywhere."""
     for word in WORD.findall(text.lower()):
         word = word if word == "c++" else word.strip("_+")
         if not word or (len(word) == 1 and word != "c") or len(word) > 40:
             continue
         yield word, 1.0
-        if "_" in word:
+        if "_" in word and word != "passive_haptics":
             for part in word.split("_"):
                 if len(part) > 1:
                     yield part, 0.5
