@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# include_cost.sh INCLUDE EIGEN [CXX]: what g++ takes to read the core, over <Eigen/Core> alone, in
-# instructions of the compiler itself as callgrind counts them: exact to a few in ten thousand, whatever
-# else the machine does. Fails above 15 %. Some minutes.
+# include_cost.sh INCLUDE EIGEN [CXX]: what g++ takes to read the core, over
+# <Eigen/Core> alone, in instructions of the compiler itself as callgrind counts
+# them: exact to a few in ten thousand, whatever else the machine does. Fails
+# above 15 %. Some minutes.
 set -euo pipefail
 case ${1:-} in -h | --help) sed -n '3,/^set /s/^# \?//p' "$0"; exit ;; esac
 include=$1 eigen=$2 cxx=${3:-g++}

@@ -105,8 +105,8 @@ int main(int count, char** arguments) {
     const bool asked = option == "--help" || option == "-h";
     std::fprintf(
         asked ? stdout : stderr,
-        "usage: curved [--help]\n\nPrints the bytes of every surface, and the nanoseconds that a "
-        "probe and prepare() take here.\nThe probe holds depth, push and covered.\n");
+        "usage: curved [--help]\n\nPrints the bytes of every surface, and the nanoseconds that\n"
+        "a probe and prepare() take here.\nThe probe holds depth, push and covered.\n");
     return asked ? 0 : 2;
   }
   table<d3>();

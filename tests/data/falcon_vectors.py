@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Falcon's kinematics in sixty digits, to judge include/passive_haptics/falcon/ by.
+"""The Falcon's kinematics in sixty digits, to judge
+include/passive_haptics/falcon/ by.
 
-    falcon_vectors.py FILE      the same table with every exact_ column computed anew, to stdout
+    falcon_vectors.py FILE      the table, its exact_ columns anew, to stdout
 
-What a row asks is kept: the counts, or where they are empty the position, and the force. The method
-is another than the library's: the closure of the loops as it stands in falcon/kinematics.hpp, its
-derivatives by differences, the rates and the torques from those. The other_ columns are what an
-open driver answers, recorded once; they are kept, too.
+What a row asks is kept: the counts, or where they are empty the position, and
+the force. The method is another than the library's: the closure of the loops
+as it stands in falcon/kinematics.hpp, its derivatives by differences, the
+rates and the torques from those. The other_ columns are what an open driver
+answers, recorded once; they are kept, too.
 """
 
 import sys

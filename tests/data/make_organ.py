@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A body like an organ, in tetrahedra: some 10 cm, rounded, thick at one end, bent and lopsided.
+"""A body like an organ, in tetrahedra: some 10 cm, rounded, thick at one end,
+bent and lopsided.
 
     make_organ.py > organ.msh       Gmsh MSH 2.2, ASCII, millimetres
 
-An icosahedron whose faces are cut into 9 triangles, blown up to a ball of one middle node and two
-shells, and the ball pressed into shape by polynomials. Nothing but + - * / and square roots, so that
-every machine prints the same bytes.
+An icosahedron whose faces are cut into 9 triangles, blown up to a ball of one
+middle node and two shells, and the ball pressed into shape by polynomials.
+Nothing but + - * / and square roots, so that every machine prints the same
+bytes.
 """
 
 import sys

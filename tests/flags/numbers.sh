@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# numbers.cpp under the flags and on the machines that change arithmetic, each in four rounding modes.
+# numbers.cpp under the flags and on the machines that change arithmetic, each
+# in four rounding modes.
 #
 #     tests/flags/numbers.sh            all that the installed tools allow
-#     tests/flags/numbers.sh --quick    the host: -O0, -O3 -march=native with and without contraction
+#     tests/flags/numbers.sh --quick    the host: -O0, -O3 -march=native,
+#                                       with and without contraction
 #
-# Needs Eigen in /usr/include/eigen3 or EIGEN=DIR. Cross: g++-i686-linux-gnu, g++-s390x-linux-gnu and
-# qemu-user; one that is missing is skipped, and it says so. Exit code 1 if one fails.
+# Needs Eigen in /usr/include/eigen3 or EIGEN=DIR. Cross: g++-i686-linux-gnu,
+# g++-s390x-linux-gnu and qemu-user; one that is missing is skipped, and it says
+# so. Exit code 1 if one fails.
 set -euo pipefail
 case ${1:-} in -h | --help) sed -n '3,/^set /s/^# \?//p' "$0"; exit ;; esac
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

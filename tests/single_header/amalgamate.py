@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes the core as one header: amalgamate.py REPOSITORY OUT [FORWARDERS].
 
-OUT includes the standard library and, where it is found, Eigen: without it there is one degree of
-freedom. The same commit gives the same bytes. FORWARDERS, for tests, is a folder that gets a header
-of every name that went in, which includes OUT and nothing else."""
+OUT includes the standard library and, where it is found, Eigen: without it
+there is one degree of freedom. The same commit gives the same bytes.
+FORWARDERS, for tests, is a folder that gets a header of every name that went
+in, which includes OUT and nothing else."""
 
 import pathlib
 import re
