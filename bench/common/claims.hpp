@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a caption says of its curves, as predicates over the file that the curves are drawn from.
+// What a caption says of its curves, and a text of its table, as predicates over the file that they are made of.
 
 #include "text.hpp"
 
@@ -90,7 +90,7 @@ inline double rms_between(const std::vector<double>& a, const std::vector<double
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-/// Words of a caption, and what must be true of the file for them to be so. Without a file the predicate looks at
+/// Words of a text, and what must be true of the file for them to be so. Without a file the predicate looks at
 /// what it has kept itself.
 struct claim {
   std::string words;
@@ -105,18 +105,26 @@ struct caption {
   std::vector<claim> claims;  ///< one at least; their words stand in the title or the sentences
 };
 
-/// What is wrong with a caption, a sentence each: words that are not in it, words that are not so, nothing claimed.
-inline std::vector<std::string> untrue(const std::string& plot, const caption& said,
+/// What is wrong with the claims of a text, a sentence each: words that are not in it, words that are not so. `which`
+/// says what text it is.
+inline std::vector<std::string> untrue(const std::string& which, const std::string& text,
+                                       const std::vector<claim>& claims,
                                        const std::filesystem::path& folder) {
   std::vector<std::string> found;
-  if (said.claims.empty()) found.push_back("the caption of " + plot + " claims nothing");
-  for (const auto& c : said.claims) {
-    if ((said.title + "\n" + said.see).find(c.words) == std::string::npos) {
-      found.push_back("the caption of " + plot + " does not say \"" + c.words + "\"");
+  for (const auto& c : claims) {
+    if (text.find(c.words) == std::string::npos) {
+      found.push_back(which + " does not say \"" + c.words + "\"");
     } else if (!c.holds(c.file.empty() ? recorded{} : recorded(folder / c.file))) {
-      found.push_back("the caption of " + plot + " is not so: \"" + c.words + "\"");
+      found.push_back(which + " is not so: \"" + c.words + "\"");
     }
   }
+  return found;
+}
+/// The same of a caption, which claims something at least.
+inline std::vector<std::string> untrue(const std::string& plot, const caption& said,
+                                       const std::filesystem::path& folder) {
+  auto found = untrue("the caption of " + plot, said.title + "\n" + said.see, said.claims, folder);
+  if (said.claims.empty()) found.push_back("the caption of " + plot + " claims nothing");
   return found;
 }
 

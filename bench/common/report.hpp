@@ -93,7 +93,11 @@ class report {
     return path(first).string() + ", " + path(names_.json).string();
   }
 
-  void section(const std::string& title, const std::string& text) {
+  /// What the text claims is looked up as in plot(): the files are written by then.
+  void section(const std::string& title, const std::string& text,
+               const std::vector<claim>& claims = {}) {
+    note("section", title, claims,
+         experiments::untrue("the text of " + title, text, claims, folder_));
     std::cout << title << "\n\n" << paragraph(text) << "\n\n";
     page_.section(title, text);
     text_ += "## " + title + "\n\n" + text + "\n\n";
@@ -114,18 +118,13 @@ class report {
     script.stream() << plot_preamble << "set output '" << name << ".svg'\n" << commands << '\n';
     script.close();
     plots_.emplace_back(name, said.title);
-    const auto found = experiments::untrue(name, said, folder_);
-    untrue_.insert(untrue_.end(), found.begin(), found.end());
-    for (const auto& c : said.claims) {
-      claims_.push_back(
-          json_object({{"plot", json_string(name)}, {"words", json_string(c.words)}}));
-    }
+    note("plot", name, said.claims, experiments::untrue(name, said, folder_));
     page_.figure(name, said);
     text_ +=
         "![" + said.title + "](" + name + ".svg)\n\n**" + said.title + ".** " + said.see + "\n\n";
   }
 
-  /// What the captions say and is not so, a sentence each.
+  /// What captions and texts say and is not so, a sentence each.
   [[nodiscard]] const std::vector<std::string>& untrue() const { return untrue_; }
 
   /// Writes the JSON file and the pages and runs gnuplot; `lead` is the text under the title. Returns false if
@@ -157,6 +156,13 @@ class report {
   }
 
  private:
+  void note(const char* kind, const std::string& name, const std::vector<claim>& claims,
+            const std::vector<std::string>& wrong) {
+    untrue_.insert(untrue_.end(), wrong.begin(), wrong.end());
+    for (const auto& c : claims) {
+      claims_.push_back(json_object({{kind, json_string(name)}, {"words", json_string(c.words)}}));
+    }
+  }
   /// Runs gnuplot, and gives its plot a name and both colour schemes.
   [[nodiscard]] bool draw(const std::string& name, const std::string& what) const {
     const std::string command =
@@ -180,7 +186,7 @@ class report {
   page page_;
   std::string text_;                                        // the same in Markdown
   std::vector<std::pair<std::string, std::string>> plots_;  // name and title
-  std::vector<std::string> untrue_, claims_;                // of their captions
+  std::vector<std::string> untrue_, claims_;                // of captions and texts
   std::vector<std::pair<std::string, std::string>> members_;
 };
 

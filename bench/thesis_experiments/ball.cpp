@@ -114,7 +114,16 @@ void run_ball(report& out) {
       "A hand of 150 N/m pushes a device of 0.1 kg along z towards the centre. All four runs "
       "have the same force-rate limit and reachable bound. A position jump is "
       "|x(t+10 ms) − 2x(t) + x(t−10 ms)| at an update. turn_limited: 0.5 rad/s, 0.0286 "
-      "degrees a tick.");
+      "degrees a tick.",
+      {{"0.0286 degrees a tick", "ball_0.500_turn_limited.csv", [degrees](const recorded& r) {
+          double turned = 0.0;  // the file has seven digits
+          for (std::size_t n = 1; n < r["nx"].size(); ++n) {
+            turned = std::max(turned,
+                              std::hypot(r["nx"][n] - r["nx"][n - 1], r["ny"][n] - r["ny"][n - 1],
+                                         r["nz"][n] - r["nz"][n - 1]));
+          }
+          return std::abs(degrees * turned - 0.0286) < 1e-4;
+        }}});
   show_rows(out, "ball", rows);
   const auto positions = [&out](const std::string& name, const caption& said,
                                 const std::string& run) {

@@ -112,6 +112,11 @@ void show_strokes(report& out, const stroke_scene& scene, const strokes& runs) {
   const std::string nodes = std::to_string(scene.mesh().nodes.size()) + " nodes, " +
                             std::to_string(scene.mesh().tetrahedra.size()) + " tetrahedra, " +
                             size_of(which);
+  // Of our organ it must hold; on any mesh it need not, as a path is no hand of limited force.
+  const bool kept = which.file == "an organ" || runs.lent.port_energy >= -loan;
+  const std::string lends =
+      kept ? ", E ≥ −0.2 mJ"
+           : ", below which E falls on this mesh, as a path is no hand of limited force";
   out.section(
       "Mesh: " + which.file,
       nodes + ", " + format("%g", flesh.young / 1e3) +
@@ -119,11 +124,17 @@ void show_strokes(report& out, const stroke_scene& scene, const strokes& runs) {
           "turn_at_once, no bound. passive, the thesis's: turn_limited, force-rate limit, "
           "reachable "
           "bound. make_touch: the recommended one. lent: the same, told the surface as it yields, "
-          "with a loan of 0.2 mJ, E ≥ −0.2 mJ, because the reference itself gives out energy. "
+          "with a loan of 0.2 mJ" +
+          (runs.reference.port_energy < 0.0 ? " because the reference itself gives out energy"
+                                            : "") +
+          lends + ". " +
           "Contact lost: ticks of the stroke without force. Median environment update " +
           format("%.3f", update_ms) +
           " ms (wall clock of this machine). Quiet is not judged here, because the hand is a path "
-          "that never rests and leaves at the end; organ --only chain judges an organ at rest.");
+          "that never rests and leaves at the end; organ --only chain judges an organ at rest.",
+      {{lends, "", [&runs, kept](const recorded& /*none*/) {
+          return kept == (runs.lent.port_energy >= -loan);
+        }}});
   std::cout << which.file << ": " << nodes << '\n';
   for (const auto& note : which.notes) std::cout << "  " << note << '\n';
   std::cout << '\n';

@@ -217,7 +217,11 @@ TEST_CASE("a caption that its own curve denies fails the program", "[report]") {
   out.plot("line", {"A line", "It falls.", {{"It falls", "line.csv", falls}}}, "plot x");
   out.plot("line", {"A line", "It goes up.", {{"It rises", "line.csv", rises}}}, "plot x");
   out.plot("line", {"A line", "It is there.", {}}, "plot x");
+  out.section("A table", "It rises.", {{"It rises", "line.csv", rises}});
   REQUIRE(out.untrue().size() == 3);
+  out.section("A table", "It falls.", {{"It falls", "line.csv", falls}});
+  REQUIRE(out.untrue().size() == 4);
+  CHECK(out.untrue()[3] == "the text of A table is not so: \"It falls\"");
   CHECK(out.untrue()[0] == "the caption of line is not so: \"It falls\"");
   CHECK(out.untrue()[1] == "the caption of line does not say \"It rises\"");
   CHECK(out.untrue()[2] == "the caption of line claims nothing");
