@@ -25,6 +25,7 @@ struct between_row {
   double rate = 0.0;     ///< of the news [Hz]
   double late = 0.0;     ///< how old they are when they come [ms]
   std::string by{};      ///< what is made of them
+  double loan = 0.0;     ///< what it may give out and never get back [J]
   double error = 0.0;    ///< rms, from the scene solved 10 000 times a second [N]
   double of_bare = 0.0;  ///< the same over that of bare
   double step = 0.0;     ///< largest in a tick [N]
