@@ -86,13 +86,14 @@ void plot_stroke(const session& s, const curved::triangulated& mesh) {
   for (int i = 100; i > 0; --i) {  // it is met from outside, at 50 mm/s
     static_cast<void>(port.tick(curved::stroke(0) * (1.0 + 1e-3 * i), ph::seconds{T}));
   }
-  ex::csv_file csv(s.out.path("stroke_force.csv"), "s,quadric at 30 Hz,nearest triangle");
+  ex::csv_file csv(s.out.path("stroke_force.csv"), "s,quadric at 30 Hz,nearest triangle,the ball");
   for (int i = 0; i < 1000; ++i) {
     const vector x = curved::stroke(i);
     if (i % 33 == 0) port.source().update(0, curved::osculating<d3>(x));
     const auto flat = facet(mesh, x);
     csv.row(i * T, port.tick(x, ph::seconds{T}).force.norm(),
-            curved::stiffness * std::max(0.0, flat.at(x).depth));
+            curved::stiffness * std::max(0.0, flat.at(x).depth),
+            curved::stiffness * std::max(0.0, curved::radius - x.norm()));
   }
   csv.close();
   s.out.plot(
@@ -100,13 +101,17 @@ void plot_stroke(const session& s, const curved::triangulated& mesh) {
       {"The force on a finger that strokes a ball",
        "The finger goes 1 to 3 mm deep and back, and the force should swing as smoothly. On "
        "the nearest of 320 triangles it steps where it crosses an edge; on a quadric, which is "
-       "published 30 times a second, it has none.",
+       "published 30 times a second, it has none, and it is the ball's own, in grey.",
        {{"it steps where it crosses an edge", "stroke_force.csv",
          [](const ex::recorded& r) { return ex::largest_step(r["nearest triangle"]) > 0.05; }},
         {"it has none", "stroke_force.csv",
-         [](const ex::recorded& r) { return ex::largest_step(r["quadric at 30 Hz"]) < 0.01; }}}},
-      "set xlabel 'time [s]'\nset ylabel 'force [N]'\nplot 'stroke_force.csv' using 1:3 with "
-      "lines lt 2 lw 1.2, '' using 1:2 with lines lt 1");
+         [](const ex::recorded& r) { return ex::largest_step(r["quadric at 30 Hz"]) < 0.01; }},
+        {"it is the ball's own", "stroke_force.csv",
+         [](const ex::recorded& r) {
+           return ex::rms_between(r["quadric at 30 Hz"], r["the ball"]) < 1e-3;
+         }}}},
+      "set xlabel 'time [s]'\nset ylabel 'force [N]'\nplot 'stroke_force.csv' using 1:4 with "
+      "lines lt 8 lw 4, '' using 1:3 with lines lt 2 lw 1.2, '' using 1:2 with lines lt 1");
 }
 
 }  // namespace
