@@ -204,6 +204,14 @@ for (const [key, scene] of Object.entries(words.scenes)) {
   }
 }
 
+// How long it takes to read, at 200 words a minute, is said.
+const steps = Object.entries(words.problems),
+  minutes = steps.flatMap(([title, p]) => `${title} ${p.says}`.split(/\s+/)).length / 200;
+expect(
+  steps.length === 13 && Math.round(minutes) === 4 && /Thirteen steps, four minutes to read/.test(text),
+  `${steps.length} steps, ${minutes.toFixed(1)} minutes`
+);
+
 // A promise whose assumption is not kept says so; a file of identify is read, or refused by a sentence.
 const told = {late: 0, quantum: 0};
 expect(words.broken(2, 'ph::strict_bound{}', told) === '', 'a promise that is kept');
