@@ -110,7 +110,8 @@ void plot_stroke(const session& s, const curved::triangulated& mesh) {
          [](const ex::recorded& r) {
            return ex::rms_between(r["quadric at 30 Hz"], r["the ball"]) < 1e-3;
          }}}},
-      "set xlabel 'time [s]'\nset ylabel 'force [N]'\nplot 'stroke_force.csv' using 1:4 with "
+      "set xlabel 'time [s]'\nset ylabel 'force [N]'\nset yrange [0:*]\nplot 'stroke_force.csv' "
+      "using 1:4 with "
       "lines lt 8 lw 4, '' using 1:3 with lines lt 2 lw 1.2, '' using 1:2 with lines lt 1");
 }
 
