@@ -582,11 +582,13 @@ TEST_CASE("surfaces out of reach sleep, and nobody feels that they do", "[contac
 
 namespace {
 
-int looks = 0;  ///< at the planes below
+int looks = 0;        ///< at the planes below
+int looks_ahead = 0;  ///< at those that nobody has told yet
 struct counted : ph::half_space<d3> {
   using space_type = d3;
   [[nodiscard]] probe at(const d3::vector& x) const noexcept {
     ++looks;
+    looks_ahead += stiffness > 0.0 ? 0 : 1;
     return ph::half_space<d3>::at(x);
   }
 };
@@ -614,6 +616,7 @@ TEST_CASE("what sleeps is looked at twenty times in a second, whatever else is p
   CHECK(in_a_second(1e-3) == Approx(20).margin(1));
   CHECK(in_a_second(-1e-3) == Approx(20).margin(1));  // 1 N
   CHECK(in_a_second(-0.095) == 1000);                 // the control: within reach
+  CHECK(looks_ahead == 0);
 }
 
 TEST_CASE("a plane that is sent again as it is, is no news", "[contact_set]") {

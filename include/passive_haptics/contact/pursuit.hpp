@@ -141,10 +141,10 @@ class pursued {
                         const pursuit::on<Space>& pace) noexcept {
     if (!next.prepare()) return false;
     const auto spring = rule.sampled(next.stiffness);
-    const auto shown = next.at(here);
-    const scalar own = target_.at(was).depth - lag_;
     if (pressed_ > scalar(0)) {
+      const auto shown = next.at(here);
       const vector normal = shown.outward();
+      const scalar own = target_.at(was).depth - lag_;
       const scalar lag = shown.depth - own * (spring_.stiffness * spring.compliance);
       if (!kernels::is_finite(lag) || !Space::is_finite(normal)) return false;
       lag_ = lag;
@@ -153,9 +153,9 @@ class pursued {
       if constexpr (turns_along) shown_ = normal;
       state_ = state::there;
     } else {
-      const scalar moved = shown.depth - own;
       const bool known = state_ == state::there || state_ == state::expected;
-      expect(known && kernels::is_finite(moved) ? kernels::larger(moved, scalar(0)) : anything);
+      const scalar moved = known ? next.at(here).depth - target_.at(was).depth + lag_ : anything;
+      expect(kernels::is_finite(moved) ? kernels::larger(moved, scalar(0)) : anything);
     }
     target_ = next;
     spring_ = spring;
