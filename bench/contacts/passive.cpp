@@ -234,9 +234,8 @@ std::vector<std::string> run_passive(const session& s) {
       "with --seed " +
           std::to_string(s.chosen.seed) +
           ", a relaxed hand (100 N/m, 1 N·s/m) presses 0.1 to 0.5 kg, of which 0.1 kg are told, "
-          "while the world goes on so for 0.6 s and then stays as it is. With jitter, each of the "
-          "ticks "
-          "of these runs is shorter than the longest by up to that share." +
+          "while the world goes on so for 0.6 s and then stays as it is. With jitter, each of "
+          "the ticks of these runs is shorter than the longest by up to that share." +
           ex::quiet_columns);
   std::vector<passive_row> jobs;
   const int runs = s.chosen.quick ? 60 : 1200;

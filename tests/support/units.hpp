@@ -2,8 +2,8 @@
 #pragma once
 // Nothing depends on the units in which a device is described, nor on which way it is turned. A composition is tried
 // twice with one device, one hand and one world: in SI, and in units that are powers of two of these, by a half turn.
-// Neither rounds anything, nor does a root of a stiffness, so all that it says has to be the same to the last bit. What multiplies where it should
-// divide, compares a length with a number, or forgets a sign, is not.
+// Neither rounds anything, nor does a root of a stiffness, so all that it says has to be the same to the last bit. What
+// multiplies where it should divide, compares a length with a number, or forgets a sign, is not.
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 

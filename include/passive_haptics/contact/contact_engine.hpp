@@ -270,8 +270,7 @@ class contact_engine {
     const auto now = frame::now(rest, rest, last_);
     const auto here = now.at(slot.point);
     const row r = now.row_of(here, slot.target().at(here.position).outward());
-    const scalar yield = spring_.sampled(slot.target().stiffness).compliance;
-    return scalar(1) / frame::coupling(spring_).own(r, yield);
+    return scalar(1) / frame::coupling(spring_).own(r, slot.spring().compliance);
   }
   template <class T>
   using if_it_rubs = std::conditional_t<rubs, std::array<T, cells>, nothing_kept>;

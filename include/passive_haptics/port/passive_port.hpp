@@ -234,6 +234,7 @@ class passive_port {
     source_.explain(e, where(), limits_.longest_tick, latency);
     detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
     if constexpr (!Observer::exact) e.floor = e.shown * static_cast<double>(travel_error());
+    // A tick that asks for nothing where nothing stays nothing is not bounded, so is_cut_ is that of the tick before.
     const bool cut = is_cut_ && !(zero_stays_zero && e.depth == 0.0 && e.force == 0.0);
     if (cut && e.now == softened_by::nothing) e.now = softened_by::ledger;
     if (!cut && e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth) e.now = softened_by::nothing;
