@@ -9,20 +9,19 @@ using namespace in_units;
 
 TEST_CASE("one surface is felt alike in any units, whichever way it is turned", "[law][units]") {
   const auto wall = [](const units& u) {
-    return ph::local_model{
-        d1{},
-        ph::followed<ph::half_space<d1>>{{.stale_after = 0.1 * u.s, .fade = 0.05 * u.s}},
-        ph::turn_at_once{},
-        damped(u),
-        ph::reduced_energy{.damping = 0.03 * u.damp()},
-        reach(u),
-        limits(u)};
+    return ph::local_model{d1{},
+                           followed<ph::half_space<d1>>(u),
+                           ph::turn_at_once{},
+                           damped(u),
+                           ph::reduced_energy{.damping = 0.03 * u.damp()},
+                           reach(u),
+                           limits(u)};
   };
   indifferent<d1>(all_others, wall, planes<d1>, by_itself<d1>);
   const auto floor = [](const units& u) {
     return ph::local_model{
         d3{},
-        ph::followed<ph::half_space<d3>>{{.stale_after = 0.1 * u.s, .fade = 0.05 * u.s}},
+        followed<ph::half_space<d3>>(u),
         ph::turn_limited{.rate = 1.0 / u.s},
         ph::virtual_coupling{.stiffness = 2000.0 * u.stiff(), .damping = 0.02 * u.damp()},
         ph::capped_energy{.damping = 0.05 * u.damp(),
@@ -37,7 +36,7 @@ TEST_CASE("one surface is felt alike in any units, whichever way it is turned", 
     using kept = ph::basic_reduced_energy<ph::isotropic_damping, ph::ledger_sum::compensated>;
     return ph::local_model{
         d3{},
-        ph::followed<ph::triangle<d3>>{{.stale_after = 0.1 * u.s, .fade = 0.05 * u.s}},
+        followed<ph::triangle<d3>>(u),
         ph::turn_limited{.rate = 1.0 / u.s},
         ph::shaped{ph::spring{}, ph::force_rate_limit{.rate = 100.0 * u.N / u.s}},
         kept{.damping = 0.03 * u.damp()},
@@ -52,7 +51,7 @@ TEST_CASE("what eases, forgives and watches is felt alike in any units of force"
   const auto touch = [](const units& u) {
     return ph::local_model{
         d3{},
-        ph::followed<ph::half_space<d3>>{{.stale_after = 0.1, .fade = 0.05}},
+        followed<ph::half_space<d3>>(u),
         ph::turn_limited{.rate = 2.0},
         ph::eased{damped(u), ph::news_pace{.least_force_rate = 5.0 * u.N,
                                            .usual_force_rate = 19.5 * u.N,
@@ -89,22 +88,21 @@ TEST_CASE("what eases, forgives and watches is felt alike in any units of force"
 
 TEST_CASE("friction on encoders is felt alike in any units", "[law][units]") {
   const auto steps = [](const units& u) {
-    return ph::local_model{
-        d3{},
-        ph::followed<ph::half_space<d3>>{{.stale_after = 0.1 * u.s, .fade = 0.05 * u.s}},
-        ph::turn_limited{.rate = 2.0 / u.s},
-        ph::capped{damped(u), 1200.0 * u.stiff(), 1e-3 * u.J()},
-        ph::dual_ledger{.damping = {.coefficient = 0.05 * u.damp(),
-                                    .coulomb = 0.13 * u.N,
-                                    .presliding = 15e-6 * u.m},
-                        .quantum = 55e-6 * u.m,
-                        .loan = 1e-4 * u.J(),
-                        .window = 0.032 * u.s},
-        ph::bound_chain{reach(u), ph::thermal_limit{.peak = 4.0 * u.N,
-                                                    .continuous = 1.0 * u.N,
-                                                    .time_constant = 0.5 * u.s}},
-        limits(u),
-        ph::edge_observer{.quantum = 55e-6 * u.m, .presliding = 15e-6 * u.m}};
+    return ph::local_model{d3{},
+                           followed<ph::half_space<d3>>(u),
+                           ph::turn_limited{.rate = 2.0 / u.s},
+                           ph::capped{damped(u), 1200.0 * u.stiff(), 1e-3 * u.J()},
+                           ph::dual_ledger{.damping = {.coefficient = 0.05 * u.damp(),
+                                                       .coulomb = 0.13 * u.N,
+                                                       .presliding = 15e-6 * u.m},
+                                           .quantum = 55e-6 * u.m,
+                                           .loan = 1e-4 * u.J(),
+                                           .window = 0.032 * u.s},
+                           ph::bound_chain{reach(u), ph::thermal_limit{.peak = 4.0 * u.N,
+                                                                       .continuous = 1.0 * u.N,
+                                                                       .time_constant = 0.5 * u.s}},
+                           limits(u),
+                           ph::edge_observer{.quantum = 55e-6 * u.m, .presliding = 15e-6 * u.m}};
   };
   indifferent<d3>({.m = 4.0, .N = 0.25, .q = 55e-6}, steps, planes<d3>, by_itself<d3>);
   const auto each_axis = [](const units& u) {
@@ -120,15 +118,14 @@ TEST_CASE("friction on encoders is felt alike in any units", "[law][units]") {
   };
   indifferent<d2>(others_in_steps, each_axis, none, given<d2>);
   const auto observed = [](const units& u) {
-    return ph::local_model{
-        d1{},
-        ph::followed<ph::half_space<d1>>{{.stale_after = 0.1 * u.s, .fade = 0.05 * u.s}},
-        ph::turn_at_once{},
-        damped(u),
-        ph::quantised_energy{.damping = 0.1 * u.damp(), .quantum = 55e-6 * u.m},
-        reach(u),
-        late<2>(u),
-        ph::mass_observer{.mass = 0.1 * u.kg(), .quantum = 55e-6 * u.m}};
+    return ph::local_model{d1{},
+                           followed<ph::half_space<d1>>(u),
+                           ph::turn_at_once{},
+                           damped(u),
+                           ph::quantised_energy{.damping = 0.1 * u.damp(), .quantum = 55e-6 * u.m},
+                           reach(u),
+                           late<2>(u),
+                           ph::mass_observer{.mass = 0.1 * u.kg(), .quantum = 55e-6 * u.m}};
   };
   indifferent<d1>({.m = 4.0, .N = 0.25, .q = 55e-6}, observed, planes<d1>, by_itself<d1>);
 }

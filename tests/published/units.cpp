@@ -9,14 +9,13 @@ using namespace in_units;
 TEST_CASE("what others have published is felt alike in any units", "[law][units]") {
   const auto in = []<class Space>(Space, const auto& bound, const auto& ledger) {
     return [=](const units& u) {
-      return ph::local_model{
-          Space{},
-          ph::followed<ph::half_space<Space>>{{.stale_after = 0.1 * u.s, .fade = 0.05 * u.s}},
-          ph::turn_limited{.rate = 2.0 / u.s},
-          damped(u),
-          ledger(u),
-          bound(u),
-          limits(u)};
+      return ph::local_model{Space{},
+                             followed<ph::half_space<Space>>(u),
+                             ph::turn_limited{.rate = 2.0 / u.s},
+                             damped(u),
+                             ledger(u),
+                             bound(u),
+                             limits(u)};
     };
   };
   const auto plain = [](const units& u) {
@@ -62,14 +61,13 @@ TEST_CASE("what others have published is felt alike in any units", "[law][units]
 TEST_CASE("shapers of others are felt alike in any units", "[law][units]") {
   const auto with = [](const auto& shaper) {
     return [=](const units& u) {
-      return ph::local_model{
-          d2{},
-          ph::followed<ph::half_space<d2>>{{.stale_after = 0.1 * u.s, .fade = 0.05 * u.s}},
-          ph::turn_limited{.rate = 2.0 / u.s},
-          ph::shaped{ph::spring{}, shaper(u)},
-          ph::reduced_energy{.damping = 0.5 * u.damp(), .loan = 1e-4 * u.J()},
-          ph::strict_bound{},
-          limits(u)};
+      return ph::local_model{d2{},
+                             followed<ph::half_space<d2>>(u),
+                             ph::turn_limited{.rate = 2.0 / u.s},
+                             ph::shaped{ph::spring{}, shaper(u)},
+                             ph::reduced_energy{.damping = 0.5 * u.damp(), .loan = 1e-4 * u.J()},
+                             ph::strict_bound{},
+                             limits(u)};
     };
   };
   const auto grows = [](const units& u) {

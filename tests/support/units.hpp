@@ -59,6 +59,10 @@ ph::late_loop_limits<Late> late(const units& u) {
 inline ph::reachable_bound reach(const units& u) {
   return {.mass = 0.1 * u.kg(), .hand_force = 5.0 * u.N};
 }
+template <class Surface>
+ph::followed<Surface> followed(const units& u) {
+  return ph::followed<Surface>{{.stale_after = 0.1 * u.s, .fade = 0.05 * u.s}};
+}
 inline ph::damped_spring damped(const units& u) {
   return {.mass = 0.1 * u.kg(), .force_limit = 8.0 * u.N};
 }
