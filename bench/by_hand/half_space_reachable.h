@@ -68,6 +68,7 @@ __attribute__((flatten)) static inline struct answer3 half_space_reachable_tick(
     d->blind = 0;
   }
   d->position = x;
+  const real recent = recent_tick(&w->reach, dt, T);
   uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   const vec3 normal = w->plane.normal;
@@ -82,7 +83,7 @@ __attribute__((flatten)) static inline struct answer3 half_space_reachable_tick(
     what = worse(what, rejected_target);
   }
   const vec3 desired = mul3(normal, asked);
-  const real share = reachable_share3(&w->reach, l, desired, travel, d, known, dt, T);
+  const real share = reachable_share3(&w->reach, l, desired, travel, d, known, dt, recent, T);
   if (!(share < 1)) {
     d->held = desired;
     return reply3(desired, depth, l->energy, what, false);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The Novint Falcon adapter for a haptic loop. HID means haptic interface device: the
-// Falcon is no USB-HID-class device but a serial bridge with a motor controller behind it
-// (falcon/transport.hpp). docs/falcon.md says how to begin.
+// The Novint Falcon adapter for a haptic loop. HID means haptic interface device: the Falcon is no USB-HID-class device
+// but a serial bridge with a motor controller behind it (falcon/transport.hpp). docs/falcon.md says how to begin.
 //
 //     falcon::device<falcon::libusb_transport> grip{falcon::cautious_gain<double>};
 //     open(), start(), home(), then once a tick:   sample = grip.exchange(force)

@@ -62,7 +62,7 @@ TEST_CASE("reachable_bound lets a device press that cannot turn round, and no ot
 
 TEST_CASE("a force that is bounded at rest does not tremble as the ticks do", "[bound]") {
   const ph::reachable_work_bound<1> in_joules{.inertia = {{0.1}}, .hand = 15.0};
-  situation<d1> now{.energy = 1e-6, .held = 2.0};
+  situation<d1> now{.energy = 1e-6, .recent = 1e-3, .held = 2.0};
   const double newtons = limit(told, -4.0, now), joules = limit(in_joules, -4.0, now);
   REQUIRE(newtons > -4.0);
   REQUIRE(joules > -4.0);
@@ -74,6 +74,23 @@ TEST_CASE("a force that is bounded at rest does not tremble as the ticks do", "[
   now.dt = 1.2e-3;  // a late one counts in full
   CHECK(limit(told, -4.0, now) > newtons);
   CHECK(limit(in_joules, -4.0, now) > joules);
+
+  ph::passive_port port{d1{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03, .loan = 4e-4},
+                        told, ph::loop_limits{.longest_tick = 2e-3}};
+  const auto tick = [&](double dt) { return port.tick(0.0, ph::seconds{dt}, 4.0).force; };
+  for (int n = 0; n < 100; ++n) (void)tick(1e-3);
+  const double even = tick(1e-3);
+  REQUIRE(even < 4.0);
+  for (const double dt : {0.95e-3, 0.5e-3, 1e-3, 0.7e-3}) {
+    CHECK_THAT(tick(dt), WithinRel(even, 1e-5));
+  }
+  (void)tick(5e-3);  // late: it is no pace of the loop
+  for (int n = 0; n < 100; ++n) (void)tick(1e-3);
+  CHECK_THAT(tick(1e-3), WithinRel(even, 1e-5));
+  for (int n = 0; n < 100; ++n) (void)tick(1.5e-3);
+  CHECK(tick(1e-3) < 0.95 * even);
+  for (int n = 0; n < 500000; ++n) (void)tick(1e-3);  // and is forgotten
+  CHECK_THAT(tick(1e-3), WithinRel(even, 1e-9));
 }
 
 TEST_CASE("reachable_bound with friction lets out what no reachable travel can spend",

@@ -27,6 +27,7 @@ struct moment {
             .commanded = commanded,
             .energy = energy,
             .dt = T,
+            .recent = T,
             .longest_tick = T,
             .held = held,
             .travel = travel,
@@ -71,6 +72,7 @@ TEST_CASE("along one direction rigid_reachable_bound is reachable_bound", "[rigi
                                              .commanded = none,
                                              .energy = energy,
                                              .dt = T,
+                                             .recent = T,
                                              .longest_tick = T,
                                              .held = held,
                                              .travel = travel,
@@ -90,6 +92,7 @@ TEST_CASE("a wrench that is bounded at rest does not tremble as the ticks do", "
   const auto left = [&](double dt) {
     auto now = quiet.with(body::zero(), 1e-6);
     now.dt = dt;
+    now.recent = std::max(dt, now.recent);
     return bound.limit(w, now).factor;
   };
   REQUIRE(left(T) < 1.0);

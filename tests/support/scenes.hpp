@@ -62,6 +62,7 @@ struct situation {
   damping_type damping{Damping{0.03}};
   scalar energy{};
   scalar dt = scalar(1e-3);
+  scalar recent{};  ///< 0: dt
   scalar longest_tick = scalar(1e-3);
   typename Port::stored_effort held = Port::zero();
   typename Port::motion travel = Port::zero();
@@ -74,6 +75,7 @@ struct situation {
             .commanded = commanded,
             .energy = energy,
             .dt = dt,
+            .recent = recent > dt ? recent : dt,
             .longest_tick = longest_tick,
             .held = held,
             .travel = travel,

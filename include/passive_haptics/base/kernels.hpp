@@ -12,9 +12,8 @@
 //   spendable, sure_gain, sum_rounded_down                      rounding that can only lower the force
 //   half_angle_turn                                             a small turn without cos and sin (2.30)
 //
-// Numbers with a dot are equations of McWilliam's 2017 thesis "Local Model Interpolation for Stable
-// Haptic Interaction" with the signs corrected; A and a number is a finding of docs/design/audit.md; L and §
-// refer to docs/design/mathematics.md.
+// Numbers with a dot are equations of McWilliam's 2017 thesis "Local Model Interpolation for Stable Haptic Interaction",
+// signs corrected; A and a number is a finding of docs/design/audit.md; L and § refer to docs/design/mathematics.md.
 
 #include <passive_haptics/base/language.hpp>
 
@@ -147,8 +146,7 @@ template <real S>
   return E1 * (S(1) - S(4) * rounding<S>()) - smallest<S>() / limits::epsilon();
 }
 
-/// f_max = √(4 B E1) [N], rounded towards zero. It is zero for E1 < 0, because E1 is clamped inside the root (A6).
-/// (2.17)
+/// f_max = √(4 B E1) [N], rounded towards zero. (2.17) It is 0 for E1 < 0, because E1 is clamped in the root (A6).
 template <real S>
 [[nodiscard]] constexpr S strict_force_bound(S E1, S B) noexcept {
   const S credit = spendable(E1);
@@ -193,14 +191,14 @@ template <real S>
 }
 
 /// δ [m]: the farthest that a mass m [kg] can travel along the force in the next tick, which lasts T [s] at most:
-///     δ = outward T/T₀ + (held + other) max(T₀, T) T/(2m) + (next + other) T²/(2m)
-/// `outward` is the travel along the force in the last tick [m], which lasted T₀ [s]; `held` and `next` are the sizes
-/// of the force over the last and the next tick [N]; `other` bounds all other forces [N]. A free mass reaches it if
-/// T₀ ≥ T; with a shorter T₀ itself the force would tremble as the ticks do. Other terms than the first round up. (L6)
+///     δ = outward T/T₀ + (held + other) T₀T/(2m) + (next + other) T²/(2m)
+/// `outward` is the travel along the force in the last tick [m], which lasted T₀ [s]; `held` and `next`
+/// are the sizes of the force over the last and the next tick [N]; `other` bounds all other forces [N].
+/// A free mass reaches it; the terms beside `outward` are rounded up. (L6) In the second one T₀ is at least `recent`.
 template <real S>
-[[nodiscard]] constexpr S outward_reach(S outward, S held, S next, S other, S m, S T0,
-                                        S T) noexcept {
-  const S last = (held + other) * larger(T0, T) * T / (S(2) * m);
+[[nodiscard]] constexpr S outward_reach(S outward, S held, S next, S other, S m, S T0, S T,
+                                        S recent = S(0)) noexcept {
+  const S last = (held + other) * larger(T0, recent) * T / (S(2) * m);
   const S coming = (next + other) * T * T / (S(2) * m);
   return outward * T / T0 + (last + coming) * (S(1) + rounding<S>());
 }
@@ -218,8 +216,7 @@ template <real S>
   return strict_force_bound(E1, B);
 }
 
-/// max of f s − B s² over 0 ≤ s ≤ δ [J]: the most energy that f [N] can give to the hand within a reach of δ [m].
-/// (L3 with a reach)
+/// max of f s − B s² over 0 ≤ s ≤ δ [J], the most energy that f [N] gives to the hand within δ [m]. (L3 with a reach)
 template <real S>
 [[nodiscard]] constexpr S reachable_outflow(S f, S B, S reach) noexcept {
   if (!(reach > S(0)) || !(f > S(0))) return S(0);

@@ -198,8 +198,7 @@ class local_contact {
     }
     return supply_.update(next);
   }
-  /// The same, with the surface's velocity and age. An update that is not finite, or older than the last one, is
-  /// refused.
+  /// The same, with the surface's velocity and age. What is not finite, or older than the last update, is refused.
   template <class Owner = Supply>
   requires(Owner::moves&& detail::eases_news<part_at<Law, Space>>) constexpr bool update(
       const constraint_type& next, const surface_motion<Space>& how) noexcept {

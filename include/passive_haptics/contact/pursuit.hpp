@@ -4,8 +4,7 @@
 // felt and follows it at a limited rate. The device's own motion is never limited:
 //
 //   update        the own depth d [m] is kept; the lag ℓ [m] becomes the difference          d = d_target − ℓ
-//   appears       d is at most the depth up to which the contact's force is λ = 0 beside the other contacts, or its d
-//                 before the update, if it was there without pressing: what is sent again as it is, is no news
+//   appears       d is at most up to where λ = 0 beside the other contacts, or d before: what is repeated is no news
 //   every tick    |ℓ| falls by ρ dt, or as fast as removes ℓ within t_c if that is more; the own normal turns
 //                 with the target's as the device slides along it, and catches up with the turn of an update
 //                 at turn_rate, or within t_c if that is faster
@@ -269,8 +268,7 @@ class pursued {
                         Space::dot(turn, turn) * (r * r) <= Space::dot(way, way);
     return brakes ? vector(turn * (spring_.settling / dt)) : Space::zero();
   }
-  /// The own normal, turned with the target's; over an edge by `most` [rad], whose unused part remains for the rest of
-  /// the edge.
+  /// The own normal, turned with the target's; over an edge by `most` [rad], of which the unused part remains for it.
   [[nodiscard]] constexpr vector along_the_target(
       const vector& before, [[maybe_unused]] const vector& goal, [[maybe_unused]] scalar& most,
       [[maybe_unused]] const pursuit::on<Space>& pace) noexcept {

@@ -5,8 +5,7 @@
 //   stick_slip     |f_t| ≤ μ f_n,  μ falls from static to kinetic as it slips, and rises as it sticks
 //   frictionless   f_t = 0, without any state
 //
-// Each contact has its own bristle and friction cone: a single one on the resultant of two walls would creep along
-// their groove (docs/design/contacts.md).
+// Each contact has its own bristle and friction cone: one on the resultant of two walls would creep along their groove.
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/normal_interpolation/carry.hpp>

@@ -2,11 +2,10 @@
 #pragma once
 // stylus<Scalar>: the port of a device that senses six degrees of freedom and actuates three, such as a Touch.
 //
-// The motors push at the centre of the gimbal, so energy is f·Δp [J] of that point, as in space<Scalar, 3>, with
-// the same damping and the same bounds. The orientation is part of
-// the pose, because it decides what the tip touches, but the motors do no work on it. Turning the tip into a
-// wall therefore adds no energy to the ledger, and an empty ledger allows no force that pushes the tip out:
-// docs/design/six_dof.md has the remedies.
+// The motors push at the centre of the gimbal, so energy is f·Δp [J] of that point, as in space<Scalar, 3>, with the
+// same damping and the same bounds. The orientation is part of the pose, because it decides what the tip touches, but
+// the motors do no work on it. Turning the tip into a wall therefore adds no energy to the ledger, and an empty ledger
+// allows no force that pushes the tip out: docs/design/six_dof.md has the remedies.
 
 #include <passive_haptics/device/rigid_body.hpp>
 

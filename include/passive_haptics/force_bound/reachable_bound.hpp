@@ -151,7 +151,7 @@ class reachable_bound::on {
                        kernels::rounding<scalar>() * Space::norm(state.travel);
       if constexpr (!State::exact) outward += state.travel_error;
       return kernels::outward_reach(outward, Space::norm(state.held), last, other, mass_, state.dt,
-                                    T);
+                                    T, state.recent);
     } else {
       const scalar before = Space::norm(effort(state.coming(J - 1)));
       return reach<J - 1>(direction, length, before, state) +
@@ -164,7 +164,7 @@ class reachable_bound::on {
 
 /// The same law in joules, for any port and any inertia M: a wrench, a gripper, joints. With the norm
 /// ‖f‖ = √(fᵀM⁻¹f) [√J/s] and W = ¼fᵀB⁻¹f [J], the most work η(j) [J] that f can do in tick j is
-///     η(1)   = f·Δx T/T₀ + ‖f‖ ((‖held‖ + F) max(T₀, T) T + (‖h(1)‖ + F) T²)/2,   F = hand + 2‖(b/T)Δx‖
+///     η(1)   = f·Δx T/T₀ + ‖f‖ ((‖held‖ + F) T₀T + (‖h(1)‖ + F) T²)/2,   F = hand + 2‖(b/T)Δx‖
 ///     η(j+1) = η(j) + ‖f‖ ((‖h(j)‖ + F) + (‖h(j+1)‖ + F)) T²/2
 /// and f is scaled by the largest share s ≤ 1 with s η' − η'²/(4W) ≤ E1 for every 0 ≤ η' ≤ η:
 ///     s = E1/η + η/(4W) where η² < 4 W E1,  √(E1/W) elsewhere                 (§ 2(a′), in joules)
@@ -258,8 +258,8 @@ class basic_reachable_work_bound<Inertia>::on {
       if (!state.motion_known) return kernels::largest<scalar>();
       const auto work = P::work(f, state.travel);
       const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
-      const scalar pushed = (inertia_.norm(state.held) + other) * kernels::larger(state.dt, T) * T +
-                            (last + other) * T * T;
+      const scalar pushed =
+          (inertia_.norm(state.held) + other) * state.recent * T + (last + other) * T * T;
       return outward * T / state.dt + norm * pushed / scalar(2) * up;
     } else {
       const scalar before = inertia_.norm(effort(state.coming(J - 1)));

@@ -16,7 +16,7 @@ inline namespace v0 {
 
 /// reachable_work_bound for a rigid_body. With ‖w‖ of rigid_inertia and W = ¼wᵀB⁻¹w, the most work that w can
 /// do in the tick that begins now is
-///     η = w·Δξ T/T₀ + ‖w‖ ((‖held‖ + F) max(T₀, T) T + (‖w‖ + F) T²)/2 + |τ|(|θ| + α T₀²)α T₀T/12
+///     η = w·Δξ T/T₀ + ‖w‖ ((‖held‖ + F) T₀T + (‖w‖ + F) T²)/2 + |τ|(|θ| + α T₀²)α T₀T/12
 /// where F [√J/s] is a bound on the norm of all forces but the motors', the sum of
 ///     hand_force + 2 b_max|Δp|/T₀, hand_torque + 2 b_ω,max|θ|/T₀      the hand, and the damper at most
 ///     |ω|² √(m|c|² + (I_max − I_min)²/(4I)), |ω| = 2|θ|/T₀            centrifugal and gyroscopic forces
@@ -180,8 +180,8 @@ class rigid_reachable_bound::on {
     const scalar T = state.longest_tick;
     const auto work = P::work(w, state.travel);
     const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
-    const scalar last = (all.held + all.pushed) * kernels::larger(state.dt, T);
-    const scalar pushed = norm * (last + (next + all.pushed) * T) * T / scalar(2);
+    const scalar last = (all.held + all.pushed) * state.recent * T;
+    const scalar pushed = norm * (last + (next + all.pushed) * T * T) / scalar(2);
     const scalar beside = inertia_.template length<3>(w) *
                           kernels::unseen_turn(all.turn, all.turning, state.dt) * T / state.dt;
     return outward * T / state.dt + (pushed + beside) * (scalar(1) + kernels::rounding<scalar>());

@@ -178,8 +178,7 @@ concept inertia_for = requires(const part_at<M, P> m, const typename P::effort f
 /// it books nothing and returns false. forfeit() writes off a tick whose motion is unknown and never raises the
 /// ledger; its optional third number [J] limits the loss, and an optional fourth number [J] of update() the error of
 /// the work of a turn. value() is E1 [J]. `counts` is false for no_observer; `exact` is false if positions are known
-/// to a step only. An observer for reported work takes it with the effort; one that books the possible error of a
-/// turn has `turns`.
+/// to a step only. An observer for reported work takes it with the effort; one for the error of a turn has `turns`.
 template <class O, class P>
 concept energy_observer_for = plain_value<part_at<O, P>, P> &&
     requires(part_at<O, P> o, const part_at<O, P> c, const typename P::motion m,
@@ -387,8 +386,7 @@ concept source_for = plain_value<part_at<S, P>, P> && requires {
   requires noexcept(s.refused(r, dt));
 };
 
-/// The limits of a loop: `latency` [ticks], traits, the guarantee in that loop, the type of guard and, at a port,
-/// T [s].
+/// The limits of a loop: `latency` [ticks], traits, the guarantee in it, the type of guard and, at a port, T [s].
 template <class L, class P>
 concept limits_for = requires(const part_at<L, P> l) {
   { L::latency } -> std::convertible_to<int>;
@@ -425,9 +423,8 @@ concept surface_for = plain_value<G, Space> && std::default_initializable<G> &&
   requires noexcept(c.at(v));
 };
 
-/// A surface that the local model of the thesis can follow: toward(target, x, n, d) is the same piece, moved and
-/// turned so that x lies d [m] deep under the normal n, for any unit vector n. Its depth falls by s when x moves by
-/// s along n.
+/// A surface that the local model of the thesis can follow: toward(target, x, n, d) is the same piece, moved and turned
+/// so that x lies d [m] deep under the normal n, any unit vector. Its depth falls by s when x moves by s along n.
 template <class G, class Space>
 concept constraint_for = surface_for<G, Space> &&
     requires(const G c, const typename Space::vector v, typename Space::scalar s) {

@@ -157,6 +157,7 @@ class passive_port {
     guard_.reset();
     watch_.reset();
     is_cut_ = false;
+    recent_ = {};
     if (stopped_ != event::forces_off) stopped_ = event::nominal;
     begin();
   }
@@ -354,6 +355,7 @@ class passive_port {
                            .commanded = guard_.commanded(),
                            .energy = observer_.value(),
                            .dt = dt,
+                           .recent = recent(dt, late),
                            .longest_tick = limits_.longest_tick,
                            .held = force,
                            .travel = travel,
@@ -384,6 +386,12 @@ class passive_port {
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
   }
 
+  /// dt, or the longest tick on time of some 10⁶ before it, because a bound that follows each trembles as they do.
+  constexpr scalar recent(scalar dt, bool late) noexcept {
+    if constexpr (promise_of<Bound, P>() == guarantee::strict) return dt;
+    if (!late) recent_ = kernels::larger(dt, recent_ - recent_ * scalar(1e-6));
+    return kernels::larger(dt, recent_);
+  }
   /// Passes the last tick to a bound that tests its assumptions, before anything else of this tick.
   [[gnu::noinline]] constexpr void look(typename P::stored_pose position, scalar dt,
                                         typename P::stored_effort held) noexcept {
@@ -606,6 +614,7 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
+  scalar recent_{};                 ///< see recent() [s]
   bool is_cut_ = false;             ///< the bound has reduced the last desired effort
   event stopped_ = event::nominal;  ///< the reason for force zero until set() or reset()
   std::uint8_t busy_ = 0;           ///< true during a call; debug builds only
