@@ -150,7 +150,7 @@ struct half_space {
                                   in<Scalar>(s.stiffness)};
     half_space_reachable_start(&w, &plane, in<Scalar>(s.mass), in<Scalar>(s.force_limit),
                                in<Scalar>(s.damping),
-                               {in<Scalar>(s.mass), in<Scalar>(s.hand_force)}, loop<Scalar>(s));
+                               {in<Scalar>(s.mass), in<Scalar>(s.hand_force), {}}, loop<Scalar>(s));
     return begun(w, composed(s), s);
   }
 };

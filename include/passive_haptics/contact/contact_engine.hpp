@@ -348,8 +348,7 @@ class contact_engine {
       return scalar(0);
     }
   }
-  /// Σ A_ij λ_j [m] over the contacts that pressed in the last tick: the largest depth at which a contact with the row
-  /// `mine` has λ = 0.
+  /// Σ A_ij λ_j [m] over the contacts that pressed last, the largest depth at which one of the row `mine` has none.
   constexpr scalar pressed_by_others(const auto& now, const auto& coupling, const row& mine,
                                      scalar compliance) noexcept {
     scalar depth(0);

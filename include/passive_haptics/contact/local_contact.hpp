@@ -501,8 +501,7 @@ class local_contact {
     }
     return goal;
   }
-  /// The largest turn of the normal in dt [rad]: its rate or, under a small force, the turn that changes the force by
-  /// R_usual dt/2.
+  /// The largest turn of the normal in dt [rad]: its rate or, under a small force, what turns it by R_usual dt/2 [N].
   [[nodiscard]] constexpr scalar gentle_turn(scalar depth, scalar dt) const noexcept {
     const scalar pressed = law_.force(depth, scalar(0));
     const scalar not_felt = scalar(0.5) * law_.pace().usual() * dt;

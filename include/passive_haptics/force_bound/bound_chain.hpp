@@ -13,8 +13,7 @@ inline namespace v0 {
 /// break. A bound that only reduces the force breaks none, because every bound here allows any shorter force of the
 /// same direction; one that turns or lengthens it breaks all before it. (§ 2, Shares and chains)
 ///
-/// A part that may raise the force because of the contact, such as force_rate_limit, is a shaper and not a bound;
-/// it acts before the whole chain.
+/// What may raise the force because of the contact, as force_rate_limit, is a shaper, and acts before the whole chain.
 template <class First, class... Rest>
 struct bound_chain : detail::sequence<First, Rest...> {
   static_assert(detail::are_bounds<First, Rest...>());

@@ -493,8 +493,7 @@ struct contact_state {
 };
 
 /// shape() takes the desired force, the contact and the port, and returns a share or a force, as a bound does.
-/// `needs_local_model` is true if it needs a local model that can move, `needs_ledger` if it spends energy that an
-/// observer has to count.
+/// `needs_local_model`: it needs a local model that can move. `needs_ledger`: it spends energy, so one has to count it.
 template <class H, class Space, class State = port_state<Space, detail::some_damping<Space>>>
 concept shaper_for = plain_value<part_at<H, Space>, Space> &&
     requires(part_at<H, Space> h, const typename Space::vector f, const contact_state<Space> c,

@@ -288,6 +288,9 @@ class passive_port {
   static constexpr bool always_numbers =
       source_type::asks_for_numbers && detail::reduces<Bound, P, state_type>();
   static constexpr bool looks = detail::looks_at_motion<bound_type>;
+  /// True if the bound reckons with what a mass can do in a tick, and so with its length.
+  static constexpr bool reckons = promise_of<Bound, P>() == guarantee::conditional;
+  struct no_ticks {};
   /// True if the bound also limits the distance of a sample from the last motion.
   static constexpr bool doubts = looks && reaches && detail::has_geometry<P>;
   struct last_seen {
@@ -388,9 +391,11 @@ class passive_port {
 
   /// dt, or the longest tick on time of some 10⁶ before it, because a bound that follows each trembles as they do.
   constexpr scalar recent(scalar dt, bool late) noexcept {
-    if constexpr (promise_of<Bound, P>() == guarantee::strict) return dt;
-    if (!late) recent_ = kernels::larger(dt, recent_ - recent_ * scalar(1e-6));
-    return kernels::larger(dt, recent_);
+    if constexpr (reckons) {
+      if (!late) recent_ = kernels::larger(dt, recent_ - recent_ * scalar(1e-6));
+      dt = kernels::larger(dt, recent_);
+    }
+    return dt;
   }
   /// Passes the last tick to a bound that tests its assumptions, before anything else of this tick.
   [[gnu::noinline]] constexpr void look(typename P::stored_pose position, scalar dt,
@@ -614,7 +619,7 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
-  scalar recent_{};                 ///< see recent() [s]
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<reckons, scalar, no_ticks> recent_{};
   bool is_cut_ = false;             ///< the bound has reduced the last desired effort
   event stopped_ = event::nominal;  ///< the reason for force zero until set() or reset()
   std::uint8_t busy_ = 0;           ///< true during a call; debug builds only

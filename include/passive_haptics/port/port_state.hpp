@@ -83,8 +83,7 @@ struct port_state {
     return late ? tick_fate::late : tick_fate::on_time;
   }
 
-  /// ¼ Σ fᵀB⁻¹f over the commands that are not yet held [J], rounded up (§ 3), plus the energy that elastic
-  /// friction may store meanwhile.
+  /// ¼ Σ fᵀB⁻¹f over the commands not yet held [J], rounded up (§ 3), and what elastic friction may store meanwhile.
   [[nodiscard]] constexpr scalar in_flight() const noexcept {
     scalar promised = held_back();
     for (std::size_t j = 0; j < static_cast<std::size_t>(Latency); ++j) {
