@@ -68,7 +68,6 @@ __attribute__((flatten)) static inline struct answer3 half_space_reachable_tick(
     d->blind = 0;
   }
   d->position = x;
-  const real recent = recent_tick(&w->reach, dt, T);
   uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   const vec3 normal = w->plane.normal;
@@ -83,12 +82,14 @@ __attribute__((flatten)) static inline struct answer3 half_space_reachable_tick(
     what = worse(what, rejected_target);
   }
   const vec3 desired = mul3(normal, asked);
-  const real share = reachable_share3(&w->reach, l, desired, travel, d, known, dt, recent, T);
+  const real share = reachable_share3(&w->reach, l, desired, travel, d, known, dt, T);
   if (!(share < 1)) {
     d->held = desired;
     return reply3(desired, depth, l->energy, what, false);
   }
   const vec3 force = mul3(desired, share);
+  const bool cut = !same3(force, desired);
+  if (cut) bounded_tick(&w->reach, dt, T);
   d->held = force;
-  return reply3(force, depth, l->energy, what, !same3(force, desired));
+  return reply3(force, depth, l->energy, what, cut);
 }

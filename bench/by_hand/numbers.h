@@ -184,19 +184,18 @@ static inline real damped_depth(const struct damped_spring* s, real force, real 
 struct reach {
   real mass, hand_force, recent;
 };
-/* No less than dt, and the longest tick on time of some million before it. */
-static inline real recent_tick(struct reach* r, real dt, real T) {
+/* The longest tick on time of some million that were bounded. */
+static inline void bounded_tick(struct reach* r, real dt, real T) {
   if (!(dt > T)) r->recent = larger(dt, r->recent - r->recent * (real)1e-6);
-  return larger(dt, r->recent);
 }
 static inline real reachable_force(const struct reach* r, const struct ledger* l, real outward,
                                    real travel, real held, real asked, bool known, real dt,
-                                   real recent, real T) {
+                                   real T) {
   const real B = l->damping / T;
   const real E = spendable(l->energy);
   if (known) {
     const real other = r->hand_force + 2 * B * travel;
-    const real last = (held + other) * recent * T / (2 * r->mass);
+    const real last = (held + other) * larger(dt, r->recent) * T / (2 * r->mass);
     const real coming = (asked + other) * T * T / (2 * r->mass);
     const real way = (outward + rounding * travel) * T / dt + (last + coming) * (1 + rounding);
     if (!(way > 0)) return real_max;

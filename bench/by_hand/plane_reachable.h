@@ -82,7 +82,6 @@ __attribute__((flatten)) static inline struct answer3 plane_reachable_tick(
     d->blind = 0;
   }
   d->position = x;
-  const real recent = recent_tick(&w->reach, dt, T);
   uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   const real last_weight = n->last_weight;
@@ -111,7 +110,7 @@ __attribute__((flatten)) static inline struct answer3 plane_reachable_tick(
     what = worse(what, rejected_target);
   }
   const vec3 desired = mul3(normal, asked);
-  const real share = reachable_share3(&w->reach, l, desired, travel, d, known, dt, recent, T);
+  const real share = reachable_share3(&w->reach, l, desired, travel, d, known, dt, T);
   const vec3 force = share < 1 ? mul3(desired, share) : desired;
   const bool cut = share < 1 && !same3(force, desired);
   if (cut) depth = damped_depth(&w->spring, dot3(force, normal), speed);
@@ -124,6 +123,7 @@ __attribute__((flatten)) static inline struct answer3 plane_reachable_tick(
     w->own = w->newest;
     n->together = true;
   }
+  if (cut) bounded_tick(&w->reach, dt, T);
   if (cut) what = cut_short(what, depth > 0 || dot3(force, force) > 0, l->energy);
   d->held = force;
   return reply3(force, depth, l->energy, what, cut);

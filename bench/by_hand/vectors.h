@@ -219,12 +219,12 @@ static inline struct answer3 no_force3(real energy, uint8_t what) {
 /* The share of a force in space that the ledger covers within what can be reached. */
 static inline real reachable_share3(const struct reach* r, const struct ledger* l, vec3 desired,
                                     vec3 travel, const struct device3* d, bool known, real dt,
-                                    real recent, real T) {
+                                    real T) {
   const real square = square3(desired);
   if (outflow(l, square, T) <= spendable(l->energy)) return 1;
   const real asked = root(square);
   if (!(asked > 0)) return 1;
   const real most = reachable_force(r, l, dot3(travel, desired) / asked, root(square3(travel)),
-                                    root(square3(d->held)), asked, known, dt, recent, T);
+                                    root(square3(d->held)), asked, known, dt, T);
   return most < asked ? most / asked : 1;
 }

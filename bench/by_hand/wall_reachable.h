@@ -55,14 +55,14 @@ __attribute__((cold, noinline)) static struct answer1 wall_reachable_refuse(
 
 /* The force that the ledger covers of the one desired. */
 static inline real wall_reachable_limited(const struct wall_reachable* w, real desired, real travel,
-                                          bool known, real dt, real recent) {
+                                          bool known, real dt) {
   const real T = w->loop.longest_tick;
   const struct ledger* l = &w->ledger;
   if (outflow(l, desired * desired, T) <= spendable(l->energy)) return desired;
   const real asked = magnitude(desired);
   if (!(asked > 0)) return desired;
   const real most = reachable_force(&w->reach, l, travel * desired / asked, magnitude(travel),
-                                    magnitude(w->device.held), asked, known, dt, recent, T);
+                                    magnitude(w->device.held), asked, known, dt, T);
   return most < asked ? desired * (most / asked) : desired;
 }
 
@@ -94,7 +94,6 @@ __attribute__((flatten)) static inline struct answer1 wall_reachable_tick(struct
     d->blind = 0;
   }
   d->position = x;
-  const real recent = recent_tick(&w->reach, dt, T);
   uint8_t what = dt > T ? late_tick : l->energy < 0 ? debt : nominal;
 
   const real weight = presence(n, dt, &what);
@@ -118,7 +117,7 @@ __attribute__((flatten)) static inline struct answer1 wall_reachable_tick(struct
     what = worse(what, rejected_target);
   }
   const real desired = normal * asked;
-  const real force = wall_reachable_limited(w, desired, travel, known, dt, recent);
+  const real force = wall_reachable_limited(w, desired, travel, known, dt);
   const bool cut = !(force == desired);
   if (cut) {
     depth = damped_depth(&w->spring, force * normal, speed);
@@ -130,6 +129,7 @@ __attribute__((flatten)) static inline struct answer1 wall_reachable_tick(struct
     w->own = w->newest;
     n->together = true;
   }
+  if (cut) bounded_tick(&w->reach, dt, T);
   if (cut) what = cut_short(what, depth > 0 || force != 0, l->energy);
   d->held = force;
   return reply1(force, depth, l->energy, what, cut);

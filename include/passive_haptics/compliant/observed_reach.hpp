@@ -188,7 +188,7 @@ class observed_reach::on {
     const auto speeds_up = [&](int i) {
       return kernels::larger(by_mass(h[static_cast<std::size_t>(i)] + most), scalar(0));
     };
-    scalar speed = (moved + e) / T0 + speeds_up(0) * state.recent / scalar(2);
+    scalar speed = (moved + e) / T0 + speeds_up(0) * kernels::larger(T0, state.recent) / scalar(2);
     for (int i = 1; i < j; ++i) speed += speeds_up(i) * T;
     return speed * T + speeds_up(j) * T * T / scalar(2) +
            scalar(8) * kernels::rounding<scalar>() *
@@ -208,7 +208,8 @@ class observed_reach::on {
     };
     // w_j rises in the last tick, is 1 in those between and falls in tick j: its area, and its delay after w_0. Both
     // grow with T0 and T1, and are taken for recent ticks, so that the bound does not tremble as the ticks do.
-    const scalar S = scalar(j - 1) * T, t0 = state.recent, t1 = kernels::larger(T1, t0);
+    const scalar S = scalar(j - 1) * T, t0 = kernels::larger(T0, state.recent),
+                 t1 = kernels::larger(T1, t0);
     const scalar area = (t0 + T) * half + S, since = (scalar(2) * t0 + t1) / scalar(3);
     const scalar moment = -t0 * t0 / scalar(6) + S * S * half + S * T * half + T * T / scalar(6);
     const scalar later = moment / area + since;

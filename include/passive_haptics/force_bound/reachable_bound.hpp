@@ -258,8 +258,8 @@ class basic_reachable_work_bound<Inertia>::on {
       if (!state.motion_known) return kernels::largest<scalar>();
       const auto work = P::work(f, state.travel);
       const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
-      const scalar pushed =
-          (inertia_.norm(state.held) + other) * state.recent * T + (last + other) * T * T;
+      const scalar T0 = kernels::larger(state.dt, state.recent);
+      const scalar pushed = (inertia_.norm(state.held) + other) * T0 * T + (last + other) * T * T;
       return outward * T / state.dt + norm * pushed / scalar(2) * up;
     } else {
       const scalar before = inertia_.norm(effort(state.coming(J - 1)));

@@ -290,7 +290,9 @@ class passive_port {
   static constexpr bool looks = detail::looks_at_motion<bound_type>;
   /// True if the bound reckons with what a mass can do in a tick, and so with its length.
   static constexpr bool reckons = promise_of<Bound, P>() == guarantee::conditional;
-  struct no_ticks {};
+  struct no_ticks {
+    constexpr operator scalar() const noexcept { return scalar(0); }  // NOLINT(*-explicit-*)
+  };
   /// True if the bound also limits the distance of a sample from the last motion.
   static constexpr bool doubts = looks && reaches && detail::has_geometry<P>;
   struct last_seen {
@@ -358,7 +360,7 @@ class passive_port {
                            .commanded = guard_.commanded(),
                            .energy = observer_.value(),
                            .dt = dt,
-                           .recent = recent(dt, late),
+                           .recent = recent_,
                            .longest_tick = limits_.longest_tick,
                            .held = force,
                            .travel = travel,
@@ -386,17 +388,12 @@ class passive_port {
     amend(what, allowed.limited);
     guard_.command(allowed.force);
     is_cut_ = allowed.limited;
+    if constexpr (reckons) {
+      if (is_cut_ && !late) recent_ = kernels::larger(dt, recent_ - recent_ * scalar(1e-6));
+    }
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
   }
 
-  /// dt, or the longest tick on time of some 10⁶ before it, because a bound that follows each trembles as they do.
-  constexpr scalar recent(scalar dt, bool late) noexcept {
-    if constexpr (reckons) {
-      if (!late) recent_ = kernels::larger(dt, recent_ - recent_ * scalar(1e-6));
-      dt = kernels::larger(dt, recent_);
-    }
-    return dt;
-  }
   /// Passes the last tick to a bound that tests its assumptions, before anything else of this tick.
   [[gnu::noinline]] constexpr void look(typename P::stored_pose position, scalar dt,
                                         typename P::stored_effort held) noexcept {

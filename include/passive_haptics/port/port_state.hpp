@@ -66,7 +66,7 @@ struct port_state {
   const commands& commanded;
   scalar energy;                             ///< E1(n), with the last tick booked
   scalar dt;                                 ///< length of the last tick
-  scalar recent;                             ///< T₀, no less than dt and most ticks before it
+  scalar recent;                             ///< longest of the last 10⁶ ticks that were bounded
   scalar longest_tick;                       ///< T, upper bound of the next tick
   const typename Port::stored_effort& held;  ///< effort held over the last tick
   motion travel;                             ///< measured Δx over the last tick
