@@ -84,12 +84,13 @@ __attribute__((flatten)) static inline struct answer3 half_space_reachable_tick(
   const vec3 desired = mul3(normal, asked);
   const real share = reachable_share3(&w->reach, l, desired, travel, d, known, dt, T);
   if (!(share < 1)) {
+    w->reach.recent = 0;
     d->held = desired;
     return reply3(desired, depth, l->energy, what, false);
   }
   const vec3 force = mul3(desired, share);
   const bool cut = !same3(force, desired);
-  if (cut) bounded_tick(&w->reach, dt, T);
+  keep_longest(&w->reach, cut, dt, T);
   d->held = force;
   return reply3(force, depth, l->energy, what, cut);
 }

@@ -184,9 +184,9 @@ static inline real damped_depth(const struct damped_spring* s, real force, real 
 struct reach {
   real mass, hand_force, recent;
 };
-/* The longest tick on time of some million that were bounded. */
-static inline void bounded_tick(struct reach* r, real dt, real T) {
-  if (!(dt > T)) r->recent = larger(dt, r->recent - r->recent * (real)1e-6);
+/* Keeps the longest tick, T at most, since the force was last not cut. */
+static inline void keep_longest(struct reach* r, bool cut, real dt, real T) {
+  r->recent = cut ? larger(r->recent, smaller(dt, T)) : 0;
 }
 static inline real reachable_force(const struct reach* r, const struct ledger* l, real outward,
                                    real travel, real held, real asked, bool known, real dt,

@@ -123,7 +123,7 @@ __attribute__((flatten)) static inline struct answer3 plane_reachable_tick(
     w->own = w->newest;
     n->together = true;
   }
-  if (cut) bounded_tick(&w->reach, dt, T);
+  keep_longest(&w->reach, cut, dt, T);
   if (cut) what = cut_short(what, depth > 0 || dot3(force, force) > 0, l->energy);
   d->held = force;
   return reply3(force, depth, l->energy, what, cut);

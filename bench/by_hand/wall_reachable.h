@@ -129,7 +129,7 @@ __attribute__((flatten)) static inline struct answer1 wall_reachable_tick(struct
     w->own = w->newest;
     n->together = true;
   }
-  if (cut) bounded_tick(&w->reach, dt, T);
+  keep_longest(&w->reach, cut, dt, T);
   if (cut) what = cut_short(what, depth > 0 || force != 0, l->energy);
   d->held = force;
   return reply1(force, depth, l->energy, what, cut);

@@ -157,7 +157,6 @@ class passive_port {
     guard_.reset();
     watch_.reset();
     is_cut_ = false;
-    recent_ = {};
     if (stopped_ != event::forces_off) stopped_ = event::nominal;
     begin();
   }
@@ -389,7 +388,10 @@ class passive_port {
     guard_.command(allowed.force);
     is_cut_ = allowed.limited;
     if constexpr (reckons) {
-      if (is_cut_ && !late) recent_ = kernels::larger(dt, recent_ - recent_ * scalar(1e-6));
+      if (is_cut_) [[unlikely]]
+        recent_ = kernels::larger(recent_, kernels::smaller(dt, limits_.longest_tick));
+      else
+        recent_ = scalar(0);
     }
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
   }
@@ -605,6 +607,7 @@ class passive_port {
     if (stopped_ <= event::rejected_parameters) {
       stopped_ = check() ? event::rejected_parameters : event::nominal;
     }
+    recent_ = {};
     if constexpr (reaches) seen_ = {};  // the former limit of the motors may have been larger
     detail::tell(source_, limits_.longest_tick, latency);
   }

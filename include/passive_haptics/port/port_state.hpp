@@ -64,10 +64,10 @@ struct port_state {
 
   const Damping& damping;  ///< damping of the device, as stated to the observer
   const commands& commanded;
-  scalar energy;                             ///< E1(n), with the last tick booked
-  scalar dt;                                 ///< length of the last tick
-  scalar recent;                             ///< longest of the last 10⁶ ticks that were bounded
-  scalar longest_tick;                       ///< T, upper bound of the next tick
+  scalar energy;        ///< E1(n), with the last tick booked
+  scalar dt;            ///< length of the last tick
+  scalar recent;        ///< longest tick, T at most, since a force was last not cut
+  scalar longest_tick;  ///< T, upper bound of the next tick
   const typename Port::stored_effort& held;  ///< effort held over the last tick
   motion travel;                             ///< measured Δx over the last tick
   scalar travel_error;                       ///< largest distance of the true Δx from it
