@@ -104,6 +104,33 @@ TEST_CASE("a force that is bounded at rest does not tremble as the ticks do", "[
   CHECK_THAT(settled(), WithinRel(even, 1e-9));
 }
 
+TEST_CASE("a force that is bounded at rest on encoders does not tremble as the ticks do",
+          "[bound]") {
+  ph::passive_port port{
+      d1{}, ph::given_force{},
+      ph::dual_ledger{.damping = {.coefficient = 0.03, .coulomb = 0.05, .presliding = 0.0},
+                      .quantum = 2e-5,
+                      .loan = 2e-4},
+      told, ph::loop_limits{.longest_tick = 1e-3}};
+  REQUIRE_FALSE(port.check());
+  const auto tick = [&](double dt) { return port.tick(0.0, ph::seconds{dt}, 4.0).force; };
+  const auto settled = [&](double dt) {
+    for (int n = 0; n < 100; ++n) (void)tick(dt);
+    return tick(1e-3);
+  };
+  const double even = settled(1e-3), steady = settled(0.5e-3);
+  REQUIRE(even < 4.0);
+  CHECK(steady < 0.95 * even);
+  for (const double dt : {0.95e-3, 0.5e-3, 0.7e-3, 1e-3})
+    CHECK_THAT(tick(dt), WithinRel(steady, 1e-5));
+  const double slow = settled(0.25e-3);
+  CHECK(slow < 0.95 * steady);
+  CHECK_THAT(settled(1e-3), WithinRel(slow, 1e-5));
+  CHECK(tick(0.1e-3) < 0.95 * slow);  // less than T/4 counts in full,
+  const double later = tick(1e-3);
+  CHECK(later > 0.95 * slow);  // but is not kept
+}
+
 TEST_CASE("reachable_bound with friction lets out what no reachable travel can spend",
           "[bound][friction]") {
   // F s − B s² − f_c s ≤ E for 0 ≤ s ≤ δ: the F of § 2(a′), plus f_c

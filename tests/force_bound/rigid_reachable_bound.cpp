@@ -27,8 +27,8 @@ struct moment {
             .commanded = commanded,
             .energy = energy,
             .dt = T,
-            .recent = T,
             .longest_tick = T,
+            .recent = {T},
             .held = held,
             .travel = travel,
             .travel_error = 0.0,
@@ -72,8 +72,8 @@ TEST_CASE("along one direction rigid_reachable_bound is reachable_bound", "[rigi
                                              .commanded = none,
                                              .energy = energy,
                                              .dt = T,
-                                             .recent = T,
                                              .longest_tick = T,
+                                             .recent = {T},
                                              .held = held,
                                              .travel = travel,
                                              .travel_error = 0.0,
@@ -92,7 +92,6 @@ TEST_CASE("a wrench that is bounded at rest does not tremble as the ticks do", "
   const auto left = [&](double dt) {
     auto now = quiet.with(body::zero(), 1e-6);
     now.dt = dt;
-    now.recent = std::max(dt, now.recent);
     return bound.limit(w, now).factor;
   };
   REQUIRE(left(T) < 1.0);

@@ -39,6 +39,24 @@ template <class Scalar>
   return dt > T;
 }
 
+/// The ticks since a force was last not cut: a bound that followed the length of each would tremble. (L6)
+template <class Scalar, bool Exact>
+struct recent_ticks {
+  Scalar longest{};                              ///< [s], T at most
+  Scalar shortest = kernels::largest<Scalar>();  ///< [s], T/4 at least; not kept where Δx is exact
+  constexpr void see(Scalar dt, Scalar T) noexcept {
+    longest = kernels::larger(longest, kernels::smaller(dt, T));
+    shortest = kernels::smaller(shortest, kernels::larger(dt, T / Scalar(4)));
+  }
+};
+template <class Scalar>
+struct recent_ticks<Scalar, true> {
+  Scalar longest{};
+  constexpr void see(Scalar dt, Scalar T) noexcept {
+    longest = kernels::larger(longest, kernels::smaller(dt, T));
+  }
+};
+
 namespace detail {
 /// Satisfied by a damping that bounds the error of the work of a turn.
 template <class D, class P>
@@ -66,8 +84,8 @@ struct port_state {
   const commands& commanded;
   scalar energy;        ///< E1(n), with the last tick booked
   scalar dt;            ///< length of the last tick
-  scalar recent;        ///< longest tick, T at most, since a force was last not cut
   scalar longest_tick;  ///< T, upper bound of the next tick
+  recent_ticks<scalar, Exact> recent;
   const typename Port::stored_effort& held;  ///< effort held over the last tick
   motion travel;                             ///< measured Δx over the last tick
   scalar travel_error;                       ///< largest distance of the true Δx from it
@@ -77,6 +95,15 @@ struct port_state {
   /// The command that is held in the j-th coming tick, 1 ≤ j ≤ Latency.
   [[nodiscard]] constexpr const typename Port::stored_effort& coming(int j) const noexcept {
     return commanded[static_cast<std::size_t>(Latency - j)];
+  }
+  /// T₀ [s], or the longest recent tick.
+  [[nodiscard]] constexpr scalar longest_recent() const noexcept {
+    return kernels::larger(dt, recent.longest);
+  }
+  /// T₀ [s], or the shortest recent tick.
+  [[nodiscard]] constexpr scalar shortest_recent() const noexcept {
+    if constexpr (Exact) return dt;
+    if constexpr (!Exact) return kernels::smaller(dt, recent.shortest);
   }
   [[nodiscard]] constexpr tick_fate fate() const noexcept {
     if (!motion_known) return tick_fate::lost;

@@ -133,7 +133,7 @@ struct composed_triangle_thesis
 
 inline constexpr ::loop by_hand_loop{given::longest_tick, given::top_speed, given::workspace,
                                      given::watchdog};
-inline constexpr ::reach by_hand_reach{given::mass, given::hand_force};
+inline constexpr ::reach by_hand_reach{given::mass, given::hand_force, 0};
 
 template <class State, int Dof, class Position, class Function, Function* Tick>
 struct by_hand_subject {
