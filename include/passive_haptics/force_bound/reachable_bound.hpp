@@ -150,10 +150,10 @@ class reachable_bound::on {
       scalar outward = Space::dot(state.travel, direction) / length +
                        kernels::rounding<scalar>() * Space::norm(state.travel);
       if constexpr (!State::exact) {
-        outward += state.travel_error * (state.dt / state.shortest_recent());
+        outward += state.travel_error * kernels::larger(scalar(1), state.dt / state.shortest);
       }
       return kernels::outward_reach(outward, Space::norm(state.held), last, other, mass_, state.dt,
-                                    T, state.recent.longest);
+                                    T, state.longest);
     } else {
       const scalar before = Space::norm(effort(state.coming(J - 1)));
       return reach<J - 1>(direction, length, before, state) +

@@ -184,7 +184,6 @@ class random_port {
             .energy = exponent * exponent * exponent * scalar(0.1),
             .dt = scalar(0.001),
             .longest_tick = scalar(0.001),
-            .recent = {scalar(0.001)},
             .held = commanded_[0],
             .travel = random_.vector<P>() * scalar(0.002),
             .travel_error = scalar(0),

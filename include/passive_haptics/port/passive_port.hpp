@@ -289,9 +289,8 @@ class passive_port {
   static constexpr bool looks = detail::looks_at_motion<bound_type>;
   /// True if the bound reckons with what a mass can do in a tick, and so with its length.
   static constexpr bool reckons = promise_of<Bound, P>() == guarantee::conditional;
-  using ticks_type = recent_ticks<scalar, Observer::exact>;
   struct no_ticks {
-    constexpr operator ticks_type() const noexcept { return {}; }  // NOLINT(*-explicit-*)
+    static constexpr scalar longest{}, shortest = kernels::largest<scalar>();
   };
   /// True if the bound also limits the distance of a sample from the last motion.
   static constexpr bool doubts = looks && reaches && detail::has_geometry<P>;
@@ -361,7 +360,8 @@ class passive_port {
                            .energy = observer_.value(),
                            .dt = dt,
                            .longest_tick = limits_.longest_tick,
-                           .recent = recent_,
+                           .longest = recent_.longest,
+                           .shortest = recent_.shortest,
                            .held = force,
                            .travel = travel,
                            .travel_error = travel_error(),
@@ -620,7 +620,8 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<reckons, ticks_type, no_ticks> recent_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
+  std::conditional_t<reckons, recent_ticks<scalar, Observer::exact>, no_ticks> recent_{};
   bool is_cut_ = false;             ///< the bound has reduced the last desired effort
   event stopped_ = event::nominal;  ///< the reason for force zero until set() or reset()
   std::uint8_t busy_ = 0;           ///< true during a call; debug builds only

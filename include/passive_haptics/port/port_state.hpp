@@ -42,8 +42,7 @@ template <class Scalar>
 /// The ticks since a force was last not cut: a bound that followed the length of each would tremble. (L6)
 template <class Scalar, bool Exact>
 struct recent_ticks {
-  Scalar longest{};                              ///< [s], T at most
-  Scalar shortest = kernels::largest<Scalar>();  ///< [s], T/4 at least; not kept where Δx is exact
+  Scalar longest{}, shortest = kernels::largest<Scalar>();  ///< [s], T at most and T/4 at least
   constexpr void see(Scalar dt, Scalar T) noexcept {
     longest = kernels::larger(longest, kernels::smaller(dt, T));
     shortest = kernels::smaller(shortest, kernels::larger(dt, T / Scalar(4)));
@@ -52,6 +51,7 @@ struct recent_ticks {
 template <class Scalar>
 struct recent_ticks<Scalar, true> {
   Scalar longest{};
+  static constexpr Scalar shortest = kernels::largest<Scalar>();  // of no use where Δx is exact
   constexpr void see(Scalar dt, Scalar T) noexcept {
     longest = kernels::larger(longest, kernels::smaller(dt, T));
   }
@@ -82,15 +82,15 @@ struct port_state {
 
   const Damping& damping;  ///< damping of the device, as stated to the observer
   const commands& commanded;
-  scalar energy;        ///< E1(n), with the last tick booked
-  scalar dt;            ///< length of the last tick
-  scalar longest_tick;  ///< T, upper bound of the next tick
-  recent_ticks<scalar, Exact> recent;
-  const typename Port::stored_effort& held;  ///< effort held over the last tick
-  motion travel;                             ///< measured Δx over the last tick
-  scalar travel_error;                       ///< largest distance of the true Δx from it
-  bool motion_known;  ///< false if the last sample was lost; Δx is then given as zero
-  bool late;          ///< dt was longer than T
+  scalar energy;                                            ///< E1(n), with the last tick booked
+  scalar dt;                                                ///< length of the last tick
+  scalar longest_tick;                                      ///< T, upper bound of the next tick
+  scalar longest{}, shortest = kernels::largest<scalar>();  ///< of recent_ticks
+  const typename Port::stored_effort& held;                 ///< effort held over the last tick
+  motion travel;                                            ///< measured Δx over the last tick
+  scalar travel_error;  ///< largest distance of the true Δx from it
+  bool motion_known;    ///< false if the last sample was lost; Δx is then given as zero
+  bool late;            ///< dt was longer than T
 
   /// The command that is held in the j-th coming tick, 1 ≤ j ≤ Latency.
   [[nodiscard]] constexpr const typename Port::stored_effort& coming(int j) const noexcept {
@@ -98,12 +98,7 @@ struct port_state {
   }
   /// T₀ [s], or the longest recent tick.
   [[nodiscard]] constexpr scalar longest_recent() const noexcept {
-    return kernels::larger(dt, recent.longest);
-  }
-  /// T₀ [s], or the shortest recent tick.
-  [[nodiscard]] constexpr scalar shortest_recent() const noexcept {
-    if constexpr (Exact) return dt;
-    if constexpr (!Exact) return kernels::smaller(dt, recent.shortest);
+    return kernels::larger(dt, longest);
   }
   [[nodiscard]] constexpr tick_fate fate() const noexcept {
     if (!motion_known) return tick_fate::lost;
