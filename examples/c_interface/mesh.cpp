@@ -3,7 +3,9 @@
 #include "ports.hpp"
 #include <passive_haptics/mesh.hpp>
 
+#include <cstddef>
 #include <exception>
+#include <optional>
 
 using surface = passive_haptics::mesh::surface;
 
@@ -72,6 +74,15 @@ class mesh_port final : public composed<Composition, Port> {
   touched held_;
 };
 
+constexpr std::size_t shortest_data = offsetof(ph_mesh_data, crease);
+static_assert(sizeof(ph_mesh_data) == 56 && shortest_data == 48);
+
+/// How its edges are rounded; a struct of an older header says nothing of it.
+[[nodiscard]] std::optional<mesh::smooth> rounding_of(const ph_mesh_data& data) noexcept {
+  if (data.size < sizeof(ph_mesh_data) || data.crease == 0.0) return {};
+  return mesh::smooth{.crease = data.crease};
+}
+
 struct vertices {
   const double* first;
   std::size_t count;
@@ -138,7 +149,7 @@ std::int32_t ph_mesh_create(const ph_mesh_data* data, ph_mesh** made, char* why,
   if (data == nullptr || made == nullptr) {
     return refuse_null(reason, "ph_mesh_create", data == nullptr ? "data" : "mesh");
   }
-  if (!known_size<ph_mesh_data>(data->size, sizeof(ph_mesh_data))) {
+  if (!known_size<ph_mesh_data>(data->size, shortest_data)) {
     return refuse_size<ph_mesh_data>(reason, "ph_mesh_data", data->size);
   }
   const bool numbered = data->triangle_count == 0 || data->triangles != nullptr;
@@ -160,7 +171,8 @@ std::int32_t ph_mesh_create(const ph_mesh_data* data, ph_mesh** made, char* why,
     const vertices all{data->vertices, data->vertex_count};
     auto stuff =
         stuff_of(data->materials, data->material_count, data->material_of, triangles.size());
-    *made = new ph_mesh{std::make_shared<surface>(std::move(triangles), all, std::move(stuff))};
+    *made = new ph_mesh{
+        std::make_shared<surface>(std::move(triangles), all, std::move(stuff), rounding_of(*data))};
     return PH_OK;
   });
 }

@@ -189,7 +189,8 @@ ph_mesh_data sheet_of(const struct meshes* all, uint32_t kind) {
                     .triangle_count = sheet_triangles,
                     .vertices = all->sheet,
                     .triangles = all->of_sheet};
-  if (kind == 0) return d;
+  if (kind == 2) d.crease = 0.7;
+  if (kind != 1) return d;
   d.material_count = 2;
   d.materials = all->materials;
   d.material_of = all->material_of;

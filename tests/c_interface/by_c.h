@@ -71,7 +71,7 @@ ph_surface curved_at(int n, uint32_t kind);
 ph_surface plane_at(const struct moment* now, double x_on_tool);
 
 /// A sheet of bumps that heaves, and a leaf that is turned above it: where they are in tick n. Their materials count in
-/// a script of kind 1.
+/// a script of kind 1, and it is smooth in one of kind 2.
 enum { sheet_vertices = 81, sheet_triangles = 128, leaf_vertices = 4, leaf_triangles = 2 };
 struct meshes {
   double sheet[3 * sheet_vertices], leaf[3 * leaf_vertices];

@@ -32,9 +32,10 @@ mesh::material material(const double* numbers) {
 struct direct_meshes {
   explicit direct_meshes(std::uint32_t kind)
       : sheet(triangles(first.of_sheet, sheet_triangles), places(first.sheet, sheet_vertices),
-              kind == 0 ? mesh::made_of{}
+              kind != 1 ? mesh::made_of{}
                         : mesh::made_of{{material(first.materials), material(first.materials + 3)},
-                                        {first.material_of, first.material_of + sheet_triangles}}),
+                                        {first.material_of, first.material_of + sheet_triangles}},
+              kind == 2 ? std::optional(mesh::smooth{.crease = 0.7}) : std::nullopt),
         leaf(triangles(first.of_leaf, leaf_triangles), places(first.leaf, leaf_vertices),
              {{material(first.materials)}, {0, 0}}) {}
   void move(int n, auto& finger) {
@@ -112,7 +113,7 @@ TEST_CASE("a mesh_touch by name is make_mesh_touch, bit for bit, with materials 
           "[c_interface]") {
   const auto compare = [](const char* name, auto port, const ph_parameters& p,
                           double ph_parameters::*other) {
-    for (const std::uint32_t kind : {0U, 1U}) {
+    for (const std::uint32_t kind : {0U, 1U, 2U}) {
       agree(name, run_meshes(port, kind), on_mesh(p), {by_meshes, kind, nullptr}, other);
     }
   };
@@ -155,7 +156,7 @@ TEST_CASE("a probe in C is mesh::proxy, bit for bit", "[c_interface]") {
   stated_probe.size = sizeof stated_probe;
   stated_probe.radius = 3e-4;
   stated_probe.friction = 0.2;
-  for (const std::uint32_t kind : {0U, 1U}) {
+  for (const std::uint32_t kind : {0U, 1U, 2U}) {
     std::vector<ph_probe_result> by_c(ticks);
     REQUIRE(probe_by_c(&c, &stated_probe, kind, ticks, by_c.data()) == PH_OK);
     direct_meshes world(kind);
@@ -237,10 +238,20 @@ TEST_CASE("what is no mesh is refused from C with a sentence that says what to d
         "ph_mesh_create: triangles is NULL");
   CHECK(says([](auto& d, auto&) { d.materials = nullptr; }, PH_NULL_ARGUMENT) ==
         "ph_mesh_create: materials is NULL");
-  for (const std::uint32_t size : {0U, 40U, 50U, 56U}) {
+  CHECK_THAT(says([](auto& d, auto&) { d.crease = 2.0; }), StartsWith("mesh: crease is 2"));
+  CHECK_THAT(says([](auto& d, auto&) { d.crease = no_number; }), StartsWith("mesh: crease is"));
+  // A struct of the header before creases is as good, and what lies beyond it is not read.
+  CHECK(says(
+            [](auto& d, auto&) {
+              d.size = 48;
+              d.crease = no_number;
+            },
+            PH_OK)
+            .empty());
+  for (const std::uint32_t size : {0U, 40U, 50U, 64U}) {
     CHECK(says([&](auto& d, auto&) { d.size = size; }, PH_WRONG_SIZE) ==
           "size = " + std::to_string(size) +
-              " is refused: sizeof(ph_mesh_data), which is 48 bytes in this library");
+              " is refused: sizeof(ph_mesh_data), which is 56 bytes in this library");
   }
   ph_mesh* none = nullptr;
   CHECK(c.mesh_create(nullptr, &none, nullptr, 0) == PH_NULL_ARGUMENT);

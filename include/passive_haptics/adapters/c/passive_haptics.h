@@ -241,6 +241,7 @@ typedef struct ph_mesh_data {
   const double* materials;   ///< stiffness [N/m], friction, viscosity [N·s/m] of each
   const uint8_t*
       material_of;  ///< the number of each triangle's material; NULL: all are of the first
+  double crease;    ///< edges that turn by less than this are rounded [rad], to 1.2; 0: none is
 } ph_mesh_data;
 
 /// A probe. Zero in a member stands for its default.
