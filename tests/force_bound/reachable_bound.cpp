@@ -131,6 +131,27 @@ TEST_CASE("a force that is bounded at rest on encoders does not tremble as the t
   CHECK(later > 0.95 * slow);  // but is not kept
 }
 
+TEMPLATE_TEST_CASE_SIG("what is bounded on encoders in a late loop does not take turns", "[bound]",
+                       ((int Late), Late), 1, 2) {
+  // Taking turns, a force of 0.24 N rang a tick late, and two ticks late the steps of force drained the ledger.
+  ph::passive_port port{
+      d1{}, ph::given_force{},
+      ph::dual_ledger{.damping = {.coefficient = 0.9, .coulomb = 0.05, .presliding = 0.0},
+                      .quantum = 1e-4,
+                      .loan = 2e-4},
+      ph::reachable_bound{.mass = 0.9, .hand_force = 4.4},
+      ph::late_loop_limits<Late>{.longest_tick = 1e-3}};
+  REQUIRE_FALSE(port.check());
+  double force = 0.0;
+  for (int n = 0; n < 200; ++n) {
+    const double next = port.tick(0.0, ph::seconds{1e-3}, 4.0).force;
+    if (n > 100) CHECK_THAT(next, WithinRel(force, 1e-4));
+    force = next;
+  }
+  CHECK(force > (Late == 1 ? 0.5 : 0.15));
+  CHECK(force < 4.0);
+}
+
 TEST_CASE("reachable_bound with friction lets out what no reachable travel can spend",
           "[bound][friction]") {
   // F s − B s² − f_c s ≤ E for 0 ≤ s ≤ δ: the F of § 2(a′), plus f_c

@@ -110,7 +110,13 @@ class reachable_bound::on {
       most = (state.damping.friction(desired) + most) *
              (scalar(1) - scalar(4) * kernels::rounding<scalar>());
     }
-    return most < force ? most / force : scalar(1);
+    if (!(most < force)) return scalar(1);
+    if constexpr (State::latency > 0 && !State::exact) {
+      // δ(j) hardly differs from δ(j + 1), so forces would take turns: what one takes, the next is denied. (§ 3)
+      const scalar before = Space::dot(effort(state.coming(State::latency)), desired) / force;
+      most = kernels::smaller(most, (most + kernels::larger(before, scalar(0))) / scalar(2));
+    }
+    return most / force;
   }
   /// E1 − Σ W(h(j), δ(j)) [J], the energy left for the new force.
   template <class State>
