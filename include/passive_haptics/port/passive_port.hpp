@@ -289,9 +289,6 @@ class passive_port {
   static constexpr bool looks = detail::looks_at_motion<bound_type>;
   /// True if the bound reckons with what a mass can do in a tick, and so with its length.
   static constexpr bool reckons = promise_of<Bound, P>() == guarantee::conditional;
-  struct no_ticks {
-    static constexpr scalar longest{}, shortest = kernels::largest<scalar>();
-  };
   /// True if the bound also limits the distance of a sample from the last motion.
   static constexpr bool doubts = looks && reaches && detail::has_geometry<P>;
   struct last_seen {
@@ -360,8 +357,8 @@ class passive_port {
                            .energy = observer_.value(),
                            .dt = dt,
                            .longest_tick = limits_.longest_tick,
-                           .longest = recent_.longest,
-                           .shortest = recent_.shortest,
+                           .longest = longest_recent(),
+                           .shortest = shortest_recent(),
                            .held = force,
                            .travel = travel,
                            .travel_error = travel_error(),
@@ -554,6 +551,14 @@ class passive_port {
       return guard_.last();
     }
   }
+  [[nodiscard]] constexpr scalar longest_recent() const noexcept {
+    if constexpr (reckons) return recent_.longest;
+    return scalar(0);
+  }
+  [[nodiscard]] constexpr scalar shortest_recent() const noexcept {
+    if constexpr (reckons && !Observer::exact) return recent_.shortest;
+    return kernels::largest<scalar>();
+  }
   [[nodiscard]] constexpr scalar travel_error() const noexcept {
     if constexpr (Observer::exact) {
       return scalar(0);
@@ -621,7 +626,7 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
-  std::conditional_t<reckons, recent_ticks<scalar, Observer::exact>, no_ticks> recent_{};
+  std::conditional_t<reckons, recent_ticks<scalar, Observer::exact>, unasked> recent_{};
   bool is_cut_ = false;             ///< the bound has reduced the last desired effort
   event stopped_ = event::nominal;  ///< the reason for force zero until set() or reset()
   std::uint8_t busy_ = 0;           ///< true during a call; debug builds only

@@ -51,7 +51,6 @@ struct recent_ticks {
 template <class Scalar>
 struct recent_ticks<Scalar, true> {
   Scalar longest{};
-  static constexpr Scalar shortest = kernels::largest<Scalar>();  // of no use where Δx is exact
   constexpr void see(Scalar dt, Scalar T) noexcept {
     longest = kernels::larger(longest, kernels::smaller(dt, T));
   }
