@@ -5,6 +5,7 @@
 #include <passive_haptics/contact/manifold.hpp>
 #include <passive_haptics/contact/rigid_tool.hpp>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -425,4 +426,254 @@ TEST_CASE("what is refused takes no slot, whatever a surface is by default", "[m
   CHECK(seen.show(port.source(), std::array{bad}, d3::zero()).refused == 1);
   CHECK_FALSE(port.source().template slot<ready_made>(0).taken());
   CHECK(port.tick(d3::zero(), 1ms).what == ph::event::rejected_target);
+}
+
+namespace {
+
+constexpr std::size_t rows = 4, nobody = 99;
+using four = ph::contact_manifold<plane, rows>;
+using id_type = four::id_type;
+
+/// A surface of an update, at its place [m], and the slot that it gets.
+struct told_plane {
+  plane surface{};
+  d3::vector place = d3::zero();
+  id_type id = four::no_id;
+  std::size_t in = nobody;
+  bool is_new = true;
+};
+/// Who takes which slot, from the definition (M1): of all pairs of a surface and a vacant slot the two that are
+/// nearest belong together, first among those of one id, then among those within reach; and so on.
+struct slow_manifold {
+  struct row {
+    plane surface{};
+    d3::vector place = d3::zero();
+    id_type id = four::no_id;
+    double pressed = 0.0;
+    bool taken = false, told = false, kept = false, used = false;
+  };
+  std::array<row, rows> slot{};
+  ph::same_surface rule{};
+  ph::manifold_news news{};
+
+  ph::manifold_news show(std::vector<told_plane>& told, const std::vector<id_type>& unusable) {
+    news = {};
+    news.refused = static_cast<int>(unusable.size());
+    for (auto& s : slot) {
+      if (!s.taken) s.told = false, s.id = four::no_id;
+      s.used = false;
+      s.kept = s.id != four::no_id && std::count(unusable.begin(), unusable.end(), s.id) > 0;
+    }
+    leave_out(told);
+    pair_up(told, true);
+    pair_up(told, false);
+    for (auto& s : slot) {
+      if (s.told && !s.used && !s.kept) ++news.released;
+      s.told = s.told && (s.used || s.kept);
+    }
+    for (auto& one : told) {
+      if (one.in == nobody) take_any(one);
+    }
+    return news;
+  }
+
+ private:
+  [[nodiscard]] double cost(const row& a, const told_plane& b) const {
+    const auto was = a.surface.at(a.place), is = b.surface.at(b.place);
+    const double K = a.surface.stiffness, other = b.surface.stiffness;
+    return std::abs(was.depth - is.depth) + (a.place - b.place).norm() +
+           rule.lever * (was.outward() - is.outward()).norm() +
+           rule.twin * std::abs(K - other) / (K + other);
+  }
+  [[nodiscard]] static bool same(const row& a, const told_plane& b) {
+    return a.id == b.id && a.id != four::no_id;
+  }
+  /// Of too many those that lead by most stay, where what a slot has leads by `stay`.
+  void leave_out(std::vector<told_plane>& told) {
+    const auto rank = [this](const told_plane& one) {
+      double away = rule.stay;
+      for (const auto& s : slot) {
+        if (s.taken) away = same(s, one) ? 0.0 : std::min(away, cost(s, one));
+      }
+      return one.surface.at(one.place).depth - away;
+    };
+    while (told.size() > rows) {
+      ++news.left_out;
+      told.erase(std::min_element(told.begin(), told.end(),
+                                  [&](const auto& a, const auto& b) { return rank(a) < rank(b); }));
+    }
+  }
+  void pair_up(std::vector<told_plane>& told, bool by_id) {
+    while (true) {
+      double least = by_id ? HUGE_VAL : rule.within;
+      told_plane* who = nullptr;
+      row* where = nullptr;
+      for (auto& one : told) {
+        for (auto& s : slot) {
+          if (one.in != nobody || s.used || s.kept || !s.taken || (by_id && !same(s, one)))
+            continue;
+          const double c = cost(s, one);
+          if (c < least) least = c, who = &one, where = &s;
+        }
+      }
+      if (who == nullptr) return;
+      ++news.matched;
+      who->is_new = false;
+      put(*who, *where);
+    }
+  }
+  /// What has no slot takes the free one that presses least, if there is one.
+  void take_any(told_plane& one) {
+    row* least = nullptr;
+    for (auto& s : slot) {
+      const bool free = !s.used && !s.kept;
+      if (free && (least == nullptr || s.pressed < least->pressed)) least = &s;
+    }
+    ++(least == nullptr ? news.left_out : news.added);
+    if (least != nullptr) put(one, *least);
+  }
+  void put(told_plane& one, row& s) {
+    one.in = static_cast<std::size_t>(&s - slot.data());
+    s.used = s.told = true;
+    s.id = one.id;
+  }
+};
+
+/// A set, all of whose surfaces are touched at the device.
+struct shown_to_a_set {
+  ph::same_surface rule{};
+  decltype(set_of<d3, plane, rows>()) port = set_of<d3, plane, rows>();
+  using position = d3::vector;
+  using point = d3::vector;
+  static position anywhere(ph::laws::samples& draw) { return 2e-3 * draw.vector<d3>(); }
+  static d3::vector place(const position& x, const point& /*p*/) { return x; }
+  static d3::vector place_of(const position& x, const auto& /*slot*/) { return x; }
+  ph::manifold_news show(four& seen, std::span<const plane> all, std::span<const point> /*p*/,
+                         const position& x, std::span<const id_type> ids) {
+    return seen.show(port.source(), all, x, ids);
+  }
+};
+/// A tool, at any point of which a surface is touched.
+struct shown_to_a_tool {
+  using body = ph::rigid_body<double>;
+  ph::same_surface rule{};
+  ph::passive_port<body, ph::rigid_tool<ph::frictionless, ph::slots<plane, rows>>, ph::no_observer,
+                   ph::no_bound, std::decay_t<decltype(thesis_loop)>>
+      port{body{},
+           ph::rigid_tool{ph::tool_spring{.mass = 0.15, .least_inertia = 1e-4}, ph::pursuit{},
+                          ph::slots<plane, rows>{}},
+           ph::no_observer{}, ph::no_bound{}, thesis_loop};
+  using source = std::remove_cvref_t<decltype(port.source())>;
+  using position = body::pose;
+  using point = source::point;
+  static position anywhere(ph::laws::samples& draw) {
+    position pose{};
+    const d3::vector x = 2e-3 * draw.vector<d3>();
+    pose.position = {x(0), x(1), x(2)};
+    return pose;
+  }
+  static d3::vector place(const position& pose, const point& p) { return source::place(pose, p); }
+  static d3::vector place_of(const position& pose, const auto& slot) {
+    return source::place(pose, slot.point);
+  }
+  ph::manifold_news show(four& seen, std::span<const plane> all, std::span<const point> points,
+                         const position& pose, std::span<const id_type> ids) {
+    return seen.show(port.source(), all, points, pose, ids);
+  }
+};
+
+/// Shows many updates, and asks the definition what each of them should come to. Returns the sum of all news.
+template <class Shown>
+ph::manifold_news as_defined(Shown on, std::uint64_t seed) {
+  ph::laws::samples draw{seed};
+  four seen{on.rule};
+  slow_manifold slow;
+  slow.rule = on.rule;
+  ph::manifold_news sum;
+  const auto one_in = [&draw](unsigned many) { return draw.bits() % many == 0; };
+  const auto slot_at = [&on](std::size_t i) -> const auto& {
+    return on.port.source().template slot<plane>(static_cast<int>(i));
+  };
+  double K = 500.0;  // [N/m], which no two surfaces share
+  for (int frame = 0; frame < 300; ++frame) {
+    for (int n = 0; n < 4; ++n) (void)on.port.tick(on.anywhere(draw), 1ms);
+    const auto where = on.anywhere(draw);
+    for (std::size_t i = 0; i < rows; ++i) {
+      auto& s = slow.slot[i];
+      s.taken = slot_at(i).taken();
+      s.surface = slot_at(i).target();
+      s.pressed = slot_at(i).pressed();
+      s.place = on.place_of(where, slot_at(i));
+    }
+    const bool crowded = one_in(3), named = one_in(2);
+    std::vector<told_plane> told;
+    std::vector<plane> surfaces;
+    std::vector<typename Shown::point> points;
+    std::vector<id_type> ids, unusable;
+    for (std::size_t k = crowded ? 5 + draw.bits() % 5 : draw.bits() % 5; k > 0; --k) {
+      const auto& like = slot_at(draw.bits() % rows);
+      const d3::vector off = draw.vector<d3>();
+      told_plane one;
+      const d3::vector at = 1e-3 * draw.vector<d3>();
+      points.push_back({at(0), at(1), at(2)});
+      one.place = on.place(where, points.back());
+      one.surface = like.taken() && !one_in(4) ? like.target() : floor_at(2e-3 * off(2));
+      one.surface.normal.values[0] += 0.05 * off(0);
+      one.surface.normal.values[1] += 0.05 * off(1);
+      one.surface.point.values[2] += 2e-3 * off(2);
+      one.surface.stiffness = K += 0.37;
+      REQUIRE(one.surface.prepare());
+      if (named && !one_in(3)) one.id = draw.bits() % 6;
+      ids.push_back(one.id);
+      surfaces.push_back(one.surface);
+      if (!crowded && one_in(8)) {
+        surfaces.back().stiffness = -1.0;
+        unusable.push_back(one.id);
+      } else {
+        told.push_back(one);
+      }
+    }
+    const auto wanted = slow.show(told, unusable);
+    if (!named) ids.clear();
+    const auto news = on.show(seen, surfaces, points, where, ids);
+    CAPTURE(frame, crowded, named);
+    REQUIRE(news.matched == wanted.matched);
+    REQUIRE(news.added == wanted.added);
+    REQUIRE(news.refused == wanted.refused);
+    REQUIRE(news.merged == 0);
+    REQUIRE(news.left_out == wanted.left_out);
+    REQUIRE(news.released == wanted.released);
+    for (const auto& one : told) {
+      if (one.in == nobody) continue;
+      std::size_t in = one.in;
+      for (std::size_t i = 0; i < rows && crowded && one.is_new;
+           ++i) {  // in any slot that was free
+        if (slot_at(i).target().stiffness == one.surface.stiffness) in = i;
+      }
+      REQUIRE(slot_at(in).target().stiffness == one.surface.stiffness);
+      slow.slot[in].id = one.id;
+    }
+    sum.matched += news.matched;
+    sum.added += news.added;
+    sum.refused += news.refused;
+    sum.left_out += news.left_out;
+    sum.released += news.released;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("who takes which slot is as (M1) defines it, whatever is told", "[manifold]") {
+  const ph::same_surface strict{.within = 3e-3, .lever = 0.01, .stay = 2e-4, .twin = 1e-9};
+  for (const auto& rule : {ph::same_surface{}, strict}) {
+    for (const auto& sum :
+         {as_defined(shown_to_a_set{rule}, 1), as_defined(shown_to_a_tool{rule}, 2)}) {
+      CHECK(sum.matched > 100);
+      CHECK(sum.added > 100);
+      CHECK(sum.refused > 30);
+      CHECK(sum.left_out > 200);
+      CHECK(sum.released > 50);
+    }
+  }
 }
