@@ -681,6 +681,10 @@ TEST_CASE("a set explains what presses most, what does not yet, and that it foll
   CHECK(port.explain().now == ph::softened_by::news);
   for (int n = 0; n < 500; ++n) (void)port.tick(d3::vector(-1e-3, 0, 1e-3), ph::seconds{T});
   CHECK(port.explain().now == ph::softened_by::nothing);
+  for (double K = 300.0; K < 400.0; K += 0.37) {  // 1/(1/K) may be less than K by a rounding
+    port.source().update(1, ph::half_space<d3>{d3::zero(), d3::vector(1, 0, 0), K});
+    CHECK(port.explain().stiffness == ph::softened_by::nothing);
+  }
 }
 
 TEST_CASE("news that overflow under a pressed contact are refused, and it presses on",

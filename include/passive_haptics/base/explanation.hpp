@@ -52,9 +52,9 @@ struct explanation {
   double force{};  ///< the last commanded force [N]
   softened_by now = softened_by::nothing;  ///< why `force` is less than `shown` times `depth`
 
-  /// Lowers `shown` to `most` [N/m] if it is larger, and notes the reason.
+  /// Lowers `shown` to `most` [N/m] if it is larger by more than a float may round, and notes the reason.
   constexpr void soften(double most, softened_by why) noexcept {
-    if (!(most < shown)) return;
+    if (!(most < shown * (1.0 - 1e-6))) return;
     shown = most;
     stiffness = why;
   }

@@ -360,18 +360,18 @@ class contact_engine {
     });
     return depth;
   }
-  /// Begins an update: the largest slope of the force is that of the stiffest contact that presses from now on.
-  [[gnu::noinline]] constexpr void news() noexcept {
+  /// Begins an update: the force is no steeper than the stiffest contact that presses from now on, or than `any`.
+  [[gnu::noinline]] constexpr void news(bool any = false) noexcept {
     told_ = true;
     slots_.for_each([&](const auto& slot, std::size_t) {
-      const auto& spring = slot.spring();
-      if (slot.pressed() > scalar(0) && spring.stiffness > steepest_.stiffness) steepest_ = spring;
+      const bool counts = any || slot.pressed() > scalar(0);
+      if (counts && slot.spring().stiffness > steepest_.stiffness) steepest_ = slot.spring();
     });
   }
   /// While updates are followed, the desired effort changes by at most R dt plus the effect of the device's motion.
   [[gnu::noinline]] constexpr row eased(const row& wanted, const row& way, bool chases,
                                         scalar dt) noexcept {
-    news();
+    news(!told_ && !chased_);  // what recedes by itself may have pressed until now
     const row change = way - row(moved_);
     const scalar explained =
         scalar(2) * steepest_.stiffness *
