@@ -246,3 +246,34 @@ TEMPLATE_TEST_CASE(
   CHECK(cut > 1000);
   CHECK(nearer > cut / 4);
 }
+
+TEMPLATE_TEST_CASE(
+    "the search between one share for all and the nearest finds the best of 16 steps",
+    "[bound][nearest]", d2, d3) {
+  using P = TestType;
+  sim::random_source random(13);
+  int inside = 0;
+  for (int n = 0; n < 500; ++n) {
+    const auto device = at<P>(any_damping<P>(random, 1.5));
+    const auto f = any_effort<P>(random, 1.0);
+    const double E = device.worst_outflow(f, T) * random.uniform(0.001, 1.2);
+    int looks = 0;
+    const auto covered = [&](const typename P::vector& g) {
+      ++looks;
+      return device.affordable(g, E, T);
+    };
+    const double most = ph::detail::yield<P>(device, f, E, T) * random.uniform(0.0, 3.0);
+    const typename P::vector found = ph::detail::nearest_of<P>(device, f, most, covered);
+    CHECK(looks <= 2 + 2 * 4);
+    double best = HUGE_VAL;
+    int where = 0;
+    for (int i = 0; i <= (most > 0.0 ? 16 : 0); ++i) {  // what is missed has one minimum over λ
+      const typename P::vector g = device.yielding(f, i * most / 16);
+      const double miss = (f - g * device.affordable(g, E, T)).norm();
+      if (miss < best) best = miss, where = i;
+    }
+    inside += where > 0 && where < 16 ? 1 : 0;
+    REQUIRE_THAT((f - found).norm(), WithinAbs(best, 1e-9 * f.norm()));
+  }
+  CHECK(inside > 100);
+}
