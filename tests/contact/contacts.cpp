@@ -102,6 +102,10 @@ TEST_CASE("in a corner both walls press, and the deepest contact is told", "[con
   CHECK(one.force(0) == 0.0);
   CHECK(one.depth == 0.0005);
   CHECK(corner.tick({0.001, 0.0005}, 1ms).force == d2::zero());
+  const auto bad = corner.tick({std::nan(""), 0.0}, 1ms);
+  CHECK(bad.what == ph::event::rejected_sample);
+  CHECK(bad.depth == 0.0);
+  CHECK_FALSE(bad.limited);
 }
 
 TEST_CASE(

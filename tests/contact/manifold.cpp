@@ -426,6 +426,16 @@ TEST_CASE("what is refused takes no slot, whatever a surface is by default", "[m
   CHECK(seen.show(port.source(), std::array{bad}, d3::zero()).refused == 1);
   CHECK_FALSE(port.source().template slot<ready_made>(0).taken());
   CHECK(port.tick(d3::zero(), 1ms).what == ph::event::rejected_target);
+
+  using body = ph::rigid_body<double>;
+  ph::passive_port tool{body{},
+                        ph::rigid_tool{ph::tool_spring{.mass = 0.15, .least_inertia = 1e-4},
+                                       ph::pursuit{}, ph::slots<ready_made, 2>{}},
+                        ph::no_observer{}, ph::no_bound{}, thesis_loop};
+  using point = std::remove_cvref_t<decltype(tool.source())>::point;
+  CHECK(seen.show(tool.source(), std::array{bad}, std::array{point{}}, body::pose{}).refused == 1);
+  CHECK_FALSE(tool.source().template slot<ready_made>(0).taken());
+  CHECK(tool.tick(body::pose{}, 1ms).what == ph::event::rejected_target);
 }
 
 namespace {

@@ -284,6 +284,28 @@ TEST_CASE("a bristle of a rough tool is as stiff as its contact's share there", 
   }
 }
 
+TEST_CASE("a contact of a tool settles as its slower mode does, in ticks at most", "[rigid_tool]") {
+  for (const int late : {0, 1, 3}) {
+    for (const double fraction : {0.05, 0.1, 0.3, 0.9}) {
+      for (const double lever : {0.01, 0.05, 0.3}) {
+        const ph::tool_spring rule{
+            .mass = 0.15, .least_inertia = 1e-4, .lever = lever, .stiffness_fraction = fraction};
+        ph::tool_spring::at<double> spring(rule);
+        spring.adopt(T, late);
+        for (const double K : {10.0, 300.0, 1e9}) {
+          const auto s = spring.sampled(K);
+          const double turn = 1.0 / spring.yield(s.compliance);  // k_ω [N·m/rad]
+          const double slow = std::min(rule.mass / s.stiffness, rule.least_inertia / turn);
+          const double ticks = late > 0 ? 2.25 * (late + 1) : 5.0;
+          CAPTURE(late, fraction, lever, K);
+          CHECK_THAT(s.settling, WithinRel(std::min(2.0 * std::sqrt(slow), ticks * T), 1e-12));
+          CHECK(turn <= s.stiffness * lever * lever * (1 + 1e-12));
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("a tool_spring out of range is refused by name", "[rigid_tool]") {
   const auto named = [](const ph::tool_spring& s) { return std::string(s.check().parameter); };
   CHECK_FALSE(light.check());

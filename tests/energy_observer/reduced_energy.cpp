@@ -178,6 +178,7 @@ TEST_CASE("parameters of an observer are refused with their name", "[observer]")
   CHECK(refused(capped{.damping = 0.03, .cap = -1.0}) == "cap");
   CHECK(refused(capped{.damping = 0.03, .cap = nan}) == "cap");
   CHECK(refused(capped{.damping = 0.03, .reset_after = -1.0}) == "reset_after");
+  CHECK(refused(capped{.damping = 0.03, .reset_after = 0.0}).empty());
   CHECK(refused(capped{.damping = 0.0}) == "damping");
   CHECK(refused(capped{.damping = 0.03, .loan = -1.0}) == "loan");
   CHECK(refused(plain{.damping = 0.03, .loan = nan}) == "loan");

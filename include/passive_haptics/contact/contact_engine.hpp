@@ -389,7 +389,6 @@ class contact_engine {
     if constexpr (rubs) {
       for (auto& bristle : bristles_) bristle.reset();
     }
-    rests_ = true;
   }
 
   struct nap {
