@@ -37,6 +37,20 @@ TEMPLATE_TEST_CASE("a rigid body's damping, ledger and bounds obey the laws", "[
   }
 }
 
+TEST_CASE("a rigid body's damper pushes against each axis, and takes what it dissipates",
+          "[rigid_damping]") {
+  ph::laws::samples draw(1);
+  for (int n = 0; n < 20; ++n) {
+    const body::motion m = 1e-3 * draw.vector<body>();
+    const body::effort w = damping.force(m, T);
+    for (int i = 0; i < 6; ++i) {
+      const double coefficient = i < 3 ? b.linear : b.angular;
+      CHECK_THAT(body::component(w, i), WithinAbs(coefficient / T * body::component(m, i), 1e-14));
+    }
+    CHECK_THAT(body::work(w, m).joules, WithinAbs(damping.dissipated(m, T), 1e-15));
+  }
+}
+
 TEST_CASE("a margin of dt|θ × τ|²/(36 b_ω) covers every arc of lemma C, and one of 1/38 does not",
           "[rigid_damping]") {
   double most = 0.0;  // of what is missing, in parts of dt|θ × τ|²/b_ω
