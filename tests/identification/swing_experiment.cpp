@@ -45,6 +45,28 @@ TEST_CASE("a swing that does not come about ends with a sentence and no force",
   CHECK(swing.tick(seen) == 0.0);
 }
 
+TEST_CASE("a swing that is stopped in any of its phases ends within seconds", "[identification]") {
+  for (const double from : {2.0, 10.0}) {  // while it is shaken, and while it sweeps
+    CAPTURE(from);
+    rubbing<sim::slider_and_spring> device(grip, {}, rubs);
+    axis_record seen;
+    swing_experiment swing({});
+    double force = 0.0, held = 0.0, time = 0.0;
+    for (; !swing.done() && time < 60.0; time += 1e-3) {
+      const auto sample = device.exchange(force);
+      if (time < from) held = sample.position;
+      seen.book(held, sample.dt, false);
+      force = swing.tick(seen);
+      seen.commanded(force);
+    }
+    CHECK(time > from);
+    CHECK(time < 21.0);
+    REQUIRE(swing.problem() != nullptr);
+    CHECK(std::string(swing.problem()).find("stopped to swing") != std::string::npos);
+    CHECK(force == 0.0);
+  }
+}
+
 TEST_CASE("an eased relay takes off at most a fifth of its force at a turn", "[identification]") {
   sim::device<d1> device(grip);
   axis_record seen;

@@ -84,6 +84,8 @@ class swing_experiment {
 
  private:
   enum class phase : std::uint8_t { settle, shake, sweep, done };
+  static constexpr const char* stopped =
+      "it stopped to swing: let go of the device, or allow more force";
   static constexpr double slowest = 0.03;  // least speed of the windows that count [m/s]
 
   double fail(const char* why) noexcept {
@@ -135,6 +137,7 @@ class swing_experiment {
     return force;
   }
   double shake(const axis_record& seen) noexcept {
+    if (phase_.lasted() > p_.shake_time + 5.0) return fail(stopped);
     if (turned() && phase_.lasted() >= p_.shake_time) phase_.enter(phase::sweep);
     return shaking_.tick(seen, relay_, p_.stroke);
   }
@@ -145,9 +148,7 @@ class swing_experiment {
     const double force = relay_.tick(seen, narrow ? 0.6 * p_.stroke : p_.stroke,
                                      hard ? (std::min)(p_.force, 1.5 * force_) : force_);
     if (turned() && phase_.lasted() >= p_.sweep_time) return conclude(force);
-    if (phase_.lasted() > p_.sweep_time + 5.0) {
-      return fail("it stopped to swing: let go of the device, or allow more force");
-    }
+    if (phase_.lasted() > p_.sweep_time + 5.0) return fail(stopped);
     if (seen.samples() % 3 == 0) {
       const int group = static_cast<int>(phase_.lasted() / p_.sweep_time * regression_.groups);
       book(seen, (std::min)(group, regression_.groups - 1));
