@@ -62,7 +62,7 @@ class step_finder {
   [[nodiscard]] double step() const noexcept { return has_step() ? least_ + blur_ : 0.0; }
   /// The width of the error of a position besides its step, from end to end [m].
   [[nodiscard]] double noise() const noexcept {
-    if (has_step()) return kernels::larger(largest_turn_ - 2.0 * least_, 0.0);
+    if (has_step()) return kernels::larger(largest_turn_ - 2.0 * (least_ + blur_), 0.0);
     return kernels::larger(largest_turn_, 7.2 * deviation());
   }
   /// The resolution by now [m], for use while the experiments run.
