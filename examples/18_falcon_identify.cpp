@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is your Falcon? One to two minutes an axis, and it says its own mass, damping, friction and steps, and the
+// What is your Falcon? A minute an axis, and it says its own mass, damping, friction and steps, and the
 // controller that may rest on them. Let go of the grip when it says so; Ctrl-C lets it go at once.
 //     18_falcon_identify [firmware.bin]
 //     18_falcon_identify --simulate     a simulated Falcon of 0.25 kg and 1 N·s/m
@@ -18,7 +18,7 @@ template <class Device>
 int identify(Device& grip) {
   const identification::identification_parameters p{.force = 3, .stroke = 8e-3, .workspace = 30e-3};
   std::printf(
-      "up to %.0f N, %.0f mm to either side, one to two minutes each along x, y, z: let go\n",
+      "up to %.0f N, %.0f mm to either side, a minute each along x, y, z: let go\n",
       p.force, 1e3 * p.stroke);
   const auto found = identification::identify<scene>(grip, p, [] { return stop.load(); });
   if (found.problem() != nullptr) return std::puts(found.problem()), 1;

@@ -92,7 +92,7 @@ TEST_CASE("an axis is identified: each bound on its side of the truth, and near 
   }
   CHECK(s.largest <= 3.0);
   CHECK(s.last == 0.0);
-  CHECK(s.seconds < 120.0);
+  CHECK(s.seconds < 60.0);
 }
 
 TEST_CASE("no more force than stated is ever commanded, nor any after the end",
@@ -255,6 +255,7 @@ TEST_CASE("an identification can be stopped, and refuses parameters out of their
                                                         {.workspace = 10e-3},
                                                         {.sweep_time = 0.1},
                                                         {.places = 1},
+                                                        {.friction_time = 1.0},
                                                         {.creep_cycles = 1}}) {
     CHECK(wrong.check());
     axis_identification refused(wrong);

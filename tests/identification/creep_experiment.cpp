@@ -35,7 +35,7 @@ axis_found crept(auto friction) {
   run(
       device, seen, it, [&] { return it.parked() || it.problem() != nullptr; }, 10000);
   REQUIRE(it.parked());
-  creep_experiment creep({}, motion_of_grip(), ramps(), it, seen.step());
+  creep_experiment creep({}, motion_of_grip(), ramps(), it, seen.step(), 20.0);
   CHECK(run(device, seen, creep) < 0.2 + 0.2);  // below break-away, beside the load
   REQUIRE(creep.done());
   CHECK(creep.problem() == nullptr);
@@ -68,9 +68,9 @@ TEST_CASE("friction that differs too much from place to place is refused before 
   uneven.begin(1, 0.0);
   for (double g = 0.0; g < 0.015; g += 0.5e-3) (void)uneven.book(g, 75e-6 * g, 1e-3);
   uneven.conclude(0.015, 0.25e-3, true, {.rate = 1e-6, .mass = 0.1, .damping = 0.3, .step = 10e-6});
-  const creep_experiment creep({}, motion_of_grip(), uneven, {}, 10e-6);
+  const creep_experiment creep({}, motion_of_grip(), uneven, {}, 10e-6, 20.0);
   CHECK(creep.done());
   CHECK(creep.problem() != nullptr);
-  const creep_experiment even({}, motion_of_grip(), ramps(), {}, 10e-6);  // the control
+  const creep_experiment even({}, motion_of_grip(), ramps(), {}, 10e-6, 20.0);  // the control
   CHECK_FALSE(even.done());
 }

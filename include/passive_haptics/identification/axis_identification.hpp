@@ -145,12 +145,14 @@ class axis_identification {
     return force;
   }
   void begin_break_away() noexcept {
+    friction_since_ = time_;
     break_away_.emplace(p_, swing_.found(), swing_.relay(), swing_.force());
     if (break_away_->done()) begin_again();
   }
   void begin_creep() noexcept {
     if (break_away_->problem() != nullptr) return begin_again();
-    creep_.emplace(p_, swing_.found(), break_away_->ramps(), break_away_->parked(), record_.step());
+    creep_.emplace(p_, swing_.found(), break_away_->ramps(), break_away_->parked(), record_.step(),
+                   p_.friction_time - (time_ - friction_since_));
     if (creep_->done()) begin_again();
   }
   /// Shakes it once more, to see whether it has changed meanwhile.
@@ -179,7 +181,7 @@ class axis_identification {
   shaken_relay shaking_{};
   const char* problem_ = nullptr;
   bool done_ = false, stopped_ = false;
-  double time_ = 0.0, again_since_ = 0.0;
+  double time_ = 0.0, friction_since_ = 0.0, again_since_ = 0.0;
 };
 
 }  // namespace identification

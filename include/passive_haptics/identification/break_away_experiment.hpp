@@ -2,20 +2,22 @@
 #pragma once
 // Second experiment: a force that grows slowly until the device slips, for break-away [N] and presliding p [m].
 //
-//     g(t) = R t on friction, R = c/(0.5 s)        x = C g until it slips, p ≤ C × the largest break-away force
+//     g(t) = R t on friction, R = c/(0.4 s)        x = C g until it slips, p ≤ C × the largest break-away force
 //
 // with the friction c [N] and the load w [N] of the swing; the command balances w all the time (Canudas de Wit and
 // Lischinsky, 1997, for a bristle). friction_ramp.hpp evaluates a ramp. At each of several places:
 //
 //   kick        a swing, up to a place within ±0.6 of the stroke, another one each time
 //   park        parking.hpp brings the device to rest there; then four times, alternating the way:
-//   condition   0.4 s of a force against the coming ramp, up to 0.8 of the least break-away and back to zero, which
-//               damps what still rings on friction's spring
+//   condition   0.2 to 0.3 s of a force against the coming ramp, up to 0.8 of the least break-away and back to zero,
+//               which damps what still rings on friction's spring, and lets ramps meet the rest at any phase
 //   rest        the position at rest is found
 //   push        g, until the device has gone 0.25 mm and two steps
 //   release     0 to 11 more ticks of the largest break-away force, so that friction stops it anywhere in a step
 //
-// A device that does not rest, or is pushed back, is parked anew where it is.
+// A device that does not rest, or is pushed back, is parked anew where it is. The ramps end after `places`, or after
+// 0.7 of friction_time, or after five places where more of them would tell nothing: friction is even, and the
+// bound of C is near C or near what the steps allow.
 
 #include <passive_haptics/identification/friction_ramp.hpp>
 #include <passive_haptics/identification/motion_regression.hpp>
@@ -53,6 +55,7 @@ class break_away_experiment {
   /// The force of the next tick [N], after a sample that has been recorded; 0 once it is done().
   double tick(const axis_record& seen) noexcept {
     phase_.lasts(seen.dt());
+    time_ += seen.dt();
     switch (phase_) {
       case phase::kick:
         return kick(seen);
@@ -109,6 +112,12 @@ class break_away_experiment {
     return x - std::floor(x);
   }
 
+  /// True if more ramps would tell nothing, for positions known to `step` [m].
+  [[nodiscard]] bool suffices(double step) const noexcept {
+    const double off = ramp_.compliance_at_most(step) - ramp_.compliance();
+    return ramp_.unevenness() < 0.08 &&
+           (off < 0.2 * ramp_.compliance() || off * ramp_.most() < 0.2 * step);
+  }
   double kick(const axis_record& seen) noexcept {
     const double share = golden(place_ + 1);  // places in phase with no gear or cable
     const double wanted = (1.2 * share - 0.6) * p_.stroke;
@@ -138,7 +147,7 @@ class break_away_experiment {
     return or_give_up(parking_.begin_again(seen));
   }
   double condition() noexcept {
-    constexpr double lasts = 0.4;  // [s]
+    const double lasts = 0.2 + 0.1 * golden(slips_);  // ramps meet what rings at any phase [s]
     const double peak = 0.8 * kernels::smaller(ramp_.least(), kinetic_friction(motion_));
     const double g =
         peak * kernels::larger(1.0 - std::abs(2.0 * phase_.lasted() / lasts - 1.0), 0.0);
@@ -158,9 +167,10 @@ class break_away_experiment {
     return parking_.balanced(0.0);
   }
   double push(const axis_record& seen) noexcept {
-    const double rate = motion_.friction.value / 0.5;
-    const double g = rate * phase_.lasted();
-    const double force = parking_.balanced(ramp_.way() * g);
+    const double rate = motion_.friction.value / 0.4;
+    const double force = parking_.balanced(ramp_.way() * rate * phase_.lasted());
+    const double late = motion_.latency * seen.dt();  // until it is held
+    const double g = rate * kernels::larger(phase_.lasted() - late, 0.0);
     if (kernels::magnitude(force) >= p_.force) {
       return give_up("dry friction: not found, it does not break away: allow more force");
     }
@@ -189,10 +199,11 @@ class break_away_experiment {
     const bool away = kernels::magnitude(seen.x()) > 1.5 * p_.stroke;
     if (away || phase_.lasted() > 1.5) return park_again(seen);
     if (still > 0.1) {
-      if (pushes_left_ > 0) {
+      const bool late = time_ > 0.7 * p_.friction_time;
+      if (pushes_left_ > 0 && !late) {
         way_ = -way_;
         phase_.enter(phase::condition);
-      } else if (++place_ < p_.places) {
+      } else if (++place_ < p_.places && !late && !(place_ >= 5 && suffices(seen.step()))) {
         kicked_from_ = relay_.sweeps();
         relay_.restart(seen.x());
         phase_.enter(phase::kick);
@@ -213,6 +224,7 @@ class break_away_experiment {
   const char* problem_ = nullptr;
   int kicked_from_ = 0, place_ = 0, pushes_left_ = 0;
   int way_ = 1, slips_ = 0, go_on_ = 0;  // go_on_ in ticks
+  double time_ = 0.0;
   bool after_slip_ = false;
 };
 

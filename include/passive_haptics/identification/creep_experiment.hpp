@@ -8,9 +8,10 @@
 //         0.95 (1 − 1.25 r) c         friction in motion, r being the share by which it varies    [N]
 //         the least break-away        force of any ramp                                           [N]
 //
-// with s falling in seven levels from 1 to 0.25, until the mean positions over some cycles at the beginning and at the
-// end agree to within 1.05 steps. ν is a quarter of the frequency 1/(2π √(m C)) of the mass m on a spring of friction's
-// compliance C, and at most 50 Hz.
+// with s falling in seven levels from 1 to 0.25, until the mean positions over some cycles at the beginning and over
+// each as many later ones agree to within 1.05 steps. ν is a quarter of the frequency 1/(2π √(m C)) of the mass m on a
+// spring of friction's compliance C, and at most 50 Hz. A level ends where it has crept, or after 12 s, or with the
+// time that is left; a lower one is not begun with less than 6 s.
 //
 // Dupont's friction creeps above 0.6 of the force at which it slips, by about 3.2 (s − 0.6)³ p [m] in a cycle. If that
 // is less than 1.6 steps over all cycles, the encoder cannot show it, and the untested share 0.6 is stated. If the
@@ -24,10 +25,13 @@ namespace identification {
 
 class creep_experiment {
  public:
-  /// Takes the results of the two other experiments; `step` is the resolution of the positions [m].
+  /// Takes the results of the two other experiments; `step` is the resolution of the positions [m]. It is to be over in
+  /// `lasts` [s]: what has not come back by then is taken to creep.
   creep_experiment(const identification_parameters& p, const motion_found& motion,
-                   const friction_ramp& ramps, const parking& parked, double step) noexcept
+                   const friction_ramp& ramps, const parking& parked, double step,
+                   double lasts) noexcept
       : p_(p),
+        left_(lasts),
         mass_(motion.mass.value),
         kinetic_(kinetic_friction(motion)),
         ramp_(ramps),
@@ -44,6 +48,7 @@ class creep_experiment {
   /// The force of the next tick [N], after a sample that has been recorded; 0 once it is done().
   double tick(const axis_record& seen) noexcept {
     phase_.lasts(seen.dt());
+    left_ -= seen.dt();
     if (phase_ == phase::cycle) return cycle(seen);
     if (phase_ == phase::park) return park(seen);
     return 0.0;
@@ -72,16 +77,18 @@ class creep_experiment {
  private:
   enum class phase : std::uint8_t { cycle, park, done };
   struct mean_of {
-    double sum = 0.0;
+    double sum = 0.0, lasted = 0.0;
     int count = 0;
-    void book(double x) noexcept {
+    void book(double x, double dt) noexcept {
       sum += x;
+      lasted += dt;
       ++count;
     }
     [[nodiscard]] double mean() const noexcept { return count > 0 ? sum / count : 0.0; }
   };
   static constexpr double pi = 3.14159265358979323846;
-  static constexpr double untold = 0.6;  // share of friction that is stated untested
+  static constexpr double least_time = 6.0;  // that a lower level has to come back for [s]
+  static constexpr double untold = 0.6;      // share of friction that is stated untested
   static constexpr std::array levels{1.0, 0.85, 0.72, 0.61, 0.52, 0.4, 0.25};
 
   double give_up(const char* why) noexcept {
@@ -93,30 +100,39 @@ class creep_experiment {
     const double softest = ramp_.compliance_at_most(step);  // [m/N]
     const double omega = 1.0 / std::sqrt(mass_ * softest);
     frequency_ = (std::min)(50.0, omega / (4.0 * 2.0 * pi));
+    edge_ = (std::max)(0.3, std::ceil(0.3 * frequency_) / frequency_);
+    end_ = (std::max)(
+        std::floor((std::min)({p_.creep_cycles / frequency_, 12.0, left_}) / edge_) * edge_,
+        4.0 * edge_);
+    cycles_ = static_cast<int>((end_ - 2.0 * edge_) * frequency_);
     begun_at_ = parking_.place();
     first_ = last_ = {};
     phase_.enter(phase::cycle);
+    const double telling = (std::min)(p_.creep_cycles / frequency_, least_time);
+    if (level_ > 0 && left_ < (std::max)(end_, telling)) phase_.enter(phase::done);
   }
   double cycle(const axis_record& seen) noexcept {
     const double peak = levels[static_cast<std::size_t>(level_)] * cap_;
     const double t = phase_.lasted();
-    const double edge = (std::max)(0.3, std::ceil(0.3 * frequency_) / frequency_);
-    const double end = std::clamp(p_.creep_cycles / frequency_, 6.0 * edge, 12.0);
-    cycles_ = static_cast<int>((end - 2.0 * edge) * frequency_);
     const double g = peak * (0.5 - 0.5 * std::cos(2.0 * pi * frequency_ * t));
-    if (t > edge && t <= 2.0 * edge) first_.book(seen.x());
-    if (t > end - edge) last_.book(seen.x());
+    if (t > edge_) (t <= 2.0 * edge_ ? first_ : last_).book(seen.x(), seen.dt());
     const bool gone = kernels::magnitude(seen.x() - begun_at_) > 0.3e-3 + 3.0 * seen.step();
-    if (gone || t > end) conclude_level(seen, gone);
+    if (gone) {
+      lower(seen, true);
+    } else if (last_.lasted > edge_ - seen.dt() / 2.0) {
+      if (kernels::magnitude(last_.mean() - first_.mean()) > 1.05 * seen.step() + 1e-7) {
+        lower(seen, false);
+      } else if (t > end_ - edge_ / 2.0) {
+        passed_ = level_;
+        phase_.enter(phase::done);
+      }
+      last_ = {};
+    }
     return parking_.balanced(g);
   }
-  void conclude_level(const axis_record& seen, bool gone) noexcept {
-    const double crept = kernels::magnitude(last_.mean() - first_.mean());
-    const bool creeps = gone || crept > 1.05 * seen.step() + 1e-7;
-    if (!creeps) {
-      passed_ = level_;
-      phase_.enter(phase::done);
-    } else if (++level_ >= static_cast<int>(levels.size())) {
+  /// Goes on with the next lower level, where the device is, or from rest if it has `gone`.
+  void lower(const axis_record& seen, bool gone) noexcept {
+    if (++level_ >= static_cast<int>(levels.size())) {
       phase_.enter(phase::done);
     } else if (gone) {
       parking_.begin_here(seen);
@@ -133,12 +149,14 @@ class creep_experiment {
   }
 
   identification_parameters p_;
+  double left_;  // of the time for it [s]
   double mass_, kinetic_;
   double cap_ = 0.0;  // G [N]
   friction_ramp ramp_;
   parking parking_;
   timed_phase<phase> phase_{phase::cycle};
   const char* problem_ = nullptr;
+  double edge_ = 0.0, end_ = 0.0;  // time of a mean, and of a level [s]
   double frequency_ = 0.0, begun_at_ = 0.0;
   int level_ = 0, passed_ = -1, cycles_ = 0;
   mean_of first_, last_;

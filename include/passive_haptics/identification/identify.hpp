@@ -7,7 +7,7 @@
 //     if (found.problem()) std::puts(found.problem());
 //     else std::cout << identification::composition_of(found);        // describe.hpp
 //
-// It takes about a minute for each axis. Meanwhile a soft damped spring keeps each other axis where it began. The
+// It takes at most a minute for each axis. Meanwhile a soft damped spring keeps each other axis where it began. The
 // last command is always a force of zero, also if it is stopped or has a problem, so hold the device then. In a loop of
 // your own call axis_identification::tick() instead.
 

@@ -17,8 +17,9 @@ struct identification_parameters {
       40e-3;  ///< distance from its start [m], beyond which the force is zero for good
   double sweep_time = 8.0;        ///< time of the swing for mass, damping, friction and latency [s]
   double shake_time = 6.0;        ///< time of the motion that shows what is wrong [s]
-  int places = 8;                 ///< number of places where it is pushed until it slips
-  int creep_cycles = 150;         ///< cycles of a force below break-away, at each level tried
+  double friction_time = 41.0;    ///< time of the ramps and of the cycles below break-away [s]
+  int places = 8;                 ///< most places where it is pushed until it slips
+  int creep_cycles = 150;         ///< most cycles of a force below break-away, at each level tried
   identification::trust trust{};  ///< margins from the estimates to the bounds
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -31,6 +32,8 @@ struct identification_parameters {
       return {"sweep_time", sweep_time, "1 to 600 s"};
     if (!(shake_time >= 1.0 && shake_time <= 600.0))
       return {"shake_time", shake_time, "1 to 600 s"};
+    if (!(friction_time >= 10.0 && friction_time <= 600.0))
+      return {"friction_time", friction_time, "10 to 600 s"};
     if (places < 2 || places > 16) return {"places", static_cast<double>(places), "2 to 16"};
     if (creep_cycles < 10 || creep_cycles > 10000) {
       return {"creep_cycles", static_cast<double>(creep_cycles), "10 to 10000"};
