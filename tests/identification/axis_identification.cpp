@@ -176,6 +176,11 @@ TEST_CASE("a device that runs away is let go, with a sentence", "[identification
   const auto s = identified(sim::device<d1>(pulled));
   CHECK(s.says("left the workspace"));
   CHECK(s.last == 0.0);
+  const auto later =
+      identified(rubbing<sim::slider_and_spring>(grip, {}, rubs), {},
+                 [](int n, auto& sample) { sample.position += n > 20000 ? 1.0 : 0.0; });
+  CHECK(later.says("it changed while it was measured"));
+  CHECK(later.last == 0.0);
 }
 
 TEST_CASE("samples that are no numbers give no force, few are borne, many end it",

@@ -82,6 +82,25 @@ TEST_CASE("a mode that spoils the swing is refused by name", "[identification]")
   CHECK(std::abs(found.wrong.of(disturbance::mode).size - 25.0) < 1.5);
 }
 
+TEST_CASE("a mode slower than half a sweep is refused, although the swing comes about",
+          "[identification]") {
+  const auto with = [](double hz) {
+    return identified(sim::compliant_device<d1>({.mass = 0.2,
+                                                 .share = 0.76,
+                                                 .mode = hz,
+                                                 .damping = 0.12,
+                                                 .friction = 0.02,
+                                                 .quantum = 20e-6}));
+  };
+  const auto slow = with(17.6);
+  REQUIRE(slow.problem != nullptr);
+  CHECK(std::string(slow.problem).find("rings") != std::string::npos);
+  CHECK(slow.damping == 0.0);
+  const auto fast = with(150.0);  // the control
+  CHECK(fast.problem == nullptr);
+  CHECK(fast.damping <= 0.12);
+}
+
 TEST_CASE("a hand that holds lightly is refused by name", "[identification]") {
   using held = sim::device<d1, sim::impedance_hand<d1>, sim::slider_and_spring>;
   const auto found =

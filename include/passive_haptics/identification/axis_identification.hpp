@@ -47,9 +47,10 @@ class axis_identification {
     if (!kernels::is_finite(position) || !passive_haptics::detail::positive(dt)) return lost();
     record_.book(position, dt, break_away_ && break_away_->at_rest());
     if (kernels::magnitude(record_.x()) > p_.workspace) {
-      return fail(
-          "it left the workspace: nothing may push it, or state a larger workspace or a shorter "
-          "stroke");
+      // Where it has swung within the workspace before, the load is not what it was.
+      return fail(break_away_ ? refusal_of(disturbance::drift)
+                              : "it left the workspace: nothing may push it, or state a larger "
+                                "workspace or a shorter stroke");
     }
     time_ += dt;
     const bool keeps = keeps_tick();
@@ -95,7 +96,8 @@ class axis_identification {
     disturbance_search search(kept_.ticks(), swing_.found().latency, record_.step(), p_.stroke,
                               swing_.force());
     found.wrong = search.conclude();
-    if (found.problem != nullptr && found.wrong.of(disturbance::mode).found) {
+    const suspicion& mode = found.wrong.of(disturbance::mode);
+    if (mode.found && (found.problem != nullptr || mode.size < lowest_mode)) {
       found.problem =
           "the transmission between motor and handle rings too low: stiffen it, or take the handle "
           "off";
@@ -171,6 +173,8 @@ class axis_identification {
   }
 
   static constexpr double lasts_again = 2.5;  // [s]
+  // Half a sweep takes some 25 ms, and of a mode with a longer period it sees a part, which looks like damping [Hz].
+  static constexpr double lowest_mode = 40.0;
   identification_parameters p_;
   axis_record record_;
   swing_experiment swing_;
