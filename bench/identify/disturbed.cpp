@@ -27,6 +27,34 @@ bool disturbed::is(disturbance what) const noexcept {
   return false;
 }
 
+void disturbed::remedy(disturbance what) noexcept {
+  switch (what) {
+    case disturbance::hand:
+      has.grip = has.grip_damping = has.grip_mass = 0.0;
+      break;
+    case disturbance::mode:
+      has.share = 1.0;
+      has.mode = 0.0;
+      break;
+    case disturbance::backlash:
+      has.share = 1.0;
+      has.gap = 0.0;
+      break;
+    case disturbance::fraction:
+      has.fraction = 0.0;
+      break;
+    case disturbance::filter:
+      has.lag = 0.0;
+      break;
+    case disturbance::cogging:
+      has.cogging = 0.0;
+      break;
+    case disturbance::drift:
+      has.warms = has.load_drifts = 0.0;
+      break;
+  }
+}
+
 disturbed draw_disturbed(std::uint64_t seed, double chance) {
   disturbed d{.rigid = draw(seed)};
   subject& s = d.rigid;
@@ -149,6 +177,35 @@ disturbed_verdict identified(const disturbed& truth) {
   double force = 0.0;
   while (!of.done()) force = of.tick(device.exchange(force), ph::seconds{1e-3});
   return {truth, of.result(), of.time()};
+}
+
+mended_verdict identified_until_mended(const disturbed& truth) {
+  mended_verdict all{identified(truth)};
+  disturbed_verdict now = all;
+  while (true) {
+    ++all.sessions;
+    all.longest = std::max(all.longest, now.seconds);
+    if (!now.refused()) {
+      ++all.stated;
+      all.mass_above += now.mass() ? 0 : 1;
+      all.damping_above += now.damping() ? 0 : 1;
+      all.friction_above += now.friction() ? 0 : 1;
+    }
+    disturbed next = now.truth;
+    bool mended = false;
+    for (std::size_t i = 0; i < identification::disturbances; ++i) {
+      const auto kind = static_cast<disturbance>(i);
+      if (!now.truth.is(kind) || !now.names(kind)) continue;
+      all.found_in_any[i] = true;
+      if (!now.refused()) continue;
+      next.remedy(kind);
+      mended = true;
+    }
+    if (!mended) break;
+    now = identified(next);
+  }
+  all.ends_refused = now.refused();
+  return all;
 }
 
 }  // namespace identify

@@ -39,6 +39,8 @@ struct disturbed {
   wrongs has{};
 
   [[nodiscard]] bool is(disturbance what) const noexcept;
+  /// Does what the sentence that refuses a device for `what` asks for.
+  void remedy(disturbance what) noexcept;
   /// What moves rigidly with the encoder [kg].
   [[nodiscard]] double rotor() const noexcept { return has.share * rigid.mass; }
 };
@@ -101,5 +103,18 @@ struct disturbed_verdict {
   }
 };
 [[nodiscard]] disturbed_verdict identified(const disturbed& truth);
+
+/// The first session of a device, and what comes of those that follow: while it is refused for something that is wrong
+/// with it, that is mended, and it is identified again. What is named in none of them is never found.
+struct mended_verdict : disturbed_verdict {
+  std::array<bool, identification::disturbances> found_in_any{};
+  int sessions = 0;
+  double longest = 0.0;       ///< session [s]
+  bool ends_refused = false;  ///< for nothing that is wrong with it
+  int stated = 0;             ///< sessions that ended with bounds
+  int mass_above = 0, damping_above = 0,
+      friction_above = 0;  ///< of these, with a bound above the truth
+};
+[[nodiscard]] mended_verdict identified_until_mended(const disturbed& truth);
 
 }  // namespace identify

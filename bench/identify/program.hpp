@@ -50,7 +50,7 @@ struct settings {
 /// A device of the study as a row of its table.
 [[nodiscard]] ex::record record_of(const verdict& v);
 
-[[nodiscard]] ex::record record_of(const disturbed_verdict& v);
+[[nodiscard]] ex::record record_of(const mended_verdict& v);
 
 /// The study, into a folder: a row for each device and a summary.
 [[nodiscard]] int run_study(const settings& chosen, const std::atomic<bool>& stop);
