@@ -3,6 +3,7 @@
 
 #include "hung.hpp"
 #include <passive_haptics/base/decimal.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/identification/device_file.hpp>
 #include <passive_haptics/simulation/presets.hpp>
 
@@ -54,7 +55,7 @@ int show_file(const std::string& file, const std::string& json) {
 int identify_simulated(const settings& chosen, const std::atomic<bool>& stop) {
   const auto& preset = *preset_of(chosen.device);
   std::cout << preset.name << ", simulated: up to " << chosen.how.force << " N, "
-            << 1e3 * chosen.how.stroke << " mm to either side of where it is, one to two minutes\n";
+            << 1e3 * chosen.how.stroke << " mm to either side of where it is, a minute\n";
   const auto work = [&](auto device) {
     const auto found =
         identification::identify<line>(device, chosen.how, [&] { return stop.load(); });
@@ -73,8 +74,61 @@ int identify_simulated(const settings& chosen, const std::atomic<bool>& stop) {
   return work(sim::device<line>(preset.parameters<line>()));
 }
 
-/// The simulated device does by itself what it is asked for, within 1.5 s.
+/// Numbers between commas, of as many lists between slashes.
+std::vector<std::vector<double>> a_pose(const std::string& text) {
+  std::vector<std::vector<double>> lists{{}};
+  std::string one;
+  for (const char c : text + ',') {
+    if (c != ',' && c != '/') {
+      one += c;
+      continue;
+    }
+    const auto value = ph::to_decimal(one);
+    if (!value || !ph::kernels::is_finite(*value)) {
+      ex::complain("--pose " + text + ": give numbers, as in 0,-1 or 0,-1/0.1,0.2/0,0.15");
+    }
+    lists.back().push_back(*value);
+    one.clear();
+    if (c == '/') lists.emplace_back();
+  }
+  const std::size_t axes = lists.front().size();
+  bool fits = axes <= 3 && (lists.size() == 1 || lists.size() == 1 + axes);
+  for (const auto& list : lists) fits = fits && list.size() == axes;
+  if (!fits) {
+    ex::complain("--pose " + text +
+                 ": give where the mass pulls, for 1 to 3 axes, and no row of Jᵀ or one for each");
+  }
+  return lists;
+}
+template <int Dof>
+std::vector<identification::weighed_pose<Dof>> poses_of(const settings& chosen) {
+  std::vector<identification::weighed_pose<Dof>> all;
+  for (const auto& lists : chosen.poses) {
+    identification::weighed_pose<Dof> pose;
+    std::copy(lists[0].begin(), lists[0].end(), pose.pulls.begin());
+    for (std::size_t i = 1; i < lists.size(); ++i) {
+      std::copy(lists[i].begin(), lists[i].end(), pose.rows[i - 1].begin());
+    }
+    all.push_back(pose);
+  }
+  return all;
+}
+
+/// Adds the gains to the description in that file.
+void keep_gains(const std::string& json, const auto& found) {
+  auto kept = identification::load_device(json);
+  std::string fault = kept.fault;
+  if (fault.empty()) {
+    fault = identification::save_device(json, identification::weighed(kept.of, found));
+  }
+  if (!fault.empty()) throw std::runtime_error(fault);
+}
+
+/// The simulated device does by itself what it is asked for, within 1.5 s. Its motors have one gain, so a linkage before
+/// them changes nothing.
+template <class Space>
 int weigh_simulated(const settings& chosen, const std::atomic<bool>& stop) {
+  constexpr int dof = Space::dof;
   const auto& preset = *preset_of(chosen.device);
   std::cout << preset.name << ", simulated: up to " << chosen.how.force << " N; it has a gain of "
             << chosen.gain << '\n';
@@ -83,34 +137,45 @@ int weigh_simulated(const settings& chosen, const std::atomic<bool>& stop) {
   if (const auto fault = p.check()) {
     ex::complain(std::string("weighing: ") + fault.parameter + " must be " + fault.remedy);
   }
-  auto truth = preset.parameters<line>();
-  truth.gain = chosen.gain;
+  const auto poses = poses_of<dof>(chosen);
+  auto truth = preset.parameters<Space>();
+  truth.gain = sim::every_axis<Space>(chosen.gain);
   const auto work = [&](auto device) {
-    int asked = 0, waited = 0;
+    std::size_t asked = 0;
+    int waited = 0;
     const auto ready = [&](const char* sentence) {
       if (waited == 0) {
         std::cout << sentence << '\n';
-        const double mass = asked == 1 ? chosen.hung : 0.0;
-        device.hang(mass, {.weight = {-9.80665 * mass}});
+        const double mass = asked % 3 == 1 ? chosen.hung : 0.0;
+        auto weight = poses[asked / 3].pulls;
+        for (double& w : weight) w *= 9.80665 * mass;
+        device.hang(mass, {.weight = weight});
       }
       if (++waited < (asked == 0 ? 2 : 1500)) return false;
       waited = 0;
       ++asked;
       return true;
     };
-    const auto found =
-        identification::weigh<line>(device, identification::weigh_in<1>(p, {{.pulls = {-1.0}}}),
-                                    ready, [&] { return stop.load(); });
+    const auto found = identification::weigh<Space>(device, identification::weigh_in<dof>(p, poses),
+                                                    ready, [&] { return stop.load(); });
     if (stop) throw ex::interrupted("stopped: the force is zero");
     std::cout << identification::table_of(found);
+    if (found.problem == nullptr && !chosen.json.empty()) keep_gains(chosen.json, found);
     return found.problem == nullptr ? 0 : 1;
   };
   if (preset.friction > 0.0 && chosen.presliding > 0.0) {
     truth.friction = 0.0;
     return work(
-        hung_device<line, sim::slider_and_spring>(truth, preset.friction_of(chosen.presliding)));
+        hung_device<Space, sim::slider_and_spring>(truth, preset.friction_of(chosen.presliding)));
   }
-  return work(hung_device<line>(truth));
+  return work(hung_device<Space>(truth));
+}
+int weigh_simulated(settings chosen, const std::atomic<bool>& stop) {
+  if (chosen.poses.empty()) chosen.poses = {{{-1.0}}};
+  const std::size_t axes = chosen.poses.front().front().size();
+  if (axes == 1) return weigh_simulated<line>(chosen, stop);
+  if (axes == 2) return weigh_simulated<ph::space<double, 2>>(chosen, stop);
+  return weigh_simulated<ph::space<double, 3>>(chosen, stop);
 }
 
 }  // namespace
@@ -137,8 +202,19 @@ settings parse(const std::vector<std::string>& arguments) {
                   chosen.hung),
        a_quantity("--gain", "SHARE", "that simulated motors deliver (default: 1)", 1.0,
                   chosen.gain),
+       {"--pose PULL[/ROWS]",
+        "where the mass pulls by axis, and the rows of Jᵀ of a linkage; again for each pose",
+        [&](const std::string& text) {
+          chosen.poses.push_back(a_pose(text));
+          if (chosen.poses.back().front().size() != chosen.poses.front().front().size()) {
+            ex::complain("--pose " + text + ": give as many axes as in the poses before");
+          }
+        }},
        ex::a_text("--write FILE", "keep what was found", chosen.file),
-       ex::a_text("--json FILE", "write the description that a composition takes", chosen.json),
+       ex::a_text("--json FILE",
+                  "write the description that a composition takes; with --weigh-in, add the gains "
+                  "to it",
+                  chosen.json),
        ex::a_text("--read FILE", "show what was kept, and measure nothing", chosen.read),
        ex::a_number("--study", "devices drawn at random: how often do the bounds hold?",
                     chosen.study),

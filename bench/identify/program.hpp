@@ -15,6 +15,8 @@ struct settings {
   double presliding = 15e-6;     ///< of its friction [m]
   double hung = 0.0;             ///< mass to weigh by [kg]; 0: it is not weighed
   double gain = 1.0;             ///< of the simulated motors
+  /// Of each pose of the weighing: where the mass pulls, and then the rows of Jᵀ where motors are behind a linkage.
+  std::vector<std::vector<std::vector<double>>> poses{};
   std::string file;              ///< to write what was found; empty: none
   std::string json;              ///< to write the description; empty: none
   std::string read;              ///< a file to read instead

@@ -82,6 +82,29 @@ TEST_CASE("the identify program weighs a mass, and says which one would do", "[i
   CHECK(run_quietly({"--weigh-in", "much"}).code == 2);
 }
 
+TEST_CASE("the identify program weighs at poses of a linkage, and keeps the gains with the device",
+          "[identify]") {
+  const scratch_folder out;
+  const std::string file = out / "touch.json";
+  const std::vector<std::string> linkage{"--weigh-in", "0.2",
+                                         "--gain",     "0.9",
+                                         "--pose",     "0,-1/-0.2,0.1/-0.1,0.15",
+                                         "--pose",     "0,-1/0.1,0.3/0.05,0.2",
+                                         "--json",     file};
+  CHECK(run_quietly(linkage).code == 1);  // there is no description yet
+  CHECK(run_quietly({"--device", "Touch", "--json", file}).code == 0);
+  CHECK(run_quietly(linkage).code == 0);
+  const auto kept = passive_haptics::identification::load_device(file);
+  CHECK(kept.fault.empty());
+  REQUIRE(kept.of.gains.size() == 2);
+  for (const double g : kept.of.gains) CHECK(std::abs(g - 0.9) < kept.of.gain_tolerance);
+  CHECK(kept.of.gain_tolerance < 0.05);
+  for (const char* pose : {"up", "0,-1/0.1", "0,0,0,1", "0,-1/1,0"}) {
+    CHECK(run_quietly({"--weigh-in", "0.2", "--pose", pose}).code == 2);
+  }
+  CHECK(run_quietly({"--weigh-in", "0.2", "--pose", "1", "--pose", "0,1"}).code == 2);
+}
+
 TEST_CASE("the identify program says what it does not understand", "[identify]") {
   CHECK(run_quietly({"--device", "Nobody"}).complaint.find("Touch") != std::string::npos);
   CHECK(run_quietly({"--force", "many"}).code == 2);

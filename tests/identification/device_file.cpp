@@ -3,6 +3,7 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 #include <passive_haptics/compositions.hpp>
+#include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/identification/device_file.hpp>
 
 #include <cstring>
@@ -49,7 +50,8 @@ bool same(const device_description& a, const device_description& b) {
   detail::for_each_entry(a, into(of_a), flags(of_a));
   detail::for_each_entry(b, into(of_b), flags(of_b));
   return a.name == b.name && a.device.index() == b.device.index() && of_a.size() == of_b.size() &&
-         std::memcmp(of_a.data(), of_b.data(), of_a.size() * sizeof(double)) == 0;
+         std::memcmp(of_a.data(), of_b.data(), of_a.size() * sizeof(double)) == 0 &&
+         a.gains == b.gains;
 }
 std::string with(const std::string& from, const std::string& to) {
   std::string text = device_text({"grip", grip, 5.0});
@@ -114,6 +116,8 @@ TEST_CASE("a device that is written is read back to the bit", "[device_file]") {
                                   .rotary = n % 7 == 0,
                                   .top_speed = n % 3 == 0 ? number() : 0.0};
     }
+    for (int i = 0; i < n % 7; ++i) d.gains.push_back(number());
+    if (n % 7 > 2) d.gain_tolerance = std::uniform_real_distribution<double>(0.0, 1.0)(random);
     const auto loaded = read_text(device_text(d));
     INFO(device_text(d) << loaded.fault);
     REQUIRE(loaded.fault.empty());
@@ -161,7 +165,9 @@ TEST_CASE("what is wrong is refused with its line, what stands there, and what t
   CHECK(refused(with("0.05", "1e999")).find("it.json:6: \"damping\": 1e999: a finite") == 0);
   CHECK(refused(with("0.05", "\"0.05\"")).find("it.json:6: \"damping\": \"0.05\": a finite") == 0);
   CHECK(refused(with("0.05", "[0.05]")) ==
-        "it.json:6: \"damping\": a number, a text, true or false is wanted");
+        "it.json:6: \"damping\": 0.05: a finite number is wanted; what is not known, or has no "
+        "limit, "
+        "is left out");
   CHECK(refused(with("0.05", "-0.05")) ==
         "it.json:6: \"damping\" is -0.05: wanted is finite and ≥ 0 N·s/m; identify finds it");
   CHECK(refused(with("\"latency\": 1", "\"latency\": 0.5")) ==
@@ -185,6 +191,57 @@ TEST_CASE("what is wrong is refused with its line, what stands there, and what t
   CHECK(refused(with("5\n}", "5,\n}")) == "it.json:17: '\"' is wanted before a key");
   CHECK(refused(with("}", "} x")) == "it.json:17: nothing may follow the last '}'");
   CHECK(refused(with("}", "")).find("it.json:18: the file ends, and '}' is wanted") == 0);
+}
+
+TEST_CASE("gains that are none are refused with their line, and what to write", "[device_file]") {
+  const auto with_gains = [](const std::string& more) {
+    return with("\"hand_force\": 5", "\"hand_force\": 5,\n  " + more);
+  };
+  const auto good = read_text(with_gains("\"gains\": [ 0.93,\n 1.02 ], \"gain_tolerance\": 0.01"));
+  CHECK(good.fault.empty());
+  CHECK(good.of.gains == std::vector{0.93, 1.02});
+  CHECK(good.of.gain_tolerance == 0.01);
+  for (const char* list : {"0.93", "\"0.93\"", "[]", "[0.93,]", "[,0.93]", "[0.93 1]", "[nan]",
+                           "[1e999]", "[[0.93]]", "[true]"}) {
+    CAPTURE(list);
+    CHECK(refused(with_gains("\"gains\": " + std::string(list))).find("it.json:17: ") == 0);
+  }
+  CHECK(refused(with_gains("\"gains\": [0.93")).find("']' is wanted") != std::string::npos);
+  CHECK(refused(with_gains("\"gains\": [0.93, -1]")) ==
+        "it.json:17: \"gains\" is -1: wanted is finite and > 0; identify finds it");
+  CHECK(refused(with_gains("\"gains\": [1, 1, 1, 1, 1, 1, 1]")).find("up to 6") !=
+        std::string::npos);
+  CHECK(refused(with_gains("\"gains\": [1],\n  \"gain_tolerance\": 1")).find("it.json:18: ") == 0);
+  CHECK(refused(with_gains("\"gain_tolerance\": 0.01")).find("without \"gains\"") !=
+        std::string::npos);
+  CHECK(save_device("none.json", {"grip", grip, 5.0, {0.0}, 0.0}).find("because gains is 0") !=
+        std::string::npos);
+}
+
+TEST_CASE("what is composed behind gains states less, by the ports that it is proved for",
+          "[device_file]") {
+  using d1 = ph::space<double, 1>;
+  using d2 = ph::space<double, 2>;
+  const auto one = behind_gains<d1>({"grip", grip, 5.0, {0.9}, 0.02});
+  REQUIRE(one.fault.empty());
+  const auto& d = std::get<ph::encoder_device>(one.of.device);
+  CHECK(d.mass == grip.mass / 1.02);
+  CHECK(d.damping == grip.damping / 1.02);
+  CHECK(d.friction == grip.friction / 1.02);
+  CHECK(d.presliding == grip.presliding);
+  CHECK(one.of.hand_force == 5.0 / 0.98);
+  CHECK_FALSE(ph::make_touch<d1, ph::half_space<d1>, ph::late_loop_limits<1>>(
+                  d, ph::known_hand{.force = one.of.hand_force})
+                  .check());
+  const auto two = behind_gains<d2>({"knob", knob, 0.15, {0.9, 1.0}, 0.02});
+  REQUIRE(two.fault.empty());
+  CHECK(std::get<ph::exact_device>(two.of.device).damping == knob.damping / (1.02 * 1.02));
+  CHECK(two.of.hand_force == 0.0);
+  CHECK(behind_gains<d2>({"grip", grip, 5.0, {0.9, 1.0}, 0.02}).fault.find("on steps") !=
+        std::string::npos);
+  CHECK(behind_gains<d2>({"grip", grip, 5.0, {0.9, 1.0}, 0.0}).fault.empty());  // the controls
+  CHECK(behind_gains<d2>({"grip", grip, 5.0}).fault.empty());
+  CHECK_FALSE(behind_gains<d2>({"knob", knob, 0.15, {0.9}, 0.02}).fault.empty());
 }
 
 TEST_CASE("no cut of a file is taken for the whole", "[device_file]") {

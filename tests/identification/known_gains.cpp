@@ -4,6 +4,8 @@
 #include <passive_haptics/device/eigen_space.hpp>
 #include <passive_haptics/identification/known_gains.hpp>
 #include <passive_haptics/passive_haptics.hpp>
+#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/friction.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
 #include <cmath>
@@ -120,4 +122,54 @@ TEST_CASE("known_gains divides the commands, reports what may have been held, an
   }
   identification::known_gains<d2, moved_device> wide(device, {1.0, 1.0}, 1.0);
   CHECK_FALSE(wide.exchange({1.0, 1.0}).valid);
+}
+
+TEST_CASE(
+    "a gain on one axis is a device and a hand divided by it, in newtons commanded, on encoders as "
+    "well",
+    "[identification][known_gains]") {
+  using d1 = ph::space<double, 1>;
+  namespace sim = ph::simulation;
+  using held = sim::device<d1, sim::impedance_hand<d1>, sim::slider_and_spring>;
+  // Both are driven by the same composition. Their motions differ by rounding, unless something does not scale.
+  const auto farthest = [](double g, bool friction_too) {
+    const double c = friction_too ? g : 1.0;
+    held truth(
+        {.mass = 0.1, .damping = 0.3, .quantum = 20e-6, .load = 0.1, .gain = g, .latency = 1},
+        {.stiffness = 200.0, .damping = 2.0, .own_mass = 0.05, .target = -4e-3},
+        {.level = {0.2}, .presliding = {15e-6}});
+    held divided(
+        {.mass = 0.1 / g, .damping = 0.3 / g, .quantum = 20e-6, .load = 0.1 / g, .latency = 1},
+        {.stiffness = 200.0 / g, .damping = 2.0 / g, .own_mass = 0.05 / g, .target = -4e-3},
+        {.level = {0.2 / c}, .presliding = {15e-6}});
+    auto a = ph::make_touch<d1, ph::half_space<d1>, ph::late_loop_limits<1>>(
+        identification::in_commands(ph::encoder_device{.mass = 0.1,
+                                                       .damping = 0.2,
+                                                       .friction = 0.15,
+                                                       .presliding = 20e-6,
+                                                       .quantum = 20e-6,
+                                                       .force_limit = 5.0,
+                                                       .longest_tick = 1.1e-3,
+                                                       .latency = 1},
+                                    0.2),
+        ph::known_hand{.force = 5.0});
+    REQUIRE_FALSE(a.check());
+    auto b = a;
+    double far = 0.0, f = 0.0, h = 0.0;
+    for (int n = 0; n < 3000; ++n) {
+      if (n % 30 == 0) {
+        a.update({.point = 0.0, .normal = 1.0, .stiffness = 400.0});
+        b.update({.point = 0.0, .normal = 1.0, .stiffness = 400.0});
+      }
+      f = double(a.tick(truth.exchange(f)).force);
+      h = double(b.tick(divided.exchange(h)).force);
+      far = std::max(far, std::abs(truth.position() - divided.position()));
+    }
+    CHECK(f > 0.01);
+    return far;
+  };
+  for (const double g : {0.8, 1.2}) {
+    CHECK(farthest(g, true) < 1e-9);
+    CHECK(farthest(g, false) > 1e-6);  // the control: friction that is not divided
+  }
 }

@@ -14,14 +14,19 @@
 //   const auto loaded = load_device("grip.json");          // loaded.fault is empty, or says what to mend
 //   std::visit([](const auto& device) { return ph::make_touch<scene>(device, hand); }, loaded.of.device)
 //
-// The file is one object of numbers, texts and booleans, with the names and units of described_device.hpp, in any order.
-// A key that is left out has its default value. A key that is unknown or repeated, another version or a value out of
-// range is refused with its line. Numbers have the fewest digits from which the same double is read back.
+// A device that was weighed has its gains in it, "gains": [0.93, 1.02] and "gain_tolerance": 0.008. Commands go through
+// gains_of<scene>(loaded.of, device) then, and what is composed rests on behind_gains(loaded.of).
+//
+// The file is one object of numbers, texts, booleans and that list, with the names and units of described_device.hpp, in
+// any order. A key that is left out has its default value. A key that is unknown or repeated, another version or a value
+// out of range is refused with its line. Numbers have the fewest digits from which the same double is read back.
 
 #include <passive_haptics/base/decimal.hpp>
 #include <passive_haptics/identification/axis_found.hpp>
 #include <passive_haptics/identification/device_facts.hpp>
+#include <passive_haptics/identification/known_gains.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
@@ -43,6 +48,9 @@ struct device_description {
   std::string name;
   std::variant<exact_device, encoder_device> device{};
   double hand_force = 0.0;  ///< known_hand::force [N]; 0: it is not stated
+  std::vector<double>
+      gains{};  ///< newtons delivered for each one commanded, by axis; empty: it was not weighed
+  double gain_tolerance = 0.0;  ///< the share by which a gain may differ from that, in [0, 1)
 };
 
 /// `of` is valid if `fault` is empty; otherwise `fault` is a sentence with the line, its content and the remedy.
@@ -80,6 +88,23 @@ void for_each_entry(Description& d, Number number, Flag flag) {
       },
       d.device);
   number("hand_force", d.hand_force);
+  number("gain_tolerance", d.gain_tolerance);
+}
+[[nodiscard]] inline parameter_fault fault_of_gains(const device_description& d) noexcept {
+  for (const double g : d.gains) {
+    if (!passive_haptics::detail::positive(g)) return {"gains", g, "finite and > 0"};
+  }
+  if (d.gains.size() > 6) {
+    return {"gains", static_cast<double>(d.gains.size()), "one for each axis, up to 6"};
+  }
+  if (!(d.gain_tolerance >= 0.0 && d.gain_tolerance < 1.0)) {
+    return {"gain_tolerance", d.gain_tolerance, "in [0, 1)"};
+  }
+  if (d.gain_tolerance > 0.0 && d.gains.empty()) {
+    return {"gain_tolerance", d.gain_tolerance,
+            "0 without \"gains\": state them, 1 where none is known"};
+  }
+  return {};
 }
 
 [[nodiscard]] inline std::string shortest(double x) {
@@ -100,7 +125,7 @@ void for_each_entry(Description& d, Number number, Flag flag) {
 struct device_entry {
   std::string key, value;
   int line = 0;
-  bool is_text = false;
+  bool is_text = false, is_list = false;
 };
 
 /// Reads the object and keeps the first fault.
@@ -139,7 +164,7 @@ class device_reader {
   void number(std::string_view key, double& value) {
     const auto* e = take(key);
     if (e == nullptr) return;
-    const auto read = e->is_text ? std::nullopt : to_decimal(e->value);
+    const auto read = e->is_text || e->is_list ? std::nullopt : to_decimal(e->value);
     if (!read || !kernels::is_finite(*read)) {
       return refuse(e->line, shown(*e) +
                                  ": a finite number is wanted; what is not known, or has no "
@@ -154,6 +179,26 @@ class device_reader {
       return refuse(line_of(key), in_quotes(key) + ": a whole number is wanted");
     }
     value = static_cast<int>(read);
+  }
+  void numbers(std::string_view key, std::vector<double>& values) {
+    const auto* e = take(key);
+    if (e == nullptr) return;
+    for (std::string_view left = e->value; e->is_list && !left.empty();) {
+      const auto end = (std::min)(left.find(','), left.size());
+      auto one = left.substr(0, end);
+      while (!one.empty() && one.front() == ' ') one.remove_prefix(1);
+      while (!one.empty() && one.back() == ' ') one.remove_suffix(1);
+      const auto read = to_decimal(one);
+      if (!read || !kernels::is_finite(*read) || end + 1 == left.size()) {
+        values.clear();
+        break;
+      }
+      values.push_back(*read);
+      left.remove_prefix((std::min)(end + 1, left.size()));
+    }
+    if (values.empty()) {
+      refuse(e->line, shown(*e) + ": finite numbers are wanted, as in [0.93, 1.02]");
+    }
   }
   void flag(std::string_view key, bool& value) {
     const auto* e = take(key);
@@ -231,8 +276,16 @@ class device_reader {
       e.line = line_;
       expect(':', "after a key");
       e.is_text = comes('"');
+      e.is_list = comes('[');
       if (e.is_text) {
         e.value = string("");
+      } else if (e.is_list) {
+        next();
+        while (!text_.empty() && text_.front() != ']' && text_.front() != '}') {
+          const char c = next();
+          e.value += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
+        }
+        expect(']', "after the last number of a list");
       } else {
         while (!text_.empty() &&
                std::string_view(",}{[] \t\r\n\":").find(text_.front()) == text_.npos)
@@ -241,7 +294,7 @@ class device_reader {
       for (const auto& other : entries_) {
         if (other.key == e.key) refuse(e.line, in_quotes(e.key) + ": it stands there twice");
       }
-      if (!e.is_text && e.value.empty()) {
+      if (!e.is_text && !e.is_list && e.value.empty()) {
         refuse(e.line, in_quotes(e.key) + ": a number, a text, true or false is wanted");
       }
       entries_.push_back(std::move(e));
@@ -276,12 +329,16 @@ class device_reader {
   detail::for_each_entry(
       of,
       [&](const std::string_view key, double x) {  // no number, or the default: left out
-        const bool zero = key == "top_speed" || key == "winding_time" || key == "hand_force";
+        const bool zero = key == "top_speed" || key == "winding_time" || key == "hand_force" ||
+                          key == "gain_tolerance";
         if (kernels::is_finite(x) && !(zero && x == 0.0)) {
           line(std::string(key).c_str(), detail::shortest(x));
         }
       },
       [&](const char* key, bool yes) { line(key, yes ? "true" : "false"); });
+  std::string gains;
+  for (const double g : of.gains) gains += (gains.empty() ? "" : ", ") + detail::shortest(g);
+  if (!gains.empty()) line("gains", '[' + gains + ']');
   return text + "\n}\n";
 }
 
@@ -309,11 +366,13 @@ class device_reader {
   detail::for_each_entry(
       loaded.of, [&](const char* key, auto& x) { file.number(key, x); },
       [&](const char* key, bool& yes) { file.flag(key, yes); });
+  file.numbers("gains", loaded.of.gains);
   file.nothing_unknown(kind);
   auto wrong = std::visit([](const auto& d) { return d.check(); }, loaded.of.device);
   if (!wrong && !passive_haptics::detail::not_negative(loaded.of.hand_force)) {
     wrong = {"hand_force", loaded.of.hand_force, "finite and ≥ 0 N"};
   }
+  if (!wrong) wrong = detail::fault_of_gains(loaded.of);
   if (wrong) {
     const bool there = file.take(wrong.parameter) != nullptr;
     file.refuse(file.line_of(wrong.parameter),
@@ -336,7 +395,8 @@ class device_reader {
 /// Writes the whole file, or nothing. Returns an empty text, or a sentence that says why nothing was written.
 [[nodiscard]] inline std::string save_device(const std::string& path,
                                              const device_description& of) {
-  const auto wrong = std::visit([](const auto& d) { return d.check(); }, of.device);
+  auto wrong = std::visit([](const auto& d) { return d.check(); }, of.device);
+  if (!wrong) wrong = detail::fault_of_gains(of);
   if (wrong) {
     return path + ": not written, because " + wrong.parameter + " is " +
            detail::shortest(wrong.value) + ": wanted is " + wrong.remedy;
@@ -352,19 +412,59 @@ class device_reader {
   return {};
 }
 
+/// What a composition of P states of a device whose commands go through gains_of(), in newtons commanded. On one axis
+/// that is in_commands(), with every ledger and bound. On several, exact positions have b/(1 + ε)², and no hand is
+/// stated: compose for any_hand. On several with steps nothing covers a tolerance: `fault` says so.
+template <port P>
+[[nodiscard]] loaded_device behind_gains(device_description of) {
+  const double tolerance = of.gain_tolerance;
+  if (const auto wrong = detail::fault_of_gains(of)) {
+    return {std::string(wrong.parameter) + ": wanted is " + wrong.remedy, {}};
+  }
+  if (of.gains.empty() || !(tolerance > 0.0)) return {{}, std::move(of)};
+  if (of.gains.size() != static_cast<std::size_t>(P::dof)) {
+    return {"gains: wanted is one for each axis of the port", {}};
+  }
+  if constexpr (P::dof == 1) {
+    std::visit([&](auto& d) { d = in_commands(d, tolerance); }, of.device);
+    of.hand_force /= 1.0 - tolerance;
+  } else if (auto* exact = std::get_if<exact_device>(&of.device)) {
+    exact->damping /= (1.0 + tolerance) * (1.0 + tolerance);
+    of.hand_force = 0.0;
+  } else {
+    return {
+        "gain_tolerance: on steps no ledger of several axes covers gains that differ: weigh until "
+        "it is small, and "
+        "state 0",
+        {}};
+  }
+  return {{}, std::move(of)};
+}
+/// `device` behind the gains of its description, all 1 if it was not weighed.
+template <port P, haptic_device_for<P> Device>
+[[nodiscard]] known_gains<P, Device> gains_of(const device_description& of, Device& device) {
+  typename known_gains<P, Device>::numbers gains{};
+  gains.fill(of.gains.empty() ? 1.0
+                              : 0.0);  // with gains of another number of axes no sample is valid
+  if (of.gains.size() == gains.size()) std::copy(of.gains.begin(), of.gains.end(), gains.begin());
+  return {device, gains, P::dof == 1 ? 0.0 : of.gain_tolerance};
+}
+
 /// The description of an identified device: an encoder_device if steps were seen. Set `rotary` for a joint.
 template <int Dof>
 [[nodiscard]] device_description described(const device_found<Dof>& found, const std::string& name,
                                            double hand_force = 0.0) {
   const encoder_device d = found.stated();
-  if (d.quantum > 0.0) return {name, d, hand_force};
+  if (d.quantum > 0.0) return {name, d, hand_force, {}, 0.0};
   return {name,
           exact_device{.mass = d.mass,
                        .damping = d.damping,
                        .force_limit = d.force_limit,
                        .longest_tick = d.longest_tick,
                        .latency = d.latency},
-          hand_force};
+          hand_force,
+          {},
+          0.0};
 }
 /// The description of a device of the catalogue, to be completed: numbers that are not published are left out of its
 /// text, and read_device() asks for them by name. For a wall, state half of the mass and friction of a data sheet.
@@ -384,7 +484,7 @@ template <int Dof>
   }
   if (facts.latency) d.latency = static_cast<int>(facts.latency.value);
   if (facts.continuous_force) d.continuous_force = facts.continuous_force.value;
-  return {facts.name, d, 0.0};
+  return {facts.name, d, 0.0, {}, 0.0};
 }
 
 }  // namespace identification

@@ -13,6 +13,11 @@
 // out at most T (1 + ε)² f²/(4 b), which is what strict_bound keeps for a damping of b/(1 + ε)². Ours; for exact
 // positions and strict_bound: on encoders the way within a step may have another sign than the step, and what a mass
 // can reach is not scaled here.
+//
+// On one axis nothing has to be covered tick by tick: m ẍ = g f − b ẋ − F + h, divided by g, is a device of m/g, b/g and
+// F/g under the force that is commanded and a hand of h/g, and its energy is the true one divided by g. So every ledger
+// and bound, on encoders, too, keeps its promise if it is told in_commands(device, ε), and a hand of h/(1 − ε). On
+// several axes each is divided by a g of its own, and the sum of their energies is not that of one device.
 
 #include <passive_haptics/port/concepts.hpp>
 
@@ -22,6 +27,15 @@
 namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
+
+/// What to state of a device of one axis whose motor delivers, for each newton commanded, 1 ± `tolerance` N.
+template <class Described>
+[[nodiscard]] constexpr Described in_commands(Described device, double tolerance) noexcept {
+  device.mass /= 1.0 + tolerance;
+  device.damping /= 1.0 + tolerance;
+  if constexpr (requires { device.friction; }) device.friction /= 1.0 + tolerance;
+  return device;
+}
 
 template <port P, haptic_device_for<P> Device>
 class known_gains {

@@ -18,6 +18,7 @@
 // known to `mass_tolerance`.
 
 #include <passive_haptics/identification/describe.hpp>
+#include <passive_haptics/identification/device_file.hpp>
 #include <passive_haptics/identification/identify.hpp>
 #include <passive_haptics/identification/known_gains.hpp>
 #include <passive_haptics/identification/weighed_axis.hpp>
@@ -102,6 +103,14 @@ template <int Dof>
   return all + hang +
          text("  Divide the commands by these: %.1f %% of tolerance are left of %.1f %%.\n",
               100.0 * found.tolerance(true), 100.0 * found.tolerance(false));
+}
+
+/// The description of a device with the gains that were found, for save_device().
+template <int Dof>
+[[nodiscard]] device_description weighed(device_description of, const gains_found<Dof>& found) {
+  of.gains.assign(found.likely.begin(), found.likely.end());
+  of.gain_tolerance = found.tolerance(true);
+  return of;
 }
 
 /// Tick by tick. It allocates when it is made.
