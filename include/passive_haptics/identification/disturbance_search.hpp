@@ -92,13 +92,15 @@ class disturbance_search {
     std::size_t from = 0, ticks = 0;
   };
   static constexpr std::size_t longest = 64, shortest = 12, warm_up = 12;
+  static constexpr double least_gap = 15e-6;  // σ gap that may be hidden [m]
   static constexpr double pi = 3.14159265358979323846;
 
   /// χ² that is exceeded by chance once in 2000 · `count`; exact for two degrees of freedom, near for one.
   [[nodiscard]] static double surprise(int count) noexcept {
     return 2.0 * std::log(2000.0 * count);
   }
-  /// The candidate that explains most and is large enough to matter, and what a mode that was not seen may yield.
+  /// The candidate that explains most and is large enough to matter, and what a mode or a gap that was not seen may
+  /// yield: (1 − σ)/σ, which is g of a mode, and 2 g/(σ gap) of a gap.
   [[nodiscard]] candidate search(double& yields) {
     candidate best;
     double hidden = 0.0;
@@ -108,6 +110,8 @@ class disturbance_search {
       test(c);
       if (c.is == column_of::mode && c.p1 < 420.0)
         hidden = (std::max)(hidden, c.g[0] + 4.0 * c.deviation);
+      if (c.is == column_of::backlash && c.p1 > least_gap)
+        hidden = (std::max)(hidden, 2.0 * (c.g[0] + 4.0 * c.deviation) / c.p1);
       if (counts(c) && c.drop > best.drop) best = std::move(c);
     });
     yields = hidden;
