@@ -5,7 +5,7 @@
 // drift: Dupont, Hayward, Armstrong, Altpeter, 2002), and no ledger is right for it.
 //
 //     g(t) = s G (1 − cos 2πνt)/2 on friction,        G = the least of
-//         0.95 (1 − 1.25 r) c         friction in motion, r being the share by which it varies    [N]
+//         0.95 (1 − 1.25 r √(24/N)) c friction in motion, r being the share by which it varies over N ≤ 24 ramps [N]
 //         the least break-away        force of any ramp                                           [N]
 //
 // with s falling in seven levels from 1 to 0.25, until the mean positions over some cycles at the beginning and over
@@ -36,7 +36,8 @@ class creep_experiment {
         kinetic_(kinetic_friction(motion)),
         ramp_(ramps),
         parking_(parked) {
-    cap_ = 0.95 * kinetic_ * kernels::larger(1.0 - 1.25 * ramp_.unevenness(), 0.0);
+    const double few = std::sqrt(24.0 / std::clamp(ramp_.count(), 1, 24));
+    cap_ = 0.95 * kinetic_ * kernels::larger(1.0 - 1.25 * few * ramp_.unevenness(), 0.0);
     cap_ = (std::min)(cap_, ramp_.least());
     if (cap_ > 0.0 && kernels::is_finite(ramp_.compliance_at_most(step))) {
       next_level(step);
@@ -65,7 +66,7 @@ class creep_experiment {
       return;
     }
     const double beyond = kernels::larger(cap_ / kinetic_ - untold, 0.0);
-    const double surely = found.likely_presliding - 0.2 * step;
+    const double surely = found.likely_presliding - 0.5 * step;
     const bool telling = 3.2 * beyond * beyond * beyond * surely * cycles_ > 1.6 * step;
     double share = levels[static_cast<std::size_t>(passed_)];
     if (passed_ > 0) share *= 0.7;
