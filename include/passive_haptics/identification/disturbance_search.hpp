@@ -64,7 +64,7 @@ class disturbance_search {
     }
     drop_what_others_explain();
     found.mass = mass_;
-    if (!model_.empty()) static_cast<void>(search(found.yields));
+    static_cast<void>(search(found.yields));  // a mode that was dropped is hidden
     for (const candidate& c : model_) name(c, found);
     return found;
   }
