@@ -17,9 +17,8 @@ std::atomic<bool> stop = false;
 template <class Device>
 int identify(Device& grip) {
   const identification::identification_parameters p{.force = 3, .stroke = 8e-3, .workspace = 30e-3};
-  std::printf(
-      "up to %.0f N, %.0f mm to either side, a minute each along x, y, z: let go\n",
-      p.force, 1e3 * p.stroke);
+  std::printf("up to %.0f N, %.0f mm to either side, a minute each along x, y, z: let go\n",
+              p.force, 1e3 * p.stroke);
   const auto found = identification::identify<scene>(grip, p, [] { return stop.load(); });
   if (found.problem() != nullptr) return std::puts(found.problem()), 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
