@@ -202,7 +202,10 @@ class local_contact {
   template <class Owner = Supply>
   requires(Owner::moves&& detail::eases_news<part_at<Law, Space>>) constexpr bool update(
       const constraint_type& next, const surface_motion<Space>& how) noexcept {
-    if (!how.is_usable() || (supply_.published() && !is_younger(how.age))) {
+    // An update may come just before or after a tick, so ages are compared with a slack of one.
+    const bool younger =
+        supply_.changed() ? how.age <= told_.age + slack_ : lag_.follows(how.age, slack_);
+    if (!how.is_usable() || (supply_.published() && !younger)) {
       supply_.refuse();
       return false;
     }
@@ -254,7 +257,11 @@ class local_contact {
     }
     if constexpr (requires { law_.follow(in_target, port); }) law_.follow(in_target, port);
     if constexpr (Shortcut && shapers_keep_zero<state>()) {
-      if (!in_target) return nothing_asked(weight);
+      if (!in_target) {
+        if constexpr (eases) law_.let_go();
+        const vector none = Space::zero();
+        return {none, true, none, false, false, weight, scalar(0), scalar(0), none, none};
+      }
     }
 
     const auto own = in_own(here, depth, in_target && !from_the_side);
@@ -359,10 +366,6 @@ class local_contact {
     return true;
   }
 
-  /// Compares ages with a slack of one tick, because an update may come just before or after a tick.
-  [[nodiscard]] constexpr bool is_younger(scalar age) const noexcept {
-    return supply_.changed() ? age <= told_.age + slack_ : lag_.follows(age, slack_);
-  }
   /// The factor of the force, in [0, 1]: below 1 while stale data fade, 0 before the first target.
   [[nodiscard]] constexpr scalar presence([[maybe_unused]] scalar depth, scalar dt,
                                           event& what) noexcept {
@@ -456,11 +459,6 @@ class local_contact {
   [[nodiscard]] constexpr bool pass_beside([[maybe_unused]] bool now) noexcept {
     if constexpr (Supply::moves) return std::exchange(beside_, now);
     return false;
-  }
-  [[nodiscard]] constexpr request nothing_asked(scalar weight) noexcept {
-    if constexpr (eases) law_.let_go();
-    const vector none = Space::zero();
-    return {none, true, none, false, false, weight, scalar(0), scalar(0), none, none};
   }
 
   /// The depth of x in the local model, and whether it is touched there.

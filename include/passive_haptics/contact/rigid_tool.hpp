@@ -69,10 +69,13 @@ class tool_spring::at {
     late_ = late;
     least_yield_ = T * T / (rule_.fraction(late) * inertia_);
   }
-  /// K = min(K, (1 − ε) κ m/T²) [N/m] and B = K τ [N·s/m] of a point at the handle.
+  /// K = min(K, (1 − ε) κ m/T²) [N/m] and B = K τ [N·s/m] of a point at the handle, τ = min(2√(m/k_v), 2√(I/k_ω), 5T),
+  /// for translation and rotation. In a loop k ticks late it is 2.25(k + 1) T instead of 5T.
   [[nodiscard]] constexpr sampled_spring<Scalar> sampled(Scalar K) const noexcept {
     const Scalar k = rule_.stiffness(K, softness_, sampled_every_, late_);
-    return sampled_spring<Scalar>::of(k, k * settling_time(k, Scalar(1) / yield(Scalar(1) / k)));
+    const Scalar slow = kernels::square_root(slowest(k, Scalar(1) / yield(Scalar(1) / k)));
+    const Scalar most = detail::late_limits<Scalar>(late_).ticks * sampled_every_;
+    return sampled_spring<Scalar>::of(k, k * kernels::smaller(Scalar(2) * slow, most));
   }
   /// γ = 1/k_ω = max(c/ℓ², T²/(κ I)) [rad/(N·m)] for c = 1/k_v [m/N].
   [[nodiscard]] constexpr Scalar yield(Scalar compliance) const noexcept {
@@ -105,12 +108,6 @@ class tool_spring::at {
   /// min(m/k_v, I/k_ω) [s²].
   [[nodiscard]] constexpr Scalar slowest(Scalar k, Scalar turn) const noexcept {
     return kernels::smaller(rule_.mass() / k, inertia_ / turn);
-  }
-  /// τ = B/K = min(2√(m/k_v), 2√(I/k_ω), 5T) [s], for translation and rotation. In a loop k ticks late it is
-  /// 2.25(k + 1) T instead of 5T.
-  [[nodiscard]] constexpr Scalar settling_time(Scalar k, Scalar turn) const noexcept {
-    return kernels::smaller(Scalar(2) * kernels::square_root(slowest(k, turn)),
-                            detail::late_limits<Scalar>(late_).ticks * sampled_every_);
   }
   detail::sampled_mass<Scalar> rule_;
   Scalar inertia_, lever_, per_lever_, softness_;  // per_lever_ = 1/ℓ²

@@ -11,8 +11,6 @@
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
-#include <limits>
-
 namespace passive_haptics {
 inline namespace v0 {
 

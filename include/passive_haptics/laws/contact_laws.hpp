@@ -11,14 +11,6 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
 
-/// The largest power of two whose cube is at most ε, about the best relative step of a central difference.
-template <class Scalar>
-[[nodiscard]] constexpr Scalar difference_step() noexcept {
-  Scalar step(1);
-  while (step * step * step > std::numeric_limits<Scalar>::epsilon()) step = step / Scalar(2);
-  return step;
-}
-
 /// 1 + |centre|/radius, the factor of rounding errors of coordinates in a neighbourhood away from the origin.
 template <class Space>
 [[nodiscard]] constexpr typename Space::scalar off_centre(const neighbourhood<Space>& of) noexcept {
@@ -188,7 +180,8 @@ template <class Space, class Surface>
   if (!surface.prepare()) return false;
   const neighbourhood<Space> place = where_to_look<Space>(surface);
   samples random(9);
-  const scalar step = detail::difference_step<scalar>();
+  scalar step(1);  // with step³ ≤ ε a central difference errs least
+  while (step * step * step > std::numeric_limits<scalar>::epsilon()) step = step / scalar(2);
   const scalar slack = scalar(512) * step * step * detail::off_centre(place);
   int tried = 0, told = 0;
   for (int i = 0; i < enough(points); ++i) {

@@ -5,8 +5,6 @@
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
-#include <algorithm>
-
 namespace passive_haptics {
 inline namespace v0 {
 namespace detail {

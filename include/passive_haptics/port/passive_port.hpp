@@ -287,8 +287,10 @@ class passive_port {
   static constexpr bool always_numbers =
       source_type::asks_for_numbers && detail::reduces<Bound, P, state_type>();
   static constexpr bool looks = detail::looks_at_motion<bound_type>;
-  /// True if the bound reckons with what a mass can do in a tick, and so with its length.
-  static constexpr bool reckons = promise_of<Bound, P>() == guarantee::conditional;
+  /// What a bound that reckons with what a mass can do in a tick has to know of those before.
+  static constexpr std::size_t kept_ticks = promise_of<Bound, P>() != guarantee::conditional ? 0
+                                            : Observer::exact                                ? 1
+                                                                                             : 2;
   /// True if the bound also limits the distance of a sample from the last motion.
   static constexpr bool doubts = looks && reaches && detail::has_geometry<P>;
   struct last_seen {
@@ -311,7 +313,7 @@ class passive_port {
         look(position, dt, force);
     }
     if (stopped_ != event::nominal) [[unlikely]]
-      return refuse_all(dt);
+      return refuse(stopped_, dt);
     motion travel = P::between(guard_.last(), position);
     [[maybe_unused]] scalar square{};
     if constexpr (reaches) square = P::squared(travel);
@@ -357,8 +359,8 @@ class passive_port {
                            .energy = observer_.value(),
                            .dt = dt,
                            .longest_tick = limits_.longest_tick,
-                           .longest = longest_recent(),
-                           .shortest = shortest_recent(),
+                           .longest = recent<0>(),
+                           .haste = recent<1>(),
                            .held = force,
                            .travel = travel,
                            .travel_error = travel_error(),
@@ -385,12 +387,10 @@ class passive_port {
     amend(what, allowed.limited);
     guard_.command(allowed.force);
     is_cut_ = allowed.limited;
-    if constexpr (reckons) {
-      if (is_cut_) [[unlikely]]
-        recent_.see(dt, limits_.longest_tick);
-      else
-        recent_ = {};
-    }
+    if (is_cut_) [[unlikely]]
+      recent_.see(dt, limits_.longest_tick);
+    else
+      recent_ = {};
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
   }
 
@@ -551,13 +551,10 @@ class passive_port {
       return guard_.last();
     }
   }
-  [[nodiscard]] constexpr scalar longest_recent() const noexcept {
-    if constexpr (reckons) return recent_.longest;
+  template <std::size_t I>
+  [[nodiscard]] constexpr scalar recent() const noexcept {
+    if constexpr (I < kept_ticks) return recent_.most[I];
     return scalar(0);
-  }
-  [[nodiscard]] constexpr scalar shortest_recent() const noexcept {
-    if constexpr (reckons && !Observer::exact) return recent_.shortest;
-    return kernels::largest<scalar>();
   }
   [[nodiscard]] constexpr scalar travel_error() const noexcept {
     if constexpr (Observer::exact) {
@@ -567,9 +564,6 @@ class passive_port {
     }
   }
 
-  [[gnu::cold, gnu::noinline]] constexpr result_type refuse_all(scalar dt) noexcept {
-    return refuse(stopped_, dt);
-  }
   [[gnu::cold, gnu::noinline]] constexpr result_type refuse_sample(typename P::stored_pose position,
                                                                    scalar dt) noexcept {
     const motion travel = P::between(guard_.last(), position);
@@ -625,8 +619,7 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
-  std::conditional_t<reckons, recent_ticks<scalar, Observer::exact>, unasked> recent_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS recent_ticks<scalar, kept_ticks> recent_;
   bool is_cut_ = false;             ///< the bound has reduced the last desired effort
   event stopped_ = event::nominal;  ///< the reason for force zero until set() or reset()
   std::uint8_t busy_ = 0;           ///< true during a call; debug builds only

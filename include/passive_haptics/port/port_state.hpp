@@ -40,19 +40,12 @@ template <class Scalar>
 }
 
 /// The ticks since a force was last not cut: a bound that followed the length of each would tremble. (L6)
-template <class Scalar, bool Exact>
+template <class Scalar, std::size_t Kept>
 struct recent_ticks {
-  Scalar longest{}, shortest = kernels::largest<Scalar>();  ///< [s], T at most and T/4 at least
-  constexpr void see(Scalar dt, Scalar T) noexcept {
-    longest = kernels::larger(longest, kernels::smaller(dt, T));
-    shortest = kernels::smaller(shortest, kernels::larger(dt, T / Scalar(4)));
-  }
-};
-template <class Scalar>
-struct recent_ticks<Scalar, true> {
-  Scalar longest{};
-  constexpr void see(Scalar dt, Scalar T) noexcept {
-    longest = kernels::larger(longest, kernels::smaller(dt, T));
+  std::array<Scalar, Kept> most{};  ///< longest tick [s], T at most; T over the shortest, 4 at most
+  constexpr void see([[maybe_unused]] Scalar dt, [[maybe_unused]] Scalar T) noexcept {
+    if constexpr (Kept > 0) most[0] = kernels::larger(most[0], kernels::smaller(dt, T));
+    if constexpr (Kept > 1) most[1] = kernels::larger(most[1], kernels::smaller(T / dt, Scalar(4)));
   }
 };
 
@@ -81,23 +74,19 @@ struct port_state {
 
   const Damping& damping;  ///< damping of the device, as stated to the observer
   const commands& commanded;
-  scalar energy;                                            ///< E1(n), with the last tick booked
-  scalar dt;                                                ///< length of the last tick
-  scalar longest_tick;                                      ///< T, upper bound of the next tick
-  scalar longest{}, shortest = kernels::largest<scalar>();  ///< of recent_ticks
-  const typename Port::stored_effort& held;                 ///< effort held over the last tick
-  motion travel;                                            ///< measured Δx over the last tick
-  scalar travel_error;  ///< largest distance of the true Δx from it
-  bool motion_known;    ///< false if the last sample was lost; Δx is then given as zero
-  bool late;            ///< dt was longer than T
+  scalar energy;                             ///< E1(n), with the last tick booked
+  scalar dt;                                 ///< length of the last tick
+  scalar longest_tick;                       ///< T, upper bound of the next tick
+  scalar longest{}, haste{};                 ///< the numbers of recent_ticks
+  const typename Port::stored_effort& held;  ///< effort held over the last tick
+  motion travel;                             ///< measured Δx over the last tick
+  scalar travel_error;                       ///< largest distance of the true Δx from it
+  bool motion_known;  ///< false if the last sample was lost; Δx is then given as zero
+  bool late;          ///< dt was longer than T
 
   /// The command that is held in the j-th coming tick, 1 ≤ j ≤ Latency.
   [[nodiscard]] constexpr const typename Port::stored_effort& coming(int j) const noexcept {
     return commanded[static_cast<std::size_t>(Latency - j)];
-  }
-  /// T₀ [s], or the longest recent tick.
-  [[nodiscard]] constexpr scalar longest_recent() const noexcept {
-    return kernels::larger(dt, longest);
   }
   [[nodiscard]] constexpr tick_fate fate() const noexcept {
     if (!motion_known) return tick_fate::lost;
