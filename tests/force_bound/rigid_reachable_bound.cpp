@@ -90,7 +90,7 @@ TEST_CASE("a wrench that is bounded at rest does not tremble as the ticks do", "
   const auto left = [&](double dt) {
     auto now = quiet.with(body::zero(), 1e-6);
     now.dt = dt;
-    now.longest = T;
+    now.recent.longest = T;
     return bound.limit(w, now).factor;
   };
   REQUIRE(left(T) < 1.0);

@@ -76,7 +76,7 @@ struct situation {
             .energy = energy,
             .dt = dt,
             .longest_tick = longest_tick,
-            .longest = recent,
+            .recent = {recent},
             .held = held,
             .travel = travel,
             .travel_error = travel_error,

@@ -188,8 +188,8 @@ class observed_reach::on {
     const auto speeds_up = [&](int i) {
       return kernels::larger(by_mass(h[static_cast<std::size_t>(i)] + most), scalar(0));
     };
-    scalar speed = moved / T0 + e * kernels::larger(T / T0, state.haste) / T +
-                   speeds_up(0) * kernels::larger(T0, state.longest) / scalar(2);
+    scalar speed = moved / T0 + e / kernels::smaller(T0, state.recent.shortest) +
+                   speeds_up(0) * kernels::larger(T0, state.recent.longest) / scalar(2);
     for (int i = 1; i < j; ++i) speed += speeds_up(i) * T;
     return speed * T + speeds_up(j) * T * T / scalar(2) +
            scalar(8) * kernels::rounding<scalar>() *
@@ -209,7 +209,7 @@ class observed_reach::on {
     };
     // w_j rises in the last tick, is 1 in those between and falls in tick j: its area, and its delay after w_0. Both
     // grow with T0 and T1, and are taken for recent ticks, so that the bound does not tremble as the ticks do.
-    const scalar S = scalar(j - 1) * T, t0 = kernels::larger(T0, state.longest),
+    const scalar S = scalar(j - 1) * T, t0 = kernels::larger(T0, state.recent.longest),
                  t1 = kernels::larger(T1, t0);
     const scalar area = (t0 + T) * half + S, since = (scalar(2) * t0 + t1) / scalar(3);
     const scalar moment = -t0 * t0 / scalar(6) + S * S * half + S * T * half + T * T / scalar(6);
@@ -229,7 +229,7 @@ class observed_reach::on {
     if (last < scalar(0) && speed < scalar(-2) * last * T) {  // it would stop within the tick
       travel = speed > scalar(0) ? speed * speed / (scalar(-4) * last) : scalar(0);
     }
-    const scalar s0 = T / kernels::larger(T / T0, state.haste), s1 = kernels::smaller(T1, s0),
+    const scalar s0 = kernels::smaller(T0, state.recent.shortest), s1 = kernels::smaller(T1, s0),
                  k = scalar(2) * area / (s0 + s1);
     const scalar passed = (kernels::magnitude(V0) + kernels::magnitude(V1)) * (scalar(1) + k) * T;
     return travel + T * (area * unsure / m_ + e * ((scalar(1) + k) / s0 + k / s1)) +

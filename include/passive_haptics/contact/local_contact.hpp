@@ -249,7 +249,8 @@ class local_contact {
     const scalar weight = presence(depth, port.dt, what);
     const bool behind = weight > scalar(0) && depth > scalar(0);
     const bool in_target = behind && newest.covered();
-    const bool from_the_side = pass_beside(behind && !in_target);
+    bool from_the_side = false;  // x was behind the surface but outside its edges in the last tick
+    if constexpr (Supply::moves) from_the_side = std::exchange(beside_, behind && !in_target);
     [[maybe_unused]] const law_type before = law_;  // with the stiffness up to now
     if constexpr (!eases) {
       if (fresh())
@@ -453,11 +454,6 @@ class local_contact {
   }
   [[nodiscard]] constexpr bool lags() const noexcept {
     if constexpr (eases) return !lag_.settled() || !turn_.still();
-    return false;
-  }
-  /// True if x was behind the surface but outside its edges in the last tick, so that the device came from the side.
-  [[nodiscard]] constexpr bool pass_beside([[maybe_unused]] bool now) noexcept {
-    if constexpr (Supply::moves) return std::exchange(beside_, now);
     return false;
   }
 

@@ -108,7 +108,10 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
       missed_ = true;
       return worse(so_far, event::wall_lost);
     }
-    return worse(so_far, missed_ && !lacks_ ? event::wall_back : poor());
+    bool owed = this->value() < scalar(0);
+    if constexpr (requires(const kept k) { k.overdrawn(); }) owed = owed && kept::overdrawn();
+    const event now = owed ? event::debt : event::nominal;
+    return worse(so_far, missed_ && !lacks_ ? event::wall_back : now);
   }
 
  private:
@@ -128,11 +131,6 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
   [[nodiscard]] constexpr bool in_debt() const noexcept {
     if constexpr (exact) return this->value() < scalar(0);
     return this->value() < -amends_ / scalar(64);
-  }
-  [[nodiscard]] constexpr event poor() const noexcept {
-    bool owed = this->value() < scalar(0);
-    if constexpr (requires(const kept k) { k.overdrawn(); }) owed = owed && kept::overdrawn();
-    return owed ? event::debt : event::nominal;
   }
   [[gnu::cold, gnu::noinline]] constexpr void make_amends(scalar dt) noexcept {
     if (!lacks_) missed_ = false;  // wall_back has been reported

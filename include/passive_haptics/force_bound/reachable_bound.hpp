@@ -156,10 +156,11 @@ class reachable_bound::on {
       scalar outward = Space::dot(state.travel, direction) / length +
                        kernels::rounding<scalar>() * Space::norm(state.travel);
       if constexpr (!State::exact) {
-        outward += state.travel_error * kernels::larger(scalar(1), state.haste * state.dt / T);
+        outward +=
+            state.travel_error * kernels::larger(scalar(1), state.dt / state.recent.shortest);
       }
       return kernels::outward_reach(outward, Space::norm(state.held), last, other, mass_, state.dt,
-                                    T, state.longest);
+                                    T, state.recent.longest);
     } else {
       const scalar before = Space::norm(effort(state.coming(J - 1)));
       return reach<J - 1>(direction, length, before, state) +
@@ -266,7 +267,7 @@ class basic_reachable_work_bound<Inertia>::on {
       if (!state.motion_known) return kernels::largest<scalar>();
       const auto work = P::work(f, state.travel);
       const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
-      const scalar T0 = kernels::larger(state.dt, state.longest);
+      const scalar T0 = kernels::larger(state.dt, state.recent.longest);
       const scalar pushed = (inertia_.norm(state.held) + other) * T0 * T + (last + other) * T * T;
       return outward * T / state.dt + norm * pushed / scalar(2) * up;
     } else {

@@ -180,7 +180,8 @@ class rigid_reachable_bound::on {
     const scalar T = state.longest_tick;
     const auto work = P::work(w, state.travel);
     const scalar outward = work.joules + kernels::rounding<scalar>() * work.passed;
-    const scalar last = (all.held + all.pushed) * kernels::larger(state.dt, state.longest) * T;
+    const scalar last =
+        (all.held + all.pushed) * kernels::larger(state.dt, state.recent.longest) * T;
     const scalar pushed = norm * (last + (next + all.pushed) * T * T) / scalar(2);
     const scalar beside = inertia_.template length<3>(w) *
                           kernels::unseen_turn(all.turn, all.turning, state.dt) * T / state.dt;

@@ -287,10 +287,8 @@ class passive_port {
   static constexpr bool always_numbers =
       source_type::asks_for_numbers && detail::reduces<Bound, P, state_type>();
   static constexpr bool looks = detail::looks_at_motion<bound_type>;
-  /// What a bound that reckons with what a mass can do in a tick has to know of those before.
-  static constexpr std::size_t kept_ticks = promise_of<Bound, P>() != guarantee::conditional ? 0
-                                            : Observer::exact                                ? 1
-                                                                                             : 2;
+  /// True if the bound reckons with what a mass can do in a tick, and so with its length.
+  static constexpr bool reckons = promise_of<Bound, P>() == guarantee::conditional;
   /// True if the bound also limits the distance of a sample from the last motion.
   static constexpr bool doubts = looks && reaches && detail::has_geometry<P>;
   struct last_seen {
@@ -313,7 +311,7 @@ class passive_port {
         look(position, dt, force);
     }
     if (stopped_ != event::nominal) [[unlikely]]
-      return refuse(stopped_, dt);
+      return refuse_all(dt);
     motion travel = P::between(guard_.last(), position);
     [[maybe_unused]] scalar square{};
     if constexpr (reaches) square = P::squared(travel);
@@ -359,8 +357,7 @@ class passive_port {
                            .energy = observer_.value(),
                            .dt = dt,
                            .longest_tick = limits_.longest_tick,
-                           .longest = recent<0>(),
-                           .haste = recent<1>(),
+                           .recent = recent(),
                            .held = force,
                            .travel = travel,
                            .travel_error = travel_error(),
@@ -387,10 +384,12 @@ class passive_port {
     amend(what, allowed.limited);
     guard_.command(allowed.force);
     is_cut_ = allowed.limited;
-    if (is_cut_) [[unlikely]]
-      recent_.see(dt, limits_.longest_tick);
-    else
-      recent_ = {};
+    if constexpr (reckons) {
+      if (is_cut_) [[unlikely]]
+        recent_.see(dt, limits_.longest_tick);
+      else
+        recent_ = {};
+    }
     return source_.answered(request, {allowed.force, observer_.value(), what, allowed.limited});
   }
 
@@ -551,10 +550,9 @@ class passive_port {
       return guard_.last();
     }
   }
-  template <std::size_t I>
-  [[nodiscard]] constexpr scalar recent() const noexcept {
-    if constexpr (I < kept_ticks) return recent_.most[I];
-    return scalar(0);
+  [[nodiscard]] constexpr recent_ticks<scalar> recent() const noexcept {
+    if constexpr (reckons) return recent_;
+    return {};
   }
   [[nodiscard]] constexpr scalar travel_error() const noexcept {
     if constexpr (Observer::exact) {
@@ -564,6 +562,9 @@ class passive_port {
     }
   }
 
+  [[gnu::cold, gnu::noinline]] constexpr result_type refuse_all(scalar dt) noexcept {
+    return refuse(stopped_, dt);
+  }
   [[gnu::cold, gnu::noinline]] constexpr result_type refuse_sample(typename P::stored_pose position,
                                                                    scalar dt) noexcept {
     const motion travel = P::between(guard_.last(), position);
@@ -619,7 +620,8 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS part_at<Motion, P> motion_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS recent_ticks<scalar, kept_ticks> recent_;
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
+  std::conditional_t<reckons, recent_ticks<scalar>, unasked> recent_;
   bool is_cut_ = false;             ///< the bound has reduced the last desired effort
   event stopped_ = event::nominal;  ///< the reason for force zero until set() or reset()
   std::uint8_t busy_ = 0;           ///< true during a call; debug builds only

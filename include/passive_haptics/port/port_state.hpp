@@ -40,12 +40,12 @@ template <class Scalar>
 }
 
 /// The ticks since a force was last not cut: a bound that followed the length of each would tremble. (L6)
-template <class Scalar, std::size_t Kept>
+template <class Scalar>
 struct recent_ticks {
-  std::array<Scalar, Kept> most{};  ///< longest tick [s], T at most; T over the shortest, 4 at most
-  constexpr void see([[maybe_unused]] Scalar dt, [[maybe_unused]] Scalar T) noexcept {
-    if constexpr (Kept > 0) most[0] = kernels::larger(most[0], kernels::smaller(dt, T));
-    if constexpr (Kept > 1) most[1] = kernels::larger(most[1], kernels::smaller(T / dt, Scalar(4)));
+  Scalar longest{}, shortest = kernels::largest<Scalar>();  ///< [s], T at most and T/4 at least
+  constexpr void see(Scalar dt, Scalar T) noexcept {
+    longest = kernels::larger(longest, kernels::smaller(dt, T));
+    shortest = kernels::smaller(shortest, kernels::larger(dt, T / Scalar(4)));
   }
 };
 
@@ -74,10 +74,10 @@ struct port_state {
 
   const Damping& damping;  ///< damping of the device, as stated to the observer
   const commands& commanded;
-  scalar energy;                             ///< E1(n), with the last tick booked
-  scalar dt;                                 ///< length of the last tick
-  scalar longest_tick;                       ///< T, upper bound of the next tick
-  scalar longest{}, haste{};                 ///< the numbers of recent_ticks
+  scalar energy;        ///< E1(n), with the last tick booked
+  scalar dt;            ///< length of the last tick
+  scalar longest_tick;  ///< T, upper bound of the next tick
+  recent_ticks<scalar> recent{};
   const typename Port::stored_effort& held;  ///< effort held over the last tick
   motion travel;                             ///< measured Δx over the last tick
   scalar travel_error;                       ///< largest distance of the true Δx from it
