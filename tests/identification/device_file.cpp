@@ -222,26 +222,63 @@ TEST_CASE("what is composed behind gains states less, by the ports that it is pr
           "[device_file]") {
   using d1 = ph::space<double, 1>;
   using d2 = ph::space<double, 2>;
-  const auto one = behind_gains<d1>({"grip", grip, 5.0, {0.9}, 0.02});
+  const auto one = behind_gains<d1>({"grip", grip, 5.0, {1.0}, 0.02});
   REQUIRE(one.fault.empty());
   const auto& d = std::get<ph::encoder_device>(one.of.device);
   CHECK(d.mass == grip.mass / 1.02);
   CHECK(d.damping == grip.damping / 1.02);
   CHECK(d.friction == grip.friction / 1.02);
   CHECK(d.presliding == grip.presliding);
+  CHECK(d.force_limit == grip.force_limit);
   CHECK(one.of.hand_force == 5.0 / 0.98);
   CHECK_FALSE(ph::make_touch<d1, ph::half_space<d1>, ph::late_loop_limits<1>>(
                   d, ph::known_hand{.force = one.of.hand_force})
                   .check());
   const auto two = behind_gains<d2>({"knob", knob, 0.15, {0.9, 1.0}, 0.02});
   REQUIRE(two.fault.empty());
-  CHECK(std::get<ph::exact_device>(two.of.device).damping == knob.damping / (1.02 * 1.02));
+  CHECK_THAT(std::get<ph::exact_device>(two.of.device).damping,
+             Catch::Matchers::WithinRel(0.9 * knob.damping / (1.02 * 1.02), 1e-12));
   CHECK(two.of.hand_force == 0.0);
   CHECK(behind_gains<d2>({"grip", grip, 5.0, {0.9, 1.0}, 0.02}).fault.find("on steps") !=
         std::string::npos);
   CHECK(behind_gains<d2>({"grip", grip, 5.0, {0.9, 1.0}, 0.0}).fault.empty());  // the controls
   CHECK(behind_gains<d2>({"grip", grip, 5.0}).fault.empty());
   CHECK_FALSE(behind_gains<d2>({"knob", knob, 0.15, {0.9}, 0.02}).fault.empty());
+  CHECK_FALSE(behind_gains<d2>({"knob", knob, 0.15, {0.9}, 0.0}).fault.empty());
+}
+
+TEST_CASE(
+    "a device that was identified before it was weighed is stated in the newtons of its gains",
+    "[device_file]") {
+  using d1 = ph::space<double, 1>;
+  const double tolerance = 0.01;
+  for (const double gain : {0.8, 0.9, 1.1, 1.25}) {  // that the motor has
+    for (const double off : {-0.99 * tolerance, 0.0, 0.99 * tolerance}) {
+      const double likely = gain / (1.0 + off);  // that was weighed
+      CAPTURE(gain, off);
+      // Commands that are divided by `likely` move a device of so many times the numbers of `grip`.
+      const double true_share = likely / gain;
+      auto commanded = grip;  // as identify() finds it, in newtons commanded
+      for (double* x : {&commanded.mass, &commanded.damping, &commanded.friction}) *x /= gain;
+      for (const bool weighed_later : {true, false}) {
+        const auto stated = behind_gains<d1>({"grip",
+                                              weighed_later ? commanded : grip,
+                                              weighed_later ? 5.0 / gain : 5.0,
+                                              {likely},
+                                              tolerance});
+        REQUIRE(stated.fault.empty());
+        const auto& d = std::get<ph::encoder_device>(stated.of.device);
+        CHECK(d.mass <= true_share * grip.mass);
+        CHECK(d.damping <= true_share * grip.damping);
+        CHECK(d.friction <= true_share * grip.friction);
+        CHECK(d.force_limit <= likely * grip.force_limit);
+        CHECK(stated.of.hand_force >= true_share * 5.0);
+      }
+      // The control: the tolerance alone does not cover what was identified in other newtons.
+      const auto alone = in_commands(commanded, tolerance);
+      CHECK((alone.mass > true_share * grip.mass) == (gain < 1.0));
+    }
+  }
 }
 
 TEST_CASE("no cut of a file is taken for the whole", "[device_file]") {

@@ -412,19 +412,32 @@ class device_reader {
   return {};
 }
 
-/// What a composition of P states of a device whose commands go through gains_of(), in newtons commanded. On one axis
-/// that is in_commands(), with every ledger and bound. On several, exact positions have b/(1 + ε)², and no hand is
-/// stated: compose for any_hand. On several with steps nothing covers a tolerance: `fault` says so.
+/// What a composition of P states of a device whose commands go through gains_of(). The numbers of a description may be
+/// in newtons delivered, as on a data sheet, or in those commanded, as identify() finds them where it knows no gains, and
+/// then a gain of g makes them 1/g times as large. So they count g times where g < 1, and a hand's force where g > 1.
+/// On one axis a tolerance ε is left to in_commands(), with every ledger and bound. On several, exact positions have
+/// b/(1 + ε)², and no hand is stated: compose for any_hand. On several with steps nothing covers it: `fault` says so.
 template <port P>
 [[nodiscard]] loaded_device behind_gains(device_description of) {
   const double tolerance = of.gain_tolerance;
   if (const auto wrong = detail::fault_of_gains(of)) {
     return {std::string(wrong.parameter) + ": wanted is " + wrong.remedy, {}};
   }
-  if (of.gains.empty() || !(tolerance > 0.0)) return {{}, std::move(of)};
+  if (of.gains.empty()) return {{}, std::move(of)};
   if (of.gains.size() != static_cast<std::size_t>(P::dof)) {
     return {"gains: wanted is one for each axis of the port", {}};
   }
+  const auto [least, most] = std::minmax_element(of.gains.begin(), of.gains.end());
+  const double delivered = (std::min)(*least, 1.0);
+  std::visit(
+      [&](auto& d) {
+        d = in_commands(d, 1.0 / delivered - 1.0);
+        d.force_limit *= delivered;
+        if constexpr (requires { d.continuous_force; }) d.continuous_force *= delivered;
+      },
+      of.device);
+  of.hand_force *= (std::max)(*most, 1.0);
+  if (!(tolerance > 0.0)) return {{}, std::move(of)};
   if constexpr (P::dof == 1) {
     std::visit([&](auto& d) { d = in_commands(d, tolerance); }, of.device);
     of.hand_force /= 1.0 - tolerance;
