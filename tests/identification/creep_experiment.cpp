@@ -12,21 +12,22 @@ using identification::parking;
 
 namespace {
 
-/// What ramps would tell of a spring of 75 µm/N that slips at 0.2 N, both ways.
-friction_ramp ramps() {
+/// What `count` ramps would tell of a spring of 75 µm/N that slips at 0.2 N, both ways, or at `least` in every other place.
+friction_ramp ramps(int count = 8, double least = 0.2) {
   friction_ramp ramp;
   ramp.begin_all(0.2);
-  for (int n = 0; n < 8; ++n) {
+  for (int n = 0; n < count; ++n) {
     const int way = n % 2 == 0 ? 1 : -1;
+    const double slips = n / 2 % 2 == 0 ? 0.2 : least;
     ramp.begin(way, 0.0);
-    for (double g = 0.0; g < 0.2; g += 0.5e-3) (void)ramp.book(g, way * 75e-6 * g, 1e-3);
-    ramp.conclude(0.2, 0.25e-3, true, {.rate = 1e-6, .mass = 0.1, .damping = 0.3, .step = 10e-6});
+    for (double g = 0.0; g < slips; g += 0.5e-3) (void)ramp.book(g, way * 75e-6 * g, 1e-3);
+    ramp.conclude(slips, 0.25e-3, true, {.rate = 1e-6, .mass = 0.1, .damping = 0.3, .step = 10e-6});
   }
   return ramp;
 }
 
-/// The experiment on a device with that friction, from rest.
-axis_found crept(auto friction) {
+/// The experiment on a device with that friction, from rest, for positions that are known to `step` [m].
+axis_found crept(auto friction, double likely_presliding = 15e-6, double step = 0.0) {
   rubbing<decltype(friction)> device(grip, {}, friction);
   axis_record seen;
   parking it(0.1, 0.2, 8e-3);
@@ -40,8 +41,8 @@ axis_found crept(auto friction) {
   REQUIRE(creep.done());
   CHECK(creep.problem() == nullptr);
   axis_found found;
-  found.likely_presliding = 15e-6;
-  creep.state(found, seen.step());
+  found.likely_presliding = likely_presliding;
+  creep.state(found, step > 0.0 ? step : seen.step());
   return found;
 }
 
@@ -73,4 +74,20 @@ TEST_CASE("friction that differs too much from place to place is refused before 
   CHECK(creep.problem() != nullptr);
   const creep_experiment even({}, motion_of_grip(), ramps(), {}, 10e-6, 20.0);  // the control
   CHECK_FALSE(even.done());
+}
+
+TEST_CASE("of friction that differs from place to place less is stated where few ramps have met it",
+          "[identification]") {
+  const creep_experiment few({}, motion_of_grip(), ramps(8, 0.07), {}, 10e-6, 20.0);
+  CHECK(few.done());
+  CHECK(few.problem() != nullptr);
+  const creep_experiment many({}, motion_of_grip(), ramps(24, 0.07), {}, 10e-6,
+                              20.0);  // the control
+  CHECK_FALSE(many.done());
+}
+
+TEST_CASE("steps that know a presliding badly tell nothing of creep", "[identification]") {
+  const double step = 40e-6;
+  CHECK(crept(rubs, 0.375 * step, step).creep == 0.6);
+  CHECK(crept(rubs, 0.75 * step, step).creep == 1.0);  // the control
 }

@@ -68,3 +68,23 @@ TEST_CASE("noise on a lattice is found at rest; a position between two steps is 
       seen([&](double x) { return std::floor((x + q * random.uniform()) / q) * q; });
   CHECK(between.noise() <= q);
 }
+
+TEST_CASE("what a float rounds of a position between two steps is no noise", "[identification]") {
+  ph::simulation::random_source random(7);
+  const auto flickering = [&](double q, double width) {
+    return seen(
+        [&, q, width](double x) {
+          return static_cast<double>(
+              static_cast<float>(0.7 + std::floor((x + width * random.uniform()) / q) * q));
+        },
+        static_cast<double>(std::numeric_limits<float>::epsilon()));
+  };
+  for (const double q : {10e-6, 17.3e-6, 23.1e-6, 31.7e-6, 40.3e-6}) {
+    CAPTURE(q);
+    const auto between = flickering(q, q);
+    REQUIRE(between.has_step());
+    CHECK(between.step() >= q);
+    CHECK(between.noise() == 0.0);
+    CHECK(flickering(q, 3.0 * q).noise() > q);  // the control
+  }
+}
