@@ -289,6 +289,7 @@ class passive_port {
   static constexpr bool looks = detail::looks_at_motion<bound_type>;
   /// True if the bound reckons with what a mass can do in a tick, and so with its length.
   static constexpr bool reckons = promise_of<Bound, P>() == guarantee::conditional;
+  struct no_ticks {};
   /// True if the bound also limits the distance of a sample from the last motion.
   static constexpr bool doubts = looks && reaches && detail::has_geometry<P>;
   struct last_seen {
@@ -621,7 +622,7 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
-  std::conditional_t<reckons, recent_ticks<scalar>, unasked> recent_;
+  std::conditional_t<reckons, recent_ticks<scalar>, no_ticks> recent_;
   bool is_cut_ = false;             ///< the bound has reduced the last desired effort
   event stopped_ = event::nominal;  ///< the reason for force zero until set() or reset()
   std::uint8_t busy_ = 0;           ///< true during a call; debug builds only
