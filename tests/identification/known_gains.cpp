@@ -124,10 +124,8 @@ TEST_CASE("known_gains divides the commands, reports what may have been held, an
   CHECK_FALSE(wide.exchange({1.0, 1.0}).valid);
 }
 
-TEST_CASE(
-    "a gain on one axis is a device and a hand divided by it, in newtons commanded, on encoders as "
-    "well",
-    "[identification][known_gains]") {
+TEST_CASE("a gain on one axis is a device and a hand divided by it, on encoders as well",
+          "[identification][known_gains]") {
   using d1 = ph::space<double, 1>;
   namespace sim = ph::simulation;
   using held = sim::device<d1, sim::impedance_hand<d1>, sim::slider_and_spring>;
