@@ -114,14 +114,12 @@ std::vector<identification::weighed_pose<Dof>> poses_of(const settings& chosen) 
   return all;
 }
 
-/// Adds the gains to the description in that file.
-void keep_gains(const std::string& json, const auto& found) {
+/// The description in that file, to which gains are to be added; none without a file.
+identification::device_description description_in(const std::string& json) {
+  if (json.empty()) return {};
   auto kept = identification::load_device(json);
-  std::string fault = kept.fault;
-  if (fault.empty()) {
-    fault = identification::save_device(json, identification::weighed(kept.of, found));
-  }
-  if (!fault.empty()) throw std::runtime_error(fault);
+  if (!kept.fault.empty()) throw std::runtime_error(kept.fault);
+  return std::move(kept.of);
 }
 
 /// The simulated device does by itself what it is asked for, within 1.5 s. Its motors have one gain, so a linkage before
@@ -138,6 +136,7 @@ int weigh_simulated(const settings& chosen, const std::atomic<bool>& stop) {
     ex::complain(std::string("weighing: ") + fault.parameter + " must be " + fault.remedy);
   }
   const auto poses = poses_of<dof>(chosen);
+  const auto known = description_in(chosen.json);  // before anybody hangs a mass
   auto truth = preset.parameters<Space>();
   truth.gain = sim::every_axis<Space>(chosen.gain);
   const auto work = [&](auto device) {
@@ -160,8 +159,11 @@ int weigh_simulated(const settings& chosen, const std::atomic<bool>& stop) {
                                                     ready, [&] { return stop.load(); });
     if (stop) throw ex::interrupted("stopped: the force is zero");
     std::cout << identification::table_of(found);
-    if (found.problem == nullptr && !chosen.json.empty()) keep_gains(chosen.json, found);
-    return found.problem == nullptr ? 0 : 1;
+    if (found.problem != nullptr) return 1;
+    if (chosen.json.empty()) return 0;
+    const auto fault = identification::save_device(chosen.json, weighed(known, found));
+    if (!fault.empty()) throw std::runtime_error(fault);
+    return 0;
   };
   if (preset.friction > 0.0 && chosen.presliding > 0.0) {
     truth.friction = 0.0;

@@ -91,7 +91,9 @@ TEST_CASE("the identify program weighs at poses of a linkage, and keeps the gain
                                          "--pose",     "0,-1/-0.2,0.1/-0.1,0.15",
                                          "--pose",     "0,-1/0.1,0.3/0.05,0.2",
                                          "--json",     file};
-  CHECK(run_quietly(linkage).code == 1);  // there is no description yet
+  const auto missing = run_quietly(linkage);  // no description yet, and nothing is weighed
+  CHECK(missing.code == 1);
+  CHECK(missing.complaint.find(file + ": cannot be read") != std::string::npos);
   CHECK(run_quietly({"--device", "Touch", "--json", file}).code == 0);
   CHECK(run_quietly(linkage).code == 0);
   const auto kept = passive_haptics::identification::load_device(file);
