@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A wall at a handle behind a cable of 75 Hz (cable.hpp): 3.0 mJ are drawn from one that was told the mass alone.
 #include "cable.hpp"
+#include <passive_haptics/compliant/compositions.hpp>
 
 double wall(const char* told, auto touch) {
   if (!touch.update({.point = 0, .normal = 1, .stiffness = 8000})) return 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two walls of a groove, 20 mm apart, at a handle behind a cable of 75 Hz (cable.hpp), pushed onto in turn.
 #include "cable.hpp"
+#include <passive_haptics/compliant/compositions.hpp>
 
 double groove(const char* told, auto port) {
   if (!port.source().update(0, plane{.point = 0.00, .normal = 1, .stiffness = 8000}) ||

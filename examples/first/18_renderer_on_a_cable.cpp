@@ -2,6 +2,7 @@
 // A force that somebody's renderer makes, a wall of 8 kN/m, at a handle behind a cable of 75 Hz (cable.hpp). Shaken at
 // 31 Hz, a guard that was told the mass alone gives energy away.
 #include "cable.hpp"
+#include <passive_haptics/compliant/compositions.hpp>
 
 double renderer(double x) {
   return x < 0 ? -8000 * x : 0;

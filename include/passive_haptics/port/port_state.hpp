@@ -81,8 +81,8 @@ struct port_state {
   const typename Port::stored_effort& held;  ///< effort held over the last tick
   motion travel;                             ///< measured Δx over the last tick
   scalar travel_error;                       ///< largest distance of the true Δx from it
-  bool motion_known;  ///< false if the last sample was lost; Δx is then given as zero
-  bool late;          ///< dt was longer than T
+  bool motion_known = true;  ///< false if the last sample was lost; Δx is then given as zero
+  bool late = false;         ///< dt was longer than T
 
   /// The command that is held in the j-th coming tick, 1 ≤ j ≤ Latency.
   [[nodiscard]] constexpr const typename Port::stored_effort& coming(int j) const noexcept {
