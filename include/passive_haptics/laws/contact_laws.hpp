@@ -10,7 +10,6 @@
 namespace passive_haptics {
 inline namespace v0 {
 namespace detail {
-
 /// 1 + |centre|/radius, the factor of rounding errors of coordinates in a neighbourhood away from the origin.
 template <class Space>
 [[nodiscard]] constexpr typename Space::scalar off_centre(const neighbourhood<Space>& of) noexcept {

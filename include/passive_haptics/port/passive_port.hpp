@@ -23,6 +23,8 @@
 #include <passive_haptics/port/loop_limits.hpp>
 #include <passive_haptics/port/one_at_a_time.hpp>
 
+#include <algorithm>
+
 namespace passive_haptics {
 inline namespace v0 {
 
