@@ -30,6 +30,20 @@ TEST_CASE("bounds hold on devices drawn at random, and are near the truth", "[id
   CHECK(frictions[frictions.size() / 2] > 0.5);
 }
 
+TEST_CASE(
+    "what moves with the encoder is less than a gap or a mode that was found and dropped yields",
+    "[identify]") {
+  for (const std::uint64_t seed : {1700537, 2600097}) {  // a gap of 42 µm; a mode of 255 Hz
+    const auto v = identify::identified(identify::draw_disturbed(seed));
+    CAPTURE(seed, v.truth.rotor(), v.found.moves_rigidly());
+    REQUIRE_FALSE(v.refused());
+    CHECK_FALSE(v.names(v.truth.has.gap > 0.0 ? identify::disturbance::backlash
+                                              : identify::disturbance::mode));
+    CHECK(v.mass());
+    CHECK(v.found.mass > v.truth.rotor());  // the control: all that moves is more
+  }
+}
+
 TEST_CASE("the study's judge knows a bound that does not hold", "[identify]") {
   identify::verdict v;
   v.truth = {.mass = 0.1, .damping = 0.1, .friction = 0.1, .presliding = 10e-6, .quantum = 1e-5};
