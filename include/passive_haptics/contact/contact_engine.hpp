@@ -360,7 +360,7 @@ class contact_engine {
     });
     return depth;
   }
-  /// Begins an update: the force is no steeper than the stiffest contact that presses from now on, or than `any`.
+  /// Begins an update: the force is no steeper than the stiffest contact that presses, or is there if `any`, from now on.
   [[gnu::noinline]] constexpr void news(bool any = false) noexcept {
     told_ = true;
     slots_.for_each([&](const auto& slot, std::size_t) {

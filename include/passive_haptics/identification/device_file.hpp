@@ -447,8 +447,7 @@ template <port P>
   } else {
     return {
         "gain_tolerance: on steps no ledger of several axes covers gains that differ: weigh until "
-        "it is small, and "
-        "state 0",
+        "it is small, and state 0",
         {}};
   }
   return {{}, std::move(of)};
@@ -457,8 +456,8 @@ template <port P>
 template <port P, haptic_device_for<P> Device>
 [[nodiscard]] known_gains<P, Device> gains_of(const device_description& of, Device& device) {
   typename known_gains<P, Device>::numbers gains{};
-  gains.fill(of.gains.empty() ? 1.0
-                              : 0.0);  // with gains of another number of axes no sample is valid
+  // With gains of another number of axes no sample is valid.
+  gains.fill(of.gains.empty() ? 1.0 : 0.0);
   if (of.gains.size() == gains.size()) std::copy(of.gains.begin(), of.gains.end(), gains.begin());
   return {device, gains, P::dof == 1 ? 0.0 : of.gain_tolerance};
 }
@@ -468,16 +467,14 @@ template <int Dof>
 [[nodiscard]] device_description described(const device_found<Dof>& found, const std::string& name,
                                            double hand_force = 0.0) {
   const encoder_device d = found.stated();
-  if (d.quantum > 0.0) return {name, d, hand_force, {}, 0.0};
+  if (d.quantum > 0.0) return {name, d, hand_force};
   return {name,
           exact_device{.mass = d.mass,
                        .damping = d.damping,
                        .force_limit = d.force_limit,
                        .longest_tick = d.longest_tick,
                        .latency = d.latency},
-          hand_force,
-          {},
-          0.0};
+          hand_force};
 }
 /// The description of a device of the catalogue, to be completed: numbers that are not published are left out of its
 /// text, and read_device() asks for them by name. For a wall, state half of the mass and friction of a data sheet.
@@ -497,7 +494,7 @@ template <int Dof>
   }
   if (facts.latency) d.latency = static_cast<int>(facts.latency.value);
   if (facts.continuous_force) d.continuous_force = facts.continuous_force.value;
-  return {facts.name, d, 0.0, {}, 0.0};
+  return {facts.name, d, 0.0};
 }
 
 }  // namespace identification

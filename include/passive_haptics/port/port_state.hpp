@@ -74,10 +74,10 @@ struct port_state {
 
   const Damping& damping;  ///< damping of the device, as stated to the observer
   const commands& commanded;
-  scalar energy;        ///< E1(n), with the last tick booked
-  scalar dt;            ///< length of the last tick
-  scalar longest_tick;  ///< T, upper bound of the next tick
-  recent_ticks<scalar> recent{};
+  scalar energy;                             ///< E1(n), with the last tick booked
+  scalar dt;                                 ///< length of the last tick
+  scalar longest_tick;                       ///< T, upper bound of the next tick
+  recent_ticks<scalar> recent{};             ///< kept by ports whose bound reckons with them
   const typename Port::stored_effort& held;  ///< effort held over the last tick
   motion travel;                             ///< measured Δx over the last tick
   scalar travel_error;                       ///< largest distance of the true Δx from it
