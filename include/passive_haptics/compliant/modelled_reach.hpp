@@ -8,7 +8,7 @@
 //     ph::modelled_reach<2>{.device = ph::two_masses(0.1, 0.3, 160.0, 0.03, 0.1), .hand_force = 5.0, .tick = 1e-3}
 
 #include <passive_haptics/compliant/chain.hpp>
-#include <passive_haptics/compliant/covered.hpp>
+#include <passive_haptics/force_bound/reachable_bound.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -91,9 +91,9 @@ class modelled_reach<N, Late>::on {
   template <class State>
   [[nodiscard]] constexpr share<scalar> limit(const effort& desired, const State& state) noexcept {
     remember(state);
-    return detail::covered<Space>(desired, state, [&](int j, const effort& f, scalar size) {
+    return {detail::covered(desired, state, [&](int j, const effort& f, scalar size) {
       return reach(j, f, size, state);
-    });
+    })};
   }
 
  private:

@@ -5,7 +5,7 @@
 //
 //   observed_reach   needs the rotor's mass and the rate limit of the force on it       any number of modes behind it
 
-#include <passive_haptics/compliant/covered.hpp>
+#include <passive_haptics/force_bound/reachable_bound.hpp>
 
 #include <array>
 
@@ -85,9 +85,9 @@ class observed_reach::on {
   template <class State>
   [[nodiscard]] constexpr share<scalar> limit(const effort& desired, const State& state) noexcept {
     look(state);
-    const auto allowed = detail::covered<Space>(
-        desired, state,
-        [&](int j, const effort& f, scalar size) { return reach(j, f, size, state); });
+    const share allowed{detail::covered(desired, state, [&](int j, const effort& f, scalar size) {
+      return reach(j, f, size, state);
+    })};
     travel_ = state.travel;
     held_ = state.held;
     dt_ = state.dt;

@@ -29,18 +29,13 @@ struct no_observer {
     /// A damping without a number, because none is stated here.
     struct unknown_damping {
       static constexpr bool rubs = false;
-      [[nodiscard]] constexpr scalar worst_outflow(const effort& /*f*/,
-                                                   scalar /*T*/) const noexcept {
+      [[nodiscard]] constexpr scalar worst_outflow(const auto& /*f*/, scalar /*T*/) const noexcept {
         return scalar(0);
       }
     };
 
     constexpr explicit on(const no_observer& /*p*/) noexcept {}
-    constexpr bool update(const motion& /*dx*/, const effort& /*held*/, scalar /*dt*/) noexcept {
-      return true;
-    }
-    constexpr bool update(const motion& /*dx*/, const detail::reported_effort<P>& /*held*/,
-                          scalar /*dt*/) noexcept {
+    constexpr bool update(const motion& /*dx*/, const auto& /*held*/, scalar /*dt*/) noexcept {
       return true;
     }
     constexpr void forfeit(const effort& /*held*/, scalar /*T*/) noexcept {}

@@ -14,6 +14,56 @@
 namespace passive_haptics {
 inline namespace v0 {
 
+namespace detail {
+/// E1 − Σ W(h(j), δ(j)) [J] over the commands from the J-th on. `reach(j, f, |f|)` is δ(j) [m], the farthest travel
+/// along f in the j-th coming tick; j is an integral_constant.
+template <int J, class State>
+[[nodiscard]] constexpr auto left_over(const State& state, const auto& reach) noexcept {
+  using scalar = typename State::scalar;
+  if constexpr (J > State::latency) {
+    return state.energy - state.held_back();
+  } else {
+    const scalar credit = left_over<J + 1>(state, reach);
+    const typename State::effort h = state.coming(J);
+    const scalar force = State::port_type::norm(h);
+    if (!(force > scalar(0))) return credit;
+    scalar beyond = force;
+    if constexpr (State::damping_type::rubs) beyond -= state.damping.friction(h);
+    const scalar B = state.damping.per_tick(h, state.longest_tick);
+    return scalar(credit - kernels::reachable_outflow(
+                               beyond, B, reach(std::integral_constant<int, J>{}, h, force)) *
+                               (scalar(1) + kernels::rounding<scalar>()));
+  }
+}
+
+/// The share of `desired` that the ledger covers after the commands before it.
+template <class State>
+[[nodiscard]] constexpr auto covered(const typename State::effort& desired, const State& state,
+                                     const auto& reach) noexcept {
+  using scalar = typename State::scalar;
+  using P = typename State::port_type;
+  const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
+  if (outflow <= kernels::spendable(state.credit())) return scalar(1);
+  const scalar credit = left_over<1>(state, reach), force = P::norm(desired);
+  if (!(force > scalar(0))) return scalar(1);
+  scalar most = kernels::reachable_force_bound(
+      credit, state.damping.per_tick(desired, state.longest_tick),
+      reach(std::integral_constant<int, State::latency + 1>{}, desired, force));
+  if constexpr (State::damping_type::rubs) {
+    if (credit < scalar(0)) return scalar(0);  // a debt allows no force, not even c
+    most = (state.damping.friction(desired) + most) *
+           (scalar(1) - scalar(4) * kernels::rounding<scalar>());
+  }
+  if (!(most < force)) return scalar(1);
+  if constexpr (State::latency > 0 && !State::exact) {
+    // δ(j) hardly differs from δ(j + 1), so forces would take turns: what one takes, the next is denied. (§ 3)
+    const scalar before = P::dot(typename P::effort(state.coming(State::latency)), desired) / force;
+    most = kernels::smaller(most, (most + kernels::larger(before, scalar(0))) / scalar(2));
+  }
+  return scalar(most / force);
+}
+}  // namespace detail
+
 /// F s − B s² ≤ E1 [J] for every travel 0 ≤ s ≤ δ [m] along the force that the next tick can reach (ours, § 2(a′)).
 /// A device of mass m that moves in cannot turn round within a tick, so a pressing force is hardly bounded; one
 /// that moves out is bounded as far as the energy requires.
@@ -69,14 +119,17 @@ class reachable_bound::on {
   template <class State>
   [[nodiscard]] constexpr detail::what_is_left<State, Space> limit(
       const effort& desired, const State& state) const noexcept {
-    const scalar credit = left_for_it(state);
+    const auto reach_in = [&](auto j, const effort& f, scalar force) {
+      return reach<j>(f, force, force, state);
+    };
     if constexpr (detail::differs_by_axis<typename State::damping_type, Space>) {
       return detail::nearest_of<Space>(
           state.damping, desired,
-          detail::yield<Space>(state.damping, desired, credit, state.longest_tick),
-          [&](const effort& f) { return share_of(f, credit, state); });
+          detail::yield<Space>(state.damping, desired, detail::left_over<1>(state, reach_in),
+                               state.longest_tick),
+          [&](const effort& f) { return detail::covered(f, state, reach_in); });
     } else {
-      return {share_of(desired, credit, state)};
+      return {detail::covered(desired, state, reach_in)};
     }
   }
 
@@ -94,54 +147,6 @@ class reachable_bound::on {
   }
 
  private:
-  template <class State>
-  [[nodiscard]] constexpr scalar share_of(const effort& desired, scalar credit,
-                                          const State& state) const noexcept {
-    const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
-    if (outflow <= kernels::spendable(credit))
-      return scalar(1);  // even the worst motion is covered
-    const scalar force = Space::norm(desired);
-    if (!(force > scalar(0))) return scalar(1);
-    const scalar B = state.damping.per_tick(desired, state.longest_tick);
-    scalar most = kernels::reachable_force_bound(
-        credit, B, reach<State::latency + 1>(desired, force, force, state));
-    if constexpr (State::damping_type::rubs) {
-      if (credit < scalar(0)) return scalar(0);  // a ledger in debt allows no force, not even c
-      most = (state.damping.friction(desired) + most) *
-             (scalar(1) - scalar(4) * kernels::rounding<scalar>());
-    }
-    if (!(most < force)) return scalar(1);
-    if constexpr (State::latency > 0 && !State::exact) {
-      // δ(j) hardly differs from δ(j + 1), so forces would take turns: what one takes, the next is denied. (§ 3)
-      const scalar before = Space::dot(effort(state.coming(State::latency)), desired) / force;
-      most = kernels::smaller(most, (most + kernels::larger(before, scalar(0))) / scalar(2));
-    }
-    return most / force;
-  }
-  /// E1 − Σ W(h(j), δ(j)) [J], the energy left for the new force.
-  template <class State>
-  [[nodiscard]] constexpr scalar left_for_it(const State& state) const noexcept {
-    scalar credit = state.energy;
-    if constexpr (State::latency > 0) {
-      credit -= state.held_back();
-      promise<1>(credit, state);
-    }
-    return credit;
-  }
-  template <int J, class State>
-  constexpr void promise(scalar& credit, const State& state) const noexcept {
-    const effort h = state.coming(J);
-    const scalar force = Space::norm(h);
-    if (force > scalar(0)) {
-      scalar beyond = force;
-      if constexpr (State::damping_type::rubs) beyond -= state.damping.friction(h);
-      const scalar B = state.damping.per_tick(h, state.longest_tick);
-      credit -= kernels::reachable_outflow(beyond, B, reach<J>(h, force, force, state)) *
-                (scalar(1) + kernels::rounding<scalar>());
-    }
-    if constexpr (J < State::latency) promise<J + 1>(credit, state);
-  }
-
   /// δ(J) [m] along `direction`, a vector of length `length`; `last` is the force held in tick J [N].
   template <int J, class State>
   [[nodiscard]] constexpr scalar reach(const effort& direction, scalar length, scalar last,
