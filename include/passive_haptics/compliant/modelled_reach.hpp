@@ -91,9 +91,51 @@ class modelled_reach<N, Late>::on {
   template <class State>
   [[nodiscard]] constexpr share<scalar> limit(const effort& desired, const State& state) noexcept {
     remember(state);
-    return {detail::covered(desired, state, [&](int j, const effort& f, scalar size) {
-      return reach(j, f, size, state);
-    })};
+    return {detail::covered(desired, state, *this)};
+  }
+
+  /// δ(J) [m] along `direction`, a vector of length `length`; `last` is the force held in tick J [N].
+  template <int J, class State>
+  [[nodiscard]] constexpr scalar reach(const effort& direction, scalar length, scalar last,
+                                       const State& state) const noexcept {
+    if (ticks_ < seen) return kernels::largest<scalar>();
+    const auto along = [&](const auto& v) { return scalar(Space::dot(v, direction) / length); };
+    std::array<scalar, seen> moved{};
+    std::array<scalar, seen + ahead> force{};
+    const auto first = static_cast<std::size_t>(J);
+    force[0] = last;
+    for (int i = 1; i < J; ++i)
+      force[static_cast<std::size_t>(J - i)] = along(effort(state.coming(i)));
+    for (std::size_t i = 0; i < seen; ++i) {
+      moved[i] = along(effort(travels_[i]));
+      force[first + i] = along(effort(held_[i]));
+    }
+    scalar error(0);
+    if constexpr (!State::exact) error = state.travel_error;
+
+    const auto travel = [&](const law& of) {
+      scalar s = of.unsure + of.noise * error, passed(0);
+      for (std::size_t i = 0; i < seen; ++i) {
+        s += of.travels[i] * moved[i];
+        passed += kernels::magnitude(of.travels[i] * moved[i]);
+      }
+      for (std::size_t i = 0; i < seen + first; ++i) {
+        s += of.forces[i] * force[i];
+        passed += kernels::magnitude(of.forces[i] * force[i]);
+      }
+      return s + scalar(2 * seen) * kernels::rounding<scalar>() * passed;
+    };
+    scalar farthest(0);
+    for (const auto& part : laws_[first - 1]) {
+      const scalar stated = travel(part[0]);
+      scalar more(0);
+      for (std::size_t i = 1; i < models; i += 2) {
+        const scalar off = kernels::larger(travel(part[i]), travel(part[i + 1])) - stated;
+        more += kernels::larger(off, scalar(0));
+      }
+      farthest = kernels::larger(farthest, stated + more * scalar(1.25));
+    }
+    return farthest;
   }
 
  private:
@@ -170,50 +212,6 @@ class modelled_reach<N, Late>::on {
     }
     travels_[0] = state.travel;
     held_[0] = state.held;
-  }
-
-  /// δ(j) [m] along `direction`, a vector of length `length`.
-  template <class State>
-  [[nodiscard]] constexpr scalar reach(int j, const effort& direction, scalar length,
-                                       const State& state) const noexcept {
-    if (ticks_ < seen) return kernels::largest<scalar>();
-    const auto along = [&](const auto& v) { return scalar(Space::dot(v, direction) / length); };
-    std::array<scalar, seen> moved{};
-    std::array<scalar, seen + ahead> force{};
-    const auto first = static_cast<std::size_t>(j);
-    force[0] = length;
-    for (int i = 1; i < j; ++i)
-      force[static_cast<std::size_t>(j - i)] = along(effort(state.coming(i)));
-    for (std::size_t i = 0; i < seen; ++i) {
-      moved[i] = along(effort(travels_[i]));
-      force[first + i] = along(effort(held_[i]));
-    }
-    scalar error(0);
-    if constexpr (!State::exact) error = state.travel_error;
-
-    const auto travel = [&](const law& of) {
-      scalar s = of.unsure + of.noise * error, passed(0);
-      for (std::size_t i = 0; i < seen; ++i) {
-        s += of.travels[i] * moved[i];
-        passed += kernels::magnitude(of.travels[i] * moved[i]);
-      }
-      for (std::size_t i = 0; i < seen + first; ++i) {
-        s += of.forces[i] * force[i];
-        passed += kernels::magnitude(of.forces[i] * force[i]);
-      }
-      return s + scalar(2 * seen) * kernels::rounding<scalar>() * passed;
-    };
-    scalar farthest(0);
-    for (const auto& part : laws_[first - 1]) {
-      const scalar stated = travel(part[0]);
-      scalar more(0);
-      for (std::size_t i = 1; i < models; i += 2) {
-        const scalar off = kernels::larger(travel(part[i]), travel(part[i + 1])) - stated;
-        more += kernels::larger(off, scalar(0));
-      }
-      farthest = kernels::larger(farthest, stated + more * scalar(1.25));
-    }
-    return farthest;
   }
 
   modelled_reach stated_;

@@ -85,13 +85,31 @@ class observed_reach::on {
   template <class State>
   [[nodiscard]] constexpr share<scalar> limit(const effort& desired, const State& state) noexcept {
     look(state);
-    const share allowed{detail::covered(desired, state, [&](int j, const effort& f, scalar size) {
-      return reach(j, f, size, state);
-    })};
+    const share allowed{detail::covered(desired, state, *this)};
     travel_ = state.travel;
     held_ = state.held;
     dt_ = state.dt;
     return allowed;
+  }
+
+  /// δ(J) [m] along `direction`, a vector of length `length`; `last` is the force held in tick J [N].
+  template <int J, class State>
+  [[nodiscard]] constexpr scalar reach(const effort& direction, scalar length, scalar last,
+                                       const State& state) const noexcept {
+    if (ticks_ < 1 || strict_for_ > scalar(0)) return kernels::largest<scalar>();
+    const auto along = [&](const auto& v) { return scalar(Space::dot(v, direction) / length); };
+    // h[0] was held in the last tick, h[i] will be in the i-th coming one, h[J] = last.
+    std::array<scalar, State::latency + 2> h{};
+    h[0] = along(effort(state.held));
+    for (int i = 1; i < J; ++i) h[static_cast<std::size_t>(i)] = along(effort(state.coming(i)));
+    h[static_cast<std::size_t>(J)] = last;
+    scalar nearest = kernels::largest<scalar>();
+    if (G_ < kernels::largest<scalar>()) nearest = by_size(J, h, along(state.travel), state);
+    if (ticks_ >= 2) {
+      nearest = kernels::smaller(nearest, by_slew(J, h, along(state.travel), along(effort(travel_)),
+                                                  along(effort(held_)), state));
+    }
+    return nearest;
   }
 
   // The interface of a bound that tests the motion, which port/concepts.hpp lists; limit() tests every tick.
@@ -157,26 +175,6 @@ class observed_reach::on {
   [[nodiscard]] constexpr scalar by_mass(scalar force) const noexcept {
     if (force > scalar(0)) return force / m_;
     return above_ > scalar(0) ? force / above_ : scalar(0);
-  }
-
-  /// δ(j) [m] along `direction`, a vector of length `length`.
-  template <class State>
-  [[nodiscard]] constexpr scalar reach(int j, const effort& direction, scalar length,
-                                       const State& state) const noexcept {
-    if (ticks_ < 1 || strict_for_ > scalar(0)) return kernels::largest<scalar>();
-    const auto along = [&](const auto& v) { return scalar(Space::dot(v, direction) / length); };
-    // h[0] was held in the last tick, h[i] will be in the i-th coming one, h[j] = length.
-    std::array<scalar, State::latency + 2> h{};
-    h[0] = along(effort(state.held));
-    for (int i = 1; i < j; ++i) h[static_cast<std::size_t>(i)] = along(effort(state.coming(i)));
-    h[static_cast<std::size_t>(j)] = length;
-    scalar nearest = kernels::largest<scalar>();
-    if (G_ < kernels::largest<scalar>()) nearest = by_size(j, h, along(state.travel), state);
-    if (ticks_ >= 2) {
-      nearest = kernels::smaller(nearest, by_slew(j, h, along(state.travel), along(effort(travel_)),
-                                                  along(effort(held_)), state));
-    }
-    return nearest;
   }
 
   /// δ(j) [m] from |g| ≤ G: the acceleration is at most (h + G + c + 2B|Δx|)/m.

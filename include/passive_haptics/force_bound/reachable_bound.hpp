@@ -15,15 +15,15 @@ namespace passive_haptics {
 inline namespace v0 {
 
 namespace detail {
-/// E1 − Σ W(h(j), δ(j)) [J] over the commands from the J-th on. `reach(j, f, |f|)` is δ(j) [m], the farthest travel
-/// along f in the j-th coming tick; j is an integral_constant.
+/// E1 − Σ W(h(j), δ(j)) [J] over the commands from the J-th on. `bound.reach<J>(f, |f|, h, state)` is δ(J) [m], the
+/// farthest travel along f in the J-th coming tick, in which a force of h [N] is held.
 template <int J, class State>
-[[nodiscard]] constexpr auto left_over(const State& state, const auto& reach) noexcept {
+[[nodiscard]] constexpr auto left_over(const State& state, const auto& bound) noexcept {
   using scalar = typename State::scalar;
   if constexpr (J > State::latency) {
     return state.energy - state.held_back();
   } else {
-    const scalar credit = left_over<J + 1>(state, reach);
+    const scalar credit = left_over<J + 1>(state, bound);
     const typename State::effort h = state.coming(J);
     const scalar force = State::port_type::norm(h);
     if (!(force > scalar(0))) return credit;
@@ -31,7 +31,7 @@ template <int J, class State>
     if constexpr (State::damping_type::rubs) beyond -= state.damping.friction(h);
     const scalar B = state.damping.per_tick(h, state.longest_tick);
     return scalar(credit - kernels::reachable_outflow(
-                               beyond, B, reach(std::integral_constant<int, J>{}, h, force)) *
+                               beyond, B, bound.template reach<J>(h, force, force, state)) *
                                (scalar(1) + kernels::rounding<scalar>()));
   }
 }
@@ -39,16 +39,16 @@ template <int J, class State>
 /// The share of `desired` that the ledger covers after the commands before it.
 template <class State>
 [[nodiscard]] constexpr auto covered(const typename State::effort& desired, const State& state,
-                                     const auto& reach) noexcept {
+                                     const auto& bound) noexcept {
   using scalar = typename State::scalar;
   using P = typename State::port_type;
   const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
   if (outflow <= kernels::spendable(state.credit())) return scalar(1);
-  const scalar credit = left_over<1>(state, reach), force = P::norm(desired);
+  const scalar credit = left_over<1>(state, bound), force = P::norm(desired);
   if (!(force > scalar(0))) return scalar(1);
   scalar most = kernels::reachable_force_bound(
       credit, state.damping.per_tick(desired, state.longest_tick),
-      reach(std::integral_constant<int, State::latency + 1>{}, desired, force));
+      bound.template reach<State::latency + 1>(desired, force, force, state));
   if constexpr (State::damping_type::rubs) {
     if (credit < scalar(0)) return scalar(0);  // a debt allows no force, not even c
     most = (state.damping.friction(desired) + most) *
@@ -119,17 +119,14 @@ class reachable_bound::on {
   template <class State>
   [[nodiscard]] constexpr detail::what_is_left<State, Space> limit(
       const effort& desired, const State& state) const noexcept {
-    const auto reach_in = [&](auto j, const effort& f, scalar force) {
-      return reach<j>(f, force, force, state);
-    };
     if constexpr (detail::differs_by_axis<typename State::damping_type, Space>) {
       return detail::nearest_of<Space>(
           state.damping, desired,
-          detail::yield<Space>(state.damping, desired, detail::left_over<1>(state, reach_in),
+          detail::yield<Space>(state.damping, desired, detail::left_over<1>(state, *this),
                                state.longest_tick),
-          [&](const effort& f) { return detail::covered(f, state, reach_in); });
+          [&](const effort& f) { return detail::covered(f, state, *this); });
     } else {
-      return {detail::covered(desired, state, reach_in)};
+      return {detail::covered(desired, state, *this)};
     }
   }
 
@@ -146,7 +143,6 @@ class reachable_bound::on {
         scalar(0)};
   }
 
- private:
   /// δ(J) [m] along `direction`, a vector of length `length`; `last` is the force held in tick J [N].
   template <int J, class State>
   [[nodiscard]] constexpr scalar reach(const effort& direction, scalar length, scalar last,
@@ -173,6 +169,7 @@ class reachable_bound::on {
     }
   }
 
+ private:
   scalar mass_, hand_force_;
 };
 
