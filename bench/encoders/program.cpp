@@ -8,6 +8,7 @@ const std::vector<ex::section<session>>& sections() {
                                                      {"endurance", run_endurance},
                                                      {"tremor", run_tremor},
                                                      {"nearest", run_nearest},
+                                                     {"held", run_held},
                                                      {"guarantee", run_guarantee}};
   return all;
 }
@@ -43,9 +44,12 @@ void show_budgets(const session& s) {
 }  // namespace
 
 settings parse(const std::vector<std::string>& arguments) {
-  settings chosen{"encoders"};
+  settings chosen{{"encoders"}};
   ex::read_options(
-      "encoders", ex::section_options(sections(), chosen, "two devices, fewer touches and seconds"),
+      "encoders",
+      ex::section_options(
+          sections(), chosen, "two devices, fewer touches and seconds",
+          {ex::a_number("--seed", "of the scenes held still (default: 1)", chosen.seed)}),
       arguments);
   return chosen;
 }

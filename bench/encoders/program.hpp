@@ -11,7 +11,9 @@ namespace encoders {
 
 namespace ex = experiments;
 
-using settings = ex::section_settings;
+struct settings : ex::section_settings {
+  int seed = 1;  ///< of what is drawn at random
+};
 
 struct session : ex::workshop {
   const settings& chosen;
@@ -54,6 +56,7 @@ class rest_of_hold {
 [[nodiscard]] std::vector<std::string> run_endurance(const session& s);
 [[nodiscard]] std::vector<std::string> run_tremor(const session& s);
 [[nodiscard]] std::vector<std::string> run_nearest(const session& s);
+[[nodiscard]] std::vector<std::string> run_held(const session& s);
 [[nodiscard]] std::vector<std::string> run_guarantee(const session& s);
 
 /// What the command line asks for. Throws std::invalid_argument with the value and the remedy.
