@@ -19,6 +19,7 @@ namespace ex = experiments;
 struct settings {
   std::string out = "cost";
   std::string baseline;
+  std::string page;
   std::vector<std::filesystem::path> programs;
   bool quick = false;
   bool rewrite = false;
@@ -33,7 +34,8 @@ settings parse(const std::vector<std::string>& arguments) {
         [&](const std::string& program) { chosen.programs.emplace_back(program); }},
        ex::a_text("--baseline FILE", "fails if a count has grown by more than 1 % over it",
                   chosen.baseline),
-       ex::a_switch("--rewrite", "writes the baseline anew instead", chosen.rewrite),
+       ex::a_text("--page FILE", "fails if its counted lines are more than 1 % off", chosen.page),
+       ex::a_switch("--rewrite", "writes baseline and page anew instead", chosen.rewrite),
        ex::a_text("--out DIR", "where the results go (default: " + chosen.out + ")", chosen.out)},
       arguments, [&] {
         if (chosen.rewrite && chosen.baseline.empty()) {
@@ -84,26 +86,54 @@ void show_counts(ex::report& out, ex::csv_file& csv, const std::vector<cost::cou
   ex::show_rows(out, "instructions", rows);
 }
 
+/// The rows of the parts, and the same as lines of the page: a part a line.
+struct part_rows {
+  std::vector<ex::record> rows{};
+  std::string page =
+      "| scene | 1-DOF float | bytes | 3-DOF double | bytes |\n|---|---|---|---|---|\n";
+};
 /// Two rows for a part: instructions per tick of each build, state in bytes.
 template <template <class, int> class Part>
-void add_part(std::vector<ex::record>& rows, const std::vector<cost::counts>& all,
-              const std::string& scene) {
+void add_part(part_rows& to, const std::vector<cost::counts>& all, const std::string& scene) {
+  std::string line = std::string("| ") + Part<float, 1>::name;
   const auto add = [&](auto part, const char* port, const char* scalar) {
     using chosen = decltype(part);
+    constexpr auto bytes = sizeof(chosen::composed({}));
     ex::record row{{"scene", std::string(chosen::name)}, {"port", port}};
+    std::string counts;
     for (const auto& build : all) {
       row.emplace_back(build.compiler, build.per_tick(scene, scalar), "%.1f");
+      counts += (counts.empty() ? "" : " / ") + ex::format("%.0f", build.per_tick(scene, scalar));
     }
-    row.emplace_back("state bytes", sizeof(chosen::composed({})));
-    rows.push_back(row);
+    row.emplace_back("state bytes", bytes);
+    to.rows.push_back(row);
+    line += " | " + counts + " | " + std::to_string(bytes);
   };
   add(Part<float, 1>{}, "1-DOF float", "float");
   add(Part<double, 3>{}, "3-DOF double", "double");
+  to.page += line + " |\n";
+}
+
+/// The ratios to what is written by hand, as lines of the page: a scene a line.
+std::string ratio_lines(const std::vector<cost::counts>& all) {
+  std::string heading = "| composed / by hand |", rule = "|---|", lines;
+  for (const auto& scene : scenes) {
+    lines += "| " + scene + " |";
+    for (const auto& build : all) {
+      for (const auto& scalar : scalars) {
+        if (scene == scenes.front()) heading += ' ' + build.compiler + ", " + scalar + " |";
+        if (scene == scenes.front()) rule += "---|";
+        lines += ex::format(" %.3f |", build.ratio(scene, scalar));
+      }
+    }
+    lines += '\n';
+  }
+  return heading + '\n' + rule + '\n' + lines;
 }
 
 /// What each part costs; returns which parts that a scene has no use for cost instructions.
-std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::counts>& all) {
-  std::vector<ex::record> rows;
+std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::counts>& all,
+                                    part_rows& rows) {
   add_part<cost::part_bare>(rows, all, "part_bare");
   add_part<cost::part_turning>(rows, all, "part_turning");
   add_part<cost::part_counting>(rows, all, "part_counting");
@@ -121,7 +151,7 @@ std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::cou
   out.section("What each part costs",
               "Instructions per tick, composed, of the same fixed wall with one part more each "
               "time. A part that a scene has no use for must cost none.");
-  ex::show_rows(out, "parts", rows);
+  ex::show_rows(out, "parts", rows.rows);
 
   std::vector<std::string> found;
   for (const auto& build : all) {
@@ -135,6 +165,41 @@ std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::cou
     }
   }
   return found;
+}
+
+/// What stands between the marks of the page: brought to `counted`, or compared, with 1 % of each number.
+std::vector<std::string> see_to_page(const settings& chosen, const std::string& counted) {
+  const std::string head = "<!-- counted -->\n", tail = "<!-- so far -->";
+  std::ifstream file(chosen.page);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto from = text.find(head), to = text.find(tail);
+  if (from == std::string::npos || to == std::string::npos) {
+    throw std::runtime_error(chosen.page + ": has no lines between " + head + " and " + tail);
+  }
+  const auto first = from + head.size();
+  if (chosen.rewrite) {
+    ex::output_file out(chosen.page);
+    out.stream() << text.substr(0, first) << counted << text.substr(to);
+    out.close();
+    return {};
+  }
+  const auto numbers_of = [](const std::string& in) {
+    std::vector<double> all;
+    for (const char* at = in.c_str(); *at != '\0';) {
+      char* end = nullptr;
+      const bool digit = *at >= '0' && *at <= '9';
+      if (digit) all.push_back(std::strtod(at, &end));
+      at = digit ? end : at + 1;
+    }
+    return all;
+  };
+  const auto told = numbers_of(text.substr(first, to - first)), now = numbers_of(counted);
+  const auto same = [](double x, double y) { return std::abs(x - y) <= std::max(0.01 * y, 1e-3); };
+  if (std::equal(told.begin(), told.end(), now.begin(), now.end(), same)) return {};
+  return {chosen.page +
+          " has other counts than these, which `cmake --build build/cost --target "
+          "rewrite_cost_baseline` writes:\n" +
+          counted};
 }
 
 /// Compares with the committed counts; returns what grew.
@@ -232,7 +297,12 @@ int run(const settings& chosen) {
                      "compiler,scene,scalar,side,path,instructions per tick,ticks");
     show_counts(out, csv, all);
     csv.close();
-    found = show_parts(out, all);
+    part_rows parts;
+    found = show_parts(out, all, parts);
+    if (!chosen.page.empty() && all.size() == 2) {
+      const auto off = see_to_page(chosen, ratio_lines(all) + "\n" + parts.page);
+      found.insert(found.end(), off.begin(), off.end());
+    }
     if (chosen.rewrite) {
       ex::output_file file(chosen.baseline);
       cost::write_baseline(file.stream(), all);
