@@ -2,8 +2,13 @@
 // observed_reach: anything within G and R pushes on the rotor, and the controls of each assumption.
 #include "compliant/pushed.hpp"
 #include <passive_haptics/compliant/modelled_reach.hpp>
+#include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/hand.hpp>
+#include <passive_haptics/simulation/quiet.hpp>
+#include <passive_haptics/simulation/schedule.hpp>
 
 namespace ph = passive_haptics;
+namespace sim = ph::simulation;
 using d1 = ph::space<double, 1>;
 using d3 = ph::space<double, 3>;
 using f1 = ph::space<float, 1>;
@@ -30,10 +35,12 @@ TEST_CASE("observed_reach holds in three dimensions, and in float", "[compliant]
 
 TEST_CASE("controls: observed_reach that is told a slower pull, or a heavier rotor, loses",
           "[compliant][observed_reach]") {
-  CHECK(pushed::lost<d1>(60, 15, rounding,
-                         [](ph::observed_reach& p, const pushed::world&) { p.slew /= 3.0; }) > 0);
+  // Rarely: what is added to the reach covers more than it is there for. Of the first 1500 such devices 4 and 84 lose.
+  CHECK(pushed::lost<d1>(
+            30, 15, rounding, [](ph::observed_reach& p, const pushed::world&) { p.slew /= 3.0; },
+            100) > 0);
   CHECK(pushed::lost<d1>(60, 15, rounding, [](ph::observed_reach& p, const pushed::world&) {
-          p.mass *= 1.5;
+          p.mass *= 3.0;
           p.mass_above = 0.0;
         }) > 0);
 }
@@ -109,6 +116,70 @@ TEMPLATE_TEST_CASE_SIG(
                                           .tick = 1e-3};
   judge(bound, 1e-4, 2e-4, Late == 1 ? 0.5 : 0.35);
   judge(bound, 2e-5, 5e-5, 0.25);
+}
+
+TEST_CASE("what observed_reach bounds at an empty ledger rests in a hand",
+          "[compliant][observed_reach]") {
+  // Without f T²/2m in the reach two of these ring for ever.
+  sim::random_source random(3);
+  int still = 0;
+  for (int i = 0; i < 48; ++i) {
+    const double K = 300.0 * std::exp(random.uniform(0.0, 5.5)), most = random.uniform(3.0, 20.0);
+    const bool stiff = i % 2 == 1;
+    sim::device_parameters<d1> p{.mass = 0.05 * std::exp(random.uniform(0.0, 3.0)),
+                                 .damping = 0.05 * std::exp(random.uniform(0.0, 3.0)),
+                                 .force_limit = most};
+    p.load = -random.uniform(0.3, 0.7) * most;
+    const sim::impedance_hand<d1> hand{
+        .stiffness = stiff ? 400.0 : 100.0, .damping = stiff ? 6.0 : 1.0, .limit = 1e9};
+    sim::device<d1, sim::impedance_hand<d1>> device(p, hand);
+    auto touch = ph::make_touch<d1>(
+        ph::exact_device{
+            .mass = p.mass, .damping = p.damping, .force_limit = most, .longest_tick = 1e-3},
+        ph::observed_transmission{.rotor = p.mass, .slew = random.uniform(500.0, 10e3)},
+        ph::known_hand{.force = most});
+    REQUIRE_FALSE(touch.check());
+    sim::quiet_judge<d1> judge;
+    const double swing = random.uniform(1e-4, 3e-3);
+    double force = 0.0;
+    for (int n = 0; n < 9000; ++n) {
+      const auto sample = device.exchange(force);
+      if (n % 25 == 0) (void)touch.update({n < 3000 ? swing * std::sin(0.03 * n) : 0.0, 1.0, K});
+      force = touch.tick(sample).force;
+      if (n == 3000) judge.news();
+      const double normal = 1.0;
+      judge.add(force, device.velocity(), 1e-3, std::span(&normal, force > 0.0 ? 1 : 0));
+    }
+    still += judge.settling() <= 5.0 ? 1 : 0;
+    CHECK(device.meter().minimum() >= -rounding);
+  }
+  CHECK(still == 48);
+}
+
+TEST_CASE(
+    "a rotor heavier than observed_reach was told refutes nothing, unless it was told how heavy at "
+    "most",
+    "[compliant][observed_reach][event]") {
+  const auto refuted = [](double above) {
+    ph::passive_port port{
+        d1{}, ph::given_force{}, ph::reduced_energy{.damping = 0.1, .loan = 1.0},
+        ph::observed_reach{.mass = 0.1, .mass_above = above, .slew = 100.0, .pull = 1.0},
+        ph::loop_limits{.longest_tick = 1e-3}};
+    double x = 0.0, v = 0.0, force = 0.0;
+    bool said = false;
+    for (int n = 0; n < 50; ++n) {
+      const double gained = force / 0.3 * 1e-3;  // 0.3 kg, and no other force
+      x += (v + gained / 2.0) * 1e-3;
+      v += gained;
+      const auto tick = port.tick(x, ph::seconds{1e-3}, n % 10 < 5 ? 4.0 : -4.0);
+      said = said || tick.what == ph::event::outside_force;
+      force = tick.force;
+    }
+    return said;
+  };
+  CHECK_FALSE(refuted(0.0));
+  CHECK_FALSE(refuted(0.35));
+  CHECK(refuted(0.12));
 }
 
 TEST_CASE("observed_reach names what is wrong with its numbers", "[compliant][observed_reach]") {

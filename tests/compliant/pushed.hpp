@@ -135,11 +135,11 @@ inline ph::observed_reach told(const world& w) {
           .damping_above = w.b};
 }
 
-/// On how many of `worlds` devices does the ledger, or the port, fall below −`tolerance`?
+/// On how many of `worlds` devices from the `first` on does the ledger, or the port, fall below −`tolerance`?
 template <class Space, int Late = 0>
-int lost(int worlds, int tries, double tolerance, const auto& change) {
+int lost(int worlds, int tries, double tolerance, const auto& change, int first = 0) {
   int count = 0;
-  for (int i = 0; i < worlds; ++i) {
+  for (int i = first; i < first + worlds; ++i) {
     world w = drawn(static_cast<unsigned>(i) + 1u);
     ph::observed_reach says = told(w);
     change(says, w);

@@ -18,7 +18,8 @@ inline namespace v0 {
 /// and while |dg/dt| ≤ R [N/s], the travel along f in the next tick is for equal ticks at most
 ///     δ(1) = V₀T + T²/m ((f + h)/2 − f̂ + m a + R T + 2 c)       (ours; any ticks: docs/design/mathematics.md § 14)
 /// with h the force held in the last tick and c the dry friction. This is the formula of reachable_bound with the measured
-/// force instead of the largest one. If |g| ≤ G is stated as well, the smaller of both reaches counts.
+/// force instead of the largest one. f T²/2m is added: else an empty ledger, which lets out E1/δ(1), would be a spring of
+/// f/δ(1) that is too stiff for its ticks. If |g| ≤ G is stated as well, the smaller of both reaches counts.
 ///
 /// Passive (E1 ≥ 0) under ALL of these:
 ///   - the mass that moves rigidly with the encoder, m, is the same in every direction and between `mass` and `mass_above`;
@@ -28,9 +29,9 @@ inline namespace v0 {
 ///   - the assumptions of strict_bound, as in reachable_bound.
 /// Of these, no hand of ours has drawn energy from a mass above `mass_above`, a friction or a damper above what is stated, or
 /// a pull above G where R holds; from a lighter rotor and a faster force it has (docs/guarantees.md). The proof needs all.
-/// They imply |ĝ − ĝ_last| ≤ R (T₀ + T₁ + T₂)/3 + 2c and |ĝ| ≤ G + c. A motion that violates one of these refutes a stated
-/// number: then the bound is the strict one for 0.1 s, twice as long each time, with event::outside_force. The guarantee
-/// does not rest on this test.
+/// They imply |ĝ − ĝ_last| ≤ R (T₀ + T₁ + T₂)/3 + 2c and |ĝ| ≤ G + c. A motion that violates one of these for every m that
+/// is stated refutes a number: then the bound is the strict one for 0.1 s, twice as long each time, with
+/// event::outside_force. The guarantee does not rest on this test.
 struct observed_reach {
   static constexpr guarantee passivity = guarantee::conditional;
   static constexpr bound_traits traits{
@@ -106,8 +107,10 @@ class observed_reach::on {
     scalar nearest = kernels::largest<scalar>();
     if (G_ < kernels::largest<scalar>()) nearest = by_size(J, h, along(state.travel), state);
     if (ticks_ >= 2) {
-      nearest = kernels::smaller(nearest, by_slew(J, h, along(state.travel), along(effort(travel_)),
-                                                  along(effort(held_)), state));
+      const scalar T = state.longest_tick,
+                   slewed = by_slew(J, h, along(state.travel), along(effort(travel_)),
+                                    along(effort(held_)), state);
+      nearest = kernels::smaller(nearest, slewed + last * T * T / (scalar(2) * m_));
     }
     return nearest;
   }
@@ -140,22 +143,22 @@ class observed_reach::on {
     const scalar T0 = state.dt, T1 = dt_, both = T0 + T1;
     const effort a = (effort(state.travel) / T0 - effort(travel_) / T1) * (scalar(2) / both);
     const effort held = (effort(state.held) * T0 + effort(held_) * T1) / both;
-    const effort g = effort(a * m_) - held;
-    const scalar size = Space::norm(a);
-    const scalar wide = above_ > m_ ? above_ - m_ : scalar(0);
+    const scalar size = Space::norm(a), loudest = Space::norm(held);
     const scalar noise = scalar(2) * error_of(state) * (scalar(1) / T0 + scalar(1) / T1) / both;
     const scalar rubbing =
         scalar(2) * b_ * (Space::norm(state.travel) + Space::norm(effort(travel_))) / both;
     const scalar unsure =
-        ((m_ + wide) * noise + wide * size + rubbing) +
-        scalar(16) * kernels::rounding<scalar>() * (m_ * size + Space::norm(held));
-    bool possible = Space::norm(g) <= G_ + c_ + unsure;
+        rubbing + scalar(16) * kernels::rounding<scalar>() * (m_ * size + loudest);
+    bool possible = explained(a, held, noise, G_ + c_ + unsure);
     if (ticks_ == 3) {
-      const scalar changed = Space::norm(effort(g - effort(g_)));
-      possible = possible &&
-                 changed <= R_ * (both + before_) / scalar(3) + scalar(2) * c_ + unsure + unsure_;
+      possible =
+          possible &&
+          explained(effort(a - effort(a_)), effort(held - effort(mean_held_)), noise + noise_,
+                    R_ * (both + before_) / scalar(3) + scalar(2) * c_ + unsure + unsure_);
     }
-    g_ = g;
+    a_ = a;
+    mean_held_ = held;
+    noise_ = noise;
     unsure_ = unsure;
     before_ = T1;
     if (possible) return;
@@ -163,6 +166,23 @@ class observed_reach::on {
     strict_for_ = pause_;
   }
 
+  /// True if |m a − f| ≤ `most` + m `noise` [N] for some mass m within what is stated: a is `noise` [m/s²] off at most.
+  [[nodiscard]] constexpr bool explained(const effort& a, const effort& f, scalar noise,
+                                         scalar most) const noexcept {
+    const scalar square = Space::dot(a, a), along = Space::dot(a, f);
+    const scalar beyond = square - noise * noise;
+    scalar m = above_ > scalar(0) ? kernels::larger(above_, m_) : kernels::largest<scalar>();
+    if (beyond > scalar(0)) {  // the least of |m a − f| − m `noise`
+      const scalar across = kernels::square_root(
+          kernels::larger(scalar(0), Space::dot(f, f) * square - along * along));
+      m = kernels::clamped((along + across * noise / kernels::square_root(beyond)) / square, m_, m);
+    } else if (!(noise > scalar(0))) {
+      m = m_;
+    } else if (!(above_ > scalar(0))) {
+      return true;  // a mass that is large enough explains whatever has been seen
+    }
+    return Space::norm(effort(a * m - f)) <= most + m * noise;
+  }
   template <class State>
   [[nodiscard]] static constexpr scalar error_of(const State& state) noexcept {
     if constexpr (State::exact) {
@@ -239,9 +259,9 @@ class observed_reach::on {
 
   observed_reach stated_;
   scalar m_{}, above_{}, R_{}, c_{}, b_{}, G_{};
-  typename Space::stored_effort travel_{}, held_{},
-      g_{};  ///< those of the tick before the last one
-  scalar dt_{}, before_{}, unsure_{};
+  typename Space::stored_effort travel_{}, held_{};  ///< those of the tick before the last one
+  typename Space::stored_effort a_{}, mean_held_{};  ///< of the two ticks before the last one
+  scalar dt_{}, before_{}, noise_{}, unsure_{};
   scalar strict_for_{}, pause_ = first_pause / scalar(2);
   int ticks_ = 0;  ///< known ticks in a row, up to 3
 };
