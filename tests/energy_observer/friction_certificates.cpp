@@ -389,3 +389,191 @@ TEST_CASE("after new parameters no choice counts on more friction than there is"
     CHECK_THAT(slip(first), WithinAbs(10 * c / 2 * q, rounded));
   }
 }
+
+namespace {
+
+/// The same ledger in plain words: each choice of u by itself with the whole of its A (§ 6), and nothing rounded.
+/// When one takes the place of another is what friction_certificates.hpp says.
+template <class Space>
+class plain_ledger {
+  using vector = typename Space::vector;
+  struct choice {
+    vector u = Space::zero();  ///< [N]
+    double A{};                ///< [J]
+  };
+
+ public:
+  plain_ledger(double damping, double presliding, double step, double begins)
+      : b_(damping), p_(presliding), q_(step), none_{Space::zero(), begins} {
+    start();
+  }
+
+  void update(const vector& shown, const vector& held, double dt) {
+    const vector change = held - last_;
+    last_ = held;
+    const double gained = damped(shown, dt) - Space::dot(held, shown);
+    for (choice* one : {&none_, &slipped_[0], &slipped_[1]}) one->A += gained - doubt(change);
+    const vector before = following_.u;
+    if (doubt(change) > 0.0) following_.u = rubbing_at(before + change);
+    const vector way = following_.u - before;
+    following_.A += gained - doubt(way - change) - p_ * Space::norm(way);
+    if (Space::norm(shown) > 0.0) slip(shown);
+  }
+  /// A tick nobody saw: the best choice goes to the friction against `held` and from there to none.
+  void forfeit(const vector& held, double dt) {
+    const choice* best = &none_;
+    for (const choice* one : {&following_, &slipped_[0], &slipped_[1]}) {
+      if (sure(*one) > sure(*best)) best = one;
+    }
+    const vector rubbing = rubbing_at(held);
+    const double beyond = std::max(Space::norm(held) - c, 0.0);
+    const double lost = p_ * (Space::norm(rubbing - best->u) + Space::norm(rubbing)) -
+                        stored(best->u) + dt * beyond * beyond / (4 * b_);
+    none_.A = std::max(std::min(value(), -5 * c * p_ / 2), value() - lost);
+    last_ = Space::zero();
+    start();
+  }
+  /// Of the two that slipped, the one that is worth more without a force.
+  [[nodiscard]] double value() const {
+    return std::max({sure(none_), sure(following_), sure(better_slipped())});
+  }
+
+ private:
+  [[nodiscard]] double doubt(const vector& d) const {
+    double sum = 0.0;
+    for (int i = 0; i < Space::dof; ++i) sum += std::abs(Space::component(d, i));
+    return q_ / 2 * sum;
+  }
+  static vector rubbing_at(const vector& f) {
+    const double length = Space::norm(f);
+    return length > c ? vector(f * (c / length)) : f;
+  }
+  [[nodiscard]] double stored(const vector& u) const { return Space::dot(u, u) * p_ / (2 * c); }
+  /// A less what the friction's springs may hold.
+  [[nodiscard]] double worth(const choice& one) const { return one.A - stored(one.u); }
+  [[nodiscard]] double sure(const choice& one) const { return worth(one) - doubt(one.u - last_); }
+  [[nodiscard]] choice moved(const choice& from, const vector& to) const {
+    return {to, from.A - doubt(to - from.u) - p_ * Space::norm(to - from.u)};
+  }
+  /// Any choice may begin anew, from none, for the most that this may cost.
+  [[nodiscard]] choice at_least(const choice& one) const {
+    const double begun = none_.A - most_doubt() - 3 * c * p_ / 2;
+    return {one.u, std::max(one.A, begun + stored(one.u))};
+  }
+  [[nodiscard]] const choice& better_slipped() const {
+    return slipped_[worth(slipped_[1]) > worth(slipped_[0]) ? 1 : 0];
+  }
+  [[nodiscard]] double most_doubt() const { return q_ / 2 * c * std::sqrt(Space::dof); }
+
+  void slip(const vector& shown) {
+    const double length = Space::norm(shown);
+    std::array<double, 2> earns{};
+    for (std::size_t i = 0; i < 2; ++i) earns[i] = Space::dot(slipped_[i].u, shown);
+    const std::size_t i = earns[1] > earns[0] ? 1 : 0;
+    if (earns[i] > 0.99 * c * length) {
+      const choice there = moved(following_, slipped_[i].u);
+      if (there.A > slipped_[i].A) slipped_[i] = there;
+      missed_ = 0.0;
+    } else {
+      const choice fresh = at_least(moved(following_, vector(shown * (c / length))));
+      std::size_t j = used_;
+      if (used_ == 2) j = worth(slipped_[1]) + earns[1] < worth(slipped_[0]) + earns[0] ? 1 : 0;
+      missed_ += c * length - earns[j];
+      if (used_ < 2 || worth(fresh) + missed_ > worth(slipped_[j])) {
+        used_ = std::max(used_, j + 1);
+        slipped_[j] = fresh;
+        missed_ = 0.0;
+      }
+    }
+    for (choice* one : {&following_, &slipped_[0], &slipped_[1]}) {
+      *one = at_least(*one);
+      one->A += Space::dot(one->u, shown);
+    }
+    const choice& best = better_slipped();
+    if (moved(best, following_.u).A >= following_.A) following_ = best;
+    none_.A =
+        std::max(none_.A, std::max(worth(best), worth(following_)) - most_doubt() - p_ * c / 2);
+  }
+  /// What the damper took for certain, tick by tick or over a window, whichever is more.
+  double damped(const vector& shown, double dt) {
+    if (elapsed_ >= 0.032) {
+      travel_ = Space::zero();
+      elapsed_ = by_ticks_ = booked_ = 0.0;
+    }
+    elapsed_ += dt;
+    if (!(Space::norm(shown) > 0.0)) return 0.0;
+    travel_ = travel_ + shown;
+    by_ticks_ += least_square(shown) * b_ / dt;
+    const double before = booked_;
+    booked_ = std::max(booked_, std::max(by_ticks_, least_square(travel_) * b_ / elapsed_));
+    return booked_ - before;
+  }
+  [[nodiscard]] double least_square(const vector& way) const {
+    double sum = 0.0;
+    for (int i = 0; i < Space::dof; ++i) {
+      const double sure = std::max(std::abs(Space::component(way, i)) - q_, 0.0);
+      sum += sure * sure;
+    }
+    return sum;
+  }
+  void start() {
+    following_ = slipped_[0] = slipped_[1] = {Space::zero(), none_.A};
+    used_ = 0;
+    missed_ = 0.0;
+    travel_ = Space::zero();
+    elapsed_ = by_ticks_ = booked_ = 0.0;
+  }
+
+  double b_, p_, q_;
+  choice none_, following_{};
+  std::array<choice, 2> slipped_{};
+  std::size_t used_ = 0;
+  double missed_ = 0.0;
+  vector last_ = Space::zero(), travel_ = Space::zero();
+  double elapsed_ = 0.0, by_ticks_ = 0.0, booked_ = 0.0;
+};
+
+/// The most by which a ledger differs from one in plain words that is told so many times its presliding [J]. A force
+/// hunts within the friction, jumps beyond it or rests; a device rests, slips one way, turns, or is shaken, never
+/// twice by the same way, so that no two choices are worth the same.
+template <class Space>
+double most_apart(std::uint64_t seed, double times = 1.0) {
+  using vector = typename Space::vector;
+  const double p = std::array<double, 4>{0.0, q / 8, q / 2, 2 * q}[seed % 4];
+  const double damping = seed % 3 == 0 ? 0.05 : b, step = seed % 5 == 0 ? 0.0 : q;
+  ph::laws::samples random(seed);
+  auto ledger =
+      at<Space>(ph::dual_ledger{.damping = {damping, c, p}, .quantum = step, .loan = 0x1p-6});
+  plain_ledger<Space> plain(damping, times * p, step, ledger.value());
+  vector held = Space::zero(), way = Space::zero();
+  double most = 0.0;
+  for (int n = 0; n < 400; ++n) {
+    if (any(random, 3) == 0) held = random.vector<Space>() * (n / 100 % 2 == 0 ? c : 4 * c);
+    if (any(random, 8) == 0) way = random.vector<Space>() * (3 * q);
+    if (any(random, 8) == 0) way = way * -1.0;
+    if (any(random, 12) == 0) way = Space::zero();
+    const vector shaken = random.vector<Space>() * q;
+    const vector dx =
+        n / 50 % 2 == 0 ? vector(way * (1.0 + 0.1 * random.number<double>())) : shaken;
+    const double dt = 1e-3 * (1.5 + random.number<double>());
+    if (any(random, 40) == 0) {
+      ledger.forfeit(held, dt);
+      plain.forfeit(held, dt);
+    }
+    REQUIRE(ledger.update(dx, held, dt));
+    plain.update(dx, held, dt);
+    most = std::max(most, std::abs(ledger.value() - plain.value()));
+  }
+  return most;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("dual_ledger is what its formulas are, written out choice by choice", "[dual]",
+                   d1, d2, d3) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    CHECK(most_apart<TestType>(seed) <= rounded);
+    if (seed % 4 != 0) CHECK(most_apart<TestType>(seed, 1.01) > 100 * rounded);  // the control
+  }
+}
