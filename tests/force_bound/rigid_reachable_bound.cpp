@@ -5,8 +5,12 @@
 #include <passive_haptics/force_bound/reachable_bound.hpp>
 #include <passive_haptics/laws.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 
+using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 using namespace rigid;
 namespace k = ph::kernels;
@@ -235,6 +239,173 @@ TEST_CASE("from rest it has gone as far as the wrench held pushes it, and no far
     CAPTURE(lever);
     CHECK_THAT(bound.unseen({0.0, T, 0.0, w}, b, w, t).done, WithinRel(f * (way + swung), 1e-4));
   }
+}
+
+namespace {
+
+/// The formulas of docs/design/six_dof.md § 4 and of mathematics.md § 2(a″), in plain words and not rounded.
+struct plain_handle {
+  double m, least, spread, c;  ///< of the inertia
+  double force, torque;        ///< of the hand
+  double b, b_turn;            ///< the largest damping
+  [[nodiscard]] ph::rigid_reachable_bound told() const {
+    return {{m, least, spread, c}, force, torque, b, b_turn};
+  }
+
+  [[nodiscard]] double norm(double f, double t) const {
+    return std::sqrt(f * f / m + (t + c * f) * (t + c * f) / least);
+  }
+  [[nodiscard]] double norm(const body::effort& w) const {
+    return norm(body::linear(w).norm(), body::angular(w).norm());
+  }
+  /// F in a tick of T₀ in which the handle moved and turned by so much.
+  [[nodiscard]] double others(double moved, double turned, double T0) const {
+    const double rate = 2 * turned / T0;
+    return norm(force + 2 * b * moved / T0, torque + b_turn * rate) +
+           rate * rate * std::sqrt(m * c * c + spread * spread / (4 * least));
+  }
+  /// The most by which the two ends of a turn hide of it, where the rate changes by α.
+  static double hidden(double turned, double alpha, double T0) {
+    return (turned + alpha * T0 * T0) * alpha * T0 * T0 / 12;
+  }
+  /// η of w in the first coming tick, while a wrench of norm `next` is held, after a tick like `now`.
+  [[nodiscard]] double reach(const body::effort& w, double next, const state& now) const {
+    const double turned = body::angular(now.travel).norm(), held = norm(body::effort(now.held));
+    const double F = others(body::linear(now.travel).norm(), turned, now.dt);
+    const double alpha = (held + F) / std::sqrt(least);
+    const double before = (held + F) * std::max(now.dt, now.recent.longest) * T;
+    return w.dot(now.travel) * T / now.dt + norm(w) * (before + (next + F) * T * T) / 2 +
+           body::angular(w).norm() * hidden(turned, alpha, now.dt) * T / now.dt;
+  }
+  /// The largest share of a wrench that gives out no more than E: of a motion in which it does the work x up to η the
+  /// damper takes x²/(4W) at least.
+  static double share(double E, double W, double eta) {
+    if (eta <= 0.0) return 1.0;
+    double share = 0.0;
+    for (double step = 0.5; step > 1e-12; step /= 2) {
+      const double s = share + step, x = std::min(2 * W * s, eta);
+      if (s * x - x * x / (4 * W) <= E) share = s;
+    }
+    return share;
+  }
+  /// The path of the handle point and of its turn in a time t that nobody saw; `beside` is the second.
+  [[nodiscard]] std::array<double, 2> path(double moved, double turned, double T0, double held,
+                                           double t) const {
+    const double F = others(moved, turned, T0), alpha = (held + F) / std::sqrt(least);
+    const double pace = std::sqrt(1 / m + c * c / least), rate = 1 / std::sqrt(least);
+    const double v0 = moved / T0 + (held + F) * T0 / 2 * pace;
+    const double w0 = (turned + hidden(turned, alpha, T0)) / T0 + (held + F) * T0 / 2 * rate;
+    const auto turns = [&](double N, double s) {
+      return std::sqrt(1 + spread / least) * (w0 + N * rate * s);
+    };
+    const auto moves = [&](double N, double s) { return v0 + N * pace * s + 2 * c * turns(N, t); };
+    const double without = held + norm(force, torque);
+    const double V = 2 * moves(without, t), rate_most = 2 * turns(without, t);
+    const double N = held + norm(force + b * V, torque + b_turn * rate_most);
+    const bool holds = turned <= 1 && moves(N, t) <= V && turns(N, t) <= rate_most;
+    return {holds ? moves(N, t / 2) * t : HUGE_VAL, holds ? turns(N, t / 2) * t : HUGE_VAL};
+  }
+};
+
+/// Handles with their centre of mass in the handle point and beside it, of which each number differs.
+constexpr std::array<plain_handle, 3> handles{
+    plain_handle{0.15, 1e-4, 2e-4, 0.0, 5.0, 0.2, 0.06, 2e-4},
+    plain_handle{0.3, 5e-4, 1e-4, 0.04, 2.0, 0.05, 0.5, 1e-3},
+    plain_handle{0.05, 2e-5, 8e-5, 0.02, 0.5, 0.01, 0.03, 1e-4}};
+
+body::effort any_wrench(ph::laws::samples& random) {
+  body::effort w = random.vector<body>();
+  for (int i = 0; i < 6; ++i) w(i) *= i < 3 ? 6.0 : 0.1;
+  return w * std::abs(random.number<double>());
+}
+
+}  // namespace
+
+TEST_CASE("rigid_reachable_bound is its formula, in time and a tick late", "[rigid]") {
+  using late_state = ph::port_state<body, damper, 1>;
+  ph::laws::samples random(1);
+  std::array<int, 2> cut{};
+  for (int n = 0; n < 3000; ++n) {
+    const plain_handle& handle = handles[static_cast<std::size_t>(n % 3)];
+    const ph::part_at<ph::rigid_reachable_bound, body> bound(handle.told());
+    moment now;
+    now.held = any_wrench(random);
+    body::motion travel = 1e-4 * random.vector<body>();
+    if (n % 5 == 0) travel = 1e2 * travel;
+    auto seen = now.with(travel, std::pow(10.0, -5.0 + 4.0 * random.number<double>()));
+    seen.dt = T * (0.6 + 0.4 * random.number<double>());
+    seen.recent.longest = n % 2 == 0 ? T : 0.0;
+    const body::effort w = any_wrench(random), h = any_wrench(random);
+    const double passes = std::min(1.0, 4 * damping.angular / T / body::angular(w).norm());
+    const body::effort known = passes * w;
+    const auto W = [](const body::effort& of) { return b.worst_outflow(of, T); };
+    const auto left = [&](double E, double eta) {
+      return passes * (W(known) <= E ? 1.0 : plain_handle::share(E, W(known), eta));
+    };
+    const double norm = handle.norm(known), next = handle.norm(h);
+    CAPTURE(n, passes);
+
+    const double at_once = left(seen.energy, handle.reach(known, norm, seen));
+    CHECK_THAT(bound.limit(w, seen).factor, WithinAbs(at_once, 1e-9));
+
+    // a tick late: what is on its way has its part of E first
+    const late_state::commands commanded{body::coordinates(h), body::coordinates(now.held)};
+    const late_state late{.damping = b,
+                          .commanded = commanded,
+                          .energy = seen.energy,
+                          .dt = seen.dt,
+                          .longest_tick = T,
+                          .recent = seen.recent,
+                          .held = now.held,
+                          .travel = travel,
+                          .travel_error = 0.0,
+                          .motion_known = true,
+                          .late = false};
+    const double F =
+        handle.others(body::linear(travel).norm(), body::angular(travel).norm(), seen.dt);
+    const double x = std::clamp(handle.reach(h, next, seen), 0.0, 2 * W(h));
+    const double spent = x - x * x / (4 * W(h));
+    const double eta = handle.reach(known, next, seen) + norm * (next + norm + 2 * F) * T * T / 2;
+    const double after = left(seen.energy - spent, eta);
+    CHECK_THAT(bound.limit(w, late).factor, WithinAbs(after, 1e-9));
+    cut[0] += at_once < 0.99 && at_once > 0.01;
+    cut[1] += after < 0.99 && after > 0.01;
+  }
+  CHECK(cut[0] > 500);
+  CHECK(cut[1] > 300);
+}
+
+TEST_CASE("an unseen path is its formula", "[rigid][unseen]") {
+  ph::laws::samples random(1);
+  int open = 0, longer = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const plain_handle& handle = handles[static_cast<std::size_t>(n % 3)];
+    const ph::part_at<ph::rigid_reachable_bound, body> bound(handle.told());
+    const body::effort w = any_wrench(random), held = any_wrench(random);
+    // A move of r counts as a turn of 10 r, too; rarely more than a radian.
+    const double gone = 1e-3 * std::pow(10.0, 2.4 * random.number<double>());
+    const double T0 = T * (1.0 + 0.5 * random.number<double>());
+    const double t = T * std::pow(10.0, random.number<double>());
+    const double most = std::max(handle.norm(held), handle.norm(w));
+    const auto [moved, turned] = handle.path(gone, 10 * gone, T0, most, t);
+    const double f = body::linear(w).norm(), torque = body::angular(w).norm();
+    const auto said = bound.unseen({gone * gone, T0, 0.0, held}, b, w, t);
+    CAPTURE(n, moved, turned);
+    if (moved < HUGE_VAL) {
+      CHECK_THAT(said.done, WithinRel(f * moved + torque * turned, 1e-9));
+      const bool within = turned <= 3.125;  // a little less than π
+      const double hidden =
+          within ? turned * turned / 4 + std::pow(turned, 3) / 29 : turned + 3.1875;
+      CHECK_THAT(said.beside, WithinRel(torque * hidden, 1e-9));
+      longer += !within;
+    } else {
+      CHECK(said.done == k::largest<double>());
+      CHECK(said.beside == k::largest<double>());
+      ++open;
+    }
+  }
+  CHECK(open > 100);
+  CHECK(longer > 100);
 }
 
 TEST_CASE("no cone hides more of its length than an unseen arc", "[rigid][unseen]") {
