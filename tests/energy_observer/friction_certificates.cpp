@@ -439,6 +439,8 @@ class plain_ledger {
     return std::max({sure(none_), sure(following_), sure(better_slipped())});
   }
 
+  bool forgets = true;  ///< what was missed before a new choice was made
+
  private:
   [[nodiscard]] double doubt(const vector& d) const {
     double sum = 0.0;
@@ -474,7 +476,7 @@ class plain_ledger {
     if (earns[i] > 0.99 * c * length) {
       const choice there = moved(following_, slipped_[i].u);
       if (there.A > slipped_[i].A) slipped_[i] = there;
-      missed_ = 0.0;
+      if (forgets) missed_ = 0.0;
     } else {
       const choice fresh = at_least(moved(following_, vector(shown * (c / length))));
       std::size_t j = used_;
@@ -483,7 +485,7 @@ class plain_ledger {
       if (used_ < 2 || worth(fresh) + missed_ > worth(slipped_[j])) {
         used_ = std::max(used_, j + 1);
         slipped_[j] = fresh;
-        missed_ = 0.0;
+        if (forgets) missed_ = 0.0;
       }
     }
     for (choice* one : {&following_, &slipped_[0], &slipped_[1]}) {
@@ -618,4 +620,26 @@ TEST_CASE("without friction dual_ledger is quantised_energy", "[dual]") {
     REQUIRE(ledger.value() == without.value());
   }
   CHECK(ledger.value() != 0.0);
+}
+
+TEST_CASE("a ledger that never forgot what it missed would turn with every step, and keep less",
+          "[dual]") {
+  // A hand that wanders: each new choice costs a turn, so that it has to be missed anew before the next.
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    ph::laws::samples random(seed);
+    plain_ledger<d3> forgets(b, q, q, 0.0, 0.0), remembers = forgets;
+    remembers.forgets = false;
+    auto ledger = at<d3>(ph::dual_ledger{.damping = {b, c, q}, .quantum = q});
+    const double given = ledger.value();
+    d3::vector way = d3::zero();
+    for (int n = 0; n < 1500; ++n) {
+      way = way * 0.9 + random.vector<d3>() * (q / 2);
+      REQUIRE(ledger.update(way, d3::zero(), 1.0));
+      forgets.update(way, d3::zero(), 1.0);
+      remembers.update(way, d3::zero(), 1.0);
+    }
+    CAPTURE(seed, ledger.value() - given, forgets.value(), remembers.value());
+    CHECK(ledger.value() - given >= forgets.value() - rounded);
+    CHECK(ledger.value() - given > remembers.value() + 20 * c * q);
+  }
 }
