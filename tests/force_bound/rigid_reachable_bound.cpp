@@ -335,7 +335,8 @@ TEST_CASE("rigid_reachable_bound is its formula, in time and a tick late", "[rig
     auto seen = now.with(travel, std::pow(10.0, -5.0 + 4.0 * random.number<double>()));
     seen.dt = T * (0.6 + 0.4 * random.number<double>());
     seen.recent.longest = n % 2 == 0 ? T : 0.0;
-    const body::effort w = any_wrench(random), h = any_wrench(random);
+    const body::effort h = any_wrench(random);
+    const body::effort w = (n % 4 == 0 ? 10.0 : 1.0) * any_wrench(random);
     const double passes = std::min(1.0, 4 * damping.angular / T / body::angular(w).norm());
     const body::effort known = passes * w;
     const auto W = [](const body::effort& of) { return b.worst_outflow(of, T); };
@@ -373,6 +374,23 @@ TEST_CASE("rigid_reachable_bound is its formula, in time and a tick late", "[rig
   }
   CHECK(cut[0] > 500);
   CHECK(cut[1] > 300);
+}
+
+TEST_CASE("a port of a handle says of its last tick what its ledger has booked", "[rigid]") {
+  ph::laws::samples random(1);
+  for (int n = 0; n < 50; ++n) {
+    ph::part_at<ph::basic_reduced_energy<ph::rigid_damping>, body> ledger(
+        ph::basic_reduced_energy<ph::rigid_damping>{damping, 0.0});
+    moment now;
+    const body::effort held = any_wrench(random);
+    now.held = held;
+    const body::motion travel = 0.1 * random.vector<body>();
+    REQUIRE(ledger.update(travel, held, T));
+    const auto then = now.with(travel, 0.0);
+    CHECK_THAT(then.gain(), WithinRel(ledger.value(), 1e-12));
+    CHECK(b.unsure(travel, held, T) >
+          1e-9 * std::abs(then.gain()));  // the control: a turn hides something
+  }
 }
 
 TEST_CASE("an unseen path is its formula", "[rigid][unseen]") {

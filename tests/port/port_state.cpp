@@ -30,3 +30,17 @@ TEST_CASE("a port tells what its last tick has brought", "[port]") {
   const situation<d1> left{.dt = 2e-3, .held = -1.0, .travel = -1e-3};
   CHECK_THAT(left.port().gain(), WithinRel(0.03 * 1e-6 / 2e-3 - 1e-3, 1e-12));
 }
+
+TEST_CASE("of friction that is elastic 2 c p is put aside for each tick a loop is late (§ 6)",
+          "[port]") {
+  const ph::damping_and_friction rubs{.coefficient = 0.03, .coulomb = 0.25, .presliding = 1e-3};
+  const double aside = 2 * 2 * 0.25 * 1e-3;
+  const situation<d1, ph::damping_and_friction, 2> late{
+      .damping = ph::part_at<ph::damping_and_friction, d1>(rubs), .energy = 1.0};
+  CHECK_THAT(late.port().in_flight(), WithinRel(aside, 1e-12));
+  CHECK(late.port().credit() == 1.0 - late.port().in_flight());
+  CHECK_THAT(late.port().fair_credit(), WithinRel((1.0 - aside) / 3.0, 1e-12));
+  const situation<d1, ph::damping_and_friction, 0> in_time{
+      .damping = ph::part_at<ph::damping_and_friction, d1>(rubs), .energy = 1.0};
+  CHECK(in_time.port().credit() == 1.0);
+}
