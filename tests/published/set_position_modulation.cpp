@@ -280,3 +280,30 @@ TEST_CASE("the gate takes new parameters, refuses bad ones and starts anew", "[t
   const gate first{.loan = 1e-3}, full{.loan = 1e-3, .cap = 1e-9}, none{.cap = -1};
   check_upkeep(by_itself<d1>(gated(first)), first, full, none);
 }
+
+TEST_CASE("a tank in debt lets no update through, and a lost tick does not forgive it",
+          "[time domain]") {
+  auto pspm = at<d1>(gate{.loan = 1e-4});
+  ph::contact_state<d1> contact{-1.0, 50.0, 0.0, 2e-3, 1.0, true};  // ½ K d² is all of the loan
+  situation<d1> now;
+  now.damping = ph::part_at<ph::isotropic_damping, d1>(0.025);  // K T/2: the damper pays nothing in
+  const auto force = [&] { return allowed(pspm, -50.0 * contact.target_depth, contact, now); };
+  REQUIRE_THAT(force(), WithinRel(-0.1, 1e-9));
+  now.held = -1.1;  // the motors push out 1 N harder than the spring, for 0.1 mm
+  now.travel = -1e-4;
+  contact.target_depth -= 1e-4;
+  const double debt = 1e-4 - 50.0 * 1.9e-3 * 1.9e-3 / 2.0;  // less what the spring gives back
+  CHECK(force() == 0.0);
+  CHECK_THAT(pspm.energy(), WithinRel(-debt, 1e-9));
+  now.motion_known = false;
+  now.travel = 0.0;
+  CHECK(force() == 0.0);
+  CHECK_THAT(pspm.energy(), WithinRel(-debt, 1e-9));
+  now.motion_known = true;
+  now.held = -1.0;  // the hand presses in against 1 N: 12 µJ, of which the debt is paid first
+  now.travel = 12e-6;
+  contact.target_depth += 12e-6;
+  const double paid =
+      12e-6 + 50.0 * 12e-6 * 12e-6 / 2.0;  // and what the spring holds over that way
+  CHECK_THAT(force(), WithinRel(-50.0 * std::sqrt(2.0 * (paid - debt) / 50.0), 1e-9));
+}
