@@ -35,7 +35,7 @@ SWAPS = {
 # What the compiler alone calls, to know what a composition promises: tests/compile_fail/ is for them.
 COMPILED = {"assumptions_of", "promise_of", "spends_ledger", "are_bounds", "reduces", "keeps_nothing",
             "count_takers", "chain_promise", "wants_local_model", "shapers_reduce",
-            "shapers_keep_zero"}
+            "shapers_keep_zero", "books_turns"}
 EXTREMES = {"smaller": "larger", "larger": "smaller"}
 SYMMETRIC = {"smaller", "larger", "dot", "work", "worse", "worse_yet"}  # of their arguments
 # What `return {}` would return anyway.
