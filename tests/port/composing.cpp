@@ -98,3 +98,38 @@ TEST_CASE("the first fault in a row is told", "[composing]") {
   CHECK(part.parameters().first.factor == 0.5);
   CHECK(part.parameters().rest.first.factor == 0.25);
 }
+
+namespace {
+
+/// Leaves a share, and a tenth of that from its third tick on; it is its own part at a port.
+struct tiring {
+  [[maybe_unused]] static constexpr ph::guarantee passivity = ph::guarantee::none;
+  [[maybe_unused]] static constexpr ph::bound_traits traits{};
+  double factor = 1.0;
+  int ticks = 0;
+  [[nodiscard]] constexpr ph::parameter_fault check() const noexcept { return {}; }
+  constexpr void set(const tiring& p) noexcept { factor = p.factor; }
+  constexpr void reset() noexcept { ticks = 0; }
+  [[nodiscard]] constexpr ph::share<double> limit(const double& /*desired*/,
+                                                  const auto& /*state*/) noexcept {
+    return {++ticks > 2 ? factor / 10.0 : factor};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("every bound in a row takes its parameters, keeps its state and is reset",
+          "[composing]") {
+  auto both = at<d1>(ph::bound_chain{tiring{0.5}, tiring{0.25}});
+  const auto left = [&both] {
+    return ph::detail::applied<d1>(both, 1.0, situation<d1>{}.port()).force;
+  };
+  CHECK(both.parameters().first.factor == 0.5);
+  CHECK(both.parameters().rest.first.factor == 0.25);
+  CHECK(left() == 0.125);
+  CHECK(left() == 0.125);
+  both.set(ph::bound_chain{tiring{1.0}, tiring{0.5}});
+  CHECK_THAT(left(), Catch::Matchers::WithinRel(0.005));  // both are tired by now
+  both.reset();
+  CHECK(left() == 0.5);
+}
