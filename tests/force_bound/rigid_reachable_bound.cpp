@@ -384,7 +384,7 @@ TEST_CASE("a port of a handle says of its last tick what its ledger has booked",
     moment now;
     const body::effort held = any_wrench(random);
     now.held = held;
-    const body::motion travel = 0.1 * random.vector<body>();
+    const body::motion travel = 0.6 * random.vector<body>();
     REQUIRE(ledger.update(travel, held, T));
     const auto then = now.with(travel, 0.0);
     CHECK_THAT(then.gain(), WithinRel(ledger.value(), 1e-12));

@@ -44,3 +44,27 @@ TEST_CASE("of friction that is elastic 2 c p is put aside for each tick a loop i
       .damping = ph::part_at<ph::damping_and_friction, d1>(rubs), .energy = 1.0};
   CHECK(in_time.port().credit() == 1.0);
 }
+
+TEST_CASE("recent ticks are the longest up to T and the shortest from T/4 on", "[port]") {
+  ph::recent_ticks<double> recent{};
+  const auto saw = [&](double dt, double longest, double shortest) {
+    recent.see(dt, 1.0);
+    CHECK(recent.longest == longest);
+    CHECK(recent.shortest == shortest);
+  };
+  saw(0.5, 0.5, 0.5);
+  saw(0.75, 0.75, 0.5);
+  saw(0.3, 0.75, 0.3);
+  saw(0.1, 0.75, 0.25);
+  saw(3.0, 1.0, 0.25);
+  saw(0.6, 1.0, 0.25);
+}
+
+TEST_CASE("a tick is lost, late or on time", "[port]") {
+  situation<d1> now;
+  CHECK(now.port().fate() == ph::tick_fate::on_time);  // as long as the longest
+  now.dt = 1.1e-3;
+  CHECK(now.port().fate() == ph::tick_fate::late);
+  now.motion_known = false;
+  CHECK(now.port().fate() == ph::tick_fate::lost);
+}
