@@ -65,49 +65,32 @@ struct explanation {
   }
   /// One sentence on what limits the force now, or else the stiffness, and what would raise it.
   [[nodiscard]] constexpr const char* because() const noexcept {
-    switch (now != softened_by::nothing ? now : stiffness) {
-      case softened_by::nothing:
-        return "The surface is shown as it is.";
-      case softened_by::parameters:
-        return "A parameter is out of its range, so the force is zero: check() names it.";
-      case softened_by::refuted:
-        return "The motion has refuted what was stated, as the event says: mend that, and reset().";
-      case softened_by::no_surface:
-        return "There is no surface: update() tells one.";
-      case softened_by::mass_and_tick:
-        return "A mass that is sampled every T can be held with so much and no more, and it grows "
-               "with m/T^2: a faster loop, a longest tick that is no longer than it has to be, or "
-               "a heavier grip raises it.";
-      case softened_by::damping_and_tick:
-        return "So much is sure under a strict bound, from an empty ledger: more damping or a "
-               "shorter longest tick raises it, and reachable_bound, where mass and hand are "
-               "known.";
-      case softened_by::encoder_steps:
-        return "Dry friction and damping pay for no more on these steps: finer encoders, more sure "
-               "friction or less presliding raise it; stiffness_budget(device).because() says "
-               "which.";
-      case softened_by::coupling:
-        return "The coupling's own spring stands in series with the surface: a stiffer one shows "
-               "more.";
-      case softened_by::news:
-        return "The surface has moved, or appeared round the device: its force follows at a "
-               "limited rate, and is there within a second.";
-      case softened_by::silence:
-        return "The world has said nothing for longer than its freshness allows, or has released "
-               "the surface, so the contact fades.";
-      case softened_by::motors:
-        return "The motors hold no more than their limit.";
-      case softened_by::ledger:
-        return "The energy that the hand has paid in covers no more; it comes back as the hand "
-               "presses or moves. If this lasts, mass, damping or hand force are not what was "
-               "stated, or the longest tick is too long.";
-      case softened_by::started_inside:
-        return "It was inside when the surface came, and nothing has been paid in to push it out: "
-               "move it, start outside, or state a loan.";
-      case softened_by::forces_off:
-        return "The forces are off: enable_forces(true) switches them on.";
-    }
-    return "";
+    constexpr const char* sentences[] = {
+        "The surface is shown as it is.",
+        "A parameter is out of its range, so the force is zero: check() names it.",
+        "The motion has refuted what was stated, as the event says: mend that, and reset().",
+        "There is no surface: update() tells one.",
+        "A mass that is sampled every T can be held with so much and no more, and it grows with "
+        "m/T^2: a faster loop, a longest tick that is no longer than it has to be, or a heavier "
+        "grip raises it.",
+        "So much is sure under a strict bound, from an empty ledger: more damping or a shorter "
+        "longest tick raises it, and reachable_bound, where mass and hand are known.",
+        "Dry friction and damping pay for no more on these steps: finer encoders, more sure "
+        "friction or less presliding raise it; stiffness_budget(device).because() says which.",
+        "The coupling's own spring stands in series with the surface: a stiffer one shows more.",
+        "The surface has moved, or appeared round the device: its force follows at a limited rate, "
+        "and is there within a second.",
+        "The world has said nothing for longer than its freshness allows, or has released the "
+        "surface, so the contact fades.",
+        "The motors hold no more than their limit.",
+        "The energy that the hand has paid in covers no more; it comes back as the hand presses or "
+        "moves. If this lasts, mass, damping or hand force are not what was stated, or the longest "
+        "tick is too long.",
+        "It was inside when the surface came, and nothing has been paid in to push it out: move "
+        "it, start outside, or state a loan.",
+        "The forces are off: enable_forces(true) switches them on."};
+    const softened_by why = now != softened_by::nothing ? now : stiffness;
+    return why <= softened_by::forces_off ? sentences[static_cast<int>(why)] : "";
   }
 };
 

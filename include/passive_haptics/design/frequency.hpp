@@ -50,23 +50,14 @@ inline constexpr double pi = 3.141592653589793;
   const double whole = static_cast<double>(n);
   const double r = (alpha - whole * quarter) - whole * quarter_rest;
   const double square = r * r;
-  double cosine = 1.0;
-  double sine = 1.0;
+  double cosine = 1.0, sine = 1.0;
   for (int k = 18; k > 0; k -= 2) {
     cosine = 1.0 - square / ((k - 1) * k) * cosine;
     sine = 1.0 - square / (k * (k + 1)) * sine;
   }
   sine *= r;
-  switch (n & 3) {
-    case 0:
-      return {cosine, sine};
-    case 1:
-      return {-sine, cosine};
-    case 2:
-      return {-cosine, -sine};
-    default:
-      return {sine, -cosine};
-  }
+  const complex turned[] = {{cosine, sine}, {-sine, cosine}, {-cosine, -sine}, {sine, -cosine}};
+  return turned[n & 3];
 }
 
 /// One frequency. A transfer function H(z) is given as a function of it:

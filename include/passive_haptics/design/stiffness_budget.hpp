@@ -95,26 +95,21 @@ struct budget {
   }
   /// One sentence on the limit that binds, and what would raise it.
   [[nodiscard]] constexpr const char* because() const noexcept {
-    switch (binding) {
-      case stiffness_limit::sampled_mass:
-        return "A mass sampled so slowly can be held with no more than kappa m/T^2: "
-               "a faster loop or a heavier grip raises it.";
-      case stiffness_limit::slow_kneading:
-        return "Kneading slowly, friction and damping pay for some (c + b v)/(q + 2 c p/S): "
-               "finer encoders, more sure friction or less presliding raise it.";
-      case stiffness_limit::fast_kneading:
-        return "Kneading fast, sampling costs more than friction and damping take: "
-               "a faster loop raises it.";
-      case stiffness_limit::holding:
-        return stiffness > 0.0
-                   ? "A hand that holds still at the edge of a step makes the force chatter by "
-                     "K q, which friction covers up to 2 c: finer encoders raise it."
-                   : "No dry friction is stated, so nothing pays for the encoders' steps at rest: "
-                     "a stiff wall cannot be guaranteed on this device.";
-      case stiffness_limit::not_stated:
-        return "A parameter is out of its range: ask check().";
+    constexpr const char* sentences[] = {
+        "A mass sampled so slowly can be held with no more than kappa m/T^2: a faster loop or a "
+        "heavier grip raises it.",
+        "Kneading slowly, friction and damping pay for some (c + b v)/(q + 2 c p/S): finer "
+        "encoders, more sure friction or less presliding raise it.",
+        "Kneading fast, sampling costs more than friction and damping take: a faster loop raises "
+        "it.",
+        "A hand that holds still at the edge of a step makes the force chatter by K q, which "
+        "friction covers up to 2 c: finer encoders raise it.",
+        "A parameter is out of its range: ask check()."};
+    if (binding == stiffness_limit::holding && !(stiffness > 0.0)) {
+      return "No dry friction is stated, so nothing pays for the encoders' steps at rest: a stiff "
+             "wall cannot be guaranteed on this device.";
     }
-    return "";
+    return binding <= stiffness_limit::not_stated ? sentences[static_cast<int>(binding)] : "";
   }
 };
 
@@ -123,8 +118,7 @@ namespace detail {
 /// The right side less the left side of the inequality above, for swings of S newtons at a speed v [J/m].
 [[nodiscard]] constexpr double surplus(const stated_device& d, double K, double v,
                                        double swing) noexcept {
-  const double q = d.quantum;
-  const double way = v * d.longest_tick;
+  const double q = d.quantum, way = v * d.longest_tick;
   const double lag = q / 3.0 + q / 6.0 * kernels::smaller(1.0, 4.0 * q * K / swing);
   const double known = q / 2.0 + kernels::larger(lag, way / 2.0) + d.latency * way;
   const double turned = d.friction > 0.0 ? 2.0 * d.friction * d.presliding / swing : 0.0;
@@ -135,8 +129,7 @@ namespace detail {
 /// `push` is π f F [N/s].
 [[nodiscard]] constexpr double kneaded(const stated_device& d, double slowest, double most,
                                        double push, double swing) noexcept {
-  const double least_known = d.quantum * 5.0 / 6.0;
-  const double way = slowest * d.longest_tick / 2.0;
+  const double least_known = d.quantum * 5.0 / 6.0, way = slowest * d.longest_tick / 2.0;
   double low = 0.0;
   double high =
       (d.friction + d.damping * most) / kernels::larger(least_known, d.quantum / 2.0 + way);
@@ -162,8 +155,7 @@ namespace detail {
 [[nodiscard]] constexpr budget stiffness_budget(const stated_device& device,
                                                 const intended_use& use = {}) noexcept {
   if (device.check() || use.check()) return {};
-  const double T = device.longest_tick;
-  const double q = device.quantum;
+  const double T = device.longest_tick, q = device.quantum;
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   budget b;
   const double F = kernels::smaller(use.force, device.force_limit);

@@ -23,6 +23,10 @@ class known_to_a_step {
  public:
   using scalar = typename P::scalar;
 
+  /// What a ledger may give back of `doubt`: nothing, because no position is known better than to a step.
+  struct owed {
+    [[nodiscard]] constexpr owed charged(const auto&, const auto&) const noexcept { return {}; }
+  };
   /// ½ Σ qᵢ|fᵢ| [J], rounded up: the largest error of the work of f that one end of a motion can cause.
   [[nodiscard]] constexpr scalar doubt(const typename P::effort& f) const noexcept {
     const scalar up = (scalar(1) + kernels::rounding<scalar>()) / scalar(2);

@@ -3,7 +3,8 @@
 // The ledger for positions that are known to an encoder step only, with or without dry friction.
 //
 //   dual_ledger         credits dry friction: stiff on real encoders     b, c, p and q are stated
-//   basic_dual_ledger   any damping, several sliders (identification/sliders.hpp), a step for each axis, a compensated sum
+//   basic_dual_ledger   any damping, several sliders (identification/sliders.hpp), a step for each axis or one that is
+//                       known better where it is crossed (identification/crossed_step.hpp), a compensated sum
 //   quantised_energy    no friction credited                             quantised_energy.hpp
 //
 //     ph::dual_ledger{.damping = {.coefficient = 0.05, .coulomb = 0.13, .presliding = 15e-6},
@@ -38,7 +39,8 @@ inline namespace v0 {
 template <class Damping = isotropic_damping, class Steps = encoder_step,
           ledger_sum Sum = ledger_sum::plain>
 struct basic_dual_ledger {
-  static constexpr guarantee passivity = guarantee::strict;
+  static constexpr guarantee passivity = requires { Steps::mass; }
+  ? guarantee::conditional : guarantee::strict;
   static constexpr bool counts = true;
   static constexpr bool exact = false;
 
@@ -123,6 +125,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     window_now_ = now;
     if (now.elapsed >= window_) begin_window();
     if constexpr (rubs) {
+      if constexpr (crosses) steps_.see(shown, held, dt, damping_);
       certificates_.follow(change, doubt, damping_, steps_);
       if (moved) {
         const scalar slipped = certificates_.slip(shown, damping_, steps_);
@@ -134,6 +137,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
         }
         if (!(static_cast<scalar>(energy_) <= most_kept())) energy_ = most_kept();  // L7
       }
+      if constexpr (crosses) detail::book(energy_, certificates_.give_back(steps_));
     }
     take_stock();
     if (value_ > cap_) {
@@ -161,6 +165,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     energy_ = loan_;
     last_held_ = P::zero();
     begin_window();
+    if constexpr (crosses) steps_.forget();
     if constexpr (rubs) certificates_.reset();
     if constexpr (slides) sliders_ = {};
     detail::book(energy_, -reserve());
@@ -183,6 +188,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     if constexpr (rubs) {
       lost += certificates_.given_up(held, effort(last_held_), damping_, steps_);
       certificates_.reset();
+      if constexpr (crosses) steps_.forget();
       if constexpr (slides) sliders_ = {};
     }
     energy_ = detail::written_off(value_, lost, -reserve());
@@ -197,7 +203,10 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   struct no_friction {
     using credits = no_friction;
   };
-  using certificates_type = std::conditional_t<rubs, detail::friction_certificates<P>, no_friction>;
+  static constexpr bool crosses = rubs && !std::is_empty_v<typename steps_type::owed>;
+  using certificates_type =
+      std::conditional_t<rubs, detail::friction_certificates<P, typename steps_type::owed>,
+                         no_friction>;
   static constexpr bool slides = requires { typename damping_type::credits; };
   using sliders_type = typename std::conditional_t<slides, damping_type, no_friction>::credits;
 
@@ -248,10 +257,9 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS damping_type damping_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS steps_type steps_;
   scalar loan_{}, cap_{}, window_{};
-  detail::ledger_number<scalar, Sum> energy_{};  ///< A of the choice u = 0 [J]
-  scalar value_{};                               ///< the best lower bound of the energy [J]
-  typename P::stored_effort last_held_ =
-      P::zero();  ///< the force held last, −σ of the choice u = 0 [N]
+  detail::ledger_number<scalar, Sum> energy_{};      ///< A of the choice u = 0 [J]
+  scalar value_{};                                   ///< the best lower bound of the energy [J]
+  typename P::stored_effort last_held_ = P::zero();  ///< the last, −σ of the choice u = 0 [N]
   credit_window window_now_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS certificates_type certificates_{};  ///< the other choices
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sliders_type sliders_{};            ///< the single sliders' own

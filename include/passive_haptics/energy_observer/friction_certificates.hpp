@@ -2,6 +2,7 @@
 #pragma once
 // The credit of dry friction in a ledger of positions that are known to a step only; a part of dual_ledger.
 
+#include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/port/concepts.hpp>
 
 #include <array>
@@ -33,8 +34,8 @@ concept friction_for = requires(const D d, const typename P::motion m, const typ
 /// A change of u by d costs ½ Σ qᵢ|dᵢ| + p|d| [J] at any time, so a certificate that is behind another by more than
 /// that is replaced by it. Each one is valid by itself, so any may be dropped. A `lead` is A − |u|²p/(2c) less the
 /// ledger's own A [J]; sums are rounded down, costs up.
-template <class P>
-class friction_certificates {
+template <class P, class Owed>
+class friction_certificates : Owed {
  public:
   using scalar = typename P::scalar;
   using motion = typename P::motion;
@@ -43,6 +44,7 @@ class friction_certificates {
   /// Starts again with u = 0 in every certificate.
   constexpr void reset() noexcept {
     following_ = slipped_[0] = slipped_[1] = {P::zero(), scalar(0), scalar(0)};
+    own() = {};
     directions_ = 0;
     missed_ = scalar(0);
   }
@@ -68,6 +70,9 @@ class friction_certificates {
     const effort way = now - before;
     const scalar cost = steps.doubt(effort(way - change)) + damping.hysteresis(way);
     const scalar stored = damping.stored(now);
+    own() = own().charged(steps, -change);
+    for (certificate& one : slipped_) one.owed = one.owed.charged(steps, -change);
+    following_.owed = following_.owed.charged(steps, way - change);
     following_.lead += doubt - cost + (following_.stored - stored) -
                        kernels::rounding<scalar>() * (doubt + cost + dearest_);
     following_.friction = now;
@@ -92,6 +97,7 @@ class friction_certificates {
       }
     } else {
       certificate fresh = moved(following_, along, damping, steps);
+      if (fresh.lead < -dearest_) fresh.owed = {};
       fresh.lead = kernels::larger(fresh.lead, -dearest_);
       const bool room = directions_ < slipped_.size();
       const std::size_t j = room                                                      ? directions_
@@ -117,8 +123,18 @@ class friction_certificates {
     }
     const scalar spare = kernels::larger(following_.lead, best.lead) - leaving_;
     if (!(spare > scalar(0))) return scalar(0);
-    for (certificate* one : {&following_, &slipped_[0], &slipped_[1]}) one->lead -= spare;
+    own() = (following_.lead < best.lead ? best : following_).owed;
+    fall_behind(spare);
     return spare;
+  }
+
+  /// Gives back what `steps` knows to be owed of the charges; returns what the ledger is to book of it [J].
+  [[nodiscard]] constexpr scalar give_back(const auto& steps) noexcept {
+    const scalar back = steps.given_back(own());
+    for (certificate* one : {&following_, &slipped_[0], &slipped_[1]}) {
+      one->lead = kernels::sum_rounded_down(one->lead, steps.given_back(one->owed) - back);
+    }
+    return back;
   }
 
   /// Lowers every lead by `booked` [J], which the ledger has booked from another source.
@@ -157,11 +173,13 @@ class friction_certificates {
     typename P::stored_effort friction;  ///< u [N]
     scalar lead;                         ///< A − stored less the ledger's own A [J]
     scalar stored;                       ///< |u|²p/(2c) [J]
+    PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS Owed owed{};
   };
 
   /// Adds energy to a lead. A new certificate costs dearest_ [J] at most, starting from the ledger's own u = 0, so a
   /// lead below −dearest_ is raised to that first.
   constexpr void earn(certificate& one, scalar energy) const noexcept {
+    if (one.lead < -dearest_) one.owed = {};
     one.lead = kernels::larger(one.lead, -dearest_) + energy;
   }
   [[nodiscard]] static constexpr scalar earned(const certificate& one,
@@ -180,12 +198,16 @@ class friction_certificates {
     const scalar cost =
         (steps.doubt(way) + damping.hysteresis(way)) * (scalar(1) + kernels::rounding<scalar>());
     const scalar stored = damping.stored(to);
-    return {to, kernels::sum_rounded_down(from.lead, from.stored - stored - cost), stored};
+    return {to, kernels::sum_rounded_down(from.lead, from.stored - stored - cost), stored,
+            from.owed.charged(steps, way)};
   }
 
+  [[nodiscard]] constexpr Owed& own() noexcept { return *this; }  ///< owed to the ledger's own
+
+  std::size_t directions_ =
+      0;  ///< how many of slipped_ are in use; first, so that an empty Owed takes no bytes
   certificate following_{P::zero(), scalar(0), scalar(0)};
   std::array<certificate, 2> slipped_{following_, following_};
-  std::size_t directions_ = 0;  ///< how many of slipped_ are in use
   scalar missed_{};   ///< what a new certificate would have earned more, in this direction [J]
   scalar leaving_{};  ///< most that a change to u = 0 can cost [J]
   scalar dearest_{};  ///< most that a change from u = 0 can cost [J]
