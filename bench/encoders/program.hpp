@@ -7,6 +7,8 @@
 #include "../common/sections.hpp"
 #include "compositions.hpp"
 
+#include <array>
+
 namespace encoders {
 
 namespace ex = experiments;
@@ -51,10 +53,30 @@ class rest_of_hold {
   ex::held_stiffness held_;
   int seen_ = 0;
 };
+/// The hands that knead or tremble, relaxed to stiff.
+inline constexpr std::array hands{
+    sim::impedance_hand<line>{.stiffness = 60.0, .damping = 2.0, .own_mass = 0.05},
+    sim::impedance_hand<line>{.stiffness = 300.0, .damping = 5.0, .own_mass = 0.15},
+    sim::impedance_hand<line>{.stiffness = 1000.0, .damping = 15.0, .own_mass = 0.3}};
+inline constexpr std::array offsets{0.03, 0.53};  ///< of the surface, in steps
+
+enum class doing : std::uint8_t { kneading, tremor };
+struct felt {
+  double least = 1.0;         ///< share of K in the worst second
+  double deepest = 0.0;       ///< [m]
+  double least_energy = 0.0;  ///< [J]
+  ex::at_rest still{};
+};
+/// One run on a wall of K [N/m]: an approach of 3 mm at 10 mm/s, so many seconds, then 6 s of holding still. `offset` is
+/// that of the surface, in steps.
+[[nodiscard]] felt press(const machine& m, wall model, doing how, double K, int seconds,
+                         const sim::impedance_hand<line>& fingers, double offset);
+
 [[nodiscard]] const std::vector<ex::section<session>>& sections();
 [[nodiscard]] std::vector<std::string> run_gentle_touch(const session& s);
 [[nodiscard]] std::vector<std::string> run_endurance(const session& s);
 [[nodiscard]] std::vector<std::string> run_tremor(const session& s);
+[[nodiscard]] std::vector<std::string> run_crossed(const session& s);
 [[nodiscard]] std::vector<std::string> run_nearest(const session& s);
 [[nodiscard]] std::vector<std::string> run_held(const session& s);
 [[nodiscard]] std::vector<std::string> run_guarantee(const session& s);

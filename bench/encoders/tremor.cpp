@@ -8,29 +8,20 @@
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 
-#include <array>
-
 namespace encoders {
 
 namespace {
 
 constexpr double T = 1e-3;  // [s]
 
-constexpr std::array hands{
-    sim::impedance_hand<line>{.stiffness = 60.0, .damping = 2.0, .own_mass = 0.05},
-    sim::impedance_hand<line>{.stiffness = 300.0, .damping = 5.0, .own_mass = 0.15},
-    sim::impedance_hand<line>{.stiffness = 1000.0, .damping = 15.0, .own_mass = 0.3}};
-constexpr std::array offsets{0.03, 0.53};  ///< of the surface, in steps
-
-enum class pressing : std::uint8_t { kneading, tremor };
-const char* to_string(pressing how) {
-  return how == pressing::kneading ? "kneading" : "tremor as a force";
+const char* to_string(doing how) {
+  return how == doing::kneading ? "kneading" : "tremor as a force";
 }
 
 struct tremor_row {
   machine m{};
   const composition* what = nullptr;
-  pressing how{};
+  doing how{};
   int seconds = 60;
   double least = 1.0;         ///< share of the budget's stiffness felt in the worst second
   int lost = 0;               ///< of six runs, those with a second below 0.8
@@ -52,27 +43,20 @@ ex::record record_of(const tremor_row& r) {
                         r.still);
 }
 
-struct felt {
-  double least = 1.0;         ///< share of the worst second
-  double deepest = 0.0;       ///< [m]
-  double least_energy = 0.0;  ///< [J]
-  ex::at_rest still{};
-};
+}  // namespace
 
-/// One run: an approach of 3 mm at 10 mm/s, then a minute, then 6 s in which the hand holds still.
-felt press(const tremor_row& row, const sim::impedance_hand<line>& fingers, double offset) {
-  const machine& m = row.m;
-  const double K = m.budget().stiffness, displayed = m.displayed(K);
+felt press(const machine& m, wall model, doing how, double K, int seconds,
+           const sim::impedance_hand<line>& fingers, double offset) {
+  const double displayed = m.displayed(K);
   const double surface = offset * m.preset.quantum;
   const double per_newton = 1.0 / fingers.stiffness + 1.0 / displayed;
   const double mean = std::min(1.1, 0.33 * m.preset.force_limit);
-  wall model = row.what->make(m.stated(), K);
   (void)model.update({surface, -1.0, K});
   return with_device(m, surface - 3e-3, fingers, [&](auto& device) {
     felt found;
     const double approach = (3e-3 + mean * per_newton) / 10e-3;
     double force = 0.0, depth = 0.0;
-    const int end = static_cast<int>(approach / T) + 1000 * (row.seconds + 1);
+    const int end = static_cast<int>(approach / T) + 1000 * (seconds + 1);
     rest_of_hold hold(m, K, fingers.own_mass);
     const auto hand = [&](const auto& now) {
       const double t = now.tick * T - approach;
@@ -81,11 +65,10 @@ felt press(const tremor_row& row, const sim::impedance_hand<line>& fingers, doub
         device.hand().aim(surface + mean * per_newton, 0.0, device.time());
         return;
       }
-      const bool kneads = row.how == pressing::kneading && t > 0.0;
+      const bool kneads = how == doing::kneading && t > 0.0;
       const double swing = kneads ? 0.8 * std::sin(omega * t) : 0.0;
       const double rate = kneads ? 0.8 * omega * std::cos(omega * t) : 0.0;
-      const double pushed =
-          row.how == pressing::tremor ? 0.3 * std::sin(8.7 * omega * now.tick * T) : 0.0;
+      const double pushed = how == doing::tremor ? 0.3 * std::sin(8.7 * omega * now.tick * T) : 0.0;
       const double goal =
           t < 0.0 ? surface - 3e-3 + 10e-3 * now.tick * T : surface + (mean + swing) * per_newton;
       device.hand().aim(goal + pushed / fingers.stiffness, t < 0.0 ? 10e-3 : rate * per_newton,
@@ -110,10 +93,14 @@ felt press(const tremor_row& row, const sim::impedance_hand<line>& fingers, doub
   });
 }
 
+namespace {
+
 tremor_row judge(tremor_row row) {
+  const double K = row.m.budget().stiffness;
   for (const auto& fingers : hands) {
     for (const double offset : offsets) {
-      const felt run = press(row, fingers, offset);
+      const felt run =
+          press(row.m, row.what->make(row.m.stated(), K), row.how, K, row.seconds, fingers, offset);
       row.least = std::min(row.least, run.least);
       row.lost += run.least < 0.8 ? 1 : 0;
       row.deepest = std::max(row.deepest, run.deepest);
@@ -132,7 +119,7 @@ std::vector<tremor_row> cells(const session& s) {
       if (presliding > 0.0 && s.chosen.quick) continue;
       for (const auto& what : s.judged) {
         if (!what.is_capped) continue;
-        for (const auto how : {pressing::kneading, pressing::tremor}) {
+        for (const auto how : {doing::kneading, doing::tremor}) {
           all.push_back({{preset, presliding}, &what, how, s.chosen.quick ? 5 : 60});
         }
       }

@@ -375,10 +375,8 @@ double least_at_port(const truth& is, const truth& told, int runs) {
 }
 }  // namespace
 
-TEST_CASE(
-    "a port with crossed steps gives out no energy, whatever the hand and the force do within the "
-    "promise",
-    "[ledger][crossed]") {
+TEST_CASE("a port with crossed steps gives out no energy to a hand and a force that collude",
+          "[ledger][crossed]") {
   for (const double p : {0.0, 5e-6, 40e-6}) {
     for (const double hand : {0.5, 5.0}) {
       const truth is{.p = p, .hand = hand};
