@@ -341,7 +341,7 @@ double least_at_port(const truth& is, const truth& told, int runs) {
     sim::random_source random(static_cast<std::uint64_t>(run) + 1);
     ph::passive_port port{d1{}, ph::given_force{}, told.told(),
                           ph::reachable_bound{.mass = told.m, .hand_force = told.hand},
-                          limits{.longest_tick = 1.2 * T}};
+                          limits{.longest_tick = 1.2 * T, .watchdog = 1.2 * T}};
     double x = random.uniform(0.0, is.q), v = 0.0, z = random.uniform(-1.0, 1.0) * is.p, E = 0.0;
     std::array<double, Late + 1> coming{};
     double push = 1.0, want = 0.0, dt = T;
@@ -354,13 +354,17 @@ double least_at_port(const truth& is, const truth& told, int runs) {
       const auto out = port.tick(lost ? std::nan("") : step, ph::seconds{dt}, want);
       for (std::size_t i = Late; i > 0; --i) coming[i] = coming[i - 1];
       coming[0] = out.force;
-      const double f = coming[Late];
       dt = random.chance(0.7) ? T : T * random.uniform(0.2, 1.2);
+      if (random.chance(0.01)) dt = T * random.uniform(1.2, 4.0);  // the watchdog drops the force
       const double others = is.hand + 2.0 * is.b / dt * is.q;
-      for (int half = 0; half < 2; ++half) {
+      double left = dt;
+      while (left > 0.0) {
+        const bool dropped = dt - left >= 1.2 * T;
+        const double f = dropped ? 0.0 : coming[Late], h = dropped ? left : std::min(left, 0.6 * T);
+        left = left - h > 1e-9 ? left - h : 0.0;
         if (random.chance(0.2)) push = random.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0;
         if (random.chance(0.2)) push = v > 0.0 ? -1.0 : 1.0;
-        const double h = dt / 2.0, a = (f + others * push) / is.m;
+        const double a = (f + others * push) / is.m;
         const double way = v * h + 0.5 * a * h * h, wound = z + way;
         v += a * h;
         x += way;
