@@ -40,7 +40,7 @@ template <class Damping = isotropic_damping, class Steps = encoder_step,
           ledger_sum Sum = ledger_sum::plain>
 struct basic_dual_ledger {
   static constexpr guarantee passivity = requires { Steps::mass; }
-  ? guarantee::conditional : guarantee::strict;
+  ? guarantee::conditional : guarantee::strict;  // steps that count on a mass: crossed_step.hpp
   static constexpr bool counts = true;
   static constexpr bool exact = false;
 
