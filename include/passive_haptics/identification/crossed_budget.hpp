@@ -33,9 +33,9 @@ struct crossing {
   if (!(rho < 0.5)) {
     return {rho, false,
             "A push moves the device by too much of a step in a tick: a faster loop, a heavier "
-            "grip or coarser steps would pay. Take dual_ledger and edge_observer."};
+            "grip or coarser steps would pay. Take edge_observer; a crossed_ledger does no harm."};
   }
-  if (d.friction > 0.0 && 2.0 * d.presliding > d.quantum) {
+  if (2.0 * d.presliding > d.quantum) {
     return {rho, false,
             "The friction gives way by more than a step: take edge_observer, which rests within "
             "the presliding; a crossed_ledger does no harm."};
