@@ -3,7 +3,7 @@
 //
 //     encoders --out DIR               writes encoders.{json,md}, plots and index.html
 //     encoders --quick --out DIR       a first look
-//     encoders --only gentle_touch     of gentle_touch, endurance, tremor, nearest, held, guarantee
+//     encoders --only gentle_touch     of gentle_touch, endurance, tremor, crossed, nearest, held, guarantee
 
 #include "../common/interruptible.hpp"
 #include "program.hpp"
