@@ -181,6 +181,13 @@ TEST_CASE(
   p.least_inertia = 0.0;
   CHECK(std::string(p.check().parameter) == "least_inertia");
   p = port.source().parameters();
+  for (const int none : {0, -1, 9}) {
+    p.used = none;
+    CHECK(std::string(p.check().parameter) == "used");
+  }
+  p.used = 3;
+  CHECK_FALSE(port.set(p));
+  CHECK(port.source().parameters().used == 8);  // as it was made
   p.shape.proxy.radius = -1.0;
   CHECK(std::string(p.check().parameter) == "radius");
   p.shape.proxy.radius = 1e-3;
@@ -198,6 +205,10 @@ TEST_CASE(
   auto second = tool_of(1500);
   CHECK_FALSE(second.source().touch(s));  // three places are left
   CHECK_FALSE(second.source().ball(0).touching());
+  auto third = ph::make_mesh_tool(facts, grip, box, {}, 3);
+  CHECK(third.source().touch(s));  // by three of the eight
+  CHECK((third.source().ball(2).touching() && !third.source().ball(3).touching()));
+  third.source().let_go();
   others[0].let_go();
   double force = 0.0;
   for (int n = 0; n < 100; ++n) {

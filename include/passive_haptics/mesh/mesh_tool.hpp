@@ -19,6 +19,9 @@
 #include <passive_haptics/mesh/mesh_contact.hpp>
 #include <passive_haptics/six_dof.hpp>
 
+#include <algorithm>
+#include <span>
+
 namespace passive_haptics {
 inline namespace v0 {
 
@@ -29,13 +32,14 @@ struct mesh_tool {
   std::array<offset, std::size_t{Points}> points{};  ///< in the frame of the handle [m]
   mesh_contact shape{};    ///< of each point; the mass of its spring is m of the handle [kg]
   double least_inertia{};  ///< I, a lower bound of the moments of inertia about the handle [kg·m²]
+  int used = Points;  ///< N: the first N points touch; it stays as it was when the port was made
 
   /// The contact of point k, with its share m_k of the handle.
   [[nodiscard]] constexpr mesh_contact contact(int k) const noexcept {
     mesh_contact one = shape;
     double r2 = 0.0;
     for (const double r : points[static_cast<std::size_t>(k)]) r2 += r * r;
-    one.spring.mass = 1.0 / (Points * (1.0 / shape.spring.mass + r2 / least_inertia));
+    one.spring.mass = 1.0 / (used * (1.0 / shape.spring.mass + r2 / least_inertia));
     return one;
   }
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -47,6 +51,9 @@ struct mesh_tool {
     if (!detail::positive(least_inertia)) {
       return {"least_inertia", least_inertia, "finite and > 0 kg·m²"};
     }
+    if (used < 1 || used > Points) {
+      return {"used", static_cast<double>(used), "from 1 to the number of points"};
+    }
     return shape.check();
   }
   template <port Body>
@@ -56,8 +63,6 @@ struct mesh_tool {
 template <int Points>
 template <port Body>
 class mesh_tool<Points>::on {
-  static constexpr auto count = static_cast<std::size_t>(Points);
-
  public:
   using scalar = typename Body::scalar;
   using effort = typename Body::effort;
@@ -67,11 +72,14 @@ class mesh_tool<Points>::on {
   using result_type = tick_result<Body>;
   static constexpr bool asks_for_numbers = false;  // a sum may overflow
 
-  constexpr explicit on(const mesh_tool& p) noexcept : on(p, std::make_index_sequence<count>{}) {}
+  constexpr explicit on(const mesh_tool& p) noexcept
+      : on(p, std::make_index_sequence<std::size_t{Points}>{}) {}
   [[nodiscard]] constexpr const mesh_tool& parameters() const noexcept { return stated_; }
   constexpr void set(const mesh_tool& p) noexcept {
+    const int as_made = stated_.used;
     stated_ = p;
-    each([&](finger& one, int k) { one.set(p.contact(k)); });
+    stated_.used = as_made;
+    each([&](finger& one, int k) { one.set(stated_.contact(k)); });
   }
   [[nodiscard]] constexpr parameter_fault check() const noexcept { return stated_.check(); }
   constexpr void adopt(scalar T, int late) noexcept {
@@ -79,7 +87,7 @@ class mesh_tool<Points>::on {
   }
   [[nodiscard]] constexpr bool settles() const noexcept {
     bool all = true;
-    for (const finger& one : fingers_) all = all && one.settles();
+    for (const finger& one : in_use(fingers_)) all = all && one.settles();
     return all;
   }
   /// Forgets which side each point has touched, but keeps the meshes.
@@ -89,7 +97,7 @@ class mesh_tool<Points>::on {
 
   /// Lets all points touch this mesh as well, or none: as mesh_contact. Each takes one of its 64 places.
   bool touch(const mesh::surface& s) noexcept {
-    for (finger& one : fingers_) {
+    for (finger& one : in_use(fingers_)) {
       if (one.also_touch(s)) continue;
       if (&one != fingers_.data()) let_go(s);  // else it is touched already, or nowhere
       return false;
@@ -113,7 +121,7 @@ class mesh_tool<Points>::on {
   /// Explains the point that presses most, or the first.
   void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
     fingers_[0].explain(e, vector(space::zero()), T, late);
-    for (const finger& one : fingers_) {
+    for (const finger& one : in_use(fingers_)) {
       explanation own;
       own.force = e.force;
       one.explain(own, vector(space::zero()), T, late);
@@ -160,8 +168,12 @@ class mesh_tool<Points>::on {
   template <std::size_t... K>
   constexpr on(const mesh_tool& p, std::index_sequence<K...> /*all*/) noexcept
       : stated_(p), fingers_{finger(p.contact(static_cast<int>(K)))...} {}
+  [[nodiscard]] constexpr auto in_use(auto& all) const noexcept {
+    return std::span(all).first(static_cast<std::size_t>(std::clamp(stated_.used, 1, Points)));
+  }
   constexpr void each(auto what) noexcept {
-    for (std::size_t k = 0; k < count; ++k) what(fingers_[k], static_cast<int>(k));
+    int k = 0;
+    for (finger& one : in_use(fingers_)) what(one, k++);
   }
   [[nodiscard]] vector arm(const auto& turn, int k) const noexcept {
     const auto& r = stated_.points[static_cast<std::size_t>(k)];
@@ -169,25 +181,26 @@ class mesh_tool<Points>::on {
   }
 
   mesh_tool stated_;
-  std::array<finger, count> fingers_;
+  std::array<finger, std::size_t{Points}> fingers_;
 };
 
-/// A port for a tool that touches meshes at these points of it: port.source().touch(surface). The guarantee is that of
-/// make_tool.
+/// A port for a tool that touches meshes at these points of it, or at the first `used`: port.source().touch(surface). The
+/// guarantee is that of make_tool.
 template <class Body = rigid_body<double>, class Limits = loop_limits, std::size_t Points>
 [[nodiscard]] constexpr auto make_mesh_tool(const rigid_device& d, const rigid_hand& hand,
                                             const std::array<std::array<double, 3>, Points>& points,
-                                            mesh_contact shape = {}) noexcept {
+                                            mesh_contact shape = {},
+                                            int used = static_cast<int>(Points)) noexcept {
   using plane = half_space<typename Body::body_space>;
   const auto other = make_tool<Body, Limits>(d, hand, slots<plane, 1>{});
   const auto bounds = other.bound().parameters();
   const double left = d.inertia.at_handle();
   shape.spring.mass = left * d.inertia.mass;
   shape.spring.force_limit = d.force_limit;
-  return passive_port{Body{},
-                      mesh_tool<static_cast<int>(Points)>{points, shape, left * d.inertia.least},
-                      other.observer().parameters(), bound_chain{bounds.first, bounds.rest.first},
-                      Limits{.longest_tick = d.longest_tick}};
+  return passive_port{
+      Body{}, mesh_tool<static_cast<int>(Points)>{points, shape, left * d.inertia.least, used},
+      other.observer().parameters(), bound_chain{bounds.first, bounds.rest.first},
+      Limits{.longest_tick = d.longest_tick}};
 }
 
 }  // namespace v0
