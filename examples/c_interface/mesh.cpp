@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes, the ports that touch them, and the probe that does without a port.
-#include "ports.hpp"
+#include "rigid.hpp"
 #include <passive_haptics/mesh.hpp>
+#include <passive_haptics/mesh/mesh_tool.hpp>
 
 #include <cstddef>
 #include <exception>
@@ -24,7 +25,7 @@ class touched {
  public:
   std::int32_t touch(auto& finger, const ph_mesh& m) noexcept {
     const auto free = std::find(held_.begin(), held_.end(), nullptr);
-    if (free == held_.end() || !finger.also_touch(*m.triangles)) return PH_NO_PLACE;
+    if (free == held_.end() || !also(finger, *m.triangles)) return PH_NO_PLACE;
     *free = m.triangles;
     return PH_OK;
   }
@@ -37,24 +38,47 @@ class touched {
   }
 
  private:
+  static bool also(auto& finger, const surface& s) noexcept {
+    if constexpr (requires { finger.also_touch(s); }) {
+      return finger.also_touch(s);
+    } else {
+      return finger.touch(s);
+    }
+  }
   static_assert(PH_MESHES == mesh::proxy::most_meshes);
   std::array<std::shared_ptr<surface>, PH_MESHES> held_;
 };
 
-template <auto Device, auto Hand>
-struct mesh_touch {
+[[nodiscard]] ph::mesh_contact mesh_shape_of(const ph_parameters& p) noexcept {
+  ph::mesh_contact shape{.viscosity = p.viscosity};
+  shape.stiffness = stated(p.stiffness, shape.stiffness);
+  shape.proxy.radius = stated(p.radius, shape.proxy.radius);
+  shape.proxy.friction = p.static_friction;
+  return shape;
+}
+struct without_slots {
   static constexpr int plane_slots = 0, curved_slots = 0;
-  template <class Loop>
-  static auto make(const ph_parameters& p) noexcept {
-    ph::mesh_contact shape{.viscosity = p.viscosity};
-    shape.stiffness = stated(p.stiffness, shape.stiffness);
-    shape.proxy.radius = stated(p.radius, shape.proxy.radius);
-    shape.proxy.friction = p.static_friction;
-    return ph::make_mesh_touch<scene, Loop>(Device(p), Hand(p), shape);
-  }
   template <class Port>
   static void adjust(Port& port, const ph_parameters& p) noexcept {
     (void)port.set(limits<Port::latency>(p));
+  }
+};
+template <auto Device, auto Hand>
+struct mesh_touch : without_slots {
+  template <class Loop>
+  static auto make(const ph_parameters& p) noexcept {
+    return ph::make_mesh_touch<scene, Loop>(Device(p), Hand(p), mesh_shape_of(p));
+  }
+};
+struct mesh_tool : without_slots {
+  template <class Loop>
+  static auto make(const ph_parameters& p) noexcept {
+    std::array<std::array<double, 3>, PH_TOOL_POINTS> points{};
+    for (std::uint32_t i = 0; i < p.point_count; ++i)
+      std::copy_n(p.points[i], 3, points[i].begin());
+    return ph::make_mesh_tool<ph::rigid_body<double>, Loop>(rigid_device_of(p), rigid_hand_of(p),
+                                                            points, mesh_shape_of(p),
+                                                            static_cast<int>(p.point_count));
   }
 };
 
@@ -123,6 +147,9 @@ std::int32_t guarded(const text& reason, auto make) noexcept {
 
 made make_mesh_touch(const ph_parameters& p, facts of) noexcept {
   return make_by_facts<mesh_touch, mesh_port>(p, of);
+}
+made make_mesh_tool(const ph_parameters& p, facts /*of*/) noexcept {
+  return make<mesh_tool, PH_MOST_TOOL_LATENCY, mesh_port>(p);
 }
 
 }  // namespace c_interface

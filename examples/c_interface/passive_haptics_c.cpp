@@ -45,6 +45,7 @@ constexpr std::array compositions{
     named_composition{"strict_mesh_touch", make_mesh_touch, anybody, strict_latest, false},
     named_composition{"strict_encoder_mesh_touch", make_mesh_touch, anybody_on_encoders,
                       strict_latest, false},
+    named_composition{"mesh_tool", make_mesh_tool, {}, PH_MOST_TOOL_LATENCY},
     named_composition{"quantised_touch", make_quantised_touch, on_encoders, strict_latest},
     named_composition{"detents", make_detents},
     named_composition{"encoder_detents", make_detents, on_encoders},
@@ -143,8 +144,11 @@ constexpr ranged of_detents[]{
   if (p.kinetic_friction > p.static_friction) {
     return {"kinetic_friction", p.kinetic_friction, "no more than static_friction"};
   }
-  if (chosen.is("tool")) {
+  if (chosen.make == make_tool || chosen.make == make_mesh_tool) {
     if (const auto wrong = fault_in(p, of_a_tool)) return wrong;
+  }
+  if (chosen.make == make_mesh_tool && (p.point_count < 1 || p.point_count > PH_TOOL_POINTS)) {
+    return {"point_count", static_cast<double>(p.point_count), "1 to 8 points"};
   }
   if (chosen.make == make_detents) {
     if (const auto wrong = fault_in_detents(p)) return wrong;
@@ -157,8 +161,8 @@ constexpr ranged of_detents[]{
 }
 
 /// What a port has been told for good, and is told otherwise.
-[[nodiscard]] ph::parameter_fault change_in(const ph_parameters& was,
-                                            const ph_parameters& is) noexcept {
+[[nodiscard]] ph::parameter_fault change_in(const ph_parameters& was, const ph_parameters& is,
+                                            const named_composition& chosen) noexcept {
   constexpr const char* fixed = "what ph_create was told: create another port";
   if (is.latency != was.latency) return {"latency", static_cast<double>(is.latency), fixed};
   if (is.rotary != was.rotary) return {"rotary", static_cast<double>(is.rotary), fixed};
@@ -173,6 +177,15 @@ constexpr ranged of_detents[]{
   }
   for (int i = 0; i < 3; ++i) {
     if (!(is.tip[i] == was.tip[i])) return {"tip", is.tip[i], fixed};
+  }
+  if (chosen.make != make_mesh_tool) return {};
+  if (is.point_count != was.point_count) {
+    return {"point_count", static_cast<double>(is.point_count), fixed};
+  }
+  for (std::uint32_t k = 0; k < is.point_count; ++k) {
+    for (int i = 0; i < 3; ++i) {
+      if (!(is.points[k][i] == was.points[k][i])) return {"points", is.points[k][i], fixed};
+    }
   }
   return {};
 }
@@ -240,7 +253,7 @@ void leave(auto* slot) noexcept {
 constexpr std::size_t shortest_surface = sizeof(ph_surface);
 constexpr std::size_t shortest_parameters = offsetof(ph_parameters, friction);
 constexpr std::size_t shortest_result = offsetof(ph_result, limited);
-static_assert(sizeof(ph_parameters) == 312 && shortest_parameters == 48);
+static_assert(sizeof(ph_parameters) == 504 && shortest_parameters == 48);
 static_assert(sizeof(ph_surface) == 176);
 static_assert(sizeof(ph_explanation) == 48 || sizeof(void*) != 8);
 static_assert(sizeof(ph_result) == 80 && shortest_result == 48);
@@ -458,7 +471,7 @@ std::int32_t ph_set(ph_port* port, const ph_parameters* parameters, char* why,
   const ph_parameters own = whole(*parameters);
   const auto& chosen = *static_cast<const named_composition*>(port->composition);
   if (const auto fault = fault_in(own, chosen)) return refuse(reason, fault);
-  if (const auto fault = change_in(port->stated, own)) return refuse(reason, fault);
+  if (const auto fault = change_in(port->stated, own, chosen)) return refuse(reason, fault);
   if (const auto fault = port->set(own)) return refuse(reason, fault);
   return PH_OK;
 }
@@ -522,8 +535,8 @@ const char* ph_status_text(std::int32_t status) noexcept {
     case PH_OUT_OF_MEMORY:
       return "out of memory";
     case PH_NOT_OF_THIS_COMPOSITION:
-      return "surfaces are for touch, contacts, stylus and tool, meshes for a mesh_touch, wanted "
-             "forces for a guard, poses for stylus and tool";
+      return "surfaces are for touch, contacts, stylus and tool, meshes for mesh_touch and "
+             "mesh_tool, wanted forces for a guard, poses for stylus, tool and mesh_tool";
     case PH_REFUSED_SURFACE:
       return "the surface has a number that is none, no normal, no stiffness > 0, or no such kind";
     case PH_NO_SUCH_SLOT:

@@ -107,9 +107,7 @@ struct ph_port {
   virtual c_interface::told<c_interface::curved>* curved_slot(std::uint32_t i) noexcept = 0;
   virtual void send() noexcept = 0;
   /// False for a composition without slots.
-  [[nodiscard]] bool has_slots() const noexcept {
-    return takes == c_interface::takes::planes || takes == c_interface::takes::poses;
-  }
+  [[nodiscard]] bool has_slots() noexcept { return plane_slot(0) != nullptr; }
 
   /// For the thread that ticks.
   virtual std::int32_t touch(const ph_mesh& /*mesh*/) noexcept {
@@ -429,6 +427,7 @@ template <template <auto Device, auto Hand> class Family,
 [[nodiscard]] made make_tool(const ph_parameters& p, facts of) noexcept;
 [[nodiscard]] made make_detents(const ph_parameters& p, facts of) noexcept;
 [[nodiscard]] made make_mesh_touch(const ph_parameters& p, facts of) noexcept;
+[[nodiscard]] made make_mesh_tool(const ph_parameters& p, facts of) noexcept;
 
 // ------------------------------------------------------------------------- structs by size, and texts
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What turns: a stylus, which pushes in three degrees of freedom, and a tool, which does in six.
-#include "ports.hpp"
-#include <passive_haptics/six_dof.hpp>
+#include "rigid.hpp"
 
 namespace c_interface {
 namespace {
@@ -27,25 +26,13 @@ struct stylus {
   }
 };
 
-[[nodiscard]] ph::rigid_device device_of(const ph_parameters& p) noexcept {
-  return {.inertia = {.mass = p.mass,
-                      .least = p.least_inertia,
-                      .spread = p.inertia_spread,
-                      .offset = p.inertia_offset},
-          .damping = {.linear = p.damping, .angular = p.angular_damping},
-          .damping_most = {.linear = p.damping_most, .angular = p.angular_damping_most},
-          .force_limit = p.force_limit,
-          .torque_limit = p.torque_limit,
-          .lever = stated(p.lever, ph::rigid_device{}.lever),
-          .longest_tick = p.longest_tick};
-}
 struct tool {
   static constexpr int plane_slots = PH_TOOL_PLANES, curved_slots = PH_TOOL_CURVED;
   template <class Loop>
   static auto make(const ph_parameters& p) noexcept {
     return ph::make_tool<ph::rigid_body<double>, Loop>(
-        device_of(p), {.force = p.hand_force, .torque = p.hand_torque}, friction_of(p),
-        ph::slots<plane, PH_TOOL_PLANES>{}, ph::slots<curved, PH_TOOL_CURVED>{});
+        rigid_device_of(p), rigid_hand_of(p), friction_of(p), ph::slots<plane, PH_TOOL_PLANES>{},
+        ph::slots<curved, PH_TOOL_CURVED>{});
   }
   static void adjust(auto& port, const ph_parameters& p) noexcept {
     adjust_slots(port, port.source().parameters().pace, p);

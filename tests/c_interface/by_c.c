@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 // POSIX lets a pointer to data be one to a function; C does not, so it is copied.
@@ -295,25 +296,27 @@ int32_t run_by_c(const struct c_interface* with, const char* composition,
                  const ph_parameters* parameters, struct script script, int ticks,
                  ph_result* results) {
   static const double torque[3] = {0.0, 1e-3, 0.0};
+  const bool meshes = script.way == by_meshes || script.way == as_mesh_tool;
+  const bool twists = script.way == as_tool || script.way == as_mesh_tool;
   struct touching t = {.with = with};
   int32_t status = with->create(composition, parameters, &t.port, NULL, 0);
   ph_port* const port = t.port;
-  if (status == PH_OK && script.way == by_meshes) status = begin(&t, script.kind);
+  if (status == PH_OK && meshes) status = begin(&t, script.kind);
   for (int n = 0; n < ticks && status == PH_OK; ++n) {
     const struct moment now = moment_at(n);
     if (script.later != NULL && n == change_tick) status = with->set(port, script.later, NULL, 0);
     if (script.later != NULL && n == off_tick) status = with->enable_forces(port, 0);
     if (script.later != NULL && n == on_tick) status = with->enable_forces(port, 1);
     if (script.later != NULL && n == reset_tick) status = with->reset(port);
-    if (script.way == by_meshes) {
+    if (meshes) {
       status |= move(&t, n);
     } else {
       tell(with, port, script, n, &now);
     }
-    if (now.reports_held && script.way == as_tool) with->held_wrench(port, now.held, torque);
-    if (now.reports_held && script.way != as_tool) with->held(port, now.held);
+    if (now.reports_held && twists) with->held_wrench(port, now.held, torque);
+    if (now.reports_held && !twists) with->held(port, now.held);
     results[n].size = sizeof results[n];
-    if (script.way == as_stylus || script.way == as_tool) {
+    if (script.way == as_stylus || twists) {
       with->tick_pose(port, now.position, now.orientation, now.dt, &results[n]);
     } else if (script.way == by_forces && n % 5 != 4) {
       with->tick_wanted(port, now.position, now.dt, now.wanted, &results[n]);

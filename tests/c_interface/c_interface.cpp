@@ -4,7 +4,6 @@
 #include "direct.hpp"
 #include "support/allocations.hpp"
 #include <passive_haptics/knob/detents.hpp>
-#include <passive_haptics/six_dof.hpp>
 
 #include <atomic>
 #include <cstring>
@@ -16,35 +15,6 @@ namespace {
 
 using plane = ph::half_space<d3>;
 using loop = ph::loop_limits;
-
-/// A handle that turns, and the same for C.
-constexpr ph::rigid_device handle{
-    .inertia = {.mass = 0.15, .least = 1e-4, .spread = 2e-4, .offset = 5e-3},
-    .damping = {.linear = 0.03, .angular = 1e-4},
-    .damping_most = {.linear = 0.06, .angular = 2e-4},
-    .force_limit = 1.0,
-    .torque_limit = 0.006,
-    .lever = 0.02,
-    .longest_tick = T};
-ph_parameters peg() {
-  ph_parameters p{};
-  p.size = sizeof p;
-  p.mass = handle.inertia.mass;
-  p.damping = handle.damping.linear;
-  p.hand_force = 5.0;
-  p.force_limit = handle.force_limit;
-  p.longest_tick = T;
-  p.least_inertia = handle.inertia.least;
-  p.inertia_spread = handle.inertia.spread;
-  p.inertia_offset = handle.inertia.offset;
-  p.angular_damping = handle.damping.angular;
-  p.damping_most = handle.damping_most.linear;
-  p.angular_damping_most = handle.damping_most.angular;
-  p.hand_torque = 0.1;
-  p.torque_limit = handle.torque_limit;
-  p.lever = handle.lever;
-  return p;
-}
 
 constexpr ph::stick_slip rough{.static_coefficient = 0.5, .kinetic_coefficient = 0.3};
 

@@ -6,6 +6,7 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/passive_haptics.hpp>
+#include <passive_haptics/six_dof.hpp>
 
 #include <cstring>
 #include <string>
@@ -90,6 +91,35 @@ constexpr ph::exact_device exact{
     .mass = 0.045, .damping = 0.05, .force_limit = 3.3, .longest_tick = T};
 constexpr ph::known_hand hand{.force = 5.0};
 constexpr ph::actuator_limit motors{.most = stated.force_limit};
+
+/// A handle that turns, and the same for C.
+constexpr ph::rigid_device handle{
+    .inertia = {.mass = 0.15, .least = 1e-4, .spread = 2e-4, .offset = 5e-3},
+    .damping = {.linear = 0.03, .angular = 1e-4},
+    .damping_most = {.linear = 0.06, .angular = 2e-4},
+    .force_limit = 1.0,
+    .torque_limit = 0.006,
+    .lever = 0.02,
+    .longest_tick = T};
+inline ph_parameters peg() {
+  ph_parameters p{};
+  p.size = sizeof p;
+  p.mass = handle.inertia.mass;
+  p.damping = handle.damping.linear;
+  p.hand_force = 5.0;
+  p.force_limit = handle.force_limit;
+  p.longest_tick = T;
+  p.least_inertia = handle.inertia.least;
+  p.inertia_spread = handle.inertia.spread;
+  p.inertia_offset = handle.inertia.offset;
+  p.angular_damping = handle.damping.angular;
+  p.damping_most = handle.damping_most.linear;
+  p.angular_damping_most = handle.damping_most.angular;
+  p.hand_torque = 0.1;
+  p.torque_limit = handle.torque_limit;
+  p.lever = handle.lever;
+  return p;
+}
 
 inline d3::vector in(const double* numbers) {
   return {numbers[0], numbers[1], numbers[2]};

@@ -4,6 +4,7 @@
 #include "direct.hpp"
 #include "support/allocations.hpp"
 #include <passive_haptics/mesh.hpp>
+#include <passive_haptics/mesh/mesh_tool.hpp>
 
 #include <atomic>
 #include <cmath>
@@ -26,6 +27,15 @@ std::vector<mesh::triangle> triangles(const std::int32_t* numbers, int count) {
 }
 mesh::material material(const double* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
+}
+
+/// Beside what it touches already.
+bool touch_also(auto& finger, const mesh::surface& s) {
+  if constexpr (requires { finger.also_touch(s); }) {
+    return finger.also_touch(s);
+  } else {
+    return finger.touch(s);
+  }
 }
 
 /// The meshes of the C client, without C.
@@ -51,7 +61,7 @@ struct direct_meshes {
       CHECK(sheet.update(mesh::made_of{{material(now.materials + 3)}, of}));
     }
     if ((news & no_material) != 0) CHECK(sheet.update(mesh::made_of{}));
-    if ((news & leaf_comes) != 0) CHECK(finger.also_touch(leaf));
+    if ((news & leaf_comes) != 0) CHECK(touch_also(finger, leaf));
     if ((news & leaf_goes) != 0) finger.let_go(leaf);
   }
 
@@ -83,6 +93,18 @@ ph_parameters on_mesh(ph_parameters p) {
 }
 ph::mesh_contact shape(double stiffness = 1500.0) {
   return {.stiffness = stiffness, .viscosity = 0.4, .proxy = {.radius = 4e-4, .friction = 0.2}};
+}
+
+/// Points of a tool, and a device with them in C, on the mesh of on_mesh.
+constexpr std::array<std::array<double, 3>, 3> corners{
+    {{-4e-3, 1e-3, 0.0}, {4e-3, 0.0, 0.0}, {0.0, -3e-3, 1e-3}}};
+ph_parameters with_points(ph_parameters p, const auto& points) {
+  p = on_mesh(p);
+  p.point_count = static_cast<std::uint32_t>(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    std::copy(points[k].begin(), points[k].end(), p.points[k]);
+  }
+  return p;
 }
 
 /// A mesh in C, ended with its test, and what ph_mesh_create says.
@@ -148,6 +170,146 @@ TEST_CASE("a stiffness that changes in C changes as set() does on a mesh", "[c_i
                      CHECK_FALSE(port.set(ph::actuator_limit{.most = 2.0}));
                    }),
         on_mesh(grip()), {by_meshes, 0, &later}, &ph_parameters::damping);
+}
+
+TEST_CASE("a mesh_tool by name is make_mesh_tool, bit for bit, with one point and with eight",
+          "[c_interface]") {
+  const auto with = [](auto limits, const auto& points, double K = 1500.0) {
+    return ph::make_mesh_tool<ph::rigid_body<double>, decltype(limits)>(
+        handle, {.force = 5.0, .torque = 0.1}, points, shape(K));
+  };
+  constexpr ph::loop_limits on_time{};
+  const ph_parameters three = with_points(peg(), corners);
+  const auto direct = run_meshes(with(on_time, corners), 0);
+  CHECK(std::any_of(direct.begin(), direct.end(), [](auto& r) { return r.torque[0] != 0.0; }));
+  for (double ph_parameters::*one :
+       {&ph_parameters::least_inertia, &ph_parameters::torque_limit, &ph_parameters::stiffness,
+        &ph_parameters::viscosity, &ph_parameters::radius, &ph_parameters::static_friction}) {
+    INFO("the control: another one");
+    agree("mesh_tool", direct, three, {as_mesh_tool, 0, nullptr}, one);
+  }
+  agree("mesh_tool", run_meshes(with(on_time, corners), 1), three, {as_mesh_tool, 1, nullptr},
+        &ph_parameters::hand_torque);
+  auto elsewhere = three;
+  elsewhere.points[2][1] *= 1.01;
+  CHECK_FALSE(same_bits(direct, run_in_c("mesh_tool", elsewhere, {as_mesh_tool, 0, nullptr})));
+
+  std::array<std::array<double, 3>, 1> tip{{{2e-3, 1e-3, -1e-3}}};
+  agree("mesh_tool", run_meshes(with(on_time, tip), 2), with_points(peg(), tip),
+        {as_mesh_tool, 2, nullptr}, &ph_parameters::mass);
+  std::array<std::array<double, 3>, PH_TOOL_POINTS> all{};
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    all[k] = {2e-3 * static_cast<double>(k % 4) - 3e-3, k < 4 ? -1e-3 : 2e-3, 0.0};
+  }
+  auto late_one = with_points(peg(), all);
+  late_one.latency = 1;
+  agree("mesh_tool", run_meshes(with(late<1>{}, all), 0), late_one, {as_mesh_tool, 0, nullptr},
+        &ph_parameters::damping);
+
+  auto later = three;
+  later.stiffness = 700.0;
+  later.force_limit = 0.8;
+  agree("mesh_tool",
+        run_meshes(with(on_time, corners), 0,
+                   [&](auto& port) {
+                     auto other = handle;
+                     other.force_limit = 0.8;
+                     const auto fresh = ph::make_mesh_tool(other, {.force = 5.0, .torque = 0.1},
+                                                           corners, shape(700.0));
+                     CHECK_FALSE(port.set(fresh.source().parameters()));
+                     const auto bounds = fresh.bound().parameters();
+                     CHECK_FALSE(port.set(ph::bound_chain{bounds.first, bounds.rest.first}));
+                   }),
+        three, {as_mesh_tool, 0, &later}, &ph_parameters::damping);
+}
+
+TEST_CASE("a mesh_tool refuses points that are none, and takes a place of a mesh for each",
+          "[c_interface]") {
+  using Catch::Matchers::StartsWith;
+  const loaded c;
+  const ph_parameters good = with_points(peg(), corners);
+  const auto says = [&](auto change) {
+    ph_parameters p = good;
+    change(p);
+    return c.refusal("mesh_tool", p);
+  };
+  CHECK(c.refusal("mesh_tool", good, PH_OK).empty());  // the control
+  CHECK(says([](auto& p) { p.point_count = 0; }) == "point_count = 0 is refused: 1 to 8 points");
+  CHECK_THAT(says([](auto& p) { p.point_count = 9; }), StartsWith("point_count = 9 is refused"));
+  CHECK_THAT(says([](auto& p) { p.point_count = 0xffffffffU; }),
+             StartsWith("point_count = 4.29497e+09 is refused"));
+  CHECK_THAT(says([](auto& p) { p.points[2][1] = no_number; }),
+             StartsWith("points = nan is refused: finite"));
+  CHECK_THAT(says([](auto& p) { p.latency = 2; }), StartsWith("latency = 2 is refused: 0 or 1"));
+  CHECK_THAT(says([](auto& p) { p.torque_limit = 0.0; }), StartsWith("torque_limit = 0"));
+  CHECK_THAT(says([](auto& p) { p.radius = -1.0; }), StartsWith("radius = -1 is refused"));
+  CHECK_THAT(says([](auto& p) { p.size = offsetof(ph_parameters, rotary); }),  // an older header's
+             StartsWith("point_count = 0"));
+  ph_parameters p = good;
+  p.points[3][0] = no_number;  // behind the last one
+  CHECK(c.refusal("mesh_tool", p, PH_OK).empty());
+
+  const meshes all = meshes_at(0);
+  const opened port(c, "mesh_tool", good), planes(c, "tool", peg());
+  CHECK(c.guarantee_of(port.port) == PH_CONDITIONAL);
+  const auto other = [&](auto change) {
+    p = good;
+    change(p);
+    std::string why(PH_TEXT_ROOM, 'x');
+    const int status = c.set(port.port, &p, why.data(), why.size());
+    CHECK((status == PH_OK) == (why[0] == '\0'));
+    return std::string(why.c_str());
+  };
+  CHECK_THAT(other([](auto& q) { q.points[1][0] = 0.5; }), StartsWith("points = 0.5 is refused"));
+  CHECK_THAT(other([](auto& q) { q.point_count = 2; }), StartsWith("point_count = 2 is refused"));
+  CHECK(other([](auto& q) { q.hand_force = 4.0; }).empty());
+
+  // Poses, wrenches and meshes; no positions, forces or surfaces.
+  const double x[3] = {0, 0, 3e-3}, q[4] = {1, 0, 0, 0};
+  ph_result r{};
+  r.size = sizeof r;
+  CHECK(c.tick_pose(port.port, x, q, 1e-3, &r) == PH_OK);
+  CHECK(r.event == PH_NO_TARGET);
+  CHECK(c.tick(port.port, x, 1e-3, &r) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(r.event == PH_REJECTED_SAMPLE);
+  CHECK(c.tick_wanted(port.port, x, 1e-3, x, &r) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.held(port.port, x) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.held_wrench(port.port, x, x) == PH_OK);
+  const moment now = moment_at(5);
+  const auto plane = plane_at(&now, 0.0);
+  CHECK(c.publish(port.port, 0, &plane) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.publish_plane(port.port, x, x, 1000.0) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.publish_nothing(port.port) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.release(port.port, 0, PH_PLANE) == PH_NOT_OF_THIS_COMPOSITION);
+  CHECK(c.reset(port.port) == PH_OK);
+  {
+    const made_mesh sheet(c, sheet_of(&all, 0));
+    CHECK(c.mesh_touch(planes.port, sheet.mesh) == PH_NOT_OF_THIS_COMPOSITION);
+    std::vector<std::unique_ptr<opened>> others;
+    for (int i = 0; i < PH_MOST_FINGERS / 3; ++i) {
+      others.push_back(std::make_unique<opened>(c, "mesh_tool", good));
+      CHECK(c.mesh_touch(others.back()->port, sheet.mesh) == PH_OK);
+    }
+    CHECK(c.mesh_touch(port.port, sheet.mesh) == PH_NO_PLACE);  // one of 64 is left
+    others.pop_back();                                          // gone while it touches
+    CHECK(c.mesh_touch(port.port, sheet.mesh) == PH_OK);
+    CHECK(c.mesh_touch(port.port, sheet.mesh) == PH_NO_PLACE);  // twice
+    CHECK(c.mesh_let_go(port.port, sheet.mesh) == PH_OK);
+    CHECK(c.mesh_touch(port.port, sheet.mesh) == PH_OK);
+  }
+  double most = 0.0;  // the handle of the mesh is gone, and the mesh is felt
+  for (int n = 0; n < 300; ++n) {
+    const double there[3] = {1e-4, 2e-4, 5e-3 - 2e-5 * n};
+    REQUIRE(c.tick_pose(port.port, there, q, 1e-3, &r) == PH_OK);
+    most = std::max(most, r.force[2]);
+  }
+  CHECK(most > 0.3);
+  ph_explanation e{};
+  e.size = sizeof e;
+  CHECK(c.explain(port.port, &e) == PH_OK);
+  CHECK(e.asked == Approx(1500.0));
+  CHECK(e.shown > 100.0);
+  CHECK(e.depth > 3e-4);
 }
 
 TEST_CASE("a probe in C is mesh::proxy, bit for bit", "[c_interface]") {

@@ -46,6 +46,10 @@ ph_parameters good_parameters(fuzz::numbers& in) {
   p.torque_limit = near(0.5);
   p.pitch = near(0.01);
   p.detent_stiffness = near(1e3);
+  p.point_count = 1 + in.one() % PH_TOOL_POINTS;
+  for (std::uint32_t k = 0; k < p.point_count; ++k) {
+    for (double& one : p.points[k]) one = 4e-5 * (in.one() - 127.5);
+  }
   return p;
 }
 ph_parameters any_parameters(fuzz::numbers& in) {
@@ -84,6 +88,8 @@ ph_parameters any_parameters(fuzz::numbers& in) {
   p.last_stop = in.one() < 128 ? 0.0 : in.about(0.02);
   p.stop_stiffness = in.one() < 64 ? 0.0 : in.about(1e3);
   p.rotary = in.one() % 2;
+  p.point_count = in.one() < 250 ? in.one() % 10 : in.any<std::uint32_t>();
+  for (auto& point : p.points) put(in, point, 3, 0.02);
   return p;
 }
 
@@ -225,6 +231,7 @@ const char* one_port(fuzz::numbers& in) {
   // What turns comes first.
   constexpr const char* names[]{"stylus",
                                 "tool",
+                                "mesh_tool",
                                 "touch",
                                 "encoder_touch",
                                 "strict_touch",
@@ -247,7 +254,7 @@ const char* one_port(fuzz::numbers& in) {
                                 nullptr};
   const std::size_t which = in.one() % std::size(names);
   const char* name = names[which];
-  const bool poses = which < 2;
+  const bool poses = which < 3;
   ph_parameters p = any_parameters(in);
   std::array<char, PH_TEXT_ROOM> why{};
   const std::size_t room = in.one() % 2 == 0 ? why.size() : in.one() % why.size();

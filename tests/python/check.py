@@ -81,5 +81,6 @@ refused(lambda: ph.Mesh(corners, []), "triangles is refused")
 refused(lambda: leaf.update(corners[:2]), "news of 2 nodes")
 refused(lambda: ph.Probe(radius=-1), "radius = -1 is refused")
 refused(lambda: probe.step([0, 0, float("nan")]), "out of its range")
-refused(lambda: ph.simulate("mesh_touch", 3000, exact), "Probe touches a Mesh")
+for name in ("mesh_touch", "mesh_tool"):
+    refused(lambda: ph.simulate(name, 3000, exact), "Probe touches a Mesh")
 print("the module and the library agree")

@@ -73,8 +73,11 @@ extern "C" {
 /// The same of a tool.
 #define PH_TOOL_PLANES 16
 #define PH_TOOL_CURVED 4
+/// The most points of a mesh_tool.
+#define PH_TOOL_POINTS 8
 
-/// The most meshes that a port or a probe touches at a time, and the most ports and probes that touch one mesh.
+/// The most meshes that a port or a probe touches at a time, and the most ports and probes that touch one mesh, a
+/// mesh_tool as often as it has points.
 #define PH_MESHES 8
 #define PH_MOST_FINGERS 64
 
@@ -166,7 +169,7 @@ typedef struct ph_parameters {
   double kinetic_friction;  ///< ≤ static_friction; 0: the same
   double tip[3];            ///< of a stylus: from the gimbal to its tip, in its frame [m]
 
-  // The following members are for a tool, which turns.
+  // The following members are for a tool and a mesh_tool, which turn.
   double least_inertia;    ///< smallest moment about the centre of mass, from below [kg·m²]
   double inertia_spread;   ///< between the largest moment and the smallest, from above [kg·m²]
   double inertia_offset;   ///< from the handle to the centre of mass, from above [m]
@@ -189,7 +192,10 @@ typedef struct ph_parameters {
   double last_stop;         ///< the upper end stop [m]; ∞: none
   double stop_stiffness;    ///< of both [N/m], > 0 where there is one
   uint32_t rotary;  ///< not 0: it turns, and all numbers are kg·m², N·m and rad, of a knob
-  uint32_t unused;
+
+  // The following members are for a mesh_tool.
+  uint32_t point_count;              ///< 1 to PH_TOOL_POINTS
+  double points[PH_TOOL_POINTS][3];  ///< what touches, in the frame of the handle [m]
 } ph_parameters;
 
 /// A surface of the environment. Members that its kind does not use are ignored.
@@ -216,7 +222,7 @@ typedef struct ph_result {
   int32_t limited;  ///< not 0: the bound has changed the force that contact, or caller, asked for
   int32_t
       capped;  ///< not 0: the plane is shown softer, because the device cannot pay for its stiffness
-  double torque[3];  ///< for a tool, about its handle [N·m]; else 0
+  double torque[3];  ///< for a tool or a mesh_tool, about its handle [N·m]; else 0
 } ph_result;
 
 /// The stiffness that a surface is shown with, and the reason why it is not higher.
@@ -286,6 +292,7 @@ PH_API uint32_t ph_version(void) PH_NOTHROW;
 ///   "tool"                                  make_tool                                rigid_device
 ///   "mesh_touch", "strict_mesh_touch"       make_mesh_touch                          exact_device
 ///   "encoder_mesh_touch", "strict_encoder_mesh_touch"                                encoder_device
+///   "mesh_tool"                             make_mesh_tool                           rigid_device, points
 ///   "quantised_touch"                       a touch on steps, friction not known     exact_device, quantum
 ///   "detents", "encoder_detents", "strict_detents", "strict_encoder_detents"
 ///                                           make_detents, in one degree of freedom   as "guard", and detents
@@ -293,9 +300,9 @@ PH_API uint32_t ph_version(void) PH_NOTHROW;
 /// exact_device is mass, damping, force_limit, longest_tick; encoder_device that, and friction, presliding, quantum,
 /// continuous_force, winding_time; rigid_device mass, damping, force_limit, longest_tick, and the members for a tool.
 /// The strict ones guarantee PH_STRICT, and are soft while the ledger is empty. All others take hand_force, and guarantee
-/// PH_CONDITIONAL. A touch has one plane; contacts, stylus and tool have the surfaces in their slots; a mesh_touch has
-/// meshes. A guard bounds a force of the caller, and damps the oscillations of a renderer. A composition for exact positions refuses a
-/// `quantum`. Parameters that a composition does not take are ignored.
+/// PH_CONDITIONAL. A touch has one plane; contacts, stylus and tool have the surfaces in their slots; mesh_touch
+/// and mesh_tool have meshes. A guard bounds a force of the caller, and damps the oscillations of a renderer. A
+/// composition for exact positions refuses a `quantum`. Parameters that a composition does not take are ignored.
 PH_API int32_t ph_create(const char* composition, const ph_parameters* parameters, ph_port** port,
                          char* why, size_t room) PH_NOTHROW;
 /// Destroys a port. No other function may use it at the same time or later. NULL does nothing.
@@ -325,23 +332,23 @@ PH_API int32_t ph_tick(ph_port* port, const double position[3], double dt,
 /// last valid one stays. For a touch, or with NULL, the sample is lost.
 PH_API int32_t ph_tick_wanted(ph_port* port, const double position[3], double dt,
                               const double wanted[3], ph_result* result) PH_NOTHROW;
-/// The same for a stylus and a tool, which turn: the pose of the gimbal, or of the handle, with `orientation` the unit
-/// quaternion w, x, y, z that turns its frame into the world's. The two functions above are a lost sample for a stylus or
-/// a tool, and this one is a lost sample for all others.
+/// The same for a stylus, a tool and a mesh_tool, which turn: the pose of the gimbal, or of the handle, with
+/// `orientation` the unit quaternion w, x, y, z that turns its frame into the world's. The two functions above are a lost
+/// sample for these, and this one is a lost sample for all others.
 PH_API int32_t ph_tick_pose(ph_port* port, const double position[3], const double orientation[4],
                             double dt, ph_result* result) PH_NOTHROW;
 /// States before a tick the force that the device has held until then [N], if that was not the force commanded
 /// `latency` ticks ago: motors that saturate, gravity compensation. It applies to that tick only. Call it in the
 /// thread of the ticks. A force that is not finite makes the sample a lost one.
 PH_API int32_t ph_held(ph_port* port, const double force[3]) PH_NOTHROW;
-/// The same for a tool, which takes only this one: force [N] and torque [N·m] about its handle.
+/// The same for a tool and a mesh_tool, which take only this one: force [N] and torque [N·m] about its handle.
 PH_API int32_t ph_held_wrench(ph_port* port, const double force[3],
                               const double torque[3]) PH_NOTHROW;
 
 /// Changes parameters of a port; its ledger and all other state stay. Those of the device must be equal to those of
-/// ph_create: latency, rotary, mass, damping, friction, presliding, quantum, longest_tick, tip. A refusal changes nothing, and
-/// its text has the first parameter that differs or is out of its range. Call it in the thread of the ticks, but not in
-/// every tick.
+/// ph_create: latency, rotary, mass, damping, friction, presliding, quantum, longest_tick, tip, points. A refusal
+/// changes nothing, and its text has the first parameter that differs or is out of its range. Call it in the thread of
+/// the ticks, but not in every tick.
 PH_API int32_t ph_set(ph_port* port, const ph_parameters* parameters, char* why,
                       size_t room) PH_NOTHROW;
 /// Resets all but the parameters, for a device that is at rest, also after an event that has ended the force. Published
@@ -379,7 +386,8 @@ PH_API int32_t ph_mesh_move(ph_mesh* mesh, const double position[3],
 PH_API int32_t ph_mesh_set_materials(ph_mesh* mesh, const double* materials,
                                      uint32_t material_count, const uint8_t* material_of, char* why,
                                      size_t room) PH_NOTHROW;
-/// Lets a mesh_touch touch this mesh as well. Call it, and the next one, in the thread of its ticks.
+/// Lets a mesh_touch, or all points of a mesh_tool, touch this mesh as well. Call it, and the next one, in the thread
+/// of its ticks.
 PH_API int32_t ph_mesh_touch(ph_port* port, const ph_mesh* mesh) PH_NOTHROW;
 /// Touches this mesh no more, and the others as before. A mesh that is not touched is let go, too.
 PH_API int32_t ph_mesh_let_go(ph_port* port, const ph_mesh* mesh) PH_NOTHROW;
