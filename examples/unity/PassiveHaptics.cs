@@ -22,19 +22,24 @@ namespace PassiveHaptics
         public double Mass, Damping, HandForce, ForceLimit, LongestTick;
         public double Friction, Presliding, Quantum, ContinuousForce, WindingTime;
         public double TurnRate, StaleAfter, TopSpeed, Workspace, Watchdog;
-        public double StaticFriction, KineticFriction; // of contacts, stylus, tool and mesh_touch
+        public double StaticFriction, KineticFriction; // of contacts, stylus, tool, mesh_touch and mesh_tool
         public Vector Tip;                             // of a stylus
-        public double LeastInertia, InertiaSpread, InertiaOffset, AngularDamping; // of a tool
+        public double LeastInertia, InertiaSpread, InertiaOffset, AngularDamping; // of tool and mesh_tool
         public double DampingMost, AngularDampingMost, HandTorque, TorqueLimit, Lever;
-        public double Stiffness, Viscosity, Radius; // of a mesh_touch
+        public double Stiffness, Viscosity, Radius; // of mesh_touch and mesh_tool
         public double Pitch, DetentStiffness, FirstStop, LastStop, StopStiffness; // of detents
         public uint Rotary;
-        private uint unused;
+        private uint pointCount;
+        [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)]
+        public Vector[] Points; // of a mesh_tool, at most 8, in the frame of its handle
 
         internal Parameters WithSize()
         {
             Parameters p = this;
             p.size = (uint)Marshal.SizeOf(typeof(Parameters));
+            p.pointCount = Points == null ? 0 : (uint)Points.Length;
+            p.Points = new Vector[8];
+            if (Points != null) Array.Copy(Points, p.Points, Math.Min(Points.Length, 8));
             return p;
         }
     }
@@ -327,7 +332,7 @@ namespace PassiveHaptics
             return status == 0;
         }
 
-        /// A mesh_touch touches this mesh as well, from the thread that ticks. False: there is no place for it.
+        /// A mesh_touch or a mesh_tool touches this mesh as well, from the thread that ticks. False: there is no place for it.
         public bool Touch(Mesh mesh)
         {
             int status = ph_mesh_touch(port, mesh.mesh);
@@ -361,7 +366,7 @@ namespace PassiveHaptics
             return result;
         }
 
-        /// The same for a stylus and a tool.
+        /// The same for a stylus, a tool and a mesh_tool.
         public Result Tick(Vector position, Rotation orientation, double dt)
         {
             Result result = new Result { size = resultSize };

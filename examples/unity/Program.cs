@@ -161,6 +161,26 @@ internal static class Program
             Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
                 "mesh:    {0:0.00} N up, {1:0.00} mm off at {2:0.00} mm", now.Force.Z, 1e3 * ball.Depth,
                 1e3 * ball.Place.Z));
+            handle.Points = new Vector[] { new Vector(0.02, 0, 0), new Vector(-0.02, 0, 0.01) };
+            using (Port peg = new Port("mesh_tool", handle))
+            {
+                peg.Touch(leaf);
+                for (int n = 0; n < 300; ++n)
+                {
+                    now = peg.Tick(new Vector(0, 0, Math.Max(3e-3 - 1e-5 * n, 0)), new Rotation(1, 0, 0, 0), 1e-3);
+                }
+                Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
+                    "         {0:0.00} N and {1:0.0000} N m, by a point 20 mm off", now.Force.Z, now.Torque.Y));
+            }
+            handle.Points = new Vector[9];
+            try
+            {
+                new Port("mesh_tool", handle);
+            }
+            catch (ArgumentException refused)
+            {
+                Console.WriteLine("         " + refused.Message);
+            }
             vertices[4] = double.NaN;
             if (!leaf.Update(vertices)) Console.WriteLine("         " + leaf.Fault);
         }
