@@ -332,7 +332,7 @@ namespace PassiveHaptics
             return status == 0;
         }
 
-        /// A mesh_touch or a mesh_tool touches this mesh as well, from the thread that ticks. False: there is no place for it.
+        /// A mesh_touch or mesh_tool touches this mesh as well, from the thread that ticks. False: there is no place.
         public bool Touch(Mesh mesh)
         {
             int status = ph_mesh_touch(port, mesh.mesh);

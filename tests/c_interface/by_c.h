@@ -95,8 +95,8 @@ enum {
 };
 int mesh_news(int n);
 
-/// How a composition is told the world: by planes, by forces, by slots, by slots at a pose, by meshes, and by meshes at a
-/// pose.
+/// How a composition is told the world: by planes, by forces, by slots, by slots at a pose, by meshes, and by meshes
+/// at a pose.
 enum way { by_planes, by_forces, by_slots, as_stylus, as_tool, by_meshes, as_mesh_tool };
 /// When its parameters become others, its forces are off and on again, and when all starts anew.
 enum { change_tick = 2405, off_tick = 3170, on_tick = 3215, reset_tick = 4100 };

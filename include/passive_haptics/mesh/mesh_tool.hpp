@@ -184,7 +184,7 @@ class mesh_tool<Points>::on {
   std::array<finger, std::size_t{Points}> fingers_;
 };
 
-/// A port for a tool that touches meshes at these points of it, or at the first `used`: port.source().touch(surface). The
+/// A port for a tool that touches meshes at these points of it, or the first `used`: port.source().touch(surface). The
 /// guarantee is that of make_tool.
 template <class Body = rigid_body<double>, class Limits = loop_limits, std::size_t Points>
 [[nodiscard]] constexpr auto make_mesh_tool(const rigid_device& d, const rigid_hand& hand,

@@ -333,8 +333,8 @@ PH_API int32_t ph_tick(ph_port* port, const double position[3], double dt,
 PH_API int32_t ph_tick_wanted(ph_port* port, const double position[3], double dt,
                               const double wanted[3], ph_result* result) PH_NOTHROW;
 /// The same for a stylus, a tool and a mesh_tool, which turn: the pose of the gimbal, or of the handle, with
-/// `orientation` the unit quaternion w, x, y, z that turns its frame into the world's. The two functions above are a lost
-/// sample for these, and this one is a lost sample for all others.
+/// `orientation` the unit quaternion w, x, y, z that turns its frame into the world's. The two functions above are a
+/// lost sample for these, and this one is a lost sample for all others.
 PH_API int32_t ph_tick_pose(ph_port* port, const double position[3], const double orientation[4],
                             double dt, ph_result* result) PH_NOTHROW;
 /// States before a tick the force that the device has held until then [N], if that was not the force commanded
