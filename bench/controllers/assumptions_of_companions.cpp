@@ -353,7 +353,8 @@ void add_transmissions(std::vector<trial>& all) {
     add(scaled("rotor's mass, at least", &world::rotor, "%.3g kg", 1.0, within, less));
     add(scaled("rotor's mass, at most", &world::rotor, "%.3g kg", 1.0, within, more), true);
     add(untold("slew on it, at most", &world::slew, "%g N/s", &world::spring, "any, spring %g N/m",
-               {1.0, 3.0, 10.0, 40.0}));
+               {1.0, 3.0, 10.0, 40.0}),
+        true);
     add(untold("pull on it, at most", &world::pull, "%g N", &world::hand, "any, hand of %g N",
                {1.0, 3.0, 10.0}),
         true);

@@ -42,6 +42,7 @@ TEST_CASE("news that are no news leave the last good mesh under the finger", "[m
   CHECK_THAT(s.fault(), Contains("node 0 is not finite"));
   CHECK_FALSE(s.update(ph::mesh::pose{.position = {0, std::nan(""), 0}}));
   CHECK_FALSE(s.update(ph::mesh::pose{.w = 0.0}));
+  CHECK_FALSE(s.update(ph::mesh::pose{.position = {0, 0, 1e169}}));
   CHECK_THAT(s.fault(), Contains("pose"));
   for (int k = 0; k < 50; ++k) ball.step({0, 0, -0.01}, T);
   CHECK(length(ball.place() - triple{0, 0, 5e-4}) < 1e-9);

@@ -28,7 +28,8 @@ inline namespace v0 {
 ///   - dry friction is at most `friction`, and may change its sign at any time; the damper is at most `damping_above`;
 ///   - the assumptions of strict_bound, as in reachable_bound.
 /// Of these, no hand of ours has drawn energy from a mass above `mass_above`, a friction or a damper above what is stated, or
-/// a pull above G where R holds; from a lighter rotor and a faster force it has (docs/guarantees.md). The proof needs all.
+/// a pull above G where R holds; from a lighter rotor it has, and rarely from a faster force (docs/guarantees.md, and ctest
+/// "controls: observed_reach that is told a slower pull, or a heavier rotor, loses"). The proof needs all.
 /// They imply |ĝ − ĝ_last| ≤ R (T₀ + T₁ + T₂)/3 + 2c and |ĝ| ≤ G + c. A motion that violates one of these for every m that
 /// is stated refutes a number: then the bound is the strict one for 0.1 s, twice as long each time, with
 /// event::outside_force. The guarantee does not rest on this test.

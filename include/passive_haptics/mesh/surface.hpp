@@ -201,12 +201,13 @@ class surface {
     fault_.clear();
     return true;
   }
-  /// Moves the whole mesh to this pose. It returns false if a number is not finite or the quaternion has no length.
+  /// Moves the whole mesh to this pose. It returns false if a number is not finite, if the place is farther than 1000 km,
+  /// or if the quaternion has no length.
   bool update(pose where) {
-    if (!where.prepare()) {
+    if (!where.prepare() || !(squared(where.position) < 1e12)) {
       fault_ =
-          "mesh: a pose with a number that is not finite, or a quaternion without a length; give "
-          "metres and w, x, y, z";
+          "mesh: a pose with a number that is not finite, farther than 1000 km, or a quaternion "
+          "without a length; give metres and w, x, y, z";
       return false;
     }
     world_->poses.blank() = where;
