@@ -36,9 +36,10 @@ struct crossing {
             "grip or coarser steps would pay. Take edge_observer; a crossed_ledger does no harm."};
   }
   if (2.0 * d.presliding > d.quantum) {
-    return {rho, false,
-            "The friction gives way by more than a step: take edge_observer, which rests within "
-            "the presliding; a crossed_ledger does no harm."};
+    return {
+        rho, false,
+        "The friction gives way by more than half a step: take edge_observer, which rests within "
+        "the presliding; a crossed_ledger does no harm."};
   }
   return {rho, true, "Steps are known well where they are crossed."};
 }
