@@ -4,13 +4,10 @@
 namespace encoders {
 
 const std::vector<ex::section<session>>& sections() {
-  static const std::vector<ex::section<session>> all{{"gentle_touch", run_gentle_touch},
-                                                     {"endurance", run_endurance},
-                                                     {"tremor", run_tremor},
-                                                     {"crossed", run_crossed},
-                                                     {"nearest", run_nearest},
-                                                     {"held", run_held},
-                                                     {"guarantee", run_guarantee}};
+  static const std::vector<ex::section<session>> all{
+      {"gentle_touch", run_gentle_touch}, {"endurance", run_endurance}, {"tremor", run_tremor},
+      {"crossed", run_crossed},           {"nearest", run_nearest},     {"held", run_held},
+      {"guarantee", run_guarantee}};
   return all;
 }
 
