@@ -80,11 +80,11 @@ namespace detail {
   const double S = kernels::larger(use.swing, use.hand_swing - 4.0 * device.friction);
   for (const auto which : {stiffness_limit::slow_kneading, stiffness_limit::fast_kneading}) {
     const double most = which == stiffness_limit::slow_kneading ? use.slowest : use.fastest;
-    constexpr double pi = 3.14159265358979323846;
+    constexpr double half_turn = 3.14159265358979323846;
     double low = 0.0, high = 2.0 * S / q;
     for (int i = 0; i < 60; ++i) {
       const double K = (low + high) / 2.0;
-      const double v = kernels::smaller(most, pi * use.frequency * F / K);
+      const double v = kernels::smaller(most, half_turn * use.frequency * F / K);
       (detail::crossings_pay(device, K, kernels::larger(use.slowest, v), S, told.rho * q) ? low
                                                                                           : high) =
           K;
