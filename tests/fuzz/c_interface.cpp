@@ -131,7 +131,9 @@ struct a_mesh {
     std::int32_t triangles[]{0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0};
     double materials[]{800.0, 0.2, 0.1, 2000.0, 0.0, 0.0};
     std::uint8_t of[]{0, 1, 1, 0};
-    ph_mesh_data data{sizeof data, 4, 4, luck % 3U, vertices, triangles, materials, of};
+    ph_mesh_data data{sizeof data, 4,        4,
+                      luck % 3U,   vertices, triangles,
+                      materials,   of,       luck % 5U == 0U ? 0.7 : 0.0};
     if (luck > 200) {
       for (double* numbers : {vertices, materials}) put(in, numbers, 6, 5e-3);
       triangles[in.one() % 12] = in.any<std::int32_t>();
