@@ -89,6 +89,7 @@ struct explanation {
         "It was inside when the surface came, and nothing has been paid in to push it out: move "
         "it, start outside, or state a loan.",
         "The forces are off: enable_forces(true) switches them on."};
+    static_assert(sizeof sentences / sizeof *sentences == int(softened_by::forces_off) + 1);
     const softened_by why = now != softened_by::nothing ? now : stiffness;
     return why <= softened_by::forces_off ? sentences[static_cast<int>(why)] : "";
   }

@@ -105,6 +105,7 @@ struct budget {
         "A hand that holds still at the edge of a step makes the force chatter by K q, which "
         "friction covers up to 2 c: finer encoders raise it.",
         "A parameter is out of its range: ask check()."};
+    static_assert(sizeof sentences / sizeof *sentences == int(stiffness_limit::not_stated) + 1);
     if (binding == stiffness_limit::holding && !(stiffness > 0.0)) {
       return "No dry friction is stated, so nothing pays for the encoders' steps at rest: a stiff "
              "wall cannot be guaranteed on this device.";
