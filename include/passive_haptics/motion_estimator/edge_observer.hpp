@@ -4,6 +4,8 @@
 
 #include <passive_haptics/port/concepts.hpp>
 
+#include <array>
+
 namespace passive_haptics {
 inline namespace v0 {
 
@@ -62,27 +64,28 @@ class edge_observer::on {
   constexpr void set(const edge_observer& p) noexcept {
     quantum_ = detail::number<scalar>(p.quantum);
     presliding_ = detail::number<scalar>(p.presliding);
+    for (axis& a : axes_) a.turns = 0;
   }
   [[nodiscard]] constexpr edge_observer parameters() const noexcept {
     return {.quantum = static_cast<double>(quantum_),
             .presliding = static_cast<double>(presliding_)};
   }
   constexpr void reset() noexcept {
-    for (auto* zero : {&position_, &velocity_, &at_edge_, &travel_, &since_, &direction_, &low_,
-                       &high_, &turns_}) {
-      *zero = P::zero();
-    }
+    axes_ = {};
+    position_ = velocity_ = P::zero();
   }
 
   [[nodiscard]] constexpr seen estimate(const vector& shown, const vector& travel,
                                         const vector& /*held*/, scalar dt, bool known) noexcept {
-    for (int i = 0; i < P::dof; ++i) {
-      const scalar step = P::component(shown, i);
-      if (known) {
-        follow(i, step, P::component(travel, i), dt);
-      } else {
-        start(i, step);
+    scalar sum(0);
+    if (known) {
+      for (int i = 0; i < P::dof; ++i) {
+        follow(i, P::component(shown, i), P::component(travel, i), dt);
+        sum += P::component(position_, i) + P::component(velocity_, i);
       }
+    }
+    if (!known || !kernels::is_finite(sum)) [[unlikely]] {
+      for (int i = 0; i < P::dof; ++i) start(i, P::component(shown, i));
     }
     return {position_, velocity_, quantum_ / (scalar(8) * dt)};
   }
@@ -93,112 +96,88 @@ class edge_observer::on {
   /// A device that crosses no edge for this time [s] is taken to be at rest.
   static constexpr scalar still = scalar(0.1);
 
+  struct axis {
+    scalar travel{};  ///< Δx̂ since the last edge [m]
+    scalar d{};       ///< the direction through it, ±1, which v has, too; 0 before the first edge
+    scalar t{};       ///< the time since it [s]
+    scalar speed{};   ///< |v| at it [m/s]
+    scalar low{}, high{};  ///< steps of the last turns [m]
+    int turns{};           ///< turns within q + 2p so far, at most 2
+  };
+
   /// Starts again, at rest in the middle of the step.
   constexpr void start(int i, scalar step) noexcept {
-    for (coordinates* zero : {&velocity_, &at_edge_, &travel_, &since_, &direction_, &turns_}) {
-      P::component(*zero, i) = scalar(0);
-    }
-    P::component(low_, i) = P::component(high_, i) = step;
-    P::component(position_, i) = step + quantum_ / scalar(2);
+    axis& a = axes_[static_cast<std::size_t>(i)];
+    a = {};
+    a.low = a.high = step;
+    P::component(position_, i) = middle(step);
+    P::component(velocity_, i) = scalar(0);
   }
 
   constexpr void follow(int i, scalar step, scalar shown, scalar dt) noexcept {
+    axis& a = axes_[static_cast<std::size_t>(i)];
     scalar& x = P::component(position_, i);
     scalar& v = P::component(velocity_, i);
-    scalar& travel = P::component(travel_, i);
-    scalar& t = P::component(since_, i);
-    scalar& d = P::component(direction_, i);
-    travel += shown;
-    t += dt;
-    const bool crossed = !(kernels::magnitude(travel) < quantum_ / scalar(2));
-    if (is_held_by_friction(i, step, crossed)) {
-      const scalar middle = (P::component(low_, i) + P::component(high_, i) + quantum_) / scalar(2);
-      if (crossed) {
-        cross(i, dt);
-      } else {
-        x += (middle - x) * kernels::smaller(dt / scalar(0.05), scalar(1));
-      }
-    } else if (crossed) {
-      cross(i, dt);
-      x = edge(step, d) + d * kernels::smaller(d * v * dt, quantum_) / scalar(2);
-      x = within(x, step);
-    } else if (t > still) {
-      x = within(x, step);
-      x += (step + quantum_ / scalar(2) - x) * kernels::smaller(dt / scalar(0.2), scalar(1));
+    a.travel += shown;
+    a.t += dt;
+    if (!(kernels::magnitude(a.travel) < quantum_ / scalar(2))) {
+      const scalar now = a.travel < scalar(0) ? scalar(-1) : scalar(1);
+      const bool rests = scalar(2) * presliding_ > quantum_ && swings(a, now, step);
+      v = now * speed_at_edge(a, now, kernels::magnitude(v), dt);
+      a = {scalar(0), now, scalar(0), kernels::magnitude(v), a.low, a.high, a.turns};
+      const scalar ahead = kernels::smaller(a.speed * dt, quantum_);
+      if (!rests) x = step + (quantum_ - now * (quantum_ - ahead)) / scalar(2);
+    } else if (a.t > still) {
+      if (a.turns == 2) x = middle(step);
+      a.turns = 0;
+      x = kernels::clamped(x, step, step + quantum_);
+      x += (middle(step) - x) * kernels::smaller(dt / scalar(0.2), scalar(1));
+    } else if (a.turns == 2) {
+      x += (middle((a.low + a.high) / scalar(2)) - x) *
+           kernels::smaller(dt / scalar(0.05), scalar(1));
     } else {
-      if (t * kernels::magnitude(v) > quantum_) v = v < scalar(0) ? -quantum_ / t : quantum_ / t;
-      const scalar ahead = d * (edge(step, d) - x) + quantum_ * scalar(2) / scalar(3);
-      x += d * kernels::larger(kernels::smaller(d * v * dt, ahead), scalar(0));
-      x = within(x, step);
+      if (a.t * kernels::magnitude(v) > quantum_) v = a.d * (quantum_ / a.t);
+      const scalar farthest = step + quantum_ * (scalar(0.5) + a.d * scalar(1.0 / 6));
+      const scalar way = kernels::smaller(kernels::magnitude(v) * dt, a.d * (farthest - x));
+      x += a.d * kernels::larger(way, scalar(0));
+      x = kernels::clamped(x, step, step + quantum_);
     }
-    if (!kernels::is_finite(x + v)) start(i, step);
   }
 
-  [[nodiscard]] constexpr scalar within(scalar x, scalar step) const noexcept {
-    return kernels::clamped(x, step, step + quantum_);
+  [[nodiscard]] constexpr scalar middle(scalar step) const noexcept {
+    return step + quantum_ / scalar(2);
   }
 
-  /// True while the device swings within q + 2p, after two turns. low_ and high_ are the steps of the last turns [m].
-  [[nodiscard]] constexpr bool is_held_by_friction(int i, scalar step, bool crossed) noexcept {
-    if (!(scalar(2) * presliding_ > quantum_)) return false;
-    scalar& low = P::component(low_, i);
-    scalar& high = P::component(high_, i);
-    scalar& turns = P::component(turns_, i);
-    const scalar enough = scalar(2);
+  /// True while the device swings within q + 2p, after two turns, in a tick in which it crosses an edge.
+  [[nodiscard]] constexpr bool swings(axis& a, scalar now, scalar step) const noexcept {
     const scalar a_little_more = scalar(1.01);  // than one step, because sums of steps are rounded
     const scalar most = scalar(2) * presliding_ + quantum_ * a_little_more;
-    if (!crossed) {
-      if (turns < enough) return false;
-      if (!(P::component(since_, i) > still)) return true;
-      turns = scalar(0);
-      P::component(position_, i) = step + quantum_ / scalar(2);
-      return false;
+    if (now * a.d < scalar(0)) {
+      (now > scalar(0) ? a.low : a.high) = step - a.travel;
+      a.turns = !(a.high - a.low <= most) ? 0 : a.turns < 2 ? a.turns + 1 : 2;
     }
-    const scalar travel = P::component(travel_, i);
-    const scalar d = P::component(direction_, i);
-    if (travel * d < scalar(0)) {
-      (d < scalar(0) ? low : high) = step - travel;
-      turns = high - low <= most ? kernels::smaller(turns + scalar(1), enough) : scalar(0);
-    }
-    const scalar beyond = kernels::larger(kernels::larger(low - step, step - high), scalar(0));
-    if (high - low + beyond > most || beyond > quantum_ * a_little_more) turns = scalar(0);
-    return turns >= enough;
+    const scalar beyond = kernels::larger(kernels::larger(a.low - step, step - a.high), scalar(0));
+    if (a.high - a.low + beyond > most || beyond > quantum_ * a_little_more) a.turns = 0;
+    return a.turns == 2;
   }
 
-  /// Updates v [m/s] in the tick in which the axis crosses an edge.
-  constexpr void cross(int i, scalar dt) noexcept {
-    scalar& v = P::component(velocity_, i);
-    scalar& before = P::component(at_edge_, i);
-    scalar& travel = P::component(travel_, i);
-    scalar& t = P::component(since_, i);
-    scalar& d = P::component(direction_, i);
-    const scalar way = kernels::magnitude(travel);
-    const scalar now = travel < scalar(0) ? scalar(-1) : scalar(1);
-    const scalar many =
-        scalar(4);  // steps or ticks since the last edge: an error of one is then small
-    if (d != now && way <= quantum_ * scalar(1.5)) {
-      v = now * scalar(0.8) * kernels::smaller(kernels::magnitude(before), many * quantum_ / t);
-    } else if (d != now || v == scalar(0) || way >= many * quantum_ || t >= many * dt ||
-               kernels::magnitude(v) * t >= many * quantum_) {
-      v = travel / t;
-    } else {
-      v += kernels::larger(t / dt, kernels::magnitude(v) * t / quantum_) / many * (travel / t - v);
+  /// |v| [m/s] in the tick in which the axis crosses an edge in the direction `now`, with `speed` as it was.
+  [[nodiscard]] constexpr scalar speed_at_edge(const axis& a, scalar now, scalar speed,
+                                               scalar dt) const noexcept {
+    const scalar way = kernels::magnitude(a.travel);
+    const scalar many(4);  // steps or ticks since the last edge: an error of one is then small
+    if (a.d != now && way <= quantum_ * scalar(1.5)) {
+      return scalar(0.8) * kernels::smaller(a.speed, many * quantum_ / a.t);
     }
-    before = v;
-    travel = t = scalar(0);
-    d = now;
-  }
-  /// The edge [m] by which an axis that moves in that direction has entered the step.
-  [[nodiscard]] constexpr scalar edge(scalar step, scalar direction) const noexcept {
-    return direction < scalar(0) ? step + quantum_ : step;
+    const scalar mean = way / a.t;
+    if (a.d != now || speed == scalar(0) || way >= many * quantum_) return mean;
+    const scalar g = kernels::larger(a.t / dt, speed * a.t / quantum_) / many;
+    return g < scalar(1) ? speed + g * (mean - speed) : mean;
   }
 
   scalar quantum_{}, presliding_{};
-  coordinates position_{}, velocity_{};         ///< x [m], v [m/s]
-  coordinates at_edge_{}, travel_{}, since_{};  ///< v at the last edge, Δx̂ [m] and t [s] since it
-  coordinates direction_{};                     ///< d, ±1; 0 before the first edge
-  coordinates low_{}, high_{};                  ///< steps of the last turns [m]
-  coordinates turns_{};                         ///< turns within q + 2p so far, at most 2
+  coordinates position_{}, velocity_{};  ///< x [m], v [m/s]
+  std::array<axis, static_cast<std::size_t>(P::dof)> axes_{};
 };
 
 static_assert(motion_estimator_for<edge_observer, space<float, 1>>);
