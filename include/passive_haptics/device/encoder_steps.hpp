@@ -47,10 +47,8 @@ class known_to_a_step {
       const typename P::motion& shown) const noexcept {
     typename P::motion least = shown;
     for (int i = 0; i < P::dof; ++i) {
-      const scalar way = P::component(shown, i);
-      const scalar length =
-          kernels::larger(kernels::magnitude(way) - self().along_axis(i), scalar(0));
-      P::component(least, i) = way < scalar(0) ? -length : length;
+      const scalar way = P::component(shown, i), q = self().along_axis(i);
+      P::component(least, i) = way - kernels::clamped(way, scalar(-q), q);
     }
     return least;
   }

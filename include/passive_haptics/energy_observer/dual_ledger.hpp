@@ -108,17 +108,15 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
 
   constexpr bool update(const motion& shown, const effort& held, scalar dt) noexcept {
     const effort change = held - effort(last_held_);
-    const scalar doubt = steps_.doubt(change);
-    const bool moved = !(shown == P::zero());
-    auto energy = energy_;
-    detail::book(energy, -doubt);
+    const scalar doubt = steps_.doubt(change), owed = steps_.doubt(held);
+    const bool moved = !(P::squared(shown) == scalar(0));
     credit_window now = window_now_;
     now.elapsed += dt;
-    if (moved) {
-      detail::book(energy, detail::sure_gain<P>(scalar(0), held, shown));
-      detail::book(energy, damped(now, shown, dt));
-    }
-    if (!kernels::is_finite(static_cast<scalar>(energy) - steps_.doubt(held))) return false;
+    scalar gain = -doubt;
+    if (moved) gain += detail::sure_gain<P>(damped(now, shown, dt), held, shown);
+    auto energy = energy_;
+    detail::book(energy, gain);
+    if (!kernels::is_finite(static_cast<scalar>(energy) - owed)) return false;
 
     energy_ = energy;
     last_held_ = held;
@@ -139,10 +137,10 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
       }
       if constexpr (crosses) detail::book(energy_, certificates_.give_back(steps_));
     }
-    take_stock();
+    take_stock(owed);
     if (value_ > cap_) {
       detail::book(energy_, cap_ - value_);
-      take_stock();
+      take_stock(owed);
     }
     return true;
   }
@@ -244,13 +242,13 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     window_now_ = {};
     window_now_.travel = P::zero();
   }
-  constexpr void take_stock() noexcept {
-    const effort held = effort(last_held_);
+  constexpr void take_stock() noexcept { take_stock(steps_.doubt(effort(last_held_))); }
+  constexpr void take_stock(scalar owed) noexcept {  // the doubt of the last held force [J]
     if constexpr (rubs) {
-      value_ = kernels::smaller(static_cast<scalar>(energy_) + certificates_.lead(held, steps_),
-                                most_kept());
+      const scalar lead = certificates_.lead(effort(last_held_), owed, steps_);
+      value_ = kernels::smaller(static_cast<scalar>(energy_) + lead, most_kept());
     } else {
-      value_ = static_cast<scalar>(energy_) - steps_.doubt(held);
+      value_ = static_cast<scalar>(energy_) - owed;
     }
   }
 

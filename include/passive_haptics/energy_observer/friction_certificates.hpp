@@ -142,12 +142,12 @@ class friction_certificates : Owed {
     for (certificate* one : {&following_, &slipped_[0], &slipped_[1]}) one->lead -= booked;
   }
 
-  /// The value of the best certificate less the ledger's own A, under the force `held` [J].
-  [[nodiscard]] constexpr scalar lead(const effort& held, const auto& steps) const noexcept {
-    const scalar own = -steps.doubt(held);
+  /// The value of the best certificate less the ledger's own A, under the force `held` of that `doubt` [J].
+  [[nodiscard]] constexpr scalar lead(const effort& held, scalar doubt,
+                                      const auto& steps) const noexcept {
     const scalar slipped =
         worth(slipped_[slipped_[1].lead > slipped_[0].lead ? 1 : 0], held, steps);
-    return kernels::larger(own, kernels::larger(worth(following_, held, steps), slipped));
+    return kernels::larger(-doubt, kernels::larger(worth(following_, held, steps), slipped));
   }
 
   /// The friction's part of the loss of the best certificate [J] over a tick of unknown motion, in which `next` is
