@@ -141,6 +141,16 @@ template <class Spec, class P, class... States>
   }
 }
 
+/// Passes a tick without an effort to a part that has a state.
+template <class Spec, class P, class... States>
+[[gnu::always_inline]] constexpr void idle(auto& part, const States&... states) noexcept {
+  if constexpr (requires { part.idle(states...); }) {
+    part.idle(states...);
+  } else if constexpr (!keeps_nothing<Spec, P, States...>()) {
+    static_cast<void>(applied<P>(part, P::zero(), states...));
+  }
+}
+
 /// The number of parts in `Spec` at a port that take `Parameters`; it is 1 for the same struct.
 template <class Parameters, class Spec, class P>
 [[nodiscard]] constexpr int count_takers() noexcept {
@@ -321,6 +331,10 @@ class sequence<First, Rest...>::on {
     return first_if<knows_most_held<part_at<First, P>>>(*this).most_held();
   }
 
+  constexpr void idle(const auto&... states) noexcept {
+    detail::idle<First, P>(first_, states...);
+    detail::idle<others, P>(rest_, states...);
+  }
   template <class... States>
   [[nodiscard, gnu::always_inline]] constexpr bounded<P> apply(const effort& desired,
                                                                const States&... states) noexcept {

@@ -270,9 +270,8 @@ class passive_port {
 
   /// True for trusted_loop_limits: samples are not checked, and a bad one is not written off.
   static constexpr bool trusting = guard_type::trusting;
-  /// True if the bound only reduces and has no state, so that it need not be called for zero effort.
-  static constexpr bool zero_stays_zero =
-      detail::reduces<Bound, P, state_type>() && detail::keeps_nothing<Bound, P, state_type>();
+  /// True if the bound only reduces, so that zero effort stays zero.
+  static constexpr bool zero_stays_zero = detail::reduces<Bound, P, state_type>();
   /// True if the bound limits the motion between samples, and the ledger uses that.
   static constexpr bool reaches = !trusting && detail::knows_reach<bound_type, P> &&
                                   detail::knows_most_held<bound_type> &&
@@ -370,6 +369,7 @@ class passive_port {
         motion_.estimate(position, travel, force, dt, known), state, what);
     if constexpr (zero_stays_zero) {
       if (request.nothing) {
+        detail::idle<Bound, P>(bound_, state);
         if constexpr (looks) bound_.watching().look_on(false);
         guard_.command(P::zero());
         amend(what, false);
