@@ -36,15 +36,20 @@ template <int J, class State>
   }
 }
 
-/// The share of `desired` that the ledger covers after the commands before it.
+/// True if the ledger covers the strict bound of `desired` and of the commands before it.
+template <class State>
+[[nodiscard]] constexpr bool paid(const typename State::effort& desired,
+                                  const State& state) noexcept {
+  return state.damping.worst_outflow(desired, state.longest_tick) <=
+         kernels::spendable(state.credit());
+}
+/// The share of `desired` that the `credit` [J] left after the commands before it covers.
 template <class State>
 [[nodiscard]] constexpr auto covered(const typename State::effort& desired, const State& state,
-                                     const auto& bound) noexcept {
+                                     const auto& bound, typename State::scalar credit) noexcept {
   using scalar = typename State::scalar;
   using P = typename State::port_type;
-  const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
-  if (outflow <= kernels::spendable(state.credit())) return scalar(1);
-  const scalar credit = left_over<1>(state, bound), force = P::norm(desired);
+  const scalar force = P::norm(desired);
   if (!(force > scalar(0))) return scalar(1);
   scalar most = kernels::reachable_force_bound(
       credit, state.damping.per_tick(desired, state.longest_tick),
@@ -61,6 +66,12 @@ template <class State>
     most = kernels::smaller(most, (most + kernels::larger(before, scalar(0))) / scalar(2));
   }
   return scalar(most / force);
+}
+template <class State>
+[[nodiscard]] constexpr auto covered(const typename State::effort& desired, const State& state,
+                                     const auto& bound) noexcept {
+  if (paid(desired, state)) return typename State::scalar(1);
+  return covered(desired, state, bound, left_over<1>(state, bound));
 }
 }  // namespace detail
 
@@ -120,11 +131,12 @@ class reachable_bound::on {
   [[nodiscard]] constexpr detail::what_is_left<State, Space> limit(
       const effort& desired, const State& state) const noexcept {
     if constexpr (detail::differs_by_axis<typename State::damping_type, Space>) {
+      if (detail::paid(desired, state)) return desired;
       return detail::nearest_of<Space>(
-          state.damping, desired,
-          detail::yield<Space>(state.damping, desired, detail::left_over<1>(state, *this),
-                               state.longest_tick),
-          [&](const effort& f) { return detail::covered(f, state, *this); });
+          state.damping, desired, detail::left_over<1>(state, *this), state.longest_tick,
+          [&](const effort& f, scalar E) {
+            return detail::paid(f, state) ? scalar(1) : detail::covered(f, state, *this, E);
+          });
     } else {
       return {detail::covered(desired, state, *this)};
     }
@@ -228,19 +240,17 @@ class basic_reachable_work_bound<Inertia>::on {
                   "friction into `hand` instead of crediting it");
     scalar credit = state.energy;
     if constexpr (State::latency > 0) promise<1>(credit, state);
-    const auto share_of = [&](const effort& f) {
+    const auto share_of = [&](const effort& f, scalar E) {
       const scalar W = state.damping.worst_outflow(f, state.longest_tick);
-      if (W <= kernels::spendable(credit)) return scalar(1);
+      if (W <= kernels::spendable(E)) return scalar(1);
       const scalar norm = inertia_.norm(f);
       if (!(norm > scalar(0))) return scalar(1);
-      return kernels::reachable_share(credit, W, reach<State::latency + 1>(f, norm, norm, state));
+      return kernels::reachable_share(E, W, reach<State::latency + 1>(f, norm, norm, state));
     };
     if constexpr (detail::differs_by_axis<typename State::damping_type, P>) {
-      return detail::nearest_of<P>(
-          state.damping, desired,
-          detail::yield<P>(state.damping, desired, credit, state.longest_tick), share_of);
+      return detail::nearest_of<P>(state.damping, desired, credit, state.longest_tick, share_of);
     } else {
-      return {share_of(desired)};
+      return {share_of(desired, credit)};
     }
   }
 
