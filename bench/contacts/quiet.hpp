@@ -4,6 +4,7 @@
 //
 // A device has to be quiet (simulation/quiet.hpp) from `in_time` after the last news, on.
 
+#include "../common/draws.hpp"
 #include "../common/quiet.hpp"
 #include "program.hpp"
 #include <passive_haptics/base/samples.hpp>
@@ -28,29 +29,14 @@ struct still_hand {
 inline constexpr std::array<still_hand, 3> still_hands{
     {{"off", 0.0, 0.0}, {"relaxed", 100.0, 1.0}, {"stiff", 400.0, 6.0}}};
 
-/// The random numbers of a scene, by their purpose.
-class draws {
+/// The random numbers of a scene of walls.
+class draws : public ex::draws {
  public:
-  explicit draws(std::uint64_t seed) noexcept : random_(seed) {}
-  [[nodiscard]] double between(double low, double high) noexcept {
-    return low + (high - low) * (random_.number<double>() + 1.0) / 2.0;
-  }
-  /// A number between low and high, uniform in its logarithm.
-  [[nodiscard]] double scale(double low, double high) noexcept {
-    return low * std::exp(between(0.0, std::log(high / low)));
-  }
-  [[nodiscard]] bool chance(double p) noexcept { return between(0.0, 1.0) < p; }
-  [[nodiscard]] int count(int low, int high) noexcept {
-    return std::min(high, static_cast<int>(between(low, high + 1)));
-  }
-  [[nodiscard]] vector direction() noexcept { return random_.direction<d3>(); }
+  using ex::draws::draws;
   /// The stiffness of a wall [N/m].
   [[nodiscard]] double stiffness() noexcept { return scale(300.0, 80e3); }
   /// The mass that is stated, as a share of the true one.
   [[nodiscard]] double told() noexcept { return chance(0.5) ? 1.0 : between(0.3, 1.0); }
-
- private:
-  ph::laws::samples random_;
 };
 
 /// m ẍ + (b + b_h) ẋ + k (x − goal) = f + load, f held for a tick: exact, by the power series of its solution.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the door makes of a device with encoders, in a hand that holds still after a world that was restless, where no two
 // ticks last as long and forces come late: does it rest? A device, its loop, the hand, the walls and their news are drawn.
+#include "../common/draws.hpp"
 #include "program.hpp"
 #include <passive_haptics/compliant/compositions.hpp>
 #include <passive_haptics/compositions.hpp>
@@ -59,8 +60,7 @@ ex::record record_of(const held_row& r) {
 }
 
 /// A device, what is told of it, who holds it, and a wall that heaves.
-struct drawn {
-  sim::random_source random;
+struct drawn : ex::draws {
   sim::device_parameters<scene> device{};
   ph::encoder_device told{};
   ph::known_hand known{};
@@ -68,7 +68,7 @@ struct drawn {
   double stiffness = 0.0, swing = 0.0, frequency = 0.0, rate = 0.0;  // [N/m], [m], [Hz], [Hz]
   vector normal, second;
 
-  drawn(std::uint64_t seed, const held_row& row) : random(seed) {
+  drawn(std::uint64_t seed, const held_row& row) : ex::draws(seed) {
     device.mass = scale(0.03, 1.0);
     device.damping = scale(0.05, 1.0);
     device.friction = scale(0.02, 0.3);
@@ -78,15 +78,15 @@ struct drawn {
     device.latency = row.latency;
     normal = direction();
     second = (normal + 0.8 * direction()).normalized();
-    const double push = random.uniform(0.3, 0.7) * device.force_limit;
+    const double push = between(0.3, 0.7) * device.force_limit;
     device.load = -push * normal;
     if (row.hand) {
-      const bool stiff = random.uniform(0.0, 1.0) < 0.5;
+      const bool stiff = chance(0.5);
       hand = {.stiffness = stiff ? 400.0 : 100.0, .damping = stiff ? 6.0 : 1.0, .limit = 1e9};
     } else {
       hand = {.stiffness = 0.0, .damping = 0.0, .limit = 1e9};
     }
-    const double share = random.uniform(0.3, 1.7);  // the mass is told truly, or less
+    const double share = between(0.3, 1.7);  // the mass is told truly, or less
     told = {.mass = device.mass * std::min(1.0, share),
             .damping = device.damping,
             .friction = device.friction / 2.0,
@@ -95,21 +95,11 @@ struct drawn {
             .force_limit = device.force_limit,
             .longest_tick = T,
             .latency = row.latency};
-    known.force = push + random.uniform(0.1, 10.0);
+    known.force = push + between(0.1, 10.0);
     stiffness = scale(300.0, 80e3);
     swing = scale(1e-4, 5e-3);
-    frequency = random.uniform(1.0, 12.0);
+    frequency = between(1.0, 12.0);
     rate = scale(10.0, 100.0);
-  }
-  [[nodiscard]] double scale(double low, double high) {
-    return low * std::exp(random.uniform(0.0, std::log(high / low)));
-  }
-  [[nodiscard]] vector direction() {
-    vector v;
-    do {
-      for (int i = 0; i < 3; ++i) v(i) = random.uniform(-1.0, 1.0);
-    } while (!(v.norm() > 0.1 && v.norm() < 1.0));
-    return v.normalized();
   }
 };
 
@@ -124,7 +114,7 @@ void hold(held_row& row, drawn& d, auto news, auto force, auto shown) {
   double t = 0.0, next = 0.0, h = 0.0, least = 0.0;
   bool over = false;
   while (t < end) {
-    const double dt = T * (1.0 - row.jitter * d.random.uniform(0.0, 1.0));
+    const double dt = T * (1.0 - row.jitter * d.between(0.0, 1.0));
     device.set_period(dt);
     const auto sample = device.exchange(f);
     t += dt;

@@ -161,11 +161,11 @@ namespace detail {
   budget b;
   const double F = kernels::smaller(use.force, device.force_limit);
   const double swing = kernels::larger(use.swing, use.hand_swing - 4.0 * device.friction);
-  constexpr double pi = 3.14159265358979323846;
+  const double fastest = 3.14159265358979323846 * use.frequency * F;  // change of F [N/s]
   const double late = (2.0 * device.latency + 1.0) * T;
   b.limits = {use.stiffness_fraction * device.mass / (late * late),
               detail::kneaded(device, use.slowest, use.slowest, 0.0, swing),
-              detail::kneaded(device, use.slowest, use.fastest, pi * use.frequency * F, swing),
+              detail::kneaded(device, use.slowest, use.fastest, fastest, swing),
               q > 0.0 ? 2.0 * device.friction / q : unlimited};
   b.stiffness = unlimited;
   for (std::size_t i = 0; i < b.limits.size(); ++i) {
