@@ -163,7 +163,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
     energy_ = loan_;
     last_held_ = P::zero();
     begin_window();
-    if constexpr (crosses) steps_.forget();
+    if constexpr (crosses) steps_ = steps_type(steps_.parameters());
     if constexpr (rubs) certificates_.reset();
     if constexpr (slides) sliders_ = {};
     detail::book(energy_, -reserve());
@@ -178,6 +178,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   /// The largest distance between the true Δx and the measured one [m].
   [[nodiscard]] constexpr scalar travel_error() const noexcept { return steps_.travel_error(); }
   [[nodiscard]] constexpr const damping_type& damping() const noexcept { return damping_; }
+  [[nodiscard]] constexpr const auto& steps() const noexcept { return steps_; }
 
  private:
   using steps_type = part_at<Steps, P>;

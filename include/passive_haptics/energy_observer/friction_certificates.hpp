@@ -129,7 +129,7 @@ class friction_certificates : Owed {
   }
 
   /// Gives back what `steps` knows to be owed of the charges; returns what the ledger is to book of it [J].
-  [[nodiscard]] constexpr scalar give_back(const auto& steps) noexcept {
+  [[nodiscard]] constexpr scalar give_back(auto& steps) noexcept {
     const scalar back = steps.given_back(own());
     for (certificate* one : {&following_, &slipped_[0], &slipped_[1]}) {
       one->lead = kernels::sum_rounded_down(one->lead, steps.given_back(one->owed) - back);

@@ -25,6 +25,9 @@ inline namespace v0 {
 /// crossing, is charged (d − ½ q) s in place of ½ q s, and the difference is given back as samples come.
 /// Proof: docs/design/mathematics.md § 6, Steps that are crossed.
 ///
+/// A motion under a force that leaves no such d refutes mass, hand or acceleration. All that was ever given back is
+/// then taken back, and nothing is given back until reset(): the ledger says no more than one that counts on no mass.
+///
 /// Passive if, beside what the ledger states, all but the motors pushes with at most F, friction included, as
 /// reachable_bound has it, on a mass of at least m in every direction, or if |acceleration| is at most as stated.
 struct crossed_step {
@@ -89,8 +92,18 @@ class crossed_step::on : public encoder_step::on<P> {
     const scalar moved = length(shown) + this->travel_error();
     const scalar other = hand_force_ + scalar(2) * (detail::most_damping<P>(damping) / dt) * moved;
     const scalar q = this->along_axis(0);
+    const bool pressed = !(P::squared(held) == scalar(0));
+    if (refuted_) {
+      given_ = scalar(0);
+      return;
+    }
+    if (given_now_ > scalar(0)) {
+      given_ = (given_ + given_now_) * (scalar(1) + std::numeric_limits<scalar>::epsilon());
+      given_now_ = scalar(0);
+    }
     for (std::size_t i = 0; i < dof; ++i) {
       axis& a = axes_[i];
+      a.pressed = a.pressed || pressed;
       const scalar way = P::component(shown, static_cast<int>(i));
       const auto against = [&](scalar direction) {  // the largest acceleration that turns it back
         const scalar f = P::dof == 1 ? -direction * P::component(held, 0) : length(held);
@@ -98,7 +111,7 @@ class crossed_step::on : public encoder_step::on<P> {
       };
       a.charged = a.crossed ? a.direction : scalar(0);
       a.sharper = scalar(0);
-      if (a.samples < most_samples) sharpen(a, way, against(a.direction), dt);
+      if (a.samples < most_samples && !refuted_) sharpen(a, way, against(a.direction), dt);
       a.crossed = way != scalar(0);
       if (a.crossed) {
         const scalar direction = way < scalar(0) ? scalar(-1) : scalar(1);
@@ -109,18 +122,25 @@ class crossed_step::on : public encoder_step::on<P> {
         a.since = scalar(0);
         a.bent = against(direction);
         a.samples = 0;
+        a.pressed = pressed;
       }
     }
+    if (refuted_) forget();
   }
-  /// What is given back of the charges of a certificate [J]; below zero where the promise turns out to be broken.
-  [[nodiscard]] constexpr scalar given_back(owed& of) const noexcept {
+  /// What is given back of the charges of a certificate [J]; where the promise turns out to be broken, less than zero,
+  /// by all that was given back to any of them.
+  [[nodiscard]] constexpr scalar given_back(owed& of) noexcept {
+    if (refuted_) return -given_;
     scalar sum(0);
     for (std::size_t i = 0; i < dof; ++i) {
       sum += of.beyond[i] * axes_[i].sharper;
       if (axes_[i].crossed) of.beyond[i] = scalar(0);
     }
+    given_now_ = kernels::larger(given_now_, sum);
     return sum - kernels::rounding<scalar>() * kernels::magnitude(sum);
   }
+  /// True once a motion under a force was none that mass, hand force and acceleration admit; until reset() or set().
+  [[nodiscard]] constexpr bool refuted() const noexcept { return refuted_; }
   /// Gives nothing back from now on of what was charged so far.
   constexpr void forget() noexcept { axes_ = {}; }
 
@@ -140,6 +160,7 @@ class crossed_step::on : public encoder_step::on<P> {
         charged{};  ///< the direction, if the changes of this tick are at the sample of the crossing
     int samples = most_samples;  ///< since then
     bool crossed = false;        ///< in this tick
+    bool pressed = false;        ///< a force was held since the sample before
   };
 
   [[nodiscard]] static constexpr scalar length(const effort& v) noexcept {
@@ -148,7 +169,7 @@ class crossed_step::on : public encoder_step::on<P> {
     else
       return P::norm(v);
   }
-  constexpr void sharpen(axis& a, scalar way, scalar against, scalar dt) const noexcept {
+  constexpr void sharpen(axis& a, scalar way, scalar against, scalar dt) noexcept {
     ++a.samples;
     const scalar q = this->along_axis(0), inexact = kernels::rounding<scalar>();
     a.top += a.direction * way;
@@ -160,9 +181,9 @@ class crossed_step::on : public encoder_step::on<P> {
     const scalar next =
         chord + bend +
         scalar(4) * inexact * (kernels::magnitude(a.before) + kernels::magnitude(a.top) + bend);
-    if (next < scalar(0)) {  // The promise is broken: all is taken back.
-      a.sharper = a.depth - q;
-      a.depth = q;
+    if (next <
+        scalar(0)) {  // The promise is broken; where no force was held, nothing was given on it.
+      refuted_ = a.pressed;
       a.samples = most_samples;
     } else if (next < a.depth) {
       a.sharper = a.depth - next;
@@ -171,6 +192,10 @@ class crossed_step::on : public encoder_step::on<P> {
   }
 
   scalar mass_, hand_force_, acceleration_;
+  scalar
+      given_{};  ///< what was given back until the last tick, to the certificate that got most of it [J]
+  scalar given_now_{};  ///< and in this one [J]
+  bool refuted_ = false;
   std::array<axis, dof> axes_{};
 };
 
