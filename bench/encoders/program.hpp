@@ -65,6 +65,7 @@ struct felt {
   double least = 1.0;         ///< share of K in the worst second
   double deepest = 0.0;       ///< [m]
   double least_energy = 0.0;  ///< [J]
+  int outside = 0;            ///< events that say that the motion refutes what was stated
   ex::at_rest still{};
 };
 /// One run on a wall of K [N/m]: an approach of 3 mm at 10 mm/s, so many seconds, then 6 s of holding still. `offset` is

@@ -75,6 +75,7 @@ felt press(const machine& m, wall model, doing how, double K, int seconds,
                         device.time());
     };
     const auto watch = [&](const auto& now) {
+      found.outside += now.out.what == ph::event::outside_force ? 1 : 0;
       const int tick = now.tick - static_cast<int>(approach / T) - 1000;
       if (tick < 0) return true;
       if (now.tick >= end) return hold.see(now.force, now.position - surface, device.velocity());

@@ -51,6 +51,7 @@ struct explanation {
   double depth{};  ///< penetration into the world's surface at the last sample [m]; 0 outside
   double force{};  ///< the last commanded force [N]
   softened_by now = softened_by::nothing;  ///< why `force` is less than `shown` times `depth`
+  const char* crossings = "";  ///< of known_crossings, whether they pay here, and why; else empty
 
   /// Lowers `shown` to `most` [N/m] if it is larger by more than a float may round, and notes the reason.
   constexpr void soften(double most, softened_by why) noexcept {

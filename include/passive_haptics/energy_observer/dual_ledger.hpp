@@ -28,8 +28,7 @@ inline namespace v0 {
 /// friction force u, |u| ≤ c, chosen in each tick, and f the force held during the tick,
 ///     A ← A + (u − f)·Δx̂ − ½ Σ qᵢ|σᵢ + fᵢ − uᵢ| − p|u − u_last|,     σ ← u − f
 /// Then E ≥ A − ½ Σ qᵢ|σᵢ| − |u|²p/(2c) − loan, and value() is the best of several such bounds that are kept at once
-/// (friction_certificates.hpp). Without friction u = 0, and this is summation by parts.
-/// Theorem and proof are ours: docs/design/mathematics.md § 6.
+/// (friction_certificates.hpp). Without friction u = 0: summation by parts. Ours: docs/design/mathematics.md § 6.
 ///
 /// The damper is credited in windows: Δᵀ(b/dt)Δ, with Δ the measured motion less qᵢ on each axis, summed over its
 /// ticks or taken over the whole window (L1), whichever is larger. Only the latter credits slow motions.

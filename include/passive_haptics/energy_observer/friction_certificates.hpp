@@ -27,8 +27,7 @@ concept friction_for = requires(const D d, const typename P::motion m, const typ
 /// Every sequence u(1), u(2), … [N] of assumed friction forces gives a lower bound of the energy, a certificate
 /// (A, u) of § 6. Which one is best is known only later, so three are kept beside the ledger's own, u = 0:
 ///
-///   following    u follows the force within |u| ≤ c (a play operator): it loses least while the
-///                device holds still and the force hunts
+///   following    u follows the force within |u| ≤ c (a play operator): it loses least while the force hunts at rest
 ///   slipped[2]   u opposes a recent motion: it earns most while that motion continues
 ///
 /// A change of u by d costs ½ Σ qᵢ|dᵢ| + p|d| [J] at any time, so a certificate that is behind another by more than

@@ -18,10 +18,12 @@ inline namespace v0 {
 /// position that moved between edges would change the force where the ledger knows a step only (ours; measured in
 /// docs/design/encoders.md). For 2p ≤ q, because it does not rest within the presliding p, as edge_observer does.
 struct middle_observer {
-  double quantum{};  ///< q, one step of the position shown [m]
+  double quantum{};            ///< q, one step of the position shown [m]
+  double presliding{};         ///< as that of an edge_observer, if the position is its own [m]
+  bool between_edges = false;  ///< true: the position is that of edge_observer at any speed
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
-    return edge_observer{.quantum = quantum}.check();
+    return edge_observer{quantum, presliding}.check();
   }
   template <port P>
   class on;
@@ -36,12 +38,17 @@ class middle_observer::on {
   using vector = typename P::pose;
   using seen = typename moving::seen;
 
-  constexpr explicit on(const middle_observer& p) noexcept : moving_({.quantum = p.quantum}) {
+  constexpr explicit on(const middle_observer& p) noexcept
+      : moving_({p.quantum, p.presliding}), between_edges_(p.between_edges) {
     reset();
   }
-  constexpr void set(const middle_observer& p) noexcept { moving_.set({.quantum = p.quantum}); }
+  constexpr void set(const middle_observer& p) noexcept {
+    moving_.set({p.quantum, p.presliding});
+    between_edges_ = p.between_edges;
+  }
   [[nodiscard]] constexpr middle_observer parameters() const noexcept {
-    return {.quantum = moving_.parameters().quantum};
+    const auto [q, p] = moving_.parameters();
+    return {q, p, between_edges_};
   }
   constexpr void reset() noexcept {
     moving_.reset();
@@ -52,6 +59,10 @@ class middle_observer::on {
   [[nodiscard]] constexpr seen estimate(const vector& shown, const vector& travel,
                                         const vector& held, scalar dt, bool known) noexcept {
     seen s = moving_.estimate(shown, travel, held, dt, known);
+    if (between_edges_) {
+      position_ = s.position;
+      return s;
+    }
     const auto q = detail::number<scalar>(moving_.parameters().quantum);
     for (int i = 0; i < P::dof; ++i) {
       axis& a = axes_[static_cast<std::size_t>(i)];
@@ -92,6 +103,7 @@ class middle_observer::on {
     bool is_fast = false;  ///< edges come every other tick or faster
   };
   moving moving_;
+  bool between_edges_ = false;
   std::array<axis, static_cast<std::size_t>(P::dof)> axes_{};
   typename P::coordinates position_{};  ///< x [m]
 };

@@ -116,20 +116,29 @@ class detents::on : private part_at<settled_force, P> {
 
 static_assert(source_for<detents, space<float, 1>>);
 
+namespace detail {
+/// These detents on that device, with a stiffness of at most `budget` [N/m].
+[[nodiscard]] constexpr detents fitted(detents shape, const auto& device, double budget) noexcept {
+  shape.rest.mass = device.mass;
+  shape.rest.force_limit = device.force_limit;
+  shape.rest.softens = false;  // because the stiffness is known
+  shape.most = kernels::smaller(shape.most, budget);
+  const double steepest = kernels::larger(shape.stiffness, shape.stop_stiffness);
+  const double shown = kernels::smaller(shape.most, steepest);
+  shape.rest.damping_fraction = braking(device, shown, shown);
+  return shape;
+}
+}  // namespace detail
+
 /// A port with detents: port.tick(sample). Their stiffness is limited to one that comes to rest and, on encoders, to
 /// the one that dry friction pays for; port.explain() says which. The guarantee is that of make_guard.
 template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
           detail::stated_hand Hand = known_hand>
 [[nodiscard]] constexpr auto make_detents(const Device& device, const Hand& hand,
-                                          detents shape) noexcept {
-  shape.rest.mass = device.mass;
-  shape.rest.force_limit = device.force_limit;
-  shape.rest.softens = false;  // because the stiffness is known
-  shape.most = kernels::smaller(shape.most, detail::budget_of(device, hand, Limits::latency));
-  const double steepest = kernels::larger(shape.stiffness, shape.stop_stiffness);
-  const double shown = kernels::smaller(shape.most, steepest);
-  shape.rest.damping_fraction = detail::braking(device, shown, shown);
-  return detail::port_of<Space, Limits>(shape, device, hand, detail::bounds_of(device, hand));
+                                          const detents& shape) noexcept {
+  const double budget = detail::budget_of(device, hand, Limits::latency);
+  return detail::port_of<Space, Limits>(detail::fitted(shape, device, budget), device, hand,
+                                        detail::bounds_of(device, hand));
 }
 
 /// The type that make_detents returns, for members of a class.
