@@ -86,6 +86,7 @@ TEST_CASE("known_crossings are used where they pay, and say so", "[crossed][comp
                      std::string(touch.explain().crossings)};
   };
   const auto wheel = sim::wheel_preset{}.at_rim();
+  CHECK_FALSE(ph::make_touch<f3>(told_of(wheel, 0.0), known, hand_on(wheel)).check());
   for (const double p : {0.0, 5e-6, 15e-6}) {
     const auto [gain, why] = asked(wheel, p);
     CHECK(gain > 1.1);
@@ -100,6 +101,36 @@ TEST_CASE("known_crossings are used where they pay, and say so", "[crossed][comp
     CHECK(gain == 1.0);
     CHECK(why.find("edge_observer") != std::string::npos);
   }
+}
+
+TEST_CASE("a knob told of known_crossings has stiffer detents, and loses nothing",
+          "[crossed][compositions]") {
+  const auto is = sim::wheel_preset{}.at_rim();
+  const auto d = told_of(is, 5e-6);
+  const ph::detents shape{.pitch = 0.02, .stiffness = 20e3};
+  auto knob = ph::make_detents<d1>(d, known, hand_on(is), shape);
+  const auto today = ph::make_detents<d1>(d, hand_on(is), shape);
+  REQUIRE_FALSE(knob.check());
+  CHECK(knob.explain().shown > 1.1 * today.explain().shown);
+  CHECK(std::string(knob.explain().crossings).find("known well") != std::string::npos);
+  auto parameters = is.without_friction<d1>();
+  parameters.start = 0.0;
+  sim::device<d1, pressed, sim::slider_and_spring> device(parameters, {1.0, most_pushed},
+                                                          is.friction_of(5e-6));
+  sim::random_source random(3);
+  int outside = 0;
+  const auto person = [&](const auto& now) {
+    if (random.chance(0.01)) device.hand().push = random.uniform(-5.0, 5.0);
+    if (std::abs(now.position) > 0.1) device.hand().push = now.position > 0.0 ? -5.0 : 5.0;
+  };
+  const auto watch = [&](const auto& now) {
+    outside += now.out.what == ph::event::outside_force ? 1 : 0;
+    return true;
+  };
+  const auto run = sim::run(device, knob, 10000, sim::idle, person, watch);
+  CHECK(run.least_energy >= -1e-12);
+  CHECK(run.largest_force > 5.0);
+  CHECK(outside == 0);
 }
 
 TEST_CASE("known_crossings leave a device as it is where nothing is known of them",
