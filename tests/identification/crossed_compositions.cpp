@@ -40,6 +40,7 @@ struct session {
   double least = 0.0;        ///< energy at the port [J]
   int outside = 0;           ///< events
   bool refuted = false;      ///< a crossing was
+  std::string says;          ///< explain() of crossings, afterwards
   std::vector<double> told;  ///< every force [N] and every energy of the ledger [J]
 };
 /// A hand that jumps between pushes of at most 5 N, on a wall of 20 kN/m.
@@ -70,6 +71,7 @@ session jump(auto touch, const sim::device_preset& is, double p, int ticks, std:
     return true;
   };
   found.least = sim::run(device, touch, ticks, sim::idle, person, watch).least_energy;
+  found.says = touch.explain().crossings;
   return found;
 }
 
@@ -86,6 +88,9 @@ TEST_CASE("known_crossings are used where they pay, and say so", "[crossed][comp
                      std::string(touch.explain().crossings)};
   };
   const auto wheel = sim::wheel_preset{}.at_rim();
+  using bound = ph::bound_chain<ph::watched_crossings<ph::reachable_bound>, ph::thermal_limit>;
+  const auto one = ph::make_touch<d1>(told_of(wheel, 0.0), known, hand_on(wheel));
+  STATIC_REQUIRE(std::same_as<std::remove_cvref_t<decltype(one.bound())>, ph::part_at<bound, d1>>);
   CHECK_FALSE(ph::make_touch<f3>(told_of(wheel, 0.0), known, hand_on(wheel)).check());
   for (const double p : {0.0, 5e-6, 15e-6}) {
     const auto [gain, why] = asked(wheel, p);
@@ -185,6 +190,7 @@ TEST_CASE(
                   quicker = session_of({.acceleration = 0.5}, hand, is);
     CHECK(heavier.refuted);
     CHECK(quicker.refuted);
+    CHECK(heavier.says.find("has refuted") != std::string::npos);
     for (const session& s : {heavier, stronger, quicker}) {
       CHECK(s.outside > 0);
       CHECK(s.least >= -1e-9);
@@ -192,6 +198,7 @@ TEST_CASE(
     const auto honest = session_of(known, hand, is);  // the control
     CHECK(honest.outside == 0);
     CHECK_FALSE(honest.refuted);
+    CHECK(honest.says.find("known well") != std::string::npos);
   }
 }
 
