@@ -23,13 +23,13 @@ namespace passive_haptics {
 inline namespace v0 {
 
 /// Says that mass and hand force may be counted on between samples, too, so that a ledger may know a step better where
-/// it is crossed. If the motion refutes them, it is an event::outside_force until reset(): all that was credited on
-/// them is taken back, and the ledger is a dual_ledger and the bound strict.
+/// it is crossed. If the motion refutes them, it is an event::outside_force: all that was credited on them is taken
+/// back, the ledger is a dual_ledger until reset(), and for 0.1 s of contact the bound is strict.
 struct known_crossings {
   double acceleration = detail::no_limit;  ///< its largest, if known: of a hand that rests [m/s²]
 };
 
-/// A watched bound that is strict, too, from the tick on after the ledger's crossings were refuted.
+/// A watched bound that is strict, too, for 0.1 s of contact from the tick on after the ledger's crossings were refuted.
 template <class Bound = reachable_bound>
 struct watched_crossings {
   static constexpr guarantee passivity = Bound::passivity;
@@ -69,10 +69,10 @@ class watched_crossings<Bound>::on : public part_at<watched<Bound>, P> {
 
   template <class State>
   [[nodiscard]] constexpr auto limit(const effort& desired, const State& state) const noexcept {
-    return refuted_ ? strictly_.limit(desired, state) : kept::limit(desired, state);
+    return strict_for_ > scalar(0) ? strictly_.limit(desired, state) : kept::limit(desired, state);
   }
   constexpr void explain(explanation& e, const auto& damping, scalar T, int k) const noexcept {
-    if (refuted_) strictly_.explain(e, damping, T, k);
+    if (strict_for_ > scalar(0)) strictly_.explain(e, damping, T, k);
     e.crossings = refuted_ ? "The motion has refuted mass, hand force or acceleration: nothing is "
                              "known of crossings, until reset()."
                            : because_;
@@ -85,21 +85,29 @@ class watched_crossings<Bound>::on : public part_at<watched<Bound>, P> {
   constexpr void look(bool known, const auto& travel, const auto& told, const auto& held, scalar dt,
                       const auto& ledger) noexcept {
     if (kept::looks()) kept::template look<Exact>(known, travel, told, held, dt, ledger);
-    refuted_ = ledger.steps().refuted();
+    const bool was_strict = strict_for_ > scalar(0), refuted = ledger.steps().refuted();
+    if (was_strict) strict_for_ -= dt;
+    if (refuted && !refuted_) strict_for_ = scalar(0.1);
+    refuted_ = refuted;
+    relies_again_ = was_strict && !(strict_for_ > scalar(0));
   }
   constexpr void look_on(bool asked) noexcept {
     kept::look_on(asked);
     pressed_ = asked;
   }
   [[nodiscard]] constexpr event seen() const noexcept {
-    return refuted_ ? worse(event::outside_force, kept::seen()) : kept::seen();
+    return strict_for_ > scalar(0) ? worse(event::outside_force, kept::seen()) : kept::seen();
   }
-  [[nodiscard]] constexpr bool forgives() const noexcept { return !refuted_ && kept::forgives(); }
+  [[nodiscard]] constexpr bool forgives() const noexcept {
+    return relies_again_ ? kept::seen() == event::nominal
+                         : !(strict_for_ > scalar(0)) && kept::forgives();
+  }
 
  private:
   const char* because_;
   part_at<strict_bound, P> strictly_{strict_bound{}};
-  bool refuted_ = false, pressed_ = false;
+  scalar strict_for_{};  ///< [s]
+  bool refuted_ = false, relies_again_ = false, pressed_ = false;
 };
 
 namespace detail {
