@@ -202,6 +202,38 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("after a blow that refutes crossings the wall is back", "[crossed][compositions]") {
+  const auto is = sim::heavy_1kg;
+  auto touch = ph::make_touch<d1>(told_of(is, 5e-6), known, hand_on(is));
+  REQUIRE(touch.update({0.0, -1.0, 1e6}));
+  const double most = touch.explain().shown;
+  auto parameters = is.without_friction<d1>();
+  parameters.start = -1e-4;
+  sim::device<d1, pressed, sim::slider_and_spring> device(parameters, {3.0, 60.0},
+                                                          is.friction_of(5e-6));
+  bool strict = false, refuted = false;
+  double force = 0.0, depth = 0.0;
+  const auto person = [&](const auto& now) {
+    const double kneading = 3.0 + std::sin(now.time * 6.28);
+    const int blow = now.tick - 3000;
+    device.hand().push = blow >= 0 && blow < 40 ? (blow < 20 ? 40.0 : -60.0) : kneading;
+  };
+  const auto watch = [&](const auto& now) {
+    strict |= now.out.what == ph::event::outside_force;
+    refuted |= touch.observer().steps().refuted();
+    if (now.tick < 8000) return true;
+    force -= now.force;
+    depth += std::max(0.0, now.position);
+    return true;
+  };
+  const auto run = sim::run(device, touch, 12000, sim::idle, person, watch);
+  CHECK(strict);
+  CHECK(refuted);
+  CHECK(run.least_energy >= -1e-9);
+  CAPTURE(force / depth, most);
+  CHECK(force > 0.8 * most * depth);
+}
+
 TEST_CASE("known_crossings raise no event in a long session of a hand as it was told",
           "[crossed][compositions][long]") {
   std::vector<sim::device_preset> all(sim::all_presets.begin(), sim::all_presets.end());
