@@ -206,3 +206,37 @@ TEST_CASE("a deformable body publishes a quadric and a patch of its contact, non
   const double side = body.contact().depth > 0 ? 1.0 : -1.0;
   CHECK_THAT(seen.depth, WithinAbs(side * (body.contact().point - device).norm(), 1e-12));
 }
+
+TEST_CASE("a body is asked ahead of a finger by half of its last way, bounded", "[environment]") {
+  env::ahead where({.periods = 0.5, .most = 1e-3});
+  CHECK(where({0.01, 0, 0}) == Vector3d(0.01, 0, 0));
+  CHECK(where({0.012, 0, 0}).isApprox(Vector3d(0.013, 0, 0), 1e-12));
+  CHECK(where({0.012, 0, 0}) == Vector3d(0.012, 0, 0));                // it rests
+  CHECK(where({0.112, 0, 0}).isApprox(Vector3d(0.113, 0, 0), 1e-12));  // by `most`
+  CHECK(where({0, std::nan(""), 0}).hasNaN());
+  CHECK(where({0.111, 0, 0}).isApprox(Vector3d(0.1105, 0, 0), 1e-12));  // as if it had not been
+  CHECK(where({1e308, -1e308, 0}) == Vector3d(1e308, -1e308, 0));
+  CHECK(where({-1e308, 1e308, 0}) == Vector3d(-1e308, 1e308, 0));
+  where.reset();
+  CHECK(where({0.3, 0, 0}) == Vector3d(0.3, 0, 0));
+  for (const double odd : {-0.1, 1001.0, std::nan("")}) {
+    CHECK_THROWS_AS(env::ahead({.periods = odd}), std::invalid_argument);
+  }
+  CHECK_THROWS_AS(env::ahead({.most = -1.0}), std::invalid_argument);
+  CHECK_THROWS_AS(env::ahead({.most = HUGE_VAL}), std::invalid_argument);
+
+  env::deformable_body body(env::ball(0.05), {.young = 2e4, .poisson = 0.3},
+                            env::ball_fixed_nodes());
+  env::ahead finger;
+  CHECK_FALSE(
+      env::yielding(body, finger, Vector3d::Constant(std::nan("")), Vector3d::Zero()).prepare());
+  CHECK(env::yielding(body, finger, {0, 0, 0.044}, Vector3d::Zero()).prepare());
+  const Vector3d before = body.contact().point;
+  CHECK(env::yielding(body, finger, {0.002, 0, 0.044}, Vector3d::Zero()).prepare());
+  env::deformable_body other(env::ball(0.05), {.young = 2e4, .poisson = 0.3},
+                             env::ball_fixed_nodes());
+  other.update({0, 0, 0.044}, Vector3d::Zero());
+  other.update({0.003, 0, 0.044}, Vector3d::Zero());
+  CHECK(body.contact().point == other.contact().point);  // asked at 3 mm
+  CHECK(body.contact().point != before);
+}

@@ -6,14 +6,19 @@
 //   patch_at     its triangles around the contact, unchanged                  for dents and edges
 //   yielding     any of them at rest, with the stiffness K/(1 + K C) of spring and body in series, so that it gives
 //                way under the finger between two updates as the body does
+//   ahead        where to ask it: not where the finger is, but where it will be while the answer counts
 //
 // All return plain values for a supply's update(), which prepares them and refuses one that cannot be used:
 //     touch.update(env::quadric_at(body, {.thickness = 0.005}))
+// The shortest way to touch a body that gives way:
+//     env::ahead where;                                              // once
+//     touch.update(env::yielding(body, where, position, force));     // at every update
 
 #include <passive_haptics/constraint_geometry/half_space.hpp>
 #include <passive_haptics/constraint_geometry/patch.hpp>
 #include <passive_haptics/constraint_geometry/quadric.hpp>
 #include <passive_haptics/environment/curvature.hpp>
+#include <passive_haptics/environment/refuse.hpp>
 #include <passive_haptics/environment/surface.hpp>
 #include <passive_haptics/environment/surface_contact.hpp>
 #include <passive_haptics/environment/surface_graph.hpp>
@@ -22,6 +27,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -206,6 +212,67 @@ template <class Surface>
   const double K = surface.stiffness, body = contact.stiffness;
   if (K > 0.0 && body > 0.0) surface.stiffness = K * body / (K + body);
   return surface;
+}
+
+/// How far ahead of a finger its body is asked.
+struct foresight {
+  /// In times from one update to the next, at most 1000: ½ is the middle of the time that news count. News that come
+  /// L [s] late at R [Hz] want ½ + L R. 0: where the finger is.
+  double periods = 0.5;
+  double most = 0.005;  ///< [m], however fast the finger is
+};
+
+/// Where to ask a body. News count from their arrival to the next ones, and so they are made for the middle of that
+/// time: with x the finger and x' the finger of the last update, for
+///
+///     x + periods (x − x'),      at most `most` from x.
+///
+/// It needs no clock, and goes to x as updates come faster. Such news are made for what is to come: tell no age of
+/// them. The port pays for what a surface does, and not for
+/// where it was asked, so a guess that is wrong costs truth and no energy. Figures: docs/design/error.md.
+class ahead {
+ public:
+  /// Throws std::invalid_argument for what is not finite, negative, or too many periods.
+  explicit ahead(const foresight& f = {}) : far_(f) {
+    if (!(f.periods >= 0.0 && f.periods <= 1000.0)) {
+      refuse_argument("ahead: ", f.periods,
+                      " periods are refused; give 0 to 1000, 0.5 + latency × rate");
+    }
+    if (!(f.most >= 0.0) || !std::isfinite(f.most)) {
+      refuse_argument("ahead: at most ", f.most,
+                      " m is refused; give a finite distance, 0: never ahead");
+    }
+  }
+  /// Where the finger will be [m], for a finger [m] at this update. One that is not finite comes back as it is, and
+  /// is not remembered; the first one comes back as it is, too.
+  [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& finger) noexcept {
+    if (!finger.allFinite()) return finger;
+    const Eigen::Vector3d way = known_ ? Eigen::Vector3d(far_.periods * (finger - last_))
+                                       : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    const double length = way.norm();
+    known_ = true;
+    last_ = finger;
+    if (!std::isfinite(length)) return finger;
+    if (!(length > far_.most)) return finger + way;
+    return finger + way * (far_.most / length);
+  }
+  /// Forgets the last finger: the next one is where it is.
+  void reset() noexcept { known_ = false; }
+
+ private:
+  foresight far_;
+  Eigen::Vector3d last_ = Eigen::Vector3d::Zero();
+  bool known_ = false;
+};
+
+/// The news of a body for a finger [m] and the force on it [N], asked ahead of the finger: its plane as it gives way.
+/// Before the first contact it is a plane that every supply refuses.
+template <touched_body Body>
+[[nodiscard]] half_space<space<double, 3>> yielding(Body& body, ahead& where,
+                                                    const Eigen::Vector3d& finger,
+                                                    const Eigen::Vector3d& force) {
+  const surface_contact contact = body.update(where(finger), force);
+  return yielding(plane_at(body), contact);
 }
 
 }  // namespace environment
