@@ -42,6 +42,8 @@ struct scene {
   double from = 0.5, to = 4.0;  ///< what counts [s]
   std::function<vector(double)> hand;
   std::function<environment()> fresh;
+  /// The same, asked so many times its last way ahead of the finger; below 0 behind it. Where it yields.
+  std::function<environment(double periods)> ahead{};
 };
 
 double eased_in(double t, double over) {
@@ -135,6 +137,24 @@ scene stroked(const std::string& name, const std::string& file, double unit, std
                   a.at_rest = env::yielding(a.flat, contact);
                   return a;
                 });
+              },
+          .ahead =
+              [thesis](double periods) {
+                const auto body = std::make_shared<env::deformable_body>(thesis->mesh(), ex::flesh,
+                                                                         thesis->fixed());
+                const auto where =
+                    std::make_shared<env::ahead>(env::foresight{.periods = std::abs(periods)});
+                return environment([=](double, const vector& at, const vector& held) {
+                  letter a;
+                  if (periods >= 0.0) {
+                    a.at_rest = env::yielding(*body, *where, at, held);
+                  } else {
+                    const auto contact = body->update(2.0 * at - (*where)(at), held);
+                    a.at_rest = env::yielding(env::plane_at(*body), contact);
+                  }
+                  a.flat = env::plane_at(*body);
+                  return a;
+                });
               }};
 }
 
@@ -205,9 +225,9 @@ double time_of_a_tick(const Model& model, const std::vector<ph::device_sample<vo
 }
 
 template <class Model>
-felt follow(const scene& s, Model model, const auto& tell, double rate, double late) {
+felt follow(const scene& s, Model model, const auto& tell, double rate, double late,
+            const environment& ask) {
   felt run;
-  const environment ask = s.fresh();
   sim::prescribed_motion<volume> device({.damping = 0.03, .period = 1e-3, .start = s.hand(0.0)});
   sim::update_schedule schedule(1, 1.0 / rate, 1.0 / rate);
   std::deque<letter> under_way;
@@ -283,6 +303,10 @@ const auto with_curvature = [](auto& model, const letter& a, double age) {
 const auto as_it_yields = [](auto& model, const letter& a, double age) {
   (void)model.update(a.at_rest, {.velocity = a.velocity, .age = age});
 };
+// They are made for what is to come, so they have no age.
+const auto made_ahead = [](auto& model, const letter& a, double /*age*/) {
+  (void)model.update(a.at_rest);
+};
 
 /// All that can be made of the news of a scene, at a rate and a latency.
 class comparison {
@@ -305,6 +329,11 @@ class comparison {
       (void)lent.set(ph::reduced_energy{.damping = 0.03, .loan = loan});
       lent.reset();
       add("... and lent 0.2 mJ", lent, as_it_yields, rate, late, loan);
+      const double middle = 0.5 + late * rate;  // of the time that news count, in periods
+      add("... asked ahead", touch<plane>(), made_ahead, rate, late, 0.0, middle);
+      add("... ahead and lent", lent, made_ahead, rate, late, loan, middle);
+      add("... 3 times too far", lent, made_ahead, rate, late, loan, 3.0 * middle);
+      add("... as far behind", lent, made_ahead, rate, late, loan, -middle);
     } else {
       add("... moving", touch<plane>(), all_that_they_know, rate, late);
       add("... moving quadric", touch<quadric>(), with_curvature, rate, late);
@@ -318,15 +347,17 @@ class comparison {
 
  private:
   void add(const std::string& by, const auto& model, const auto& tell, double rate, double late,
-           double loan = 0.0) {
+           double loan = 0.0, double ahead = 0.0) {
     between_row worst{
         .scene = scenes_[0].name, .rate = rate, .late = 1e3 * late, .by = by, .loan = loan};
     for (std::size_t h = 0; h < scenes_.size(); ++h) {
       between_row one = worst;
       one.error = 0.0;
-      const felt run = follow(scenes_[h], model, tell, rate, late);
-      judge(one, scenes_[h], run, truths_[h]);
-      judge(worst, scenes_[h], run, truths_[h]);
+      const scene& s = scenes_[h];
+      const felt run =
+          follow(s, model, tell, rate, late, ahead == 0.0 ? s.fresh() : s.ahead(ahead));
+      judge(one, s, run, truths_[h]);
+      judge(worst, s, run, truths_[h]);
       if (by == "bare") bare_[h] = one.error;
       worst.of_bare = std::max(worst.of_bare, one.error / std::max(bare_[h], 1e-6));
     }
@@ -349,7 +380,7 @@ void draw(ex::report& out, std::vector<between_row>& rows) {
   }
   for (const std::size_t i : ex::pareto_front(points)) rows[which[i]].front = true;
   std::string curves;
-  for (const char* by : {"bare", "make_touch", "... yielding"}) {
+  for (const char* by : {"bare", "make_touch", "... yielding", "... ahead and lent"}) {
     curves += std::string(
                   "'between.csv' using (stringcolumn(1) eq 'organ' && $3 == 0 && "
                   "stringcolumn(4) eq '") +
@@ -508,7 +539,8 @@ std::vector<between_row> run_between(ex::report& out, const between_settings& ch
       "Between news",
       "Worlds that move or give way, told so many times a second and so late, to a plane and a "
       "spring (bare) and to make_touch: as planes, with what the news know of their motion, as "
-      "quadrics, or as they give way. Against the same world asked at 10 kHz; each figure is the "
+      "quadrics, as they give way, or so and asked ahead of the hand. Against the same world asked "
+      "at 10 kHz; each figure is the "
       "worst of three hands that go where they want. own_step: of the truth. least_J: with 0.03 "
       "N s/m of the device. Front: of the organ told at once, nothing has less error for as little "
       "work." +

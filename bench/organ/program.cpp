@@ -357,13 +357,21 @@ failures judge_between(const session& s) {
   const auto rows =
       run_between(out, {.mesh = chosen.mesh, .unit = chosen.unit, .quick = chosen.quick});
   for (const auto& r : rows) {
-    const bool ours = r.by != "bare" && r.by != "TDPA", knows = r.by == "... moving quadric";
+    const bool ours = r.by != "bare" && r.by != "TDPA",
+               ahead = r.by == "... ahead and lent" && r.scene == "organ",
+               knows = r.by == "... moving quadric" || ahead;
     const std::string where =
         r.scene + ex::format(", %g Hz, ", r.rate) + ex::format("%g ms, ", r.late) + r.by;
     expect(found, !ours || r.least >= -r.loan - 1e-12, where + ": energy was lost");
-    expect(found, !knows || r.rate > 60.0 || r.of_bare <= 0.5,
+    // At 60 Hz, told at once, bare errs by 0.013 N, and the damper of ours alone by 0.007.
+    const double most = ahead && r.rate == 60.0 && r.late == 0.0 ? 0.65 : 0.5;
+    expect(found, !knows || r.rate > 60.0 || r.of_bare <= most,
            where + ": more than half of bare's error");
+    expect(found, !ahead || r.step <= r.own, where + ": it steps by more than the organ does");
     expect(found, !knows || r.lost == 0, where + ": contact was lost");
+    // The control: the same way, but behind.
+    const bool behind = r.by == "... as far behind" && r.scene == "organ" && r.rate <= 60.0;
+    expect(found, !behind || r.of_bare > 0.65, where + ": it does not matter where it is asked");
   }
   return found;
 }
