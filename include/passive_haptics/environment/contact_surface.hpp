@@ -228,8 +228,8 @@ struct foresight {
 ///     x + periods (x − x'),      at most `most` from x.
 ///
 /// It needs no clock, and goes to x as updates come faster. Such news are made for what is to come: tell no age of
-/// them. The port pays for what a surface does, and not for
-/// where it was asked, so a guess that is wrong costs truth and no energy. Figures: docs/design/error.md.
+/// them. The port pays for what a surface does, and not for where it was asked, so a guess that is wrong costs truth and
+/// no energy. Figures: docs/design/error.md.
 class ahead {
  public:
   /// Throws std::invalid_argument for what is not finite, negative, or too many periods.
