@@ -89,7 +89,6 @@ class settled_force::on : private part_at<given_force, P> {
 
   constexpr explicit on(const settled_force& p) noexcept : given({p.stale_after, p.fade}) {
     set(p);
-    reset();
   }
   /// Parameters that depend on T take effect at the next adopt().
   constexpr void set(const settled_force& p) noexcept {
@@ -221,7 +220,8 @@ class settled_force::on : private part_at<given_force, P> {
     const scalar s = learns_ && ticks_ > scalar(3)
                          ? kernels::smaller(along_.share(steepest_), across_.share(steepest_))
                          : scalar(1);
-    if (!kernels::is_finite(s)) {
+    if (!kernels::is_finite(along_.stiff + along_.changed + across_.stiff + across_.moved +
+                            across_.changed)) {  // a force was absurd
       along_ = across_ = {};
       ticks_ = scalar(0);
     } else if (s < shown_) {
