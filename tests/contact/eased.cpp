@@ -713,3 +713,234 @@ TEST_CASE("a contact that begins anew is damped from the first tick on", "[conta
   law.let_go();
   CHECK(law.swinging(0.02, 1e-3) == 0.02);
 }
+
+namespace {
+
+/// A contact with an eased law a second time, as its rules say (lag.hpp, docs/design/contacts.md § 6): the depth in what
+/// follows the news, the normal that turns towards theirs, and what each leaves for the next tick.
+template <class Surface>
+struct plainly {
+  using motion = ph::surface_motion<d3>;
+  static constexpr double T = 1e-3;
+  ph::freshness rule;
+  ph::news_pace pace{};
+  double rate;  // of the normal [rad/s]
+  ph::part_at<eased_damper, d3> law;
+  ph::lag<double> lag{};
+  ph::turning<d3> turn{};
+  Surface newest{}, before{}, own{};  // what is followed, the same a tick ago, and where it is felt
+  motion told{};
+  bool heard = false, gone = false, news = false, refused = false, beside = false;
+  bool together = true;  // what is felt is the newest
+  double age = 0.0, last_weight = 0.0;
+
+  [[nodiscard]] double weight() const {
+    if (!heard) return 0.0;
+    const double fades = gone ? age : std::max(0.0, age - rule.stale_after);
+    return std::max(0.0, 1.0 - fades / rule.fade);
+  }
+  bool update(Surface next, const motion* how = nullptr) {
+    const bool younger = how && (news ? how->age <= told.age + T : lag.follows(how->age, T));
+    if (how && (!how->is_usable() || (heard && !younger))) {
+      refused = true;
+      return false;
+    }
+    if (!news) before = newest;
+    told = {};
+    if (!next.prepare()) {
+      refused = true;
+      return false;
+    }
+    if (!heard) own = next;
+    together = !heard;
+    newest = next;
+    heard = news = true;
+    gone = false;
+    age = 0.0;
+    if (how) told = *how;
+    return true;
+  }
+  void release() {
+    if (!heard || gone) return;
+    age = (1.0 - weight()) * rule.fade;
+    gone = true;
+  }
+  void lose(double dt) {
+    lag.grow_older(dt);
+    age += dt;
+  }
+  void hear(const d3::vector& x, double depth) {
+    const auto was = before.at(x);
+    const bool known = last_weight > 0.0 && was.covered();
+    const auto law_before = law;
+    law.adopt(newest.stiffness, T, 0);
+    double felt = known ? was.depth - lag.offset() : 0.0;
+    if (felt > 0.0 && (last_weight != 1.0 || law.stiffness() != law_before.stiffness())) {
+      felt = law.depth(last_weight * law_before.force(felt, 0.0), 0.0);  // keeps its force
+    }
+    const d3::vector outward = newest.at(x).outward();
+    turn.hear(known ? d3::vector(outward - was.outward()) : d3::zero(), lag.between(told.age));
+    lag.hear(felt, depth, known ? depth - was.depth : 0.0, law.depth(1.0, 0.0), law.pace(),
+             {told.velocity ? outward.dot(d3::vector(*told.velocity)) : 0.0, told.age,
+              told.velocity.has_value()});
+    told = {};
+  }
+  /// The force [N], at most `most` [N], and the depth that is felt [m].
+  std::pair<d3::vector, double> tick(const d3::vector& x, const d3::vector& v, double dt,
+                                     double most) {
+    const auto here = newest.at(x);
+    const d3::vector goal = here.outward();
+    double depth = here.depth;
+    lag.grow_older(dt);
+    if (news || !lag.settled() || !turn.still()) {
+      if (!lag.settled()) lag.follow(dt);
+      if (lag.silent()) turn.stop();
+      if (news) hear(x, here.depth);
+      depth = here.depth - lag.offset();
+      if (depth <= 0.0 && here.depth <= 0.0) {
+        turn.stop();
+        lag.let_go();
+        depth = here.depth;
+      }
+    }
+    if (!news) age += dt;
+    double present = weight();
+    if (const double whole = law.force(depth, 0.0); heard && present < 1.0 && whole > 0.0) {
+      present = std::max(present, last_weight - pace.most_force_rate * dt / whole);
+    }
+    const bool behind = present > 0.0 && depth > 0.0, touched = behind && here.covered();
+    bool in_own = touched && !std::exchange(beside, behind && !touched);
+    if (!together) in_own = own.at(x).depth > 0.0 && own.at(x).covered();
+    in_own = in_own && last_weight > 0.0;
+
+    d3::vector normal = goal;
+    if (in_own && !together) {
+      d3::vector from = own.at(x).outward();
+      if (lag.taking_on()) from = turn.turned(from, dt);
+      const double pressed = law.force(depth, 0.0), calm = 0.5 * pace.usual_force_rate * dt;
+      const double angle = std::max(rate * dt, pressed > 2.0 * calm ? calm / pressed : 0.5);
+      const auto limited = at<d3>(ph::turn_limited{.rate = 1.0});
+      normal = limited.step_by(from, turn.turned(goal, lag.taken_on()), angle);
+    }
+    double force = 0.0, felt = 0.0, speed = v.dot(normal);
+    if (touched) {
+      speed = law.swinging(speed, dt);
+      force = present * law.force(depth, speed);
+      felt = depth;
+    } else {
+      law.let_go();
+    }
+    const bool cut = force > most;
+    if (cut) felt = law.depth(force = most, speed);
+    const bool follows = touched && (!lag.settled() || !turn.still() || normal != goal);
+    if (cut || follows) {
+      own = (in_own ? own : newest).toward(newest, x, normal, felt);
+      together = false;
+    } else {
+      own = newest;
+      together = true;
+    }
+    news = refused = false;
+    last_weight = present;
+    return {normal * force, felt};
+  }
+};
+
+/// Tries a contact against its twin under a device that presses and leaves, and a world that heaves, tilts, jumps,
+/// stiffens, falls silent and states its motion, now and then wrongly. `shape`(height, normal, K) is its surface.
+template <class Surface>
+int tries(unsigned seed, double most, const auto& shape) {
+  ph::laws::samples random(seed);
+  const auto some = [&](double size) { return size * random.number<double>(); };
+  const ph::freshness rule{.stale_after = 0.06, .fade = 0.03};
+  const double rate = seed % 3 == 0 ? 40.0 : 2.0;
+  const ph::eased law{ph::damped_spring{.mass = 0.1, .force_limit = seed % 2 == 0 ? 3.0 : 1e9}};
+  ph::local_model model{d3{},       ph::followed<Surface>{rule}, ph::turn_limited{.rate = rate},
+                        law,        ph::no_observer{},           ph::actuator_limit{.most = most},
+                        thesis_loop};
+  plainly<Surface> twin{.rule = rule, .rate = rate, .law = at<d3>(law)};
+  d3::vector x(0, 0, 0.001), last = x;
+  bool seen = false;
+  double K = 800.0, jump = 0.0;
+  int pressed = 0;
+  for (int n = 0; n < 1500; ++n) {
+    const double t = 1e-3 * n;
+    CAPTURE(seed, n);
+    const int every = n % 500 < 300 ? 33 : 90;
+    for (int again = 0; again < (n % every == 0 ? 1 + n / every % 2 : 0); ++again) {
+      if (n / every % 5 == 4) K = 1500.0 + some(1200.0);
+      if (n / every % 7 == 6) jump = some(1e-3);
+      const double w = 9.0, height = jump + 1e-3 * std::sin(w * t);
+      const d3::vector tilted(0.3 * std::sin(3.0 * t), 0.2 * std::cos(2.0 * t) + some(0.01), 1.0);
+      const Surface next = shape(height, tilted, n / every % 11 == 10 && again == 0 ? 0.0 : K);
+      const ph::surface_motion<d3> how{
+          .velocity = n / every % 3 == 0 ? std::optional<d3::coordinates>{}
+                                         : d3::coordinates(some(0.01), 0.0, 9e-3 * std::cos(w * t)),
+          .age = n / every % 13 == 12 ? std::nan("") : 0.02 + some(0.02) + (again == 1 ? 0.02 : 0)};
+      if (n / every % 4 == 3) {
+        REQUIRE(model.update(next) == twin.update(next));
+      } else {
+        REQUIRE(model.update(next, how) == twin.update(next, &how));
+      }
+    }
+    if (n % 470 == 469) {
+      model.source().release();
+      twin.release();
+    }
+    if (n % 1130 == 1129) {
+      model.reset();
+      twin = {.rule = rule, .rate = rate, .law = twin.law};
+      twin.law.let_go();
+      seen = false;
+    }
+    const double dt = n % 9 == 8 ? 0.7e-3 : 1e-3;
+    if (n % 101 > 97) {
+      (void)model.tick(d3::vector::Constant(std::nan("")), ph::seconds{dt});
+      twin.lose(dt);
+      seen = false;
+      continue;
+    }
+    x = d3::vector(2e-3 * std::sin(5.0 * t), 2e-3 * std::cos(4.0 * t),
+                   0.5e-3 - 2e-3 * std::sin(n % 600 < 300 ? 20.0 * t : 1.0)) +
+        random.vector<d3>() * 2e-6;
+    const auto out = model.tick(x, ph::seconds{dt});
+    const d3::vector v = seen ? d3::vector((x - last) / dt) : d3::zero();
+    const bool refused = twin.refused;
+    const auto [force, depth] = twin.tick(x, v, dt, most);
+    CAPTURE(out.force, force, depth);
+    REQUIRE((d3::vector(out.force) - force).norm() <= 1e-9);
+    REQUIRE_THAT(out.depth, WithinAbs(depth, 1e-12));
+    const bool stale = twin.heard && !twin.gone && twin.age > rule.stale_after;
+    CHECK(out.what == (stale         ? ph::event::stale_target
+                       : refused     ? ph::event::rejected_target
+                       : !twin.heard ? ph::event::no_target
+                                     : ph::event::nominal));
+    REQUIRE((d3::vector(model.local().at(x).outward()) - twin.own.at(x).outward()).norm() <= 1e-9);
+    REQUIRE_THAT(model.local().at(x).depth, WithinAbs(twin.own.at(x).depth, 1e-12));
+    pressed += force.norm() > 0.1 ? 1 : 0;
+    last = x;
+    seen = true;
+  }
+  return pressed;
+}
+
+}  // namespace
+
+TEST_CASE("an eased contact is what its rules say, whatever is told of its surface", "[contact]") {
+  const auto plane = [](double height, const d3::vector& n, double K) {
+    return ph::half_space<d3>{{0, 0, height}, n, K};
+  };
+  const auto triangle = [](double height, const d3::vector& n, double K) {
+    const auto corner = [&](double x, double y) -> d3::coordinates {
+      return {x, y, height - (n(0) * x + n(1) * y) / n(2)};
+    };
+    return ph::triangle<d3>{
+        .a = corner(-2e-3, -2e-3), .b = corner(4e-3, 0), .c = corner(-2e-3, 3e-3), .stiffness = K};
+  };
+  for (unsigned seed = 1; seed < 7; ++seed) {
+    for (const double most : {1.0, 1e9}) {
+      CHECK(tries<ph::half_space<d3>>(seed, most, plane) > 300);
+      CHECK(tries<ph::triangle<d3>>(seed, most, triangle) > 100);
+    }
+  }
+}

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include <passive_haptics/base/samples.hpp>
+#include <passive_haptics/energy_observer/forgiving.hpp>
+#include <passive_haptics/force_bound/watched.hpp>
 
 #include <array>
+#include <cmath>
+#include <set>
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
+using ph::event;
 
 namespace {
 
@@ -175,5 +181,241 @@ TEST_CASE("reset puts everything back but the parameters", "[port]") {
     REQUIRE(one.force == other.force);
     REQUIRE(one.energy == other.energy);
     REQUIRE(one.what == other.what);
+  }
+}
+
+namespace {
+
+/// A port for forces that a renderer gives a second time: its parts are the library's, and what happens between them in
+/// a tick is written down anew, each case by itself (architecture.md; mathematics.md § 3, § 11 to § 13).
+template <class P, class Observer, class Bound, class Limits>
+struct plainly {
+  using vector = typename P::vector;
+  using observer_type = ph::part_at<Observer, P>;
+  using bound_type = ph::part_at<Bound, P>;
+  using damping_type = std::remove_cvref_t<decltype(std::declval<observer_type&>().damping())>;
+  using state_type = ph::port_state<P, damping_type, Limits::latency, true>;
+  struct said {
+    vector force;
+    double energy;
+    event what;
+    bool limited;
+  };
+
+  observer_type ledger;
+  bound_type bound;
+  ph::part_at<Limits, P> limits;
+  typename state_type::commands commands{};  // newest first, the last is held
+  ph::motion_check<P> check{};
+  ph::recent_ticks<double> recent{};
+  vector last = P::zero();
+  double blind = 0.0;  // since the last good sample [s]
+  bool seen = false;
+  event stopped = event::nominal;
+
+  plainly(const Observer& o, const Bound& b, const Limits& l) : ledger(o), bound(b), limits(l) {
+    commands.fill(P::zero());
+  }
+  [[nodiscard]] bool doubted() const {
+    return const_cast<plainly&>(*this).bound.watching().seen() != event::nominal;
+  }
+  void shaken() {
+    if constexpr (requires { ledger.disturbed(); }) ledger.disturbed();
+  }
+  auto far_off() {
+    return [this](double T0, double t, double speeds) {
+      return bound.watching().template far_off<true>(T0, t, speeds, P::norm(bound.most_held()) / 2,
+                                                     ledger);
+    };
+  }
+  void command(const vector& f) {
+    for (std::size_t j = commands.size() - 1; j > 0; --j) commands[j] = commands[j - 1];
+    commands[0] = f;
+  }
+  void write_off(const vector& held, double dt) {
+    const auto [square, T0] = check.last();
+    const ph::detail::seen_tick<P> tick{square, T0, 0.0, bound.most_held()};
+    const double longer = dt > limits.longest_tick ? dt : limits.longest_tick;
+    const double done = bound.unseen(tick, ledger.damping(), held, blind + longer).done;
+    ledger.forfeit(held, limits.held_for(dt), done);
+  }
+  [[nodiscard]] bool possible(const vector& x, const vector& travel, double dt) const {
+    if (!(dt > 0.0 && std::isfinite(dt) && P::is_finite(x))) return false;
+    return !seen || P::norm(travel) <= limits.top_speed * (blind + dt);
+  }
+  [[nodiscard]] bool within(const vector& x) const { return P::norm(x) <= limits.workspace; }
+  said refuse(event why, double dt) {
+    const double passed = dt > 0.0 && std::isfinite(dt) ? dt : limits.longest_tick;
+    write_off(commands.back(), passed);
+    if (stopped == event::nominal) shaken();
+    check.think();
+    blind += passed;
+    command(P::zero());
+    return {P::zero(), ledger.value(), why, false};
+  }
+  void look(const vector& travel, const vector& x, double dt, const vector& held) {
+    const double T = limits.longest_tick;
+    bool known = seen && blind == 0.0 && dt <= T && possible(x, travel, dt) && within(x);
+    known = known && check.is_possible(travel, dt, far_off());
+    if (known) check.ease(far_off(), T, limits.top_speed);
+    const bool doubts = doubted();
+    bound.watching().template look<true>(known, travel, commands.back(), held, dt, ledger);
+    if (bound.watching().seen() > event::outside_force) stopped = bound.watching().seen();
+    if (doubts && bound.watching().forgives()) shaken();
+  }
+  said tick(const ph::device_sample<P>& s, const vector& wanted) {
+    const vector x = s.position, held = s.held, travel = x - last;
+    const double dt = s.dt, T = limits.longest_tick;
+    const bool was_commanded = held == vector(commands.back());
+    if (!s.valid || !(bound.can_hold(s.held) || was_commanded)) {
+      return refuse(event::rejected_sample, dt);
+    }
+    if (bound.watching().looks()) look(travel, x, dt, held);
+    if (stopped != event::nominal) return refuse(stopped, dt);
+
+    const bool calm = check.is_calm(P::squared(travel), dt) && dt <= T;
+    if (!possible(x, travel, dt)) return refuse(event::rejected_sample, dt);
+    if (!within(x)) return refuse(event::outside_workspace, dt);
+    if (!calm && !check.is_easy(travel)) {
+      if (!check.judge(travel, blind + dt, far_off())) return refuse(event::rejected_sample, dt);
+      check.ease(far_off(), T, limits.top_speed);
+    }
+    const bool known = seen && blind == 0.0;
+    vector moved = travel;
+    if (!known) {
+      write_off(held, dt);
+      if (seen) check.see(travel, blind + dt);
+      seen = true;
+      blind = 0.0;
+      moved = P::zero();
+    } else {
+      observer_type dropped = ledger;
+      if (!ledger.update(travel, s.held, dt)) return refuse(event::rejected_sample, dt);
+      if (dt > limits.watchdog) {  // which may have dropped the force: what is worse counts
+        const auto [square, T0] = check.last();
+        const ph::detail::seen_tick<P> tick{square, T0, 0.0, bound.most_held()};
+        const double most = limits.watchdog;
+        dropped.forfeit(held, most, bound.unseen(tick, ledger.damping(), held, most).done);
+        if (dropped.value() < ledger.value()) ledger = dropped;
+      }
+      check.see(travel, dt);
+    }
+    last = x;
+    const bool late = dt > T;
+    event what = late ? event::late_tick : event::nominal;
+    if (late) shaken();
+    if constexpr (!requires { ledger.tells(what, true); }) {
+      if (!late && ledger.value() < 0.0) what = event::debt;
+    }
+    const state_type state{.damping = ledger.damping(),
+                           .commanded = commands,
+                           .energy = ledger.value(),
+                           .dt = dt,
+                           .longest_tick = T,
+                           .recent = recent,
+                           .held = s.held,
+                           .travel = moved,
+                           .travel_error = 0.0,
+                           .motion_known = known,
+                           .late = late};
+    auto allowed = ph::detail::applied<P>(bound, wanted, state);
+    bound.watching().look_on(P::norm(wanted) > 0.0);
+    if (doubted()) {
+      what = ph::worse(what, bound.watching().seen());
+      if (bound.watching().lets_go()) allowed = {P::zero(), true};
+    }
+    if constexpr (requires { ledger.tells(what, true); }) {
+      if (ledger.remembers()) what = ledger.tells(what, allowed.limited);
+    }
+    command(allowed.force);
+    if (allowed.limited) {
+      recent.see(dt, T);
+    } else {
+      recent = {};
+    }
+    return {allowed.force, ledger.value(), what, allowed.limited};
+  }
+};
+
+/// A device in a hand that is as strong as it is `strong` [N], whose samples get lost, come late, are off or lie.
+/// Returns which events there were.
+template <class P, class Observer, class Bound, class Limits>
+std::set<event> lives(unsigned seed, double strong, int lies, const Observer& observer,
+                      const Bound& bound, const Limits& limits) {
+  using vector = typename P::vector;
+  ph::laws::samples random(seed);
+  const auto some = [&] { return random.number<double>(); };
+  ph::passive_port port{P{}, ph::given_force{}, observer, bound, limits};
+  plainly<P, Observer, Bound, Limits> twin(observer, bound, limits);
+  std::set<event> events;
+  std::array<vector, Limits::latency + 1> flying{};
+  flying.fill(P::zero());
+  vector x = P::zero(), v = P::zero();
+  for (int n = 0; n < 1500; ++n) {
+    const double t = 1e-3 * n;
+    const double dt = n % 97 == 96 ? 1.6e-3 : n % 41 == 40 ? 0.5e-3 : n % 307 == 306 ? 12e-3 : 1e-3;
+    vector aim = P::zero();
+    P::component(aim, P::dof - 1) = -5e-3 + 7e-3 * std::cos(9.0 * t);
+    vector hand = 600.0 * (aim - x) - 1.0 * v;
+    if (P::norm(hand) > strong) hand *= strong / P::norm(hand);
+    vector held = flying.back();
+    if (lies == 1 && n > 700 && n % 250 < 20) held = -held;
+    v += dt / 0.1 * (hand + held - 0.05 * v);
+    x += dt * v;
+    vector shown = x, told = held;
+    double stamp = dt;
+    if (lies == 2 && n % 173 > 160) told = flying.back() * (1.0 + 0.5 * some());
+    if (lies == 3 && n % 211 == 200) told = told * 1e3;
+    if (n % 89 == 88) shown += random.vector<P>() * (n % 2 == 0 ? 2e-3 : 0.03);
+    if (n % 263 > 260) shown *= n % 2 == 0 ? std::nan("") : 1e3;
+    if (n % 409 == 408) stamp = n % 2 == 0 ? 0.0 : std::nan("");
+    const ph::device_sample<P> s{
+        .position = shown, .held = told, .dt = stamp, .valid = n % 131 < 129};
+    const double deep = std::max(0.0, -P::component(x, P::dof - 1));
+    vector wanted = P::zero();
+    P::component(wanted, P::dof - 1) = 2500.0 * deep;
+    P::component(wanted, 0) += 20.0 * deep;
+    if (n % 500 > 480) wanted = P::zero();
+    const auto expected = twin.tick(s, wanted);
+    const auto out = port.tick(s, wanted);
+    CAPTURE(seed, n, int(out.what), int(expected.what), out.energy, expected.energy);
+    REQUIRE(out.what == expected.what);
+    REQUIRE_THAT(out.energy, WithinAbs(expected.energy, 1e-12));
+    REQUIRE(P::norm(vector(out.force) - expected.force) <= 1e-9);
+    REQUIRE(out.limited == expected.limited);
+    events.insert(out.what);
+    for (std::size_t j = flying.size() - 1; j > 0; --j) flying[j] = flying[j - 1];
+    flying[0] = out.force;
+  }
+  return events;
+}
+
+}  // namespace
+
+TEST_CASE("a port does what its parts do one after the other, whatever its samples are like",
+          "[port][law]") {
+  const ph::bound_chain bound{ph::watched{ph::reachable_bound{.mass = 0.1, .hand_force = 5.0}},
+                              ph::actuator_limit{.most = 8.0}};
+  const ph::reduced_energy ledger{.damping = 0.05, .loan = 1e-3};
+  const ph::forgiving mild{ledger, 0.02};
+  const ph::loop_limits prompt{
+      .longest_tick = 1e-3, .top_speed = 5.0, .workspace = 0.01, .watchdog = 5e-3};
+  const ph::late_loop_limits<1> late{
+      .longest_tick = 1e-3, .top_speed = 5.0, .workspace = 0.01, .watchdog = 1.2e-3};
+  std::set<event> all;
+  for (unsigned seed = 1; seed < 4; ++seed) {
+    for (const int lies : {0, 1, 2, 3}) {
+      for (const double strong : {4.5, 25.0}) {
+        all.merge(lives<d1>(seed, strong, lies, mild, bound, prompt));
+        all.merge(lives<d2>(seed, strong, lies, ledger, bound, prompt));
+        all.merge(lives<d3>(seed, strong, lies, mild, bound, late));
+      }
+    }
+  }
+  for (const event e :
+       {event::nominal, event::late_tick, event::outside_workspace, event::rejected_sample,
+        event::outside_force, event::wrong_sign, event::wall_lost, event::wall_back}) {
+    CAPTURE(to_string(e));
+    CHECK(all.contains(e));
   }
 }
