@@ -154,10 +154,7 @@ class local_contact {
   constexpr void reset() noexcept {
     detail::restart(supply_);
     detail::restart(law_);
-    beside_ = {};
     lag_ = {};
-    turn_ = {};
-    told_ = {};
     if constexpr (eases) law_.let_go();
   }
 
