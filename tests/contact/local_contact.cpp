@@ -20,6 +20,37 @@ auto tilting(double loan) {
 
 const d3::vector up(0, 0, 1);
 
+/// A bound that answers any wish with one force.
+struct always {
+  static constexpr ph::guarantee passivity = ph::guarantee::none;
+  static constexpr ph::bound_traits traits{};
+  double force{};
+  [[nodiscard]] constexpr ph::parameter_fault check() const noexcept { return {}; }
+  template <class Port>
+  struct on {
+    double force;
+    constexpr explicit on(const always& p) noexcept : force(p.force) {}
+    [[nodiscard]] double limit(double /*desired*/, const auto& /*state*/) const noexcept {
+      return force;
+    }
+  };
+};
+/// A shaper that gives so much more, and half of it where the surface is news.
+struct adds {
+  static constexpr bool needs_local_model = false;
+  static constexpr bool needs_ledger = false;
+  double more{};
+  template <class S>
+  struct on {
+    double more;
+    constexpr explicit on(const adds& p) noexcept : more(p.more) {}
+    [[nodiscard]] constexpr double shape(double desired, const auto& contact,
+                                         const auto& /*port*/) const noexcept {
+      return desired + (contact.target_changed ? 0.5 * more : more);
+    }
+  };
+};
+
 }  // namespace
 
 TEST_CASE("the four contact combinations of Fig. 2.7 (A23)", "[local_model]") {
@@ -218,4 +249,101 @@ TEST_CASE("what has faded away has no depth", "[local_model]") {
     CHECK((out.depth > 0.0) == (out.force > 0.0));
   }
   CHECK(wall.tick(-1e-3, 1ms).depth == 0.0);
+}
+
+TEST_CASE("a contact asks for no number beyond the half of all, nor for one that is none",
+          "[local_model][fault]") {
+  const double most = ph::kernels::largest<double>();
+  const auto asks = [](double point, double K, double x) {
+    ph::local_model model{d1{},
+                          ph::followed<ph::half_space<d1>>{},
+                          ph::turn_at_once{},
+                          ph::spring{},
+                          ph::no_observer{},
+                          ph::no_bound{},
+                          thesis_loop};
+    REQUIRE(model.update({point, 1.0, K}));
+    return model.tick(x, 1ms);
+  };
+  CHECK(asks(0.0, 0.49 * most, -1.0).force == 0.49 * most);
+  for (const auto& beyond : {asks(0.0, 0.51 * most, -1.0), asks(0.97 * most, 0.1, 0.0)}) {
+    CHECK(beyond.force == 0.0);
+    CHECK(beyond.depth == 0.0);
+    CHECK(beyond.what == ph::event::rejected_target);
+  }
+  const auto shaped = [](double more, bool moves) {
+    const auto tick = [&](auto supply) {
+      ph::local_model model{d1{},
+                            supply,
+                            ph::turn_at_once{},
+                            ph::shaped{ph::spring{}, adds{more}},
+                            ph::no_observer{},
+                            ph::no_bound{},
+                            thesis_loop};
+      return model.tick(-1e-3, 1ms);
+    };
+    const ph::half_space<d1> wall{0.0, 1.0, 1000.0};
+    return moves ? tick(ph::followed{wall}) : tick(ph::fixed{wall});
+  };
+  CHECK_THAT(shaped(1.0, true).force, WithinRel(1.5, 1e-12));
+  CHECK_THAT(shaped(1.0, false).force, WithinRel(2.0, 1e-12));  // what never moves is never news
+  for (const bool moves : {true, false}) {
+    const auto none = shaped(std::nan(""), moves);
+    CHECK(none.force == 0.0);
+    CHECK(none.what == ph::event::rejected_target);
+  }
+}
+
+TEST_CASE("a local model is nowhere where a bound gives a force of no depth",
+          "[local_model][fault]") {
+  const auto felt = [](double K, double force) {
+    auto model = following_half_space<d1>(ph::spring{}, thesis_ledger(), always{force});
+    REQUIRE(model.update({0.0, 1.0, K}));
+    (void)model.tick(1e-3, 1ms);
+    const auto out = model.tick(-1e-3, 1ms);
+    CHECK(out.force == force);
+    return out.depth;
+  };
+  CHECK(felt(1000.0, 0.5) == 0.5 / 1000.0);
+  CHECK(felt(1e-305, 1e10) == 0.0);  // a depth that is no number
+}
+
+TEST_CASE("a fixed surface neither lags nor fades, and news that just touch are none to explain",
+          "[local_model]") {
+  ph::local_model still{d1{},
+                        ph::fixed{ph::half_space<d1>{0.0, 1.0, 1000.0}},
+                        ph::turn_at_once{},
+                        ph::damped_spring{.mass = 0.1, .force_limit = 1.0},
+                        ph::no_observer{},
+                        ph::no_bound{},
+                        thesis_loop};
+  (void)still.tick(-5e-3, 1ms);
+  CHECK(still.explain().now == ph::softened_by::nothing);  // 1 N of 5
+
+  ph::local_model moves{d1{},
+                        ph::followed<ph::half_space<d1>>{},
+                        ph::turn_at_once{},
+                        ph::eased{ph::spring{}},
+                        ph::no_observer{},
+                        ph::no_bound{},
+                        thesis_loop};
+  const auto now = [&](double height) {
+    moves.reset();
+    REQUIRE(moves.update({0.0, 1.0, 1000.0}));
+    for (int n = 2; n > -3; --n) (void)moves.tick(1e-3 * n, 1ms);
+    REQUIRE(moves.update({height, 1.0, 1000.0}));
+    CHECK(moves.tick(-2e-3, 1ms).force > 1.9);
+    return moves.explain().now;
+  };
+  CHECK(now(1e-3) == ph::softened_by::news);
+  CHECK(now(-2e-3) == ph::softened_by::nothing);
+}
+
+TEST_CASE("a port has its capped law follow the ledger", "[local_model]") {
+  auto wall = following_half_space<d1>(ph::capped{ph::spring{}, 1000.0, 1e-3}, thesis_ledger(),
+                                       ph::no_bound{});
+  REQUIRE(wall.update({0.0, 1.0, 1000.0}));
+  double force = 0.0;
+  for (int n = 0; n < 1001; ++n) force = wall.tick(n == 0 ? 1e-3 : -2e-3, 1ms).force;
+  CHECK_THAT(force, WithinRel(0.7 * 2.0, 0.01));  // s falls by 0.3 a second
 }

@@ -52,6 +52,47 @@ pressed press(Touch touch, double T, double q, double motors) {
   return found;
 }
 
+/// A force of one's own that says what it was told to say.
+struct told {
+  double shown{}, depth{};  // [N/m], [m]
+  softened_by now{};
+  [[nodiscard]] constexpr ph::parameter_fault check() const noexcept { return {}; }
+  template <class P>
+  struct on;
+};
+template <class P>
+struct told::on : ph::part_at<ph::given_force, P> {
+  told own;
+  constexpr explicit on(const told& p) noexcept
+      : ph::part_at<ph::given_force, P>(ph::given_force{}), own(p) {}
+  constexpr void explain(ph::explanation& e, const auto& /*x*/, double /*T*/,
+                         int /*late*/) const noexcept {
+    e.shown = own.shown;
+    e.depth = own.depth;
+    e.now = own.now;
+  }
+};
+/// A bound that leaves so many percent of any force; or one that could as well leave others tomorrow.
+template <int Percent, bool Remembers>
+struct leaves {
+  static constexpr ph::guarantee passivity = ph::guarantee::none;
+  static constexpr ph::bound_traits traits{};
+  [[nodiscard]] constexpr ph::parameter_fault check() const noexcept { return {}; }
+  template <class P>
+  struct on {
+    constexpr explicit on(const leaves& /*p*/) noexcept {}
+    [[nodiscard]] constexpr ph::share<double> limit(double /*f*/,
+                                                    const auto& /*state*/) const noexcept
+        requires(!Remembers) {
+      return {Percent / 100.0};
+    }
+    [[nodiscard]] constexpr ph::share<double> limit(
+        double /*f*/, const auto& /*state*/) noexcept requires Remembers {
+      return {Percent / 100.0};
+    }
+  };
+};
+
 }  // namespace
 
 TEST_CASE("the stiffness that explain() says is the slope that a finger finds", "[port]") {
@@ -289,4 +330,56 @@ TEST_CASE("a contact has started inside if it has neither force nor energy", "[e
   CHECK(told(0.0, 0.5) == ph::event::nominal);
   CHECK(told(1.0, 0.0) == ph::event::nominal);
   CHECK(told(0.0, -1.0) == ph::event::started_inside);
+}
+
+TEST_CASE("what keeps a force low is what cut it, or what its surface says if it is lower",
+          "[explain]") {
+  int of[3] = {0, 0, 0};
+  const auto check = [&]<int Percent, bool Remembers>(leaves<Percent, Remembers> bound) {
+    for (const double shown : {1024.0, 4.0}) {
+      for (const double depth : {0.0, 0x1p-10}) {
+        for (const double wanted : {0.0, 0.5, 0.95, 0.96, 4.0}) {
+          for (const double loan : {0.0, 0.5, 2.0}) {
+            for (const softened_by says : {softened_by::nothing, softened_by::news}) {
+              ph::passive_port port{d1{}, told{shown, depth, says},
+                                    ph::reduced_energy{.damping = 0.03, .loan = loan}, bound,
+                                    thesis_loop};
+              const double force = port.tick(0.0, 1ms, wanted).force;
+              // Of a bound that remembers nothing a force of 0 is no cut in the air.
+              const bool cut = force < wanted && (Remembers || depth > 0.0 || force > 0.0);
+              const bool none = (cut || depth > 0.0) && force == 0.0 && loan == 0.0;
+              const bool all = !cut && depth > 0.0 && force > 0.95 * shown * depth;
+              const softened_by expected = none  ? softened_by::started_inside
+                                           : all ? softened_by::nothing
+                                           : cut && says == softened_by::nothing
+                                               ? softened_by::ledger
+                                               : says;
+              CAPTURE(Percent, Remembers, shown, depth, wanted, loan, int(says));
+              CHECK(port.explain().now == expected);
+              ++of[none ? 0 : all ? 1 : 2];
+              port.reset();
+              if (depth == 0.0) CHECK(port.explain().now == says);
+            }
+          }
+        }
+      }
+    }
+  };
+  check(leaves<100, false>{});
+  check(leaves<50, false>{});
+  check(leaves<0, false>{});
+  check(leaves<50, true>{});
+  check(leaves<0, true>{});
+  for (const int n : of) CHECK(n > 10);
+}
+
+TEST_CASE("the floor of a force on encoders is the stiffness times what a position may be off",
+          "[explain]") {
+  ph::local_model wall{
+      d1{},         ph::fixed{ph::half_space<d1>{0.0, 1.0, 1000.0}},       ph::turn_at_once{},
+      ph::spring{}, ph::quantised_energy{.damping = 0.1, .quantum = 5e-5}, ph::strict_bound{},
+      thesis_loop};
+  (void)wall.tick(0.01, 1ms);
+  CHECK(wall.explain().floor == wall.explain().shown * wall.observer().travel_error());
+  CHECK(wall.explain().floor >= 0.01);
 }
