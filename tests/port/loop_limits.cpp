@@ -90,6 +90,10 @@ TEST_CASE("a loop learns from ticks up to ten times as long as its longest, and 
     CHECK(port.tick(0.0, 9ms, 0.0).what == ph::event::late_tick);
     CHECK(port.longest_tick() == T);
   }
+  ph::passive_port dropping{d1{}, ph::given_force{}, thesis_ledger(), ph::strict_bound{},
+                            ph::learning_loop_limits<>{.longest_tick = 1e-3, .watchdog = 4e-3}};
+  for (const double dt : {1e-3, 9e-3, 9e-3}) (void)dropping.tick(0.0, ph::seconds{dt}, 0.0);
+  CHECK(dropping.longest_tick() == 4e-3);  // no force is held for longer
 }
 
 TEST_CASE("a loop learns from no long tick that stays alone, and forgets what is over",

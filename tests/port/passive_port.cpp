@@ -2,8 +2,11 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/base/samples.hpp>
+#include <passive_haptics/contact/eased.hpp>
+#include <passive_haptics/energy_observer/dual_ledger.hpp>
 #include <passive_haptics/energy_observer/forgiving.hpp>
 #include <passive_haptics/force_bound/watched.hpp>
+#include <passive_haptics/port/reported_work.hpp>
 
 #include <array>
 #include <cmath>
@@ -30,7 +33,110 @@ struct lost_bound {
   };
 };
 
+/// A ledger that says something of its own in every tick.
+struct talks : ph::reduced_energy {
+  template <class P>
+  struct on : ph::part_at<ph::reduced_energy, P> {
+    constexpr explicit on(const talks& p) noexcept : ph::part_at<ph::reduced_energy, P>(p) {}
+    [[nodiscard]] constexpr bool remembers() const noexcept { return true; }
+    [[nodiscard]] constexpr event tells(event so_far, bool cut) const noexcept {
+      return ph::worse(so_far, cut ? event::wall_lost : event::wall_back);
+    }
+  };
+};
+/// A motion estimator that counts from its last reset on: so many millimetres.
+struct counts {
+  [[nodiscard]] constexpr ph::parameter_fault check() const noexcept { return {}; }
+  template <class P>
+  struct on {
+    struct seen {
+      double position;
+      [[nodiscard]] constexpr double along(double /*n*/) const noexcept { return 0.0; }
+    };
+    int ticks = 0;
+    constexpr explicit on(const counts& /*p*/) noexcept {}
+    constexpr void reset() noexcept { ticks = 0; }
+    [[nodiscard]] constexpr seen estimate(double /*x*/, double /*dx*/, double /*held*/,
+                                          double /*dt*/, bool /*known*/) noexcept {
+      return {-1e-3 * ++ticks};
+    }
+  };
+};
+
 }  // namespace
+
+TEST_CASE("a port resets its motion estimator, and its ledger speaks in the air as well",
+          "[port]") {
+  ph::passive_port port{d1{},
+                        ph::local_contact{ph::fixed{ph::half_space<d1>{0.0, 1.0, 1000.0}},
+                                          ph::turn_at_once{}, ph::spring{}},
+                        ph::no_observer{},
+                        ph::no_bound{},
+                        thesis_loop,
+                        counts{}};
+  for (int n = 0; n < 2; ++n) {
+    port.reset();
+    for (const double force : {1.0, 2.0, 3.0}) CHECK(port.tick(0.0, 1ms).force == force);
+  }
+  ph::local_model wall{d1{},
+                       ph::followed{ph::half_space<d1>{0.0, 1.0, 1000.0}},
+                       ph::turn_at_once{},
+                       ph::spring{},
+                       talks{{.damping = 0.03}},
+                       ph::strict_bound{},
+                       thesis_loop};
+  CHECK(wall.tick(1e-3, 1ms).what == event::wall_back);
+  CHECK(wall.tick(-1e-2, 1ms).what == event::wall_lost);
+}
+
+TEST_CASE("motors that are off and on again between two ticks make news of a surface", "[port]") {
+  const auto felt = [](bool off) {
+    ph::local_model wall{d1{},
+                         ph::followed{ph::half_space<d1>{0.0, 1.0, 1000.0}},
+                         ph::turn_at_once{},
+                         ph::eased{ph::spring{}},
+                         ph::no_observer{},
+                         ph::no_bound{},
+                         thesis_loop};
+    (void)wall.tick(1e-3, 1ms);
+    (void)wall.tick(-1e-3, 1ms);
+    if (off) {
+      wall.enable_forces(false);
+      wall.enable_forces(true);
+    }
+    const auto out = wall.tick(-1e-3, 1ms);
+    CHECK(out.what == event::nominal);
+    return out.force;
+  };
+  CHECK(felt(false) == 1.0);
+  CHECK(felt(true) < 0.1);
+}
+
+TEST_CASE("a port books the work that its device reports, and a debt that is more than elastic",
+          "[port]") {
+  ph::passive_port arm{ph::reported_work<d1>{}, ph::given_force{},
+                       ph::reduced_energy{.damping = 0.03, .loan = 1.0}, ph::strict_bound{},
+                       thesis_loop};
+  (void)arm.tick({.position = 0.0, .held = 0.0, .dt = 1e-3, .valid = true, .work = 0.0}, 0.5);
+  const auto out =
+      arm.tick({.position = 1e-3, .held = 0.5, .dt = 1e-3, .valid = true, .work = 0.25}, 0.5);
+  CHECK(out.what == event::nominal);
+  CHECK_THAT(out.energy,
+             WithinRel(1.0 + 0.03 * 1e-6 / 1e-3 - 0.25, 1e-12));  // and not 0.5 N · 1 mm
+
+  ph::passive_port rubs{
+      d1{}, ph::given_force{},
+      ph::dual_ledger{.damping = {.coefficient = 0.05, .coulomb = 0.1, .presliding = 2e-5},
+                      .quantum = 1e-4,
+                      .window = 0.03},
+      ph::no_bound{}, thesis_loop};
+  const auto tick = [&](double x, double wanted) {
+    return rubs.tick({.position = x, .held = wanted, .dt = 1e-3, .valid = true}, wanted).what;
+  };
+  CHECK(tick(0.0, 0.0) == event::nominal);
+  CHECK(tick(0.0, 0.0) == event::nominal);
+  CHECK(tick(1e-2, 9.0) == event::debt);
+}
 
 TEST_CASE("what a bound returns is looked at: no number is no force", "[port][fault]") {
   ph::passive_port guard{d1{}, ph::given_force{}, thesis_ledger(), lost_bound{}, thesis_loop};

@@ -220,6 +220,7 @@ TEST_CASE("a port of bad parameters works as soon as they are good", "[port][set
   REQUIRE_FALSE(guard.set(thesis_loop));
   REQUIRE_FALSE(guard.set(ph::actuator_limit{.most = 9.0}));
   CHECK_FALSE(guard.check());
+  CHECK(guard.tick(0.0, 1ms, 1.0).what == ph::event::nominal);
   guard.reset();  // which makes the loan
   CHECK(guard.tick(0.0, 1ms, 1.0).force == 1.0);
 }

@@ -500,8 +500,7 @@ class passive_port {
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_late(typename P::stored_effort travel,
                                                                    held_type held,
                                                                    scalar dt) noexcept {
-    if constexpr (knows_hidden) return observer_.update(travel, held, dt, unseen(held, dt).beside);
-    return observer_.update(travel, held, dt);
+    return observer_.update(travel, held, dt, unseen(held, dt).beside);
   }
   /// The most work that an effort can have done in a time `dt` [s] without samples, after the last known tick.
   [[nodiscard]] constexpr detail::unseen_work<scalar> unseen(const effort& held,
