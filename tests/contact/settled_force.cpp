@@ -530,15 +530,15 @@ struct plainly {
     const double along = n.dot(w), speed = n.dot(v), rise = n.dot(change);
     if (looks && -rise * speed > most() * dt * speed * speed) watched = 30;
     const double unit = p.mass / (T * (1 + late)) * std::sqrt(share);
-    const double B = p.damping_fraction * unit;
+    const double damps = p.damping_fraction * unit;
     const vector v_across = v - n * speed, w_across = change - n * rise;
     vector across = -p.slide_fraction * unit * v_across;
     if (const double length = w_across.norm(); length > 0.0) {
-      const double brakes = limited(-B * w_across.dot(v) / length, 0.0, p.lead * length);
+      const double brakes = limited(-damps * w_across.dot(v) / length, 0.0, p.lead * length);
       across += w_across * (brakes / length);
     }
     if (across.norm() > w.norm()) across *= w.norm() / across.norm();
-    return w - n * limited(B * speed, -2.0 * along, along) + across;
+    return w - n * limited(damps * speed, -2.0 * along, along) + across;
   }
 };
 

@@ -285,6 +285,22 @@ TEST_CASE("explain() of a set is about the contact that presses most", "[port][c
   CHECK(said.asked == 20e3);
   CHECK_THAT(said.shown, WithinRel(0.95 * 0.1 * 0.1 / 1e-6, 1e-9));
   CHECK(said.stiffness == softened_by::mass_and_tick);
+
+  // What presses most is where it was told, however much the slot before it has to make up for.
+  ph::passive_port lagging{d2{},
+                           ph::contact_set{ph::proxy_spring{.mass = 0.1, .force_limit = 4.0},
+                                           ph::pursuit{}, ph::slots<ph::half_space<d2>, 2>{}},
+                           ph::no_observer{}, ph::no_bound{},
+                           ph::loop_limits{.longest_tick = 1e-3, .top_speed = 100.0}};
+  lagging.source().update(0, {d2::zero(), d2::vector(1, 0), 800.0});
+  lagging.source().update(1, {d2::zero(), d2::vector(0, 1), 2000.0});
+  for (int n = 0; n < 500; ++n) (void)lagging.tick({-1e-6 * n, -1e-5 * n}, 1ms);
+  CHECK(lagging.explain().now == softened_by::nothing);  // 4 N of 10
+  lagging.source().update(0, {d2::vector(2e-3, 0), d2::vector(1, 0), 800.0});
+  (void)lagging.tick({-5e-4, -5e-3}, 1ms);
+  REQUIRE_FALSE(lagging.source().slot(0).lag() == 0.0);
+  CHECK(lagging.explain().asked == 2000.0);
+  CHECK(lagging.explain().now == softened_by::nothing);
 }
 
 TEST_CASE("every reason has a name and a sentence", "[port]") {
