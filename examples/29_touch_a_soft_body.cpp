@@ -18,8 +18,11 @@ namespace env = ph::environment;
 using scene = ph::space<double, 3>;
 using vector = scene::vector;
 
+using plane = ph::half_space<scene>;
+using news_of = plane (*)(env::deformable_body&, env::ahead&, const vector&, const vector&);
+
 /// The forces [N] of a stroke of 30 mm to and fro in 2 s, up to 4 mm deep.
-std::vector<vector> stroke(int ticks_between_news, auto&& news) {
+std::vector<vector> stroke(int ticks_between_news, news_of news) {
   env::deformable_body body(env::ball(0.05), {.young = 2e4, .poisson = 0.3},
                             env::ball_fixed_nodes());
   auto touch = ph::make_touch<scene>(
@@ -37,11 +40,11 @@ std::vector<vector> stroke(int ticks_between_news, auto&& news) {
 }
 
 int main() {
-  const auto plane = [](auto& body, auto& /*where*/, const vector& finger, const vector& force) {
+  const news_of bare = [](auto& body, auto& /*where*/, const vector& finger, const vector& force) {
     body.update(finger, force);
     return env::plane_at(body);
   };
-  const auto foreseen = [](auto& body, auto& where, const vector& finger, const vector& force) {
+  const news_of foreseen = [](auto& body, auto& where, const vector& finger, const vector& force) {
     return env::yielding(body, where, finger, force);
   };
   const auto show = [truth = stroke(1, foreseen)](const char* by, const auto& forces) {
@@ -53,6 +56,6 @@ int main() {
     std::printf("%-24s off by %3.0f mN rms, largest step %3.0f mN\n", by, 1e3 * std::sqrt(off),
                 1e3 * step);
   };
-  show("its plane, 30 Hz:", stroke(33, plane));
+  show("its plane, 30 Hz:", stroke(33, bare));
   show("yielding, ahead, 30 Hz:", stroke(33, foreseen));
 }
