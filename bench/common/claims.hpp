@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace experiments {
@@ -90,42 +92,104 @@ inline double rms_between(const std::vector<double>& a, const std::vector<double
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-/// Words of a text, and what must be true of the file for them to be so. Without a file the predicate looks at
-/// what it has kept itself.
-struct claim {
-  std::string words;
-  std::string file;
-  std::function<bool(const recorded&)> holds;
+/// What a predicate has found: whether it holds, and by which number, if it is one that says so.
+struct finding {
+  bool so = false;
+  std::string by{};
+  finding(std::same_as<bool> auto holds) : so(holds) {}
+  finding(bool holds, std::string number) : so(holds), by(std::move(number)) {}
 };
+/// That a number is so much at least and so much at most; a limit may be infinite.
+inline finding between(double is, double at_least, double at_most) {
+  const std::string limits = std::isinf(at_most) ? format(", at least %.4g", at_least)
+                             : std::isinf(at_least)
+                                 ? format(", at most %.4g", at_most)
+                                 : format(", %.4g", at_least) + format(" to %.4g", at_most);
+  return {is >= at_least && is <= at_most, format("%.4g", is) + limits};
+}
+inline finding at_least(double is, double limit) {
+  return between(is, limit, std::numeric_limits<double>::infinity());
+}
+inline finding at_most(double is, double limit) {
+  return between(is, -std::numeric_limits<double>::infinity(), limit);
+}
+
+/// A sentence of a text, or a part of one that can be false by itself: a claim with its predicate, or what nothing
+/// drawn could deny. Words without a predicate are none until they are called a definition().
+class clause {
+ public:
+  /// A line of the sources: of the call, where it is a default argument. Without std::source_location, which clang 14
+  /// does not have.
+  struct place {
+    const char* file;
+    int line;
+    static constexpr place current(const char* file = __builtin_FILE(),
+                                   int line = __builtin_LINE()) {
+      return {file, line};
+    }
+  };
+  /// A claim about a file of the report's folder, which is written by then.
+  template <std::invocable<const recorded&> Holds>
+  clause(std::string words, std::string file, Holds holds, place at = place::current())
+      : words_(std::move(words)), file_(std::move(file)), holds_(std::move(holds)), at_(at) {}
+  /// A claim about what its predicate has kept itself.
+  template <std::invocable Holds>
+  clause(std::string words, Holds holds, place at = place::current())
+      : clause(
+            std::move(words), "", [=](const recorded&) -> finding { return holds(); }, at) {}
+  friend clause definition(std::string words, place at);
+
+  [[nodiscard]] const std::string& words() const { return words_; }
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] bool is_claim() const { return holds_ != nullptr; }
+  [[nodiscard]] finding look_up(const std::filesystem::path& folder) const {
+    return holds_(file_.empty() ? recorded{} : recorded(folder / file_));
+  }
+  /// Where the predicate stands: "bench/organ/chain.cpp:280".
+  [[nodiscard]] std::string at() const {
+    const std::filesystem::path file(at_.file), room = file.parent_path();
+    return (room.parent_path().filename() / room.filename() / file.filename()).generic_string() +
+           ":" + std::to_string(at_.line);
+  }
+
+ private:
+  clause(std::string words, place at) : words_(std::move(words)), at_(at) {}
+
+  std::string words_, file_;
+  std::function<finding(const recorded&)> holds_;
+  place at_;
+};
+/// What is drawn and how, why it is so, or what others say: words that no curve could deny.
+inline clause definition(std::string words, clause::place at = clause::place::current()) {
+  return {std::move(words), at};
+}
+using clauses = std::vector<clause>;
+
+/// The words of all, a blank between two.
+inline std::string text_of(const clauses& said) {
+  std::string text;
+  for (const auto& s : said) text += (text.empty() ? "" : " ") + s.words();
+  return text;
+}
 
 /// The text of a plot.
 struct caption {
-  std::string title;          ///< a few words, without a full stop
-  std::string see;            ///< whole sentences: where to look, and what it means
-  std::vector<claim> claims;  ///< one at least; their words stand in the title or the sentences
+  std::string title;  ///< a few words that name what is drawn, without a full stop
+  clauses see;        ///< where to look, and what it means; one claim at least
 };
 
-/// What is wrong with the claims of a text, a sentence each: words that are not in it, words that are not so. `which`
-/// says what text it is.
-inline std::vector<std::string> untrue(const std::string& which, const std::string& text,
-                                       const std::vector<claim>& claims,
-                                       const std::filesystem::path& folder) {
-  std::vector<std::string> found;
-  for (const auto& c : claims) {
-    if (text.find(c.words) == std::string::npos) {
-      found.push_back(which + " does not say \"" + c.words + "\"");
-    } else if (!c.holds(c.file.empty() ? recorded{} : recorded(folder / c.file))) {
-      found.push_back(which + " is not so: \"" + c.words + "\"");
-    }
-  }
-  return found;
-}
-/// The same of a caption, which claims something at least.
-inline std::vector<std::string> untrue(const std::string& plot, const caption& said,
-                                       const std::filesystem::path& folder) {
-  auto found = untrue("the caption of " + plot, said.title + "\n" + said.see, said.claims, folder);
-  if (said.claims.empty()) found.push_back("the caption of " + plot + " claims nothing");
-  return found;
+/// The claim of a line that it joins what none of these points beats in both numbers: those of its two columns.
+inline auto joins_unbeaten(const std::string& x, const std::string& y,
+                           std::vector<std::pair<double, double>> points) {
+  return [=](const recorded& line) {
+    const auto &xs = line[x], &ys = line[y];
+    return !xs.empty() && std::none_of(points.begin(), points.end(), [&](const auto& p) {
+      for (std::size_t i = 0; i < xs.size(); ++i) {  // the file has seven digits
+        if (p.first < 0.999999 * xs[i] && p.second < 0.999999 * ys[i]) return true;
+      }
+      return false;
+    });
+  };
 }
 
 }  // namespace experiments

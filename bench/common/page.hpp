@@ -122,7 +122,7 @@ class page {
     body_ += "<figure id=\"" + id + "\"><div class=\"scroll\" tabindex=\"0\"><img src=\"" +
              html_text(name) + ".svg\" alt=\"" + attribute(said.title) +
              "\" width=\"760\" height=\"430\"></div><figcaption><b>" + html_text(said.title) +
-             "</b> " + html_text(said.see) + "</figcaption></figure>\n";
+             "</b> " + html_text(text_of(said.see)) + "</figcaption></figure>\n";
   }
 
   /// The whole page; `files` are listed at its end.

@@ -93,14 +93,16 @@ class report {
     return path(first).string() + ", " + path(names_.json).string();
   }
 
-  /// What the text claims is looked up as in plot(): the files are written by then.
-  void section(const std::string& title, const std::string& text,
-               const std::vector<claim>& claims = {}) {
-    note("section", title, claims,
-         experiments::untrue("the text of " + title, text, claims, folder_));
+  /// A text without a claim: what the columns of a table are, and where they come from.
+  void section(const std::string& title, const std::string& text) {
     std::cout << title << "\n\n" << paragraph(text) << "\n\n";
     page_.section(title, text);
     text_ += "## " + title + "\n\n" + text + "\n\n";
+  }
+  /// One that claims something, which is looked up as in plot(): the files are written by then.
+  void section(const std::string& title, const clauses& said) {
+    look_up("the text of " + title, said);
+    section(title, text_of(said));
   }
   void show(const table& t) {
     t.print(std::cout);
@@ -112,16 +114,32 @@ class report {
   }
 
   /// Adds a plot by the gnuplot commands after `set output`, which read the CSV files of this folder. What its
-  /// caption claims is looked up in them now, so they are written by then; what is not so is in untrue().
-  void plot(const std::string& name, const caption& said, const std::string& commands) {
+  /// caption claims is looked up in them now, so they are written by then; what is not so is in untrue(). So is an axis
+  /// of newtons that neither begins at 0 nor is logarithmic; which axes are, the caption says by itself.
+  void plot(const std::string& name, caption said, const std::string& commands) {
+    const auto has = [&commands](const char* what) {
+      return commands.find(what) != std::string::npos;
+    };
+    const std::string which = "the caption of " + name;
+    const bool both = has("set logscale xy");
+    if (both || has("set logscale x")) {
+      said.see.push_back(
+          definition(both ? "Both axes are logarithmic." : "The axis below is logarithmic."));
+    }
+    if ((has("[N]'") || has("ylabel 'N'")) && !both && !has("set yrange [0:")) {
+      untrue_.push_back(name + ": the axis of the force does not begin at 0");
+    }
     output_file script(path(name + ".gp"));
     script.stream() << plot_preamble << "set output '" << name << ".svg'\n" << commands << '\n';
     script.close();
     plots_.emplace_back(name, said.title);
-    note("plot", name, said.claims, experiments::untrue(name, said, folder_));
+    if (std::none_of(said.see.begin(), said.see.end(), [](auto& s) { return s.is_claim(); })) {
+      untrue_.push_back(which + " claims nothing");
+    }
+    look_up(which, said.see);
     page_.figure(name, said);
-    text_ +=
-        "![" + said.title + "](" + name + ".svg)\n\n**" + said.title + ".** " + said.see + "\n\n";
+    text_ += "![" + said.title + "](" + name + ".svg)\n\n**" + said.title + ".** " +
+             text_of(said.see) + "\n\n";
   }
 
   /// What captions and texts say and is not so, a sentence each.
@@ -130,7 +148,7 @@ class report {
   /// Writes the JSON file and the pages and runs gnuplot; `lead` is the text under the title. Returns false if
   /// gnuplot did not draw every plot.
   bool finish(const std::string& title, const std::string& lead = {}) {
-    if (!claims_.empty()) member("captions", json_array(claims_));
+    list_clauses();
     output_file json(path(names_.json));
     json.stream() << "{";
     for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -156,12 +174,45 @@ class report {
   }
 
  private:
-  void note(const char* kind, const std::string& name, const std::vector<claim>& claims,
-            const std::vector<std::string>& wrong) {
-    untrue_.insert(untrue_.end(), wrong.begin(), wrong.end());
-    for (const auto& c : claims) {
-      claims_.push_back(json_object({{kind, json_string(name)}, {"words", json_string(c.words)}}));
+  struct looked_up {
+    std::string which, found;
+    clause said;
+  };
+  void look_up(const std::string& which, const clauses& all) {
+    for (const auto& said : all) {
+      if (!said.is_claim()) {
+        said_.push_back({which, "definition", said});
+        continue;
+      }
+      const finding found = said.look_up(folder_);
+      const std::string by = found.by.empty() ? "" : " (" + found.by + ")";
+      if (!found.so) untrue_.push_back(which + " is not so: \"" + said.words() + "\"" + by);
+      said_.push_back({which, (found.so ? "so" : "NOT SO") + by, said});
     }
+  }
+  /// The last table: what captions and texts say, sentence by sentence, and what each predicate has found.
+  void list_clauses() {
+    if (said_.empty()) return;
+    table all({"which", "says", "found", "file", "predicate"});
+    std::vector<std::string> items;
+    for (const auto& [which, found, said] : said_) {
+      const std::string at = said.is_claim() ? said.at() : "";
+      all.add({which, said.words(), found, said.file(), at});
+      items.push_back(json_object({{"which", json_string(which)},
+                                   {"words", json_string(said.words())},
+                                   {"found", json_string(found)},
+                                   {"file", json_string(said.file())},
+                                   {"predicate", json_string(at)}}));
+    }
+    const std::string title = "What the captions say",
+                      text =
+                          "Each sentence with what its predicate found in the file that is drawn, "
+                          "and where that predicate stands; what no curve could deny is a "
+                          "definition.";
+    page_.section(title, text);
+    page_.show(all);
+    text_ += "## " + title + "\n\n" + text + "\n\n" + all.markdown();
+    member("captions", json_array(items));
   }
   /// Runs gnuplot, and gives its plot a name and both colour schemes.
   [[nodiscard]] bool draw(const std::string& name, const std::string& what) const {
@@ -186,7 +237,8 @@ class report {
   page page_;
   std::string text_;                                        // the same in Markdown
   std::vector<std::pair<std::string, std::string>> plots_;  // name and title
-  std::vector<std::string> untrue_, claims_;                // of captions and texts
+  std::vector<looked_up> said_;                             // by captions and texts
+  std::vector<std::string> untrue_;                         // of it
   std::vector<std::pair<std::string, std::string>> members_;
 };
 

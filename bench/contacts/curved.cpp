@@ -99,16 +99,25 @@ void plot_stroke(const session& s, const curved::triangulated& mesh) {
   s.out.plot(
       "stroke_force",
       {"The force on a finger that strokes a ball",
-       "The finger goes 1 to 3 mm deep and back, and the force should swing as smoothly. On "
-       "the nearest of 320 triangles it steps where it crosses an edge; on a quadric, which is "
-       "published 30 times a second, it has none, and it is the ball's own, in grey.",
-       {{"it steps where it crosses an edge", "stroke_force.csv",
-         [](const ex::recorded& r) { return ex::largest_step(r["nearest triangle"]) > 0.05; }},
-        {"it has none", "stroke_force.csv",
-         [](const ex::recorded& r) { return ex::largest_step(r["quadric at 30 Hz"]) < 0.01; }},
-        {"it is the ball's own", "stroke_force.csv",
+       {{"The finger goes 1 to 3 mm deep and back,", "stroke_force.csv",
          [](const ex::recorded& r) {
-           return ex::rms_between(r["quadric at 30 Hz"], r["the ball"]) < 1e-3;
+           const auto mm = [&](double force) { return 1e3 * force / curved::stiffness; };
+           const double shallow = mm(ex::least(r["the ball"])), deep = mm(ex::most(r["the ball"]));
+           return ex::finding(std::abs(shallow - 1.0) < 0.05 && std::abs(deep - 3.0) < 0.05,
+                              ex::format("%.3g to ", shallow) + ex::format("%.3g mm", deep));
+         }},
+        ex::definition("and the force should swing as smoothly."),
+        {"On the nearest of 320 triangles it steps where it crosses an edge;", "stroke_force.csv",
+         [](const ex::recorded& r) {
+           return ex::at_least(ex::largest_step(r["nearest triangle"]), 0.05);
+         }},
+        {"on a quadric, which is published 30 times a second, it has none,", "stroke_force.csv",
+         [](const ex::recorded& r) {
+           return ex::at_most(ex::largest_step(r["quadric at 30 Hz"]), 0.01);
+         }},
+        {"and it is the ball's own, in grey.", "stroke_force.csv",
+         [](const ex::recorded& r) {
+           return ex::at_most(ex::rms_between(r["quadric at 30 Hz"], r["the ball"]), 1e-3);
          }}}},
       "set xlabel 'time [s]'\nset ylabel 'force [N]'\nset yrange [0:*]\nplot 'stroke_force.csv' "
       "using 1:4 with "

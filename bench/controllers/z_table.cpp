@@ -155,22 +155,31 @@ void show_z_width(const session& s, const std::vector<z_row>& rows) {
           "under 1 N, the swing of the fourth second is no larger than the first. A wall that "
           "swings for ever is stable in this sense; so is one that sinks.");
   ex::show_rows(s.out, "z_width", sums);
+  const auto of = [&rows](const z_counts& sum, auto is_so) {
+    return std::count_if(rows.begin(), rows.end(), [&](const z_row& r) {
+      return r.controller == sum.controller && is_so(r);
+    });
+  };
   for (const auto& sum : sums) {
-    s.out.plot(z_plot_name(sum.controller),
-               {"Z-width: " + sum.controller + " (" + to_string(sum.tag) + ")",
-                "Each square is a wall, stiffer upwards and more viscous to the right. " +
-                    std::to_string(sum.passive) + " of " + std::to_string(sum.cells) +
-                    " are passive whatever the hand does, " + std::to_string(sum.stable) +
-                    " come to rest; a cross does not. Left of and below the solid line a wall "
-                    "needs no controller at all.",
-                {{"Left of and below the solid line a wall needs no controller at all", "",
-                  [&rows](const ex::recorded&) {
-                    return std::none_of(rows.begin(), rows.end(), [](const z_row& r) {
-                      const bool left = r.stiffness < 0.99 * 2.0 * (0.03 - r.damping) / 1e-3;
-                      return r.controller == "none" && left && passive_for(r) != 2;
-                    });
-                  }}}},
-               plot_of(sum.points));
+    s.out.plot(
+        z_plot_name(sum.controller),
+        {"Z-width: " + sum.controller + " (" + to_string(sum.tag) + ")",
+         {ex::definition("Each square is a wall, stiffer upwards and more viscous to the "
+                         "right."),
+          {std::to_string(sum.passive) + " of " + std::to_string(sum.cells) +
+               " are passive whatever the hand does,",
+           [&] { return sum.passive == of(sum, [](auto& r) { return passive_for(r) == 2; }); }},
+          {std::to_string(sum.stable) + " are stable;",
+           [&] { return sum.stable == of(sum, [](auto& r) { return stable(r); }); }},
+          ex::definition("those with a cross are not."),
+          {"Left of and below the solid line a wall needs no controller at all.",
+           [&rows] {
+             return std::none_of(rows.begin(), rows.end(), [](const z_row& r) {
+               const bool left = r.stiffness < 0.99 * 2.0 * (0.03 - r.damping) / 1e-3;
+               return r.controller == "none" && left && passive_for(r) != 2;
+             });
+           }}}},
+        plot_of(sum.points));
   }
 }
 

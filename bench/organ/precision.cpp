@@ -149,26 +149,17 @@ void plot(ex::report& out, std::vector<precision_row>& rows, const std::string& 
              " ps variable title '" + surface + "', ";
     style += 2;
   }
-  out.plot(
-      name,
-      {"Error of the force over the work that it costs, from " + from + " at 10 kHz",
-       "The rms error in percent of the force over the CPU time of all updates of a second; larger "
-       "marks are finer meshes. What lies on the line has no rival that is both cheaper and "
-       "better.",
-       {{"no rival that is both cheaper and better", name + "_front.csv",
-         [&rows, share](const ex::recorded& line) {
-           const auto &work = line["work ms"], &error = line["error %"];
-           return !work.empty() && std::none_of(rows.begin(), rows.end(), [&](const auto& r) {
-             for (std::size_t i = 0; i < work.size(); ++i) {  // the file has seven digits
-               if (r.work < 0.999999 * work[i] && r.*share < 0.999999 * error[i]) return true;
-             }
-             return false;
-           });
-         }}}},
-      "set logscale xy\nset xlabel 'CPU time of the updates [ms a second]'\n"
-      "set ylabel 'rms force error [%]'\nplot " +
-          marks + "'" + name +
-          "_front.csv' using 1:2 with steps lw 2 lc rgb '#555555' title 'Pareto front'");
+  out.plot(name,
+           {"Error of the force over the work that it costs, from " + from + " at 10 kHz",
+            {ex::definition(
+                 "The rms error in percent of the force over the CPU time of all updates of a "
+                 "second; larger marks are finer meshes."),
+             {"What lies on the line has no rival that is both cheaper and better.",
+              name + "_front.csv", ex::joins_unbeaten("work ms", "error %", points)}}},
+           "set logscale xy\nset xlabel 'CPU time of the updates [ms a second]'\n"
+           "set ylabel 'rms force error [%]'\nplot " +
+               marks + "'" + name +
+               "_front.csv' using 1:2 with steps lw 2 lc rgb '#555555' title 'Pareto front'");
 }
 
 }  // namespace

@@ -90,21 +90,19 @@ ex::failures run_rates(const session& s) {
   };
   s.out.plot("rates",
              {"The stiffest quiet wall over the update rate",
-              "Crosses: what they found, with listeners and textures. A faster loop helps the "
-              "bare spring here as it does there. make_touch is quiet at every rate, and from 5 "
-              "kHz on stiffer than their 0.904 N/mm.",
-              {{"A faster loop helps the bare spring", "rates.csv",
+              {ex::definition("Crosses: what they found, with listeners and textures."),
+               {"A faster loop helps the bare spring here as it does there.", "rates.csv",
                 [of](const ex::recorded& r) {
                   const auto one = of(r, "bare quiet N/m", 0.05),
                              two = of(r, "bare quiet N/m", 0.5);
                   return one.back() > one.front() && two.back() > two.front();
                 }},
-               {"make_touch is quiet at every rate", "rates.csv",
+               {"make_touch is quiet at every rate,", "rates.csv",
                 [](const ex::recorded& r) {
                   const auto& since = r["touch quiet s"];
                   return std::all_of(since.begin(), since.end(), [](double t) { return t <= 1.5; });
                 }},
-               {"from 5 kHz on stiffer than their 0.904 N/mm", "rates.csv",
+               {"and from 5 kHz on stiffer than their 0.904 N/mm.", "rates.csv",
                 [](const ex::recorded& r) {
                   for (std::size_t i = 0; i < r["rate Hz"].size(); ++i) {
                     if (r["rate Hz"][i] >= 5e3 && !(r["touch N/m"][i] > theirs[1])) return false;

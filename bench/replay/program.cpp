@@ -124,25 +124,25 @@ void plot(ex::report& report, const identification::recording& r,
   ledger.close();
   report.plot("recording",
               {"The recording",
-               "Position on the left, the motor's force on the right.",
-               {{"Position", "recording.csv",
-                 [](const ex::recorded& f) { return ex::swing(f["position"]) > 0.0; }}}},
+               {{"The axis moves;", "recording.csv",
+                 [](const ex::recorded& f) { return ex::swing(f["position"]) > 0.0; }},
+                ex::definition("its position on the left, the motor's force on the right, both cut "
+                               "out about what there is.")}},
               "set ytics nomirror\nset y2tics\nset xlabel 'time s'\nset ylabel 'position'\nset "
               "y2label 'force'\n"
               "plot 'recording.csv' using 1:2 with lines, '' using 1:3 axes x1y2 with lines");
   report.plot("ledger",
               {"What the ledger says and what can be",
-               "The ledger told what may be stated, through the second half. It stays below what "
-               "can be; far below it, "
-               "the device moves or is told less than it takes.",
-               {{"stays below what can be", "ledger.csv",
+               {ex::definition("The ledger told what may be stated, through the second half."),
+                {"It stays below what can be;", "ledger.csv",
                  [](const ex::recorded& f) {
                    const auto &says = f["ledger J"], &may = f["at most J"];
                    for (std::size_t i = 0; i < says.size(); ++i) {
                      if (says[i] > may[i]) return false;
                    }
                    return true;
-                 }}}},
+                 }},
+                ex::definition("far below it, the device moves or is told less than it takes.")}},
               "set xlabel 'row'\nset ylabel 'J'\nplot 'ledger.csv' using 1:2 with lines, '' using "
               "1:3 with lines");
 }

@@ -45,9 +45,9 @@ void figures::add(const figure& f) {
 }
 
 void figures::write_front(const report& out, const std::string& part) const {
-  const auto& points = points_.at(part);
+  const auto& all = points(part);
   csv_file csv(out.path("front_" + part + ".csv"), "ns a tick,error");
-  for (const std::size_t i : pareto_front(points)) csv.row(points[i].first, points[i].second);
+  for (const std::size_t i : pareto_front(all)) csv.row(all[i].first, all[i].second);
   csv.close();
 }
 
@@ -159,10 +159,9 @@ failures report_arithmetic(report& out, const settings& chosen, figures& all) {
   out.plot("arithmetic",
            {"What rounding costs: error of the force after " +
                 format("%.0e", static_cast<double>(chosen.ticks)) + " ticks against run time",
-            "Down is more exact, left is faster. Two levels are to be seen, float above and double "
-            "below; the grey line joins what nothing else beats in both.",
-            {{"float above and double below", "",
-              [&rows, &chosen](const recorded&) {
+            {definition("Down is more exact, left is faster."),
+             {"Two levels are to be seen, float above and double below;",
+              [&rows, &chosen] {
                 double least_float = 1.0, most_double = 0.0;
                 for (const auto& r : rows) {
                   if (r.ticks != chosen.ticks) continue;
@@ -170,8 +169,10 @@ failures report_arithmetic(report& out, const settings& chosen, figures& all) {
                   if (single) least_float = std::min(least_float, r.error.force);
                   if (r.scalar == "double") most_double = std::max(most_double, r.error.force);
                 }
-                return most_double > 0.0 && least_float > 1e3 * most_double;
-              }}}},
+                return at_least(most_double > 0.0 ? least_float / most_double : 0.0, 1e3);
+              }},
+             {"the grey line joins what nothing else beats in both.", "front_arithmetic.csv",
+              joins_unbeaten("ns a tick", "error", all.points("arithmetic"))}}},
            plot + front_of("arithmetic"));
   return found;
 }
@@ -224,8 +225,7 @@ failures report_models(report& out, const settings& chosen, figures& figured) {
             "the stiffness told "
             "there, and the one that 1 µm along the force shows.");
     std::vector<record> shown;
-    std::vector<std::pair<double, double>> points;  // run time, error
-    std::map<double, double> times;                 // of all compositions, by rate
+    std::map<double, double> times;  // of all compositions, by rate
     std::vector<std::size_t> fitting;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (all[i].dof == scene.dof) fitting.push_back(i);
@@ -246,7 +246,6 @@ failures report_models(report& out, const settings& chosen, figures& figured) {
           const double ns = costs[i].time.median + run.update_ns * rate / 1000.0;
           figured.add({scene.name, c.cost.name, format("%g Hz", rate), e.rms_force, ns, costs[i],
                        c.cost.bytes});
-          points.emplace_back(ns, e.rms_force);
           errors[{scene.name + ": " + c.cost.name, rate}] = e;
           times[rate] += ns;
           shown.push_back({{"configuration", c.cost.name},
@@ -280,23 +279,15 @@ failures report_models(report& out, const settings& chosen, figures& figured) {
     out.plot(
         "model_" + scene.name,
         {"Model error against run time: " + scene.name,
-         "Each point is a composition at one rate of the environment, the colours are the "
-         "rates. Faster environments lie to the right, for they are paid for; the grey line joins "
-         "what nothing else beats in both.",
-         {{"Faster environments lie to the right", "",
-           [&times](const recorded&) {
-             return times.size() > 1 && times.rbegin()->second > times.begin()->second;
+         {definition("Each point is a composition at one rate of the environment, the colours are "
+                     "the rates."),
+          {"Faster environments lie to the right, for they are paid for;",
+           [&times] {
+             return times.size() > 1 ? at_least(times.rbegin()->second / times.begin()->second, 1.0)
+                                     : finding(false);
            }},
-          {"what nothing else beats in both", "front_" + scene.name + ".csv",
-           [&points](const recorded& front) {
-             const auto &ns = front["ns a tick"], &error = front["error"];
-             return !ns.empty() && std::none_of(points.begin(), points.end(), [&](const auto& p) {
-               for (std::size_t i = 0; i < ns.size(); ++i) {  // the file has seven digits
-                 if (p.first < 0.999999 * ns[i] && p.second < 0.999999 * error[i]) return true;
-               }
-               return false;
-             });
-           }}}},
+          {"the grey line joins what nothing else beats in both.", "front_" + scene.name + ".csv",
+           joins_unbeaten("ns a tick", "error", figured.points(scene.name))}}},
         plot + front_of(scene.name));
   }
   const auto of = [&errors](const std::string& what, double rate) {
@@ -306,37 +297,36 @@ failures report_models(report& out, const settings& chosen, figures& figured) {
                     slowly = "ball: plane, turn_limited, spring, reachable";
   out.section(
       "What to read off the models",
-      "The strict bound is off by more than half of the largest force on the wall, for this hand "
-      "begins with an empty ledger. Turning normals slowly costs 0.02 to 0.03 N of error on the "
-      "ball, and makes the largest step half at 30 Hz and a seventh at 1 kHz. On the organ a "
-      "triangle steps by a newton at 30 Hz as at 1 kHz and a plane by less than a tenth: under a "
-      "dent the closest point lies on an edge, beside every triangle's prism, and the contact is "
-      "lost. Send the tangent plane of a mesh that dents.",
-      {{"off by more than half of the largest force on the wall", "",
-        [&](const recorded&) {
-          return of("wall: wall, spring, strict", 30).rms_force > 0.5 * strongest_of.at("wall");
+      {{"The strict bound is off by more than half of the largest force on the wall,",
+        [&] {
+          return at_least(of("wall: wall, spring, strict", 30).rms_force / strongest_of.at("wall"),
+                          0.5);
         }},
-       {"costs 0.02 to 0.03 N of error on the ball", "",
-        [&](const recorded&) {
+       definition("for this hand begins with an empty ledger."),
+       {"Turning normals slowly costs 0.02 to 0.03 N of error on the ball,",
+        [&] {
           return std::ranges::all_of(std::array{30.0, 1000.0}, [&](double rate) {
             const double cost = of(slowly, rate).rms_force - of(at_once, rate).rms_force;
             return cost > 0.015 && cost < 0.035;
           });
         }},
-       {"half at 30 Hz and a seventh at 1 kHz", "",
-        [&](const recorded&) {
+       {"and makes the largest step half at 30 Hz and a seventh at 1 kHz.",
+        [&] {
           const auto left = [&](double rate) {
             return of(slowly, rate).largest_step / of(at_once, rate).largest_step;
           };
           return std::abs(left(30) - 0.5) < 0.1 && std::abs(left(1000) - 1.0 / 7.0) < 0.03;
         }},
-       {"a triangle steps by a newton at 30 Hz as at 1 kHz and a plane by less than a tenth", "",
-        [&](const recorded&) {
+       {"On the organ a triangle steps by a newton at 30 Hz as at 1 kHz and a plane by less than a "
+        "tenth:",
+        [&] {
           return std::ranges::all_of(std::array{30.0, 1000.0}, [&](double rate) {
             return of("mesh: triangle, turn_limited, spring, reachable", rate).largest_step > 0.9 &&
                    of("mesh: plane, turn_limited, spring, reachable", rate).largest_step < 0.1;
           });
-        }}});
+        }},
+       definition("under a dent the closest point lies on an edge, beside every triangle's prism, "
+                  "and the contact is lost. Send the tangent plane of a mesh that dents.")});
   out.member("models", json_of(models, std::identity{}));
   return found;
 }

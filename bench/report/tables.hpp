@@ -48,6 +48,11 @@ class figures {
   explicit figures(const report& out);
   void add(const figure& f);
   void write_front(const report& out, const std::string& part) const;
+  /// Run time [ns] and error of a part.
+  [[nodiscard]] const std::vector<std::pair<double, double>>& points(
+      const std::string& part) const {
+    return points_.at(part);
+  }
   void close() { csv_.close(); }
 
  private:

@@ -145,17 +145,17 @@ void plot_swing(const session& s, const std::vector<row>& rows) {
   s.out.plot(
       "swing",
       {"A mass falls onto ever stiffer walls",
-       "The most mechanical energy of the second half of a run over that of the first (0.1 "
-       "kg, 0.03 N·s/m, ticks of 1 ms). Above the dashed line the device has gained energy "
-       "from the wall, as without a controller on stiff ones; a curve that falls to the lower "
-       "edge has come to rest.",
-       {{"as without a controller on stiff ones", "",
-         [&rows](const ex::recorded&) {
+       {ex::definition("The most mechanical energy of the second half of a run over that of the "
+                       "first (0.1 kg, 0.03 N·s/m, ticks of 1 ms)."),
+        {"Above the dashed line the device has gained energy from the wall, as without a "
+         "controller on stiff ones;",
+         [&rows] {
            return std::any_of(rows.begin(), rows.end(), [](const row& r) {
              return r.controller == "none" && r.where.axis == "K N/m" &&
                     std::string(r.scalar) == "double" && r.dof == 1 && r.found.swing > 1.0;
            });
-         }}}},
+         }},
+        ex::definition("a curve that falls to the lower edge has come to rest.")}},
       "set logscale xy\nset format '10^{%L}'\nset xlabel 'stiffness of the wall [N/m]'\n"
       "set ylabel 'energy, last over first'\n" +
           ex::curves(lines) + ", 1 with lines dt 2 lt -1 title 'no gain'");

@@ -27,6 +27,8 @@ printed print(const ex::table& t) {
   return p;
 }
 
+const ex::clause rising{"It rises.", [] { return true; }};
+
 bool mentions(const std::string& text, const std::string& what) {
   return text.find(what) != std::string::npos;
 }
@@ -105,7 +107,7 @@ TEST_CASE("without gnuplot a report has everything but the plots, and says so", 
   const std::string path = std::getenv("PATH");
   for (const bool there : {false, true}) {
     ex::report out(folder.path());
-    out.plot("line", {"A line", "It rises.", {}}, "plot x");
+    out.plot("line", {"A line", {rising}}, "plot x");
     out.member("answer", "42");
     if (!there) setenv("PATH", "/nowhere", 1);
     const bool drawn = out.finish("title");
@@ -179,9 +181,9 @@ TEST_CASE("a page has a table of contents, a caption for each plot, and asks nob
   numbers.add({"a <b>", "1.5"});
   out.section("First & last", "Text.");
   out.show(numbers);
-  out.plot("line", {"A \"line\"", "It rises.", {}}, "plot x");
+  out.plot("line", {"A \"line\"", {rising}}, "plot x");
   out.section("First & last", "The same name once more.");
-  out.plot("wave", {"A wave", "It does not.", {}}, "plot sin(x)");
+  out.plot("wave", {"A wave", {ex::definition("It does not.")}}, "plot sin(x)");
   static_cast<void>(out.finish("title", "What it is about."));
   const std::string page = text_of(folder / "index.html");
 
@@ -212,21 +214,48 @@ TEST_CASE("a caption that its own curve denies fails the program", "[report]") {
     return r["force N"].back() > r["force N"].front();
   };
   const auto falls = [rises](const ex::recorded& r) { return !rises(r); };
-  out.plot("line", {"A line", "It rises by 6 N.", {{"It rises", "line.csv", rises}}}, "plot x");
-  CHECK(out.untrue().empty());
-  out.plot("line", {"A line", "It falls.", {{"It falls", "line.csv", falls}}}, "plot x");
-  out.plot("line", {"A line", "It goes up.", {{"It rises", "line.csv", rises}}}, "plot x");
-  out.plot("line", {"A line", "It is there.", {}}, "plot x");
-  out.section("A table", "It rises.", {{"It rises", "line.csv", rises}});
-  REQUIRE(out.untrue().size() == 3);
-  out.section("A table", "It falls.", {{"It falls", "line.csv", falls}});
-  REQUIRE(out.untrue().size() == 4);
-  CHECK(out.untrue()[3] == "the text of A table is not so: \"It falls\"");
-  CHECK(out.untrue()[0] == "the caption of line is not so: \"It falls\"");
-  CHECK(out.untrue()[1] == "the caption of line does not say \"It rises\"");
-  CHECK(out.untrue()[2] == "the caption of line claims nothing");
+  const auto by = [](double least) {
+    return [=](const ex::recorded& r) { return ex::at_least(ex::swing(r["force N"]), least); };
+  };
+  // Words that claim nothing and are not called a definition are no clause, and do not compile.
+  static_assert(!std::is_constructible_v<ex::clause, std::string>);
+  static_assert(!std::is_constructible_v<ex::clause, std::string, std::string>);
+  static_assert(!std::is_constructible_v<ex::clause, std::string, std::string, std::nullptr_t>);
+  static_assert(std::is_constructible_v<ex::clause, std::string, std::string, decltype(rises)>);
+  const auto said = [&out](ex::clauses all, const char* commands = "plot x") {
+    const std::size_t before = out.untrue().size();
+    out.plot("line", {"A line", std::move(all)}, commands);
+    return std::vector(out.untrue().begin() + static_cast<std::ptrdiff_t>(before),
+                       out.untrue().end());
+  };
+  using wrong = std::vector<std::string>;
+  const ex::clause so{"It rises", "line.csv", rises};
+  constexpr int so_at = __LINE__ - 1;
+  const char *from_0 = "set ylabel 'force [N]'\nset yrange [0:*]\nplot x",
+             *from_anywhere = "set ylabel 'force [N]'\nplot x";
+  CHECK(said({so, {"by 6 N.", "line.csv", by(6.0)}}, from_0).empty());
+  CHECK(said({so, {"by 7 N.", "line.csv", by(7.0)}}) ==
+        wrong{"the caption of line is not so: \"by 7 N.\" (6, at least 7)"});
+  CHECK(said({so, {"It falls.", "line.csv", falls}}) ==
+        wrong{"the caption of line is not so: \"It falls.\""});
+  CHECK(said({so, {"Nothing falls.", [] { return false; }}}) ==
+        wrong{"the caption of line is not so: \"Nothing falls.\""});
+  CHECK(said({ex::definition("It is there.")}) == wrong{"the caption of line claims nothing"});
+  CHECK(said({so}, from_anywhere) == wrong{"line: the axis of the force does not begin at 0"});
+  CHECK(said({so}, "set logscale xy\nset ylabel 'force [N]'\nplot x").empty());
+  out.section("A table", {{"It falls.", "line.csv", falls}, so});
+  CHECK(out.untrue().back() == "the text of A table is not so: \"It falls.\"");
   CHECK(ex::conclude(out, "program", "title", "", {}) == 1);
-  CHECK(mentions(text_of(folder / "results.json"), "\"words\": \"It rises\""));
+  const std::string json = text_of(folder / "results.json"), page = text_of(folder / "index.html");
+  for (const std::string& what : std::vector<std::string>{
+           "by 6 N.", "so (6, at least 6)", "NOT SO (6, at least 7)", "definition",
+           "tests/experiments/report.cpp:" + std::to_string(so_at), "line.csv"}) {
+    INFO(what);
+    CHECK(mentions(json, what));
+    CHECK(mentions(page, what));
+  }
+  CHECK(mentions(page, "It rises by 6 N."));
+  CHECK(mentions(page, "Both axes are logarithmic."));
 
   const ex::recorded read(folder / "line.csv");
   CHECK(read.within("force N", 0.5, 1.5) == std::vector<double>{3.0});
@@ -239,7 +268,7 @@ TEST_CASE("a caption that its own curve denies fails the program", "[report]") {
 TEST_CASE("a plot has no ground of its own and is readable in both schemes", "[report]") {
   const scratch_folder folder;
   ex::report out(folder.path());
-  out.plot("line", {"Line & dot", "It rises.", {}}, "plot x lt 1, 2*x lt -1");
+  out.plot("line", {"Line & dot", {rising}}, "plot x lt 1, 2*x lt -1");
   if (!out.finish("title")) {
     WARN("gnuplot is not installed, or did not draw: left out");
     return;
