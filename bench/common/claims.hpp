@@ -145,7 +145,7 @@ class clause {
   [[nodiscard]] finding look_up(const std::filesystem::path& folder) const {
     return holds_(file_.empty() ? recorded{} : recorded(folder / file_));
   }
-  /// Where the predicate stands: "bench/organ/chain.cpp:280".
+  /// Where it stands with its predicate, or what it is a part of begins: "bench/organ/chain.cpp:280".
   [[nodiscard]] std::string at() const {
     const std::filesystem::path file(at_.file), room = file.parent_path();
     return (room.parent_path().filename() / room.filename() / file.filename()).generic_string() +

@@ -190,10 +190,10 @@ class report {
       said_.push_back({which, (found.so ? "so" : "NOT SO") + by, said});
     }
   }
-  /// The last table: what captions and texts say, sentence by sentence, and what each predicate has found.
+  /// The last table: what captions and texts say, clause by clause, and what each predicate has found.
   void list_clauses() {
     if (said_.empty()) return;
-    table all({"which", "says", "found", "file", "predicate"});
+    table all({"which", "says", "found", "file", "source"});
     std::vector<std::string> items;
     for (const auto& [which, found, said] : said_) {
       const std::string at = said.is_claim() ? said.at() : "";
@@ -202,12 +202,12 @@ class report {
                                    {"words", json_string(said.words())},
                                    {"found", json_string(found)},
                                    {"file", json_string(said.file())},
-                                   {"predicate", json_string(at)}}));
+                                   {"source", json_string(at)}}));
     }
     const std::string title = "What the captions say",
                       text =
-                          "Each sentence with what its predicate found in the file that is drawn, "
-                          "and where that predicate stands; what no curve could deny is a "
+                          "Clause by clause: what its predicate found in the file that is drawn, "
+                          "and where caption and predicate stand. What no curve could deny is a "
                           "definition.";
     page_.section(title, text);
     page_.show(all);
