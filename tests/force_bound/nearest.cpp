@@ -263,7 +263,8 @@ TEMPLATE_TEST_CASE(
       return device.affordable(g, E, T);
     };
     const double most = ph::detail::yield<P>(device, f, E, T) * random.uniform(0.0, 3.0);
-    const typename P::vector found = ph::detail::nearest_of<P>(device, f, most, covered);
+    const typename P::vector found = ph::detail::nearest_of<P>(
+        device, f, [&] { return most; }, covered);
     double best = HUGE_VAL;
     int where = 0;
     for (int i = 0; i <= (most > 0.0 ? 16 : 0); ++i) {  // what is missed has one minimum over λ

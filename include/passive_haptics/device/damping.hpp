@@ -90,19 +90,19 @@ template <class P>
   const typename P::effort left = damping.yielding(f, yield<P>(damping, f, E, T));
   return left * damping.affordable(left, E, T);  // for the rest of Newton's error, and rounding
 }
-/// The effort share_of(g, E) g nearest to f, where g = yielding(f, λ) and 0 ≤ λ ≤ `most`. λ is searched by halving,
-/// four times, from 0 (one share for all axes) and `most` (the nearest effort that E covers for T under the strict bound).
+/// The effort share_of(g) g nearest to f, where g = yielding(f, λ) and 0 ≤ λ ≤ most_of(). λ is searched by halving, four
+/// times, from 0 (one share for all axes) and most_of() (the nearest effort under the strict bound).
 template <class P>
 [[nodiscard]] constexpr typename P::effort nearest_of(const auto& damping,
                                                       const typename P::effort& f,
-                                                      typename P::scalar E, typename P::scalar T,
+                                                      const auto& most_of,
                                                       const auto& share_of) noexcept {
   using scalar = typename P::scalar;
   typename P::effort best = P::zero();
   scalar least = kernels::largest<scalar>(), at(0);
   const auto look = [&](scalar lambda) {
     const typename P::effort left = damping.yielding(f, lambda);
-    const typename P::effort now = left * share_of(left, E);
+    const typename P::effort now = left * share_of(left);
     scalar square(0);
     for (int i = 0; i < P::dof; ++i) {
       const scalar off = P::component(f, i) - P::component(now, i);
@@ -114,8 +114,7 @@ template <class P>
     at = lambda;
   };
   look(scalar(0));
-  if (least == scalar(0)) return best;
-  const scalar most = yield<P>(damping, f, E, T);
+  const scalar most = least > scalar(0) ? most_of() : scalar(0);
   if (!(most > scalar(0))) return best;
   look(most);
   for (scalar step = most / scalar(2); step > most / scalar(32); step /= scalar(2)) {

@@ -132,10 +132,12 @@ class reachable_bound::on {
       const effort& desired, const State& state) const noexcept {
     if constexpr (detail::differs_by_axis<typename State::damping_type, Space>) {
       if (detail::paid(desired, state)) return desired;
+      const scalar credit = detail::left_over<1>(state, *this);
       return detail::nearest_of<Space>(
-          state.damping, desired, detail::left_over<1>(state, *this), state.longest_tick,
-          [&](const effort& f, scalar E) {
-            return detail::paid(f, state) ? scalar(1) : detail::covered(f, state, *this, E);
+          state.damping, desired,
+          [&] { return detail::yield<Space>(state.damping, desired, credit, state.longest_tick); },
+          [&](const effort& f) {
+            return detail::paid(f, state) ? scalar(1) : detail::covered(f, state, *this, credit);
           });
     } else {
       return {detail::covered(desired, state, *this)};
@@ -240,17 +242,20 @@ class basic_reachable_work_bound<Inertia>::on {
                   "friction into `hand` instead of crediting it");
     scalar credit = state.energy;
     if constexpr (State::latency > 0) promise<1>(credit, state);
-    const auto share_of = [&](const effort& f, scalar E) {
+    const auto share_of = [&](const effort& f) {
       const scalar W = state.damping.worst_outflow(f, state.longest_tick);
-      if (W <= kernels::spendable(E)) return scalar(1);
+      if (W <= kernels::spendable(credit)) return scalar(1);
       const scalar norm = inertia_.norm(f);
       if (!(norm > scalar(0))) return scalar(1);
-      return kernels::reachable_share(E, W, reach<State::latency + 1>(f, norm, norm, state));
+      return kernels::reachable_share(credit, W, reach<State::latency + 1>(f, norm, norm, state));
     };
     if constexpr (detail::differs_by_axis<typename State::damping_type, P>) {
-      return detail::nearest_of<P>(state.damping, desired, credit, state.longest_tick, share_of);
+      return detail::nearest_of<P>(
+          state.damping, desired,
+          [&] { return detail::yield<P>(state.damping, desired, credit, state.longest_tick); },
+          share_of);
     } else {
-      return {share_of(desired, credit)};
+      return {share_of(desired)};
     }
   }
 
