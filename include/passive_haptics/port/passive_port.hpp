@@ -236,8 +236,8 @@ class passive_port {
     source_.explain(e, where(), limits_.longest_tick, latency);
     detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
     if constexpr (!Observer::exact) e.floor = e.shown * static_cast<double>(travel_error());
-    // A tick that asks for nothing where nothing stays nothing is not bounded, so is_cut_ is that of the tick before.
-    const bool cut = is_cut_ && !(zero_stays_zero && e.depth == 0.0 && e.force == 0.0);
+    // Where nothing stays nothing and no part is told of it, is_cut_ is that of the tick before.
+    const bool cut = is_cut_ && !(skips_zero && e.depth == 0.0 && e.force == 0.0);
     if (cut && e.now == softened_by::nothing) e.now = softened_by::ledger;
     if (!cut && e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth) e.now = softened_by::nothing;
     const bool asks = cut || e.depth > 0.0;
@@ -272,6 +272,8 @@ class passive_port {
   static constexpr bool trusting = guard_type::trusting;
   /// True if the bound only reduces, so that zero effort stays zero.
   static constexpr bool zero_stays_zero = detail::reduces<Bound, P, state_type>();
+  static constexpr bool skips_zero =
+      zero_stays_zero && detail::keeps_nothing<Bound, P, state_type>();
   /// True if the bound limits the motion between samples, and the ledger uses that.
   static constexpr bool reaches = !trusting && detail::knows_reach<bound_type, P> &&
                                   detail::knows_most_held<bound_type> &&
@@ -370,6 +372,7 @@ class passive_port {
     if constexpr (zero_stays_zero) {
       if (request.nothing) {
         detail::idle<Bound, P>(bound_, state);
+        if constexpr (!skips_zero) is_cut_ = false;
         if constexpr (looks) bound_.watching().look_on(false);
         guard_.command(P::zero());
         amend(what, false);
