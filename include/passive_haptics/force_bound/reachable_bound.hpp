@@ -36,20 +36,20 @@ template <int J, class State>
   }
 }
 
-/// True if the ledger covers the strict bound of `desired` and of the commands before it.
-template <class State>
-[[nodiscard]] constexpr bool paid(const typename State::effort& desired,
-                                  const State& state) noexcept {
-  return state.damping.worst_outflow(desired, state.longest_tick) <=
-         kernels::spendable(state.credit());
-}
-/// The share of `desired` that the `credit` [J] left after the commands before it covers.
-template <class State>
+struct reckoned_now {
+  [[nodiscard]] constexpr auto operator()(const auto& state, const auto& bound) const noexcept {
+    return left_over<1>(state, bound);
+  }
+};
+/// The share of `desired` that the ledger covers after the commands before it, which leave `left(state, bound)` [J].
+template <class State, class Left = reckoned_now>
 [[nodiscard]] constexpr auto covered(const typename State::effort& desired, const State& state,
-                                     const auto& bound, typename State::scalar credit) noexcept {
+                                     const auto& bound, Left left = {}) noexcept {
   using scalar = typename State::scalar;
   using P = typename State::port_type;
-  const scalar force = P::norm(desired);
+  const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
+  if (outflow <= kernels::spendable(state.credit())) return scalar(1);
+  const scalar credit = left(state, bound), force = P::norm(desired);
   if (!(force > scalar(0))) return scalar(1);
   scalar most = kernels::reachable_force_bound(
       credit, state.damping.per_tick(desired, state.longest_tick),
@@ -66,12 +66,6 @@ template <class State>
     most = kernels::smaller(most, (most + kernels::larger(before, scalar(0))) / scalar(2));
   }
   return scalar(most / force);
-}
-template <class State>
-[[nodiscard]] constexpr auto covered(const typename State::effort& desired, const State& state,
-                                     const auto& bound) noexcept {
-  if (paid(desired, state)) return typename State::scalar(1);
-  return covered(desired, state, bound, left_over<1>(state, bound));
 }
 }  // namespace detail
 
@@ -131,13 +125,12 @@ class reachable_bound::on {
   [[nodiscard]] constexpr detail::what_is_left<State, Space> limit(
       const effort& desired, const State& state) const noexcept {
     if constexpr (detail::differs_by_axis<typename State::damping_type, Space>) {
-      if (detail::paid(desired, state)) return desired;
       const scalar credit = detail::left_over<1>(state, *this);
       return detail::nearest_of<Space>(
           state.damping, desired,
           [&] { return detail::yield<Space>(state.damping, desired, credit, state.longest_tick); },
           [&](const effort& f) {
-            return detail::paid(f, state) ? scalar(1) : detail::covered(f, state, *this, credit);
+            return detail::covered(f, state, *this, [=](const auto&...) { return credit; });
           });
     } else {
       return {detail::covered(desired, state, *this)};
