@@ -43,8 +43,9 @@ struct reckoned_now {
 };
 /// The share of `desired` that the ledger covers after the commands before it, which leave `left(state, bound)` [J].
 template <class State, class Left = reckoned_now>
-[[nodiscard]] constexpr auto covered(const typename State::effort& desired, const State& state,
-                                     const auto& bound, Left left = {}) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr auto covered(const typename State::effort& desired,
+                                                         const State& state, const auto& bound,
+                                                         Left left = {}) noexcept {
   using scalar = typename State::scalar;
   using P = typename State::port_type;
   const scalar outflow = state.damping.worst_outflow(desired, state.longest_tick);
