@@ -502,9 +502,9 @@ class passive_port {
   /// The work that a long turn may hide, which the inertia may limit more than lemma C.
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool book_late(typename P::stored_effort travel,
                                                                    held_type held,
-                                                                   scalar dt) noexcept
-      requires(knows_hidden) {
-    return observer_.update(travel, held, dt, unseen(held, dt).beside);
+                                                                   scalar dt) noexcept {
+    if constexpr (knows_hidden) return observer_.update(travel, held, dt, unseen(held, dt).beside);
+    return observer_.update(travel, held, dt);  // never: for whoever instantiates all members
   }
   /// The most work that an effort can have done in a time `dt` [s] without samples, after the last known tick.
   [[nodiscard]] constexpr detail::unseen_work<scalar> unseen(const effort& held,
