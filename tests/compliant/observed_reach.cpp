@@ -47,19 +47,27 @@ TEST_CASE("controls: observed_reach that is told a slower pull, or a heavier rot
 
 TEST_CASE("a motion that refutes what observed_reach was told is reported, and bounded strictly",
           "[compliant][observed_reach][event]") {
-  ph::passive_port port{d1{}, ph::given_force{}, ph::reduced_energy{.damping = 0.1, .loan = 1e-3},
-                        ph::observed_reach{.mass = 0.1, .slew = 100.0},
-                        ph::loop_limits{.longest_tick = 1e-3}};
-  double x = 0.0, v = 0.0;
-  bool said = false;
-  for (int n = 0; n < 20; ++n) {
-    said = said || port.tick(x, ph::seconds{1e-3}, 0.0).what == ph::event::outside_force;
-    v += n == 10 ? 0.1 : 0.0;  // 10 N in one tick
-    x += v * 1e-3;
-  }
-  CHECK(said);
-  port.reset();
-  CHECK(port.tick(x, ph::seconds{1e-3}, 0.0).what == ph::event::nominal);
+  const auto reports = [](auto port, const auto&... wanted) {
+    double x = 0.0, v = 0.0;
+    bool said = false;
+    for (int n = 0; n < 20; ++n) {
+      said = said || port.tick(x, ph::seconds{1e-3}, wanted...).what == ph::event::outside_force;
+      v += n == 10 ? 0.1 : 0.0;  // 10 N in one tick
+      x += v * 1e-3;
+    }
+    CHECK(said);
+    port.reset();
+    CHECK(port.tick(x, ph::seconds{1e-3}, wanted...).what == ph::event::nominal);
+  };
+  const ph::reduced_energy ledger{.damping = 0.1, .loan = 1e-3};
+  const ph::observed_reach bound{.mass = 0.1, .slew = 100.0};
+  const ph::loop_limits limits{.longest_tick = 1e-3};
+  reports(ph::passive_port{d1{}, ph::given_force{}, ledger, bound, limits}, 0.0);
+  const ph::fixed far_away{ph::half_space<d1>{-1.0, 1.0, 500.0}};  // which asks for nothing here
+  const ph::bound_chain motors{bound, ph::thermal_limit{.peak = 5.0, .continuous = 5.0}};
+  reports(ph::local_model{d1{}, far_away, ph::turn_at_once{}, ph::spring{}, ledger, bound, limits});
+  reports(
+      ph::local_model{d1{}, far_away, ph::turn_at_once{}, ph::spring{}, ledger, motors, limits});
 }
 
 TEST_CASE("a force that observed_reach bounds at rest does not tremble as the ticks do",

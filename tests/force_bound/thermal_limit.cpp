@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Motors that hold more for a while than for ever: the mean square is never above the continuous force's.
 #include "force_bound/upkeep.hpp"
+#include <passive_haptics/constraint_geometry/fixed.hpp>
+#include <passive_haptics/contact/spring.hpp>
+#include <passive_haptics/energy_observer/no_observer.hpp>
+#include <passive_haptics/force_bound/actuator_limit.hpp>
+#include <passive_haptics/force_bound/bound_chain.hpp>
 #include <passive_haptics/force_bound/thermal_limit.hpp>
+#include <passive_haptics/local_model.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
@@ -101,6 +108,31 @@ TEST_CASE("a reset makes a winding cold", "[bound]") {
   limit.reset();
   CHECK(limit.warmth() == 0.0);
   CHECK(allowed(limit, 5.0, now) == 3.3);
+}
+
+TEST_CASE("a winding cools in the air, where nothing is asked of it", "[bound]") {
+  const auto holds_again = [](const auto& bound) {
+    ph::local_model wall{d1{},
+                         ph::fixed{ph::half_space<d1>{0.0, 1.0, 1e3}},
+                         ph::turn_at_once{},
+                         ph::spring{},
+                         ph::no_observer{},
+                         bound,
+                         ph::loop_limits{.longest_tick = 1e-3}};
+    double force = 0.0;
+    const auto stay = [&](double x, int ticks) {
+      for (int n = 0; n < ticks; ++n) force = wall.tick(x, ph::seconds{1e-3}).force;
+      return force;
+    };
+    CHECK(stay(-0.004, 1) == 3.3);
+    CHECK(stay(-0.004, 5000) < 0.95);
+    CHECK(stay(0.001, 1) == 0.0);
+    CHECK(stay(-0.004, 1) < 1.1);  // still warm
+    CHECK(stay(0.001, 20000) == 0.0);
+    return stay(-0.004, 1);
+  };
+  CHECK(holds_again(touch) == 3.3);
+  CHECK(holds_again(ph::bound_chain{ph::actuator_limit{.most = 9.0}, touch}) == 3.3);
 }
 
 TEST_CASE("a winding that is warmer than a new limit allows cools down to it", "[bound]") {

@@ -141,14 +141,13 @@ template <class Spec, class P, class... States>
   }
 }
 
-/// Passes a tick without an effort to a part that has a state.
+/// Passes a tick without an effort to the parts that have a state.
 template <class Spec, class P, class... States>
 [[gnu::always_inline]] constexpr void idle(auto& part, const States&... states) noexcept {
-  if constexpr (requires { part.idle(states...); }) {
+  if constexpr (requires { part.idle(states...); })
     part.idle(states...);
-  } else if constexpr (!keeps_nothing<Spec, P, States...>()) {
+  else if constexpr (!keeps_nothing<Spec, P, States...>())
     static_cast<void>(applied<P>(part, P::zero(), states...));
-  }
 }
 
 /// The number of parts in `Spec` at a port that take `Parameters`; it is 1 for the same struct.

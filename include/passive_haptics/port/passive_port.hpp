@@ -236,8 +236,8 @@ class passive_port {
     source_.explain(e, where(), limits_.longest_tick, latency);
     detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
     if constexpr (!Observer::exact) e.floor = e.shown * static_cast<double>(travel_error());
-    // Where nothing stays nothing and no part is told of it, is_cut_ is that of the tick before.
-    const bool cut = is_cut_ && !(skips_zero && e.depth == 0.0 && e.force == 0.0);
+    // A tick that asks for nothing where nothing stays nothing is not bounded, so is_cut_ is that of the tick before.
+    const bool cut = is_cut_ && !(zero_stays_zero && e.depth == 0.0 && e.force == 0.0);
     if (cut && e.now == softened_by::nothing) e.now = softened_by::ledger;
     if (!cut && e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth) e.now = softened_by::nothing;
     const bool asks = cut || e.depth > 0.0;
@@ -270,10 +270,9 @@ class passive_port {
 
   /// True for trusted_loop_limits: samples are not checked, and a bad one is not written off.
   static constexpr bool trusting = guard_type::trusting;
-  /// True if the bound only reduces, so that zero effort stays zero.
-  static constexpr bool zero_stays_zero = detail::reduces<Bound, P, state_type>();
-  static constexpr bool skips_zero =
-      zero_stays_zero && detail::keeps_nothing<Bound, P, state_type>();
+  /// True if the bound only reduces, so zero effort stays zero, and if it has no state, so it need not be called then.
+  static constexpr bool reduces = detail::reduces<Bound, P, state_type>();
+  static constexpr bool zero_stays_zero = reduces && detail::keeps_nothing<Bound, P, state_type>();
   /// True if the bound limits the motion between samples, and the ledger uses that.
   static constexpr bool reaches = !trusting && detail::knows_reach<bound_type, P> &&
                                   detail::knows_most_held<bound_type> &&
@@ -287,8 +286,7 @@ class passive_port {
   };
   struct unasked {};
   /// True if the desired effort is finite and the bound only reduces it, so that the result need not be checked.
-  static constexpr bool always_numbers =
-      source_type::asks_for_numbers && detail::reduces<Bound, P, state_type>();
+  static constexpr bool always_numbers = source_type::asks_for_numbers && reduces;
   static constexpr bool looks = detail::looks_at_motion<bound_type>;
   /// True if the bound reckons with what a mass can do in a tick, and so with its length.
   static constexpr bool reckons = promise_of<Bound, P>() == guarantee::conditional;
@@ -367,12 +365,16 @@ class passive_port {
                            .travel_error = travel_error(),
                            .motion_known = known,
                            .late = late};
-    const auto request = source_.template ask<zero_stays_zero>(
+    const auto request = source_.template ask<reduces>(
         motion_.estimate(position, travel, force, dt, known), state, what);
-    if constexpr (zero_stays_zero) {
+    if constexpr (reduces) {
       if (request.nothing) {
-        detail::idle<Bound, P>(bound_, state);
-        if constexpr (!skips_zero) is_cut_ = false;
+        if constexpr (!zero_stays_zero) {
+          detail::idle<Bound, P>(bound_, state);
+          is_cut_ = false;
+          if constexpr (reckons) recent_ = {};
+          if constexpr (looks) what = worse(what, bound_.watching().seen());
+        }
         if constexpr (looks) bound_.watching().look_on(false);
         guard_.command(P::zero());
         amend(what, false);
@@ -504,7 +506,7 @@ class passive_port {
                                                                    held_type held,
                                                                    scalar dt) noexcept {
     if constexpr (knows_hidden) return observer_.update(travel, held, dt, unseen(held, dt).beside);
-    return observer_.update(travel, held, dt);  // never: for whoever instantiates all members
+    return observer_.update(travel, held, dt);
   }
   /// The most work that an effort can have done in a time `dt` [s] without samples, after the last known tick.
   [[nodiscard]] constexpr detail::unseen_work<scalar> unseen(const effort& held,
