@@ -64,7 +64,7 @@ class edge_observer::on {
   constexpr void set(const edge_observer& p) noexcept {
     quantum_ = detail::number<scalar>(p.quantum);
     presliding_ = detail::number<scalar>(p.presliding);
-    for (axis& a : axes_) a.turns = 0;
+    for (axis& a : axes_) a.turns = rests() ? a.turns : 0;
   }
   [[nodiscard]] constexpr edge_observer parameters() const noexcept {
     return {.quantum = static_cast<double>(quantum_),
@@ -122,11 +122,11 @@ class edge_observer::on {
     a.t += dt;
     if (!(kernels::magnitude(a.travel) < quantum_ / scalar(2))) {
       const scalar now = a.travel < scalar(0) ? scalar(-1) : scalar(1);
-      const bool rests = scalar(2) * presliding_ > quantum_ && swings(a, now, step);
+      const bool held = rests() && swings(a, now, step);
       v = now * speed_at_edge(a, now, kernels::magnitude(v), dt);
       a = {scalar(0), now, scalar(0), kernels::magnitude(v), a.low, a.high, a.turns};
       const scalar ahead = kernels::smaller(a.speed * dt, quantum_);
-      if (!rests) x = step + (quantum_ - now * (quantum_ - ahead)) / scalar(2);
+      if (!held) x = step + (quantum_ - now * (quantum_ - ahead)) / scalar(2);
     } else if (a.t > still) {
       if (a.turns == 2) x = middle(step);
       a.turns = 0;
@@ -144,6 +144,7 @@ class edge_observer::on {
     }
   }
 
+  [[nodiscard]] constexpr bool rests() const noexcept { return scalar(2) * presliding_ > quantum_; }
   [[nodiscard]] constexpr scalar middle(scalar step) const noexcept {
     return step + quantum_ / scalar(2);
   }
