@@ -36,7 +36,7 @@ template <int J, class State>
   }
 }
 
-struct reckoned_now {
+struct reckoned_now {  // left_over, only where it is asked for
   [[nodiscard]] constexpr auto operator()(const auto& state, const auto& bound) const noexcept {
     return left_over<1>(state, bound);
   }

@@ -89,14 +89,14 @@ class crossed_step::on : public encoder_step::on<P> {
   /// Takes the motion shown over a tick in which `held` was held, before its changes are charged.
   constexpr void see(const motion& shown, const effort& held, scalar dt,
                      const auto& damping) noexcept {
-    const scalar moved = length(shown) + this->travel_error();
-    const scalar other = hand_force_ + scalar(2) * (detail::most_damping<P>(damping) / dt) * moved;
-    const scalar q = this->along_axis(0);
-    const bool pressed = !(P::squared(held) == scalar(0));
     if (refuted_) {
       given_ = scalar(0);
       return;
     }
+    const scalar moved = length(shown) + this->travel_error();
+    const scalar other = hand_force_ + scalar(2) * (detail::most_damping<P>(damping) / dt) * moved;
+    const scalar q = this->along_axis(0);
+    const bool pressed = !(P::squared(held) == scalar(0));
     if (given_now_ > scalar(0)) {
       given_ = (given_ + given_now_) * (scalar(1) + std::numeric_limits<scalar>::epsilon());
       given_now_ = scalar(0);
@@ -181,8 +181,7 @@ class crossed_step::on : public encoder_step::on<P> {
     const scalar next =
         chord + bend +
         scalar(4) * inexact * (kernels::magnitude(a.before) + kernels::magnitude(a.top) + bend);
-    if (next <
-        scalar(0)) {  // The promise is broken; where no force was held, nothing was given on it.
+    if (next < scalar(0)) {  // The promise is broken. Without a force nothing was given on it.
       refuted_ = a.pressed;
       a.samples = most_samples;
     } else if (next < a.depth) {
@@ -192,9 +191,8 @@ class crossed_step::on : public encoder_step::on<P> {
   }
 
   scalar mass_, hand_force_, acceleration_;
-  scalar
-      given_{};  ///< what was given back until the last tick, to the certificate that got most of it [J]
-  scalar given_now_{};  ///< and in this one [J]
+  /// What was given back until the last tick, to the certificate that got most of it, and in this one [J].
+  scalar given_{}, given_now_{};
   bool refuted_ = false;
   std::array<axis, dof> axes_{};
 };
