@@ -2,11 +2,11 @@
 // The stiffness that a device pays for: worked by hand, at compile time; and what the formula says of a
 // swing against the certificate itself, summed tick by tick.
 #include "support/catch.hpp"
+#include "support/half_told.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/design/stiffness_budget.hpp>
 #include <passive_haptics/energy_observer/dual_ledger.hpp>
 #include <passive_haptics/motion_estimator/edge_observer.hpp>
-#include <passive_haptics/simulation/presets.hpp>
 
 #include <cmath>
 #include <limits>
@@ -246,12 +246,7 @@ TEST_CASE("every limit has a name, and says what would raise it", "[design][devi
 TEST_CASE("the simulated devices, half of b and c stated, can promise what a table says",
           "[design][devices]") {
   for (const auto& preset : sim::all_presets) {
-    const auto budget = stiffness_budget({.mass = preset.mass,
-                                          .damping = preset.damping / 2,
-                                          .friction = preset.friction / 2,
-                                          .presliding = 0.0,
-                                          .quantum = preset.quantum,
-                                          .force_limit = preset.force_limit});
+    const auto budget = stiffness_budget(half_told(preset, 0.0));
     CAPTURE(preset.name, budget.stiffness, to_string(budget.binding));
     CHECK((budget.stiffness > 0.0) == (preset.friction > 0.0));
     CHECK(budget.stiffness < 15e3);

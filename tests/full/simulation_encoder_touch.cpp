@@ -3,6 +3,7 @@
 // 55 µm, whose friction is elastic. It stays as stiff as the device can pay for; a ledger that credits no
 // friction starves, and the hand sinks in.
 #include "support/catch.hpp"
+#include "support/half_told.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
@@ -10,7 +11,6 @@
 #include <passive_haptics/simulation/challenge.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
-#include <passive_haptics/simulation/presets.hpp>
 #include <passive_haptics/simulation/search.hpp>
 
 #include <random>
@@ -23,12 +23,7 @@ constexpr sim::device_preset preset = sim::touch_like;
 constexpr double presliding = 15e-6;
 constexpr double surface = 0.37 * preset.quantum;
 
-constexpr ph::encoder_device stated{.mass = preset.mass,
-                                    .damping = preset.damping / 2,
-                                    .friction = preset.friction / 2,
-                                    .presliding = presliding,
-                                    .quantum = preset.quantum,
-                                    .force_limit = preset.force_limit};
+constexpr ph::encoder_device stated = half_told(preset, presliding);
 
 struct felt {
   double least_stiffness = 1e9;  ///< of the touches [N/m]

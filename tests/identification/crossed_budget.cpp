@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stiffness that steps which are crossed pay for: where it is more, and that a swing seen by the ledger sustains it.
 #include "support/catch.hpp"
+#include "support/half_told.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/identification/crossed_budget.hpp>
 #include <passive_haptics/identification/crossed_step.hpp>
 #include <passive_haptics/identification/middle_observer.hpp>
-#include <passive_haptics/simulation/presets.hpp>
 
 #include <cmath>
 #include <string>
@@ -14,15 +14,6 @@ namespace sim = ph::simulation;
 namespace design = ph::design;
 
 namespace {
-
-design::stated_device stated(const sim::device_preset& p, double presliding) {
-  return {.mass = p.mass,
-          .damping = p.damping / 2.0,
-          .friction = p.friction / 2.0,
-          .presliding = presliding,
-          .quantum = p.quantum,
-          .force_limit = p.force_limit};
-}
 
 /// What the ledger gains in each swing over N edges to and fro at v [m/s], against a wall of K [N/m] [J].
 double gained(const design::stated_device& d, double K, int N, double v) {
@@ -54,7 +45,7 @@ double gained(const design::stated_device& d, double K, int N, double v) {
 TEST_CASE("crossing pays on a wheel and a heavy device, and says why not elsewhere", "[crossed]") {
   const auto wheel = sim::wheel_rotary.at_rim();
   const auto told = [](const sim::device_preset& p, double presliding, double T = 1e-3) {
-    auto d = stated(p, presliding);
+    auto d = half_told(p, presliding);
     d.longest_tick = T;
     return design::crossing_of(d);
   };
@@ -71,7 +62,7 @@ TEST_CASE("crossing pays on a wheel and a heavy device, and says why not elsewhe
 
   for (const auto& preset : sim::all_presets) {
     for (const double p : {0.0, 5e-6, 15e-6, 30e-6}) {
-      const auto d = stated(preset, p);
+      const auto d = half_told(preset, p);
       const auto today = design::stiffness_budget(d), crossed = design::crossed_budget(d);
       CAPTURE(preset.name, p, today.stiffness, crossed.stiffness);
       CHECK(crossed.stiffness >= today.stiffness);
@@ -87,7 +78,7 @@ TEST_CASE("a swing sustains the stiffness that crossed steps pay for", "[crossed
     for (const double p : {0.0, 0.25 * preset.quantum}) {
       for (const int N : {3, 4, 6, 10}) {
         for (const double v : {2e-3, 5e-3}) {
-          const auto d = stated(preset, p);
+          const auto d = half_told(preset, p);
           double K = 0.0;  // of swings over N edges: S = N K q
           for (double next = 0.05; next < 5.0; next += 0.01) {
             const double trial = next * d.friction / d.quantum, S = N * d.quantum * trial;

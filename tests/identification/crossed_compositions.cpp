@@ -2,12 +2,12 @@
 // make_touch and make_detents, told of known_crossings: where they are used and where today's composition is left, what
 // is refused, and what becomes of them where mass, hand force or acceleration are told wrong, or right for long.
 #include "support/catch.hpp"
+#include "support/half_told.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/identification/crossed_compositions.hpp>
 #include <passive_haptics/identification/device_facts.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
-#include <passive_haptics/simulation/presets.hpp>
 #include <passive_haptics/simulation/schedule.hpp>
 
 #include <cmath>
@@ -23,15 +23,6 @@ using pressed = sim::constant_hand<d1>;
 constexpr ph::known_crossings known{};
 constexpr double most_pushed = 5.0;  ///< by the hand [N]
 
-/// What is told of a device: half of its damping and friction, and the rest as it is.
-ph::encoder_device told_of(const sim::device_preset& is, double p) {
-  return {.mass = is.mass,
-          .damping = is.damping / 2.0,
-          .friction = is.friction / 2.0,
-          .presliding = p,
-          .quantum = is.quantum,
-          .force_limit = is.force_limit};
-}
 ph::known_hand hand_on(const sim::device_preset& is) {
   return {.force = most_pushed + is.friction};
 }
@@ -79,19 +70,19 @@ session jump(auto touch, const sim::device_preset& is, double p, int ticks, std:
 
 TEST_CASE("known_crossings are used where they pay, and say so", "[crossed][compositions]") {
   const auto asked = [](const sim::device_preset& is, double p) {
-    auto touch = ph::make_touch<d1>(told_of(is, p), known, hand_on(is));
+    auto touch = ph::make_touch<d1>(half_told(is, p), known, hand_on(is));
     REQUIRE_FALSE(touch.check());
     REQUIRE(touch.update({0.0, -1.0, 1e6}));
-    const auto today = ph::make_touch<d1>(told_of(is, p), hand_on(is));
+    const auto today = ph::make_touch<d1>(half_told(is, p), hand_on(is));
     CHECK(std::string(today.explain().crossings).empty());
     return std::pair{touch.law().parameters().most / today.law().parameters().most,
                      std::string(touch.explain().crossings)};
   };
   const auto wheel = sim::wheel_preset{}.at_rim();
   using bound = ph::bound_chain<ph::watched_crossings<ph::reachable_bound>, ph::thermal_limit>;
-  const auto one = ph::make_touch<d1>(told_of(wheel, 0.0), known, hand_on(wheel));
+  const auto one = ph::make_touch<d1>(half_told(wheel, 0.0), known, hand_on(wheel));
   STATIC_REQUIRE(std::same_as<std::remove_cvref_t<decltype(one.bound())>, ph::part_at<bound, d1>>);
-  CHECK_FALSE(ph::make_touch<f3>(told_of(wheel, 0.0), known, hand_on(wheel)).check());
+  CHECK_FALSE(ph::make_touch<f3>(half_told(wheel, 0.0), known, hand_on(wheel)).check());
   for (const double p : {0.0, 5e-6, 15e-6}) {
     const auto [gain, why] = asked(wheel, p);
     CHECK(gain > 1.1);
@@ -111,7 +102,7 @@ TEST_CASE("known_crossings are used where they pay, and say so", "[crossed][comp
 TEST_CASE("a knob told of known_crossings has stiffer detents, and loses nothing",
           "[crossed][compositions]") {
   const auto is = sim::wheel_preset{}.at_rim();
-  const auto d = told_of(is, 5e-6);
+  const auto d = half_told(is, 5e-6);
   const ph::detents shape{.pitch = 0.02, .stiffness = 20e3};
   auto knob = ph::make_detents<d1>(d, known, hand_on(is), shape);
   const auto today = ph::make_detents<d1>(d, hand_on(is), shape);
@@ -141,9 +132,10 @@ TEST_CASE("a knob told of known_crossings has stiffer detents, and loses nothing
 TEST_CASE("known_crossings leave a device as it is where nothing is known of them",
           "[crossed][compositions]") {
   const auto same = [](const sim::device_preset& is) {
-    const auto today = jump(ph::make_touch<d1>(told_of(is, 5e-6), hand_on(is)), is, 5e-6, 6000, 1);
+    const auto today =
+        jump(ph::make_touch<d1>(half_told(is, 5e-6), hand_on(is)), is, 5e-6, 6000, 1);
     const auto asked =
-        jump(ph::make_touch<d1>(told_of(is, 5e-6), known, hand_on(is)), is, 5e-6, 6000, 1);
+        jump(ph::make_touch<d1>(half_told(is, 5e-6), known, hand_on(is)), is, 5e-6, 6000, 1);
     return today.told == asked.told;
   };
   CHECK(same(sim::touch_like));
@@ -152,7 +144,7 @@ TEST_CASE("known_crossings leave a device as it is where nothing is known of the
 }
 
 TEST_CASE("known_crossings name what cannot be", "[crossed][compositions]") {
-  const auto wheel = told_of(sim::wheel_preset{}.at_rim(), 5e-6);
+  const auto wheel = half_told(sim::wheel_preset{}.at_rim(), 5e-6);
   const auto refused = [&](auto change, ph::known_crossings of = {}, double hand = 5.3) {
     auto d = wheel;
     change(d);
@@ -178,7 +170,7 @@ TEST_CASE(
   const auto is = sim::heavy_1kg;
   auto light = is;
   light.mass /= 6.0;
-  const auto d = told_of(is, 5e-6);
+  const auto d = half_told(is, 5e-6);
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     CAPTURE(seed);
     const auto session_of = [&](const ph::known_crossings& of, double hand, const auto& truth) {
@@ -204,7 +196,7 @@ TEST_CASE(
 
 TEST_CASE("after a blow that refutes crossings the wall is back", "[crossed][compositions]") {
   const auto is = sim::heavy_1kg;
-  auto touch = ph::make_touch<d1>(told_of(is, 5e-6), known, hand_on(is));
+  auto touch = ph::make_touch<d1>(half_told(is, 5e-6), known, hand_on(is));
   REQUIRE(touch.update({0.0, -1.0, 1e6}));
   const double most = touch.explain().shown;
   auto parameters = is.without_friction<d1>();
@@ -246,7 +238,8 @@ TEST_CASE("known_crossings raise no event in a long session of a hand as it was 
   for (const auto& is : all) {
     if (!(is.friction > 0.0)) continue;
     for (const double p : {1e-6, 15e-6}) {
-      const auto s = jump(ph::make_touch<d1>(told_of(is, p), known, hand_on(is)), is, p, 60000, 7);
+      const auto s =
+          jump(ph::make_touch<d1>(half_told(is, p), known, hand_on(is)), is, p, 60000, 7);
       CAPTURE(is.name, p, s.least);
       CHECK(s.outside == 0);
       CHECK_FALSE(s.refuted);

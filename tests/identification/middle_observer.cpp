@@ -2,6 +2,7 @@
 // middle_observer: where it takes a device to be that goes on, turns, chatters at an edge, rests, or is fast; and the
 // wall of a wheel that is felt with it and a crossed ledger, compared with what there is otherwise.
 #include "support/catch.hpp"
+#include "support/half_told.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/contact/capped.hpp>
 #include <passive_haptics/design/stiffness_budget.hpp>
@@ -9,7 +10,6 @@
 #include <passive_haptics/identification/middle_observer.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
-#include <passive_haptics/simulation/presets.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -101,14 +101,7 @@ using hand = sim::impedance_hand<d1>;
 struct wheel {
   sim::device_preset is = sim::wheel_rotary.at_rim();
   double presliding = 5e-6;
-  [[nodiscard]] design::stated_device stated() const {
-    return {.mass = is.mass,
-            .damping = is.damping / 2.0,
-            .friction = is.friction / 2.0,
-            .presliding = presliding,
-            .quantum = is.quantum,
-            .force_limit = is.force_limit};
-  }
+  [[nodiscard]] design::stated_device stated() const { return half_told(is, presliding); }
 };
 struct felt {
   double least = 1.0;         ///< share of K in the worst second
