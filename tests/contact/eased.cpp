@@ -603,6 +603,71 @@ TEST_CASE("what is damped is a swing, and neither a speed that stays nor one tha
   CHECK(law.swinging(0.1, 1e-3) == 0.1);  // the next contact begins anew
 }
 
+TEST_CASE("how much of a swing is damped goes by how long its halves last", "[contact]") {
+  // The speed is ±v, each for n ticks, so that it is damped by g of that half at the end of each.
+  const auto share_of = [](double v, int n, double natural) {
+    ph::swing<double> swing;
+    double last = 0.0;
+    for (int half = 0; half < 40; ++half) {
+      for (int i = 0; i < n; ++i) last = swing.damped(half % 2 ? -v : v, natural, 1e-3);
+    }
+    return -last / v;
+  };
+  for (const double v : {1e-6, 1e-3, 0.3}) {
+    for (const double natural : {200.0, 900.0, 1600.0, 1e5}) {
+      const double W = std::min(20.0, std::sqrt(natural) / 2.0);
+      for (const double q : {0.2, 0.26, 0.5, 0.9, 1.1, 4.0}) {
+        const int n = static_cast<int>(std::lround(std::acos(-1.0) / (W * std::sqrt(q)) / 1e-3));
+        const double told = std::pow(std::acos(-1.0) / (W * 1e-3 * n), 2);
+        CAPTURE(v, natural, q);
+        CHECK_THAT(share_of(v, n, natural),
+                   WithinAbs(std::clamp((told - 0.25) * 4.0 / 3.0, 0.0, 1.0), 0.01));
+      }
+    }
+  }
+}
+
+TEST_CASE("a hand to and fro is not damped, whatever the noise of its samples, and a swing is",
+          "[contact]") {
+  // Positions of an amplitude of 1 mm and with noise, at Ω: what is damped of the speed, the largest [m/s]
+  const auto damped = [](double W, double noise, auto& swing) {
+    ph::laws::samples random(3);
+    double most = 0.0, last = 0.0;
+    for (int n = 0; n < 4000; ++n) {
+      const double x = 1e-3 * std::sin(W * 1e-3 * n) + noise * random.number<double>() / 2.0;
+      const double now = swing.damped((x - last) / 1e-3, 4000.0, 1e-3);
+      last = x;
+      if (n >= 1000) most = std::max(most, std::abs(now));
+    }
+    return most;
+  };
+  for (const double W : {3.0, 6.0, 9.5}) {
+    ph::swing<double> exact, noisy;
+    CAPTURE(W);
+    CHECK(damped(W, 0.0, exact) < 1e-12);
+    CHECK(damped(W, 1e-6, noisy) < 4e-3);  // speeds of the noise are up to 1 mm/s
+  }
+  for (const double W : {20.5, 40.0, 100.0}) {
+    ph::swing<double> exact, noisy;
+    CAPTURE(W);
+    CHECK(damped(W, 0.0, exact) > 0.98e-3 * W);
+    CHECK(damped(W, 1e-6, noisy) > 0.98e-3 * W);
+  }
+  // A stroke ends, and what it leaves swings by a hundredth of its speed: found within a second
+  ph::swing<double> swing;
+  for (int n = 0; n < 1000; ++n) (void)swing.damped(0.1, 4000.0, 1e-3);
+  double most = 0.0;
+  for (int n = 0; n < 1000; ++n) {
+    const double now = swing.damped(1e-3 * std::sin(0.04 * n), 4000.0, 1e-3);
+    if (n >= 800) most = std::max(most, now);
+  }
+  CHECK(most > 0.99e-3);
+  // What is faster than twice the half before is not of that swing, but a hand's
+  for (int n = 0; n < 40; ++n) most = swing.damped(0.1, 4000.0, 1e-3);
+  CHECK(most < 2e-3);
+  CHECK(most > 1e-3);
+}
+
 TEST_CASE("two news between two ticks are one", "[contact]") {
   auto model = touching(ph::eased{damper});
   REQUIRE(model.update({0.0, 1.0, 1000.0}));
