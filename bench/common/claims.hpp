@@ -172,10 +172,22 @@ inline std::string text_of(const clauses& said) {
   return text;
 }
 
+/// What a force that is drawn ought to be: a column of a file of the report's folder, over the first one.
+struct truth {
+  std::string file, column;
+  std::string what;  ///< ends "Grey is the truth: …", without a full stop
+};
+/// Why a plot of a force has none: a definition that stands in the place of a truth.
+inline constexpr const char* without_truth = "No truth is drawn: ";
+inline clause no_truth(const std::string& why, clause::place at = clause::place::current()) {
+  return definition(without_truth + why, at);
+}
+
 /// The text of a plot.
 struct caption {
   std::string title;  ///< a few words that name what is drawn, without a full stop
   clauses see;        ///< where to look, and what it means; one claim at least
+  truth ought{};      ///< the course of a force has one, or says no_truth(…)
 };
 
 /// The claim of a line that it joins what none of these points beats in both numbers: those of its two columns.

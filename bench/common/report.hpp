@@ -115,19 +115,34 @@ class report {
 
   /// Adds a plot by the gnuplot commands after `set output`, which read the CSV files of this folder. What its
   /// caption claims is looked up in them now, so they are written by then; what is not so is in untrue(). So is an axis
-  /// of newtons that neither begins at 0 nor is logarithmic; which axes are, the caption says by itself.
-  void plot(const std::string& name, caption said, const std::string& commands) {
+  /// of a force that neither shows 0 nor is logarithmic, and the course of a force without its truth, which is drawn
+  /// here, in grey beneath the others; which axes are logarithmic, and what is grey, the caption says by itself.
+  void plot(const std::string& name, caption said, std::string commands) {
     const auto has = [&commands](const char* what) {
       return commands.find(what) != std::string::npos;
     };
     const std::string which = "the caption of " + name;
-    const bool both = has("set logscale xy");
-    if (both || has("set logscale x")) {
+    const bool both = has("set logscale xy"), below = both || has("set logscale x");
+    if (below) {
       said.see.push_back(
           definition(both ? "Both axes are logarithmic." : "The axis below is logarithmic."));
     }
-    if ((has("[N]'") || has("ylabel 'N'")) && !both && !has("set yrange [0:")) {
-      untrue_.push_back(name + ": the axis of the force does not begin at 0");
+    bool course = false;  // of a force, over a time or a place: what compares runs is logarithmic
+    for (const std::string axis : {"y", "y2"}) {
+      const std::string label = set_in(commands, axis + "label '", "'");
+      if (!names_force(label)) continue;
+      // An error is measured from the truth already.
+      course = course || (!below && label.find("error") == std::string::npos);
+      if (!both && !shows_0(set_in(commands, axis + "range [", "]"))) {
+        untrue_.push_back(name + ": the axis of the force does not begin at 0");
+      }
+    }
+    if (!said.ought.file.empty()) {
+      draw_truth(name, said, commands);
+    } else if (course && std::ranges::none_of(said.see, [](const clause& s) {
+                 return !s.is_claim() && s.words().starts_with(without_truth);
+               })) {
+      untrue_.push_back(name + ": a force is drawn without the truth");
     }
     output_file script(path(name + ".gp"));
     script.stream() << plot_preamble << "set output '" << name << ".svg'\n" << commands << '\n';
@@ -174,6 +189,44 @@ class report {
   }
 
  private:
+  /// What a plot sets: the text from `what` to `end`; empty if it does not.
+  static std::string set_in(const std::string& commands, const std::string& what, const char* end) {
+    const auto at = commands.find("set " + what);
+    if (at == std::string::npos) return "";
+    const auto from = at + 4 + what.size();
+    return commands.substr(from, commands.find(end, from) - from);
+  }
+  /// True of the label of a force or a torque.
+  static bool names_force(const std::string& label) {
+    for (const char* unit : {"N", "N·m", "force", "torque"}) {
+      if (label == unit || label.ends_with(std::string(" [") + unit + "]") ||
+          label.ends_with(std::string(" ") + unit)) {
+        return true;
+      }
+    }
+    return false;
+  }
+  /// True if 0 is the lower end of a range, or within it.
+  static bool shows_0(const std::string& range) {
+    const auto middle = range.find(':');
+    if (middle == std::string::npos) return false;
+    const std::string from = range.substr(0, middle);
+    return from == "0" || (std::strtod(from.c_str(), nullptr) < 0.0 &&
+                           std::strtod(range.c_str() + middle + 1, nullptr) > 0.0);
+  }
+  /// Draws the truth beneath all other curves; it must be numbers, or nothing is seen of it.
+  void draw_truth(const std::string& name, caption& said, std::string& commands) {
+    const auto at = commands.find("plot '");
+    const auto is = recorded(path(said.ought.file))[said.ought.column];
+    if (at == std::string::npos || is.empty() ||
+        !std::all_of(is.begin(), is.end(), [](double x) { return std::isfinite(x); })) {
+      untrue_.push_back(name + ": its truth cannot be drawn");
+      return;
+    }
+    commands.insert(at + 5, "'" + said.ought.file + "' using 1:(column(\"" + said.ought.column +
+                                "\")) with lines lt 8 lw 4 title 'truth', ");
+    said.see.push_back(definition("Grey is the truth: " + said.ought.what + "."));
+  }
   struct looked_up {
     std::string which, found;
     clause said;

@@ -115,13 +115,13 @@ void plot_stroke(const session& s, const curved::triangulated& mesh) {
          [](const ex::recorded& r) {
            return ex::at_most(ex::largest_step(r["quadric at 30 Hz"]), 0.01);
          }},
-        {"and it is the ball's own, in grey.", "stroke_force.csv",
+        {"and it is the ball's own.", "stroke_force.csv",
          [](const ex::recorded& r) {
            return ex::at_most(ex::rms_between(r["quadric at 30 Hz"], r["the ball"]), 1e-3);
-         }}}},
+         }}},
+       {"stroke_force.csv", "the ball", "what the ball itself pushes with"}},
       "set xlabel 'time [s]'\nset ylabel 'force [N]'\nset yrange [0:*]\nplot 'stroke_force.csv' "
-      "using 1:4 with "
-      "lines lt 8 lw 4, '' using 1:3 with lines lt 2 lw 1.2, '' using 1:2 with lines lt 1");
+      "using 1:3 with lines lt 2 lw 1.2, '' using 1:2 with lines lt 1");
 }
 
 }  // namespace

@@ -107,8 +107,35 @@ void answer_touches(Body& body, meeting<Surface>& with, double rate) {
 
 constexpr std::size_t kept = std::size_t{1} << 16;  // ticks: the last minute
 ph::scope<volume, kept> seen;
-std::array<double, kept> port_energy;  // true, of the same ticks [J]
-std::array<double, kept> asked_force;  // of the newest surface, its stiffness times the depth [N]
+std::array<double, kept> port_energy;    // true, of the same ticks [J]
+std::array<double, kept> asked_force;    // of the newest surface, its stiffness times the depth [N]
+constexpr std::size_t ticks_a_row = 10;  // of what is drawn
+std::vector<double> true_force;          // of its rows [N]
+
+double unsettled = 0.0;  // the last change of any of them while it was solved [N]
+
+/// What a body that answers in every tick pushes with where the device has been: the same spring on the same body, which
+/// is solved there until it rests. Throws ex::interrupted if `tell` says so.
+template <class Body>
+void find_true_force(Body& body, const env::on_progress& tell) {
+  constexpr int updates = 4;  // each loads what the last has found
+  true_force.clear();
+  unsettled = 0.0;
+  vector now = vector::Zero();
+  for (std::size_t i = 0; i < seen.size(); i += ticks_a_row) {
+    vector before = now;
+    for (int k = 0; k < updates; ++k) {
+      const auto& contact = body.update(seen[i].position, now);
+      before = now;
+      now = contact.stiffness * std::max(0.0, contact.depth) * contact.normal;
+    }
+    unsettled = std::max(unsettled, (now - before).norm());
+    true_force.push_back(now.norm());
+    if (tell && !tell(double(i) / double(seen.size()))) {
+      throw ex::interrupted("stopped: there is no report");
+    }
+  }
+}
 
 /// Touches the body, and returns what came of it.
 template <class Surface, class Body>
@@ -165,9 +192,10 @@ chain_row touch(Body& body, const chain_settings& chosen, const env::on_progress
   loop.stop();
   with.over = true;
   environment.join();
-  body.update(with.hardest.device, with.hardest.force);  // what is drawn
   if (!started) throw std::runtime_error(ph::to_string(started.what));
   if (!go_on) throw ex::interrupted("stopped: there is no report");
+  find_true_force(body, tell);
+  body.update(with.hardest.device, with.hardest.force);  // what is drawn
   std::array<char, 600> text{};
   std::cout << ph::describe(started.granted, text) << '\n'
             << ph::describe(loop.timing(), text) << "\n\n";
@@ -262,8 +290,7 @@ void draw_course(ex::report& out) {
     throw std::runtime_error("chain_scope.csv cannot be written");
   }
   ex::csv_file csv(out.path("chain_course.csv"),
-                   "s,force N,step N,depth mm,port energy J,ledger J,on time,asked N");
-  constexpr std::size_t ticks_a_row = 10;
+                   "s,force N,step N,depth mm,port energy J,ledger J,on time,asked N,truth N");
   const std::uint64_t first = seen.size() > 0 ? seen[0].tick : 0;
   std::size_t on_time = 0;  // ticks since the last one that was late
   double step = 0.0;        // largest of a row's ticks [N]
@@ -273,14 +300,19 @@ void draw_course(ex::report& out) {
     if (i > 0) step = std::max(step, (vector(r.given) - vector(seen[i - 1].given)).norm());
     if (i % ticks_a_row != 0) continue;
     csv.row(r.time, vector(r.given).norm(), step, 1e3 * r.depth, port_energy[(first + i) % kept],
-            r.energy, on_time > 100 + ticks_a_row ? 1 : 0, asked_force[(first + i) % kept]);
+            r.energy, on_time > 100 + ticks_a_row ? 1 : 0, asked_force[(first + i) % kept],
+            true_force.at(i / ticks_a_row));
     step = 0.0;
   }
   csv.close();
   out.plot(
       "chain_force",
       {"The force on the device",
-       {ex::definition("Drawn with it is what the newest surface asks for, its stiffness times the "
+       {{"The truth has settled within a hundredth of its largest force.", "chain_course.csv",
+         [](const ex::recorded& r) {
+           return ex::at_most(unsettled / ex::most(r["truth N"]), 1e-2);
+         }},
+        ex::definition("Drawn with it is what the newest surface asks for, its stiffness times the "
                        "depth;"),
         {"the force is less on average.", "chain_course.csv",
          [](const ex::recorded& r) {
@@ -310,9 +342,11 @@ void draw_course(ex::report& out) {
            }
            return true;
          }},
-        ex::definition("in which the device's watchdog drops the force.")}},
+        ex::definition("in which the device's watchdog drops the force.")},
+       {"chain_course.csv", "truth N",
+        "what the organ pushes with, solved at rest wherever the device has been"}},
       "set xlabel 's'\nset ylabel 'N'\nset yrange [0:*]\n"
-      "plot 'chain_course.csv' using 1:8 with lines, '' using 1:2 with lines");
+      "plot 'chain_course.csv' using 1:8 with lines lt 2, '' using 1:2 with lines lt 1");
   out.plot("chain_energy",
            {"Energy that the hand has paid in: true, and in the ledger",
             {{"The ledger stays below the truth, as it must,", "chain_course.csv",

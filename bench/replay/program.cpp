@@ -117,6 +117,8 @@ void plot(ex::report& report, const identification::recording& r,
   ex::csv_file rows(report.path("recording.csv"), "time s,position,force");
   for (std::size_t i = 0; i < r.size(); i += every) rows.row(r.time[i], r.position[i], r.force[i]);
   rows.close();
+  double reach = 0.0;  // of the axis of the force, to both sides
+  for (const double f : r.force) reach = std::max(reach, 1.05 * std::abs(f));
   ex::csv_file ledger(report.path("ledger.csv"), "row,ledger J,at most J");
   for (std::size_t i = 0; i < trace.size(); i += every) {
     ledger.row(static_cast<double>(i), trace[i][0], trace[i][1]);
@@ -126,11 +128,14 @@ void plot(ex::report& report, const identification::recording& r,
               {"The recording",
                {{"The axis moves;", "recording.csv",
                  [](const ex::recorded& f) { return ex::swing(f["position"]) > 0.0; }},
-                ex::definition("its position on the left, the motor's force on the right, both cut "
-                               "out about what there is.")}},
-              "set ytics nomirror\nset y2tics\nset xlabel 'time s'\nset ylabel 'position'\nset "
-              "y2label 'force'\n"
-              "plot 'recording.csv' using 1:2 with lines, '' using 1:3 axes x1y2 with lines");
+                ex::definition("its position on the left, the motor's force on the right."),
+                ex::no_truth("the force is the one that was recorded, and no wall asks for "
+                             "another.")}},
+              "set ytics nomirror\nset y2tics\nset xlabel 'time [s]'\nset ylabel 'position [" +
+                  std::string(r.rotary ? "rad" : "m") + "]'\nset y2label '" +
+                  (r.rotary ? "torque [N·m]" : "force [N]") + "'\nset y2range [" +
+                  ex::format("%g:", -reach) + ex::format("%g]\n", reach) +
+                  "plot 'recording.csv' using 1:2 with lines, '' using 1:3 axes x1y2 with lines");
   report.plot("ledger",
               {"What the ledger says and what can be",
                {ex::definition("The ledger told what may be stated, through the second half."),

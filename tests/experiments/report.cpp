@@ -222,18 +222,16 @@ TEST_CASE("a caption that its own curve denies fails the program", "[report]") {
   static_assert(!std::is_constructible_v<ex::clause, std::string, std::string>);
   static_assert(!std::is_constructible_v<ex::clause, std::string, std::string, std::nullptr_t>);
   static_assert(std::is_constructible_v<ex::clause, std::string, std::string, decltype(rises)>);
-  const auto said = [&out](ex::clauses all, const char* commands = "plot x") {
+  const auto said = [&out](ex::clauses all, const char* commands = "plot x", ex::truth is = {}) {
     const std::size_t before = out.untrue().size();
-    out.plot("line", {"A line", std::move(all)}, commands);
+    out.plot("line", {"A line", std::move(all), std::move(is)}, commands);
     return std::vector(out.untrue().begin() + static_cast<std::ptrdiff_t>(before),
                        out.untrue().end());
   };
   using wrong = std::vector<std::string>;
   const ex::clause so{"It rises", "line.csv", rises};
   constexpr int so_at = __LINE__ - 1;
-  const char *from_0 = "set ylabel 'force [N]'\nset yrange [0:*]\nplot x",
-             *from_anywhere = "set ylabel 'force [N]'\nplot x";
-  CHECK(said({so, {"by 6 N.", "line.csv", by(6.0)}}, from_0).empty());
+  CHECK(said({so, {"by 6 N.", "line.csv", by(6.0)}}).empty());
   CHECK(said({so, {"by 7 N.", "line.csv", by(7.0)}}) ==
         wrong{"the caption of line is not so: \"by 7 N.\" (6, at least 7)"});
   CHECK(said({so, {"It falls.", "line.csv", falls}}) ==
@@ -241,8 +239,6 @@ TEST_CASE("a caption that its own curve denies fails the program", "[report]") {
   CHECK(said({so, {"Nothing falls.", [] { return false; }}}) ==
         wrong{"the caption of line is not so: \"Nothing falls.\""});
   CHECK(said({ex::definition("It is there.")}) == wrong{"the caption of line claims nothing"});
-  CHECK(said({so}, from_anywhere) == wrong{"line: the axis of the force does not begin at 0"});
-  CHECK(said({so}, "set logscale xy\nset ylabel 'force [N]'\nplot x").empty());
   out.section("A table", {{"It falls.", "line.csv", falls}, so});
   CHECK(out.untrue().back() == "the text of A table is not so: \"It falls.\"");
   CHECK(ex::conclude(out, "program", "title", "", {}) == 1);
@@ -255,7 +251,6 @@ TEST_CASE("a caption that its own curve denies fails the program", "[report]") {
     CHECK(mentions(page, what));
   }
   CHECK(mentions(page, "It rises by 6 N."));
-  CHECK(mentions(page, "Both axes are logarithmic."));
 
   const ex::recorded read(folder / "line.csv");
   CHECK(read.within("force N", 0.5, 1.5) == std::vector<double>{3.0});
@@ -263,6 +258,53 @@ TEST_CASE("a caption that its own curve denies fails the program", "[report]") {
   CHECK(std::isnan(read["what"].front()));
   CHECK_THROWS(read["depth mm"]);
   CHECK_THROWS(ex::recorded(folder / "wave.csv"));
+}
+
+TEST_CASE("a force whose axis hides 0, or whose truth is not drawn, fails the program",
+          "[report]") {
+  const scratch_folder folder;
+  ex::report out(folder.path());
+  ex::csv_file csv(out.path("line.csv"), "s,force N,the wall,half");
+  for (const double s : {0.0, 1.0, 2.0}) csv.row(s, 3.0 * s, 4.0 * s, s > 1.0 ? std::nan("") : s);
+  csv.close();
+  const ex::truth wall{"line.csv", "the wall", "the wall's own force"};
+  const auto drawn = [&out](const std::string& set, ex::truth is = {}, ex::clauses more = {}) {
+    const std::size_t before = out.untrue().size();
+    more.push_back(rising);
+    out.plot("line", {"A line", std::move(more), std::move(is)}, set + "plot 'line.csv' using 1:2");
+    return std::vector(out.untrue().begin() + static_cast<std::ptrdiff_t>(before),
+                       out.untrue().end());
+  };
+  using wrong = std::vector<std::string>;
+  const wrong hides{"line: the axis of the force does not begin at 0"},
+      lies{"line: a force is drawn without the truth"}, blank{"line: its truth cannot be drawn"};
+  const std::string force = "set ylabel 'force [N]'\n", from_0 = "set yrange [0:*]\n";
+  CHECK(drawn(force + from_0, wall).empty());
+  CHECK(mentions(text_of(folder / "line.gp"), "plot 'line.csv' using 1:(column(\"the wall\"))"));
+  CHECK(drawn(force, wall) == hides);
+  CHECK(drawn(force + "set yrange [-3:-1]\n", wall) == hides);
+  CHECK(drawn(force + "set yrange [-3:1]\n", wall).empty());
+  CHECK(drawn("set y2label 'torque [N·m]'\n" + from_0, wall) == hides);  // the other axis does
+
+  CHECK(drawn(force + from_0) == lies);
+  CHECK(drawn("set ylabel 'N'\nset xlabel 's'\n" + from_0) == lies);
+  CHECK(drawn("set ylabel 'depth [mm]'\nset y2label 'force'\nset y2range [0:3]\n") == lies);
+  CHECK(drawn(force + from_0, {}, {ex::definition("There is no wall.")}) == lies);
+  CHECK(drawn(force + from_0, {}, {ex::no_truth("there is no wall.")}).empty());
+  CHECK(drawn(force + from_0, {"line.csv", "half", "it ends"}) == blank);
+  CHECK_THROWS(drawn(force + from_0, {"line.csv", "a wall", "of another name"}));
+  for (const char* other :
+       {"set ylabel 'rms force error [N]'\nset yrange [0:*]\n", "set ylabel 'energy [J]'\n",
+        "set ylabel 'stiffness [N/m]'\n", "set logscale xy\nset ylabel 'N'\n"}) {
+    INFO(other);
+    CHECK(drawn(other).empty());
+  }
+  if (!out.finish("title")) WARN("gnuplot is not installed, or did not draw: left out");
+  const std::string page = text_of(folder / "index.html");
+  CHECK(mentions(page, "Grey is the truth: the wall's own force."));
+  CHECK(mentions(page, "No truth is drawn: there is no wall."));
+  CHECK(mentions(page, "Both axes are logarithmic."));
+  CHECK(ex::conclude(out, "program", "title", "", {}) == 1);
 }
 
 TEST_CASE("a plot has no ground of its own and is readable in both schemes", "[report]") {
