@@ -53,7 +53,7 @@ struct drawn_friction {
     return ask([](const auto& m) { return m.check(); });
   }
 };
-static_assert(sim::friction_model<drawn_friction>);
+static_assert(sim::friction_model<drawn_friction> && sim::device_friction<drawn_friction>);
 
 verdict measured(const subject& s, auto& device,
                  const identification::identification_parameters& p) {

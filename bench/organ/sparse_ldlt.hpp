@@ -47,5 +47,6 @@ class sparse_ldlt {
   Eigen::VectorXd inverse_pivots_;
   Eigen::VectorXd work_;
 };
+static_assert(env::stiffness_solver<sparse_ldlt>);
 
 }  // namespace organ

@@ -23,6 +23,8 @@ namespace {
 
 using scene = ph::space<double, 3>;
 using vec = Eigen::Vector3d;
+static_assert(ad::hand_port<scene> && !ad::hand_port<ph::space<double, 1>>);
+static_assert(ad::turning_port<ph::rigid_body<double>> && !ad::turning_port<scene>);
 constexpr double T = 1e-3, mass = 0.1, damping = 0.1;
 
 /// Time that the tests make.

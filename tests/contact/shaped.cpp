@@ -57,6 +57,7 @@ struct half {
     }
   };
 };
+static_assert(ph::shaper_for<half, d1> && !ph::shaper_for<ph::spring, d1>);
 /// One newton more.
 struct push : half {
   template <class S>

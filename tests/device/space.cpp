@@ -36,7 +36,7 @@ TEMPLATE_TEST_CASE("the work of an effort and the length of a motion are those o
   const auto dx = TestType::between(from, to);  // 0, 1, 2
   CHECK(dx == to - from);
   CHECK(TestType::squared(dx) == dx.squaredNorm());
-  const auto work = TestType::work(f, dx);
+  const ph::work_done<scalar> work = TestType::work(f, dx);
   CHECK(work.joules == f.dot(dx));
   CHECK(work.passed == f.cwiseAbs().dot(dx.cwiseAbs()));
   CHECK(work.passed >= std::abs(work.joules));

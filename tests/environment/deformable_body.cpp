@@ -9,6 +9,10 @@
 #include <span>
 #include <stdexcept>
 
+static_assert(env::elastic_solid<env::tetrahedral_fem>);
+static_assert(env::elastic_solid<env::basic_tetrahedral_fem<organ::sparse_ldlt>>);
+static_assert(!env::elastic_solid<organ::sparse_ldlt>);  // it solves, and knows no mesh
+
 namespace {
 
 // A device that stands still `depth` below face 0 of the ball; the local model is a spring K_LM.

@@ -5,6 +5,9 @@
 #include <span>
 #include <stdexcept>
 
+static_assert(env::pressing_solver<env::multifrontal> &&
+              !env::pressing_solver<env::tetrahedral_fem>);
+
 namespace {
 
 // The nodal forces of a constant stress: σ n A/3 for each corner of each face of the surface.

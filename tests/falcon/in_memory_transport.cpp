@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
+#include "support/scripted_falcon.hpp"
 #include <passive_haptics/falcon/in_memory_transport.hpp>
 
 #include <array>
 #include <vector>
 
 namespace falcon = passive_haptics::falcon;
+
+static_assert(falcon::transport<falcon::in_memory_transport<scripted_falcon>>);
+static_assert(!falcon::transport<scripted_falcon>);  // the box itself, without a line to it
 
 TEST_CASE("status bytes are taken out of every 64-byte packet, not of every transfer",
           "[falcon][ftdi]") {

@@ -12,6 +12,9 @@ namespace {
 
 using sim::random_source;
 
+static_assert(falcon::mock_body<sim::device<d3>>);
+static_assert(!falcon::mock_body<sim::device<ph::space<double, 1>>>);  // it has one axis
+
 constexpr mock_parameters ready{.runs = true, .homed = true};
 
 falcon::leg_words random_words(random_source& random) {

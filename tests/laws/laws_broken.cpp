@@ -286,6 +286,7 @@ struct lets_the_bad_in : followed {
 struct never_lets_go : followed {
   constexpr void release() noexcept {}
 };
+static_assert(ph::supply_for<never_lets_go, d1> && !ph::supply_for<ph::half_space<d1>, d1>);
 struct gone_for_good : followed {
   bool over = false;
   constexpr void release() noexcept {

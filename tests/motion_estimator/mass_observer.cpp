@@ -10,6 +10,9 @@ namespace sim = ph::simulation;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
+static_assert(ph::motion_estimator_for<ph::mass_observer, d1>);
+static_assert(!ph::motion_estimator_for<ph::reduced_energy, d1>);  // which observes energy
+
 namespace {
 
 /// A hand that presses 0 to 5 N three times a second and changes its mind by 1 N now and then.

@@ -12,6 +12,7 @@ static_assert(ph::late_loop_limits<3>::latency == 3 && !ph::late_loop_limits<3>:
 static_assert(ph::watched_loop_limits<>::traits.watched &&
               ph::watched_loop_limits<2>::latency == 2);
 static_assert(ph::loop_limits{}.top_speed == 5.0);
+static_assert(ph::limits_for<ph::late_loop_limits<3>, d1> && !ph::limits_for<ph::spring, d1>);
 
 TEST_CASE("the longest tick of a loop is never assumed", "[loop_limits]") {
   const auto refused = [](const ph::loop_limits& limits) {

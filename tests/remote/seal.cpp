@@ -38,6 +38,7 @@ struct stream {
     for (std::size_t i = 0; i < 152; ++i) bytes[i] ^= bytes[152 + i % 4] ^ std::byte{0x5A};
   }
 };
+static_assert(remote::datagram_seal<stream>);
 
 template <class Seal>
 struct pair_of_ends {

@@ -26,4 +26,8 @@ struct virtual_clock {
   }
 };
 
+static_assert(passive_haptics::measuring_clock<virtual_clock>);
+static_assert(passive_haptics::pacing_clock<virtual_clock>);
+static_assert(!passive_haptics::pacing_clock<passive_haptics::steady_time>);  // which cannot sleep
+
 using virtual_pace = passive_haptics::basic_pace<virtual_clock>;

@@ -54,6 +54,7 @@ struct waits {
   }
   result_type refused(const result_type& port, double /*dt*/) const noexcept { return port; }
 };
+static_assert(ph::source_for<waits, scene>);
 
 using port = ph::passive_port<scene, waits, ph::reduced_energy, ph::strict_bound>;
 port make_port(bool long_tick) {
