@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Shows at each type lines that use it, word for word from a program or a test that compiles: at what a function
-returns those that call it, at what a struct holds those that read it, at a class inside another the other's.
+returns those that call it, at what a struct holds those that read it, at a class inside another the other's. What
+nothing but the library uses says by what it is used there.
 
     shown.py --root REPOSITORY --site HTML --tags TAGS --without LIST           writes them into the pages
     shown.py --root REPOSITORY --site HTML --tags TAGS --without LIST --check   a line for each type that has no
@@ -10,6 +11,7 @@ returns those that call it, at what a struct holds those that read it, at a clas
 """
 
 import argparse
+import bisect
 import html
 import pathlib
 import re
@@ -23,6 +25,8 @@ LIBRARY = "passive_haptics"
 SHORT = {"ph": LIBRARY, LIBRARY: LIBRARY, "sim": f"{LIBRARY}::simulation", "env": f"{LIBRARY}::environment"}
 FEWEST, MOST = 3, 8  # lines
 AT, GIVEN = r"(?<![\w:.>])", r"(?:<[^;{}()]*>)?(?:\{| \w+ ?[={;(])"  # before a name, and after one that is made
+KEYWORDS = ("requires|noexcept|decltype|alignas|deprecated|explicit|static_assert|if|for|while|switch|return|sizeof|"
+            "push_back")
 OWN = re.compile(r"<dt>Example</dt>|<pre class=\"fragment shown\"")
 BLOCK = re.compile(r'<pre class="fragment shown" data-from="([^"]*)" data-uses="([^"]*)">(.*?)</pre>', re.S)
 
@@ -123,6 +127,7 @@ class Source:
             self.names[short] = self.full(full)
         opened = re.findall(r"^(?:using )?namespace ([\w:]+)\s*[;{]", self.seen, re.M)
         self.opened = {self.full(name) for name in opened}
+        self.stretches = []
         self.used = {}
         for name in re.findall(r"^\s*using ([\w:]+);", self.seen, re.M):
             self.used[name.rpartition("::")[2]] = self.full(name)
@@ -144,6 +149,56 @@ class Source:
             if scope == opened or scope.startswith(opened + "::"):
                 ways.append(name.removeprefix(opened + "::"))
         return ways + [s for s, full in self.used.items() if full == name]
+
+    def scopes(self):
+        """(where it begins, its namespace or type, whether it is a type, whether it is public there, the function) of
+        each stretch of a header; of what stands in a function, public is None."""
+        if self.stretches:
+            return self.stretches
+        stack, due, called, depth, outside = [("", True, True, "")], None, "", 0, []
+        self.stretches.append((0, *stack[0]))
+        for found in re.finditer(r"[{};]|\b(namespace|struct|class|enum class|concept) ([\w:]+)|"
+                                 r"\b(public|private|protected):|(\w*)\(|\)", self.code):
+            name, is_type, public, function = stack[-1]
+            if found[1]:
+                inside = "" if found[2] == "v0" else found[2]
+                due = ("::".join(filter(None, (name, inside))), found[1] != "namespace", found[1] != "class", "")
+            elif found[3]:
+                stack[-1] = (name, is_type, found[3] == "public", "")
+            elif found[0] == "{":
+                stack.append(due or (name, is_type, None, function or called))
+                outside.append((called, depth))
+                called, depth = "", 0
+            elif found[0] == "}" and outside:
+                stack.pop()
+                called, depth = outside.pop()
+                called = called if depth else ""  # a default argument ends no function's head
+            if found[0][-1] in "()":
+                depth += 1 if found[0][-1] == "(" else -1
+            if found[4] and not called and not re.fullmatch(KEYWORDS, found[4]):
+                called = found[4]
+            if not found[1] and not found[3]:
+                due = None
+            if found[0] == ";":
+                called = ""
+            self.stretches.append((found.end(), *stack[-1]))
+        return self.stretches
+
+    def scope(self, at):
+        return self.scopes()[bisect.bisect_right(self.scopes(), at, key=lambda s: s[0]) - 1][1:]
+
+    def named_by(self, use):
+        """The name of the type, alias, function or constant outside of a body whose declaration says that."""
+        begin = max(self.code.rfind(c, 0, use.start()) for c in ";{}") + 1
+        before, behind = (" ".join(text.split())
+                          for text in (self.code[begin:use.start()] + "|", self.code[use.end():]))
+        type_name = r"(?<!, )(?<!<)\b(?:struct|class|concept|using) (\w+)"
+        function = rf"\b(?!(?:{KEYWORDS})\b)(\w+)"
+        skipped = r"(?:[^;{}()]|\([^()]*\))*?"
+        named = (re.search(type_name + r"(?: final)? ?[:=][^:][^;{}]*$", before) or
+                 re.search(function + r"\([^;{}]*$", before) or re.match(skipped + type_name, behind) or
+                 re.match(skipped + function + r"[({]", behind))
+        return named and named[1]
 
     def where(self, pattern):
         """(number of the line on which the pattern begins, the last name in it) of each place."""
@@ -237,6 +292,8 @@ class Shown:
             far = 0 if path.stem == near[1] else 1 if path.parent.name == near[0] else 2
             if source.path.startswith("examples/"):
                 far = -1
+            if source.path.startswith("bench/"):
+                far = 3
             if best and (far, 0, 0) > best[0]:
                 continue
             for rank, pattern in enumerate(patterns(source)):
@@ -245,6 +302,59 @@ class Shown:
                     if lines and (not best or (far, rank, abs(lines[1] - lines[0] - 4)) < best[0]):
                         best = ((far, rank, abs(lines[1] - lines[0] - 4)), word, source, *lines)
         return best and best[1:]
+
+    def members(self, name):
+        """(owner, name, kind) of what the headers declare of that type: a call, a value, or a short name in a type. The
+        tags have those alone that have a comment."""
+        wanted, found = [(name, "")], []
+        while wanted:
+            full, only = wanted.pop()
+            short = full.rpartition("::")[2]
+            for header in self.headers:
+                if short not in header.words:
+                    continue
+                for use in re.finditer(rf"(?:using (\w+) = )?(?<![\w:])((?:\w+::)*{short})\b(?:<[^;(){{}}]*?>+)?"
+                                       r"(?:, \w+>+)?[\s&*>]*(?:(?<=[\s&*])(\w+)(?=[({;,]| =|\[))?", header.code):
+                    owner, _, public, _ = header.scope(use.start())
+                    if not public or re.search(r"\bdetail\b", owner) or (only and owner != only):
+                        continue
+                    if not only and not self.tags.same(use[2], name, owner):
+                        continue
+                    if use[1] and owner in self.tags.pages:
+                        wanted.append((f"{owner}::{use[1]}", owner))
+                    elif use[3] and not re.fullmatch(KEYWORDS + "|operator|const", use[3]):
+                        called = header.code[use.end():use.end() + 1] == "("
+                        found.append((owner, use[3], "call" if called else "value"))
+        return found
+
+    def users(self, name):
+        """Types and functions of the library whose code names it, nearest first; what is `detail` counts as its own
+        users."""
+        asked, queue, found = {name}, [name], []
+        while queue:
+            full = queue.pop(0)
+            short = full.rpartition("::")[2]
+            for header in self.headers:
+                uses = rf"(?<![\w.>])((?:\w+::)*{short})(?=<|&|\(| ?\{{|::|>|,|;| \w+ ?[;=({{,)>]|\n)"
+                for use in re.finditer(uses, header.code) if short in header.words else ():
+                    scope, is_type, public, function = header.scope(use.start())
+                    if scope == full or scope.startswith(full + "::") or not self.tags.same(use[1], full, scope):
+                        continue
+                    if not is_type:  # in a function, or before or behind the name of what it is used for
+                        of = function or (public and header.named_by(use)) or ""
+                        if not of:
+                            continue
+                        scope += f"::{of}"
+                    while scope not in self.tags.pages and scope.rpartition("::")[0] in self.tags.pages:
+                        scope = scope.rpartition("::")[0]
+                    if scope in asked:
+                        continue
+                    asked.add(scope)
+                    if not re.search(r"\bdetail\b", scope):
+                        found.append(scope)
+                    if scope not in self.tags.pages:
+                        queue.append(scope)
+        return found
 
     def of(self, name, near):
         """(what is said of the lines, the name in them, file, first, last), or None."""
@@ -298,21 +408,40 @@ class Shown:
         ways += [(reads(m), f"{link(m, m['owner'].rpartition('::')[2] + '::' + m['name'])} is one", m["name"])
                  for m in holding]
         ways += [(calls(m), f"{link(m, m['name'] + '()')} takes it", m["name"]) for m in taking]
-        for part in (False, True):
-            for sources in (self.programs, self.tests):
-                for patterns, said, word in ways:
-                    found = self.first(sources, patterns, {word} if said else called, near, part)
-                    if found:
-                        return (said, *found)
+        known = {m["name"] for m in giving + holding}
 
-        def inside(source):  # what the library itself does with it
-            return [AT + f"(?P<named>{way})" + end
-                    for end in (GIVEN, r"\b(?! *[{=:(])") for way in source.spellings(name)]
+        def untold():  # of what has no comment the tags say nothing
+            for owner, member, kind in self.members(name):
+                is_free = owner not in tags.pages
+                m = {"owner": owner, "name": member, "free": is_free}
+                at = html.escape(member if is_free else f"{owner.rpartition('::')[2]}::{member}")
+                if member in known or owner == name:
+                    continue
+                if kind == "call":
+                    yield calls(m), f"<code>{at}()</code> returns it", member
+                elif not is_free:
+                    yield reads(m), f"<code>{at}</code> is one", member
 
-        for part in (False, True):
-            found = self.first(self.headers, inside, {short}, near, part)
-            if found:
-                return ("the library itself uses it", *found)
+        def inside():
+            for user in self.users(name):
+                if user not in tags.pages:
+                    f = user.rpartition("::")[2]
+                    yield (lambda source, user=user: [AT + rf"(?P<named>{way})\b" for way in source.spellings(user)],
+                           f"<code>{f}</code> uses it", f)
+
+        def groups():  # each is asked for only if there is nothing before it; users the nearest first
+            yield ways
+            yield list(untold())
+            for way in inside():
+                yield [way]
+
+        for some in groups():
+            for part in (False, True):
+                for sources in (self.programs, self.tests):
+                    for patterns, said, word in some:
+                        found = self.first(sources, patterns, {word} if said else called, near, part)
+                        if found:
+                            return (said, *found)
         return None
 
 
@@ -321,14 +450,22 @@ def block(said, word, source, first, last):
     indent = min(len(line) - len(line.lstrip()) for line in lines if line.strip())
     text = "\n".join(line[indent:] for line in lines)
     told = f"In <code>{html.escape(source.path)}</code>{', where ' + said if said else ''}:"
-    return (f'<h2 class="groupheader">Example</h2>\n<p>{told}</p>\n<pre class="fragment shown" '
-            f'data-from="{html.escape(source.path)}" data-uses="{word}">{html.escape(text, quote=False)}</pre>\n')
+    return (f'<p>{told}</p>\n<pre class="fragment shown" data-from="{html.escape(source.path)}" data-uses="{word}">'
+            f"{html.escape(text, quote=False)}</pre>\n")
+
+
+def place(path, added):
+    text = path.read_text("utf-8")
+    for end in ("<hr/>The documentation for this", "</div><!-- contents -->"):
+        if end in text:
+            path.write_text(text.replace(end, f'<h2 class="groupheader">Example</h2>\n{added}{end}', 1), "utf-8")
+            return
 
 
 def write(root, site, tags, without):
     shown = Shown(root, tags)
     lines = others = 0
-    done = {}
+    done, left = {}, []
     for name, page in sorted(tags.pages.items(), key=lambda entry: entry[0].count("::")):
         path = site / page
         text = path.read_text("utf-8")
@@ -342,22 +479,32 @@ def write(root, site, tags, without):
         found = shown.of(name, (where.parent.name, where.stem, f"include/{where}"))
         outer = tags.outer(name)
         if found:
-            added = block(*found)
+            place(path, block(*found))
             lines += 1
         elif outer in done:
             at = outer.rpartition("::")[2]
-            added = ('<h2 class="groupheader">Example</h2>\n<p>It comes with <a class="el shown" '
-                     f'href="{done[outer]}">{at}</a>, whose example shows it.</p>\n')
+            place(path, f'<p>It comes with <a class="el shown" href="{done[outer]}">{at}</a>, whose example shows '
+                        "it.</p>\n")
             others += 1
         else:
+            left.append(name)
             continue
         done[name] = page
-        for end in ("<hr/>The documentation for this", "</div><!-- contents -->"):
-            if end in text:
-                path.write_text(text.replace(end, added + end, 1), "utf-8")
-                break
+    inner = 0
+    while left:  # what is used by what has an example, and then what is used by that
+        now = [(name, user) for name in left for user in shown.users(name) if user in done]
+        if not now:
+            break
+        for name, user in {name: user for name, user in reversed(now)}.items():
+            at = user.rpartition("::")[2]
+            place(site / tags.pages[name], "<p>No program has to name it. The library uses it in "
+                  f'<a class="el shown" href="{done[user]}">{at}</a>.</p>\n')
+            done[name] = tags.pages[name]
+            left.remove(name)
+            inner += 1
+            print(f"used by the library alone: {name.removeprefix(LIBRARY + '::')}, in {at}")
     print(f"examples: {len(done)} of {len(tags.pages)} types, {lines} of them by lines that use them, {others} by what "
-          "they come with")
+          f"they come with, {inner} by what in the library uses them")
 
 
 def listed(path):
@@ -371,7 +518,8 @@ def listed(path):
 
 
 def wrong(root, site, pages, without):
-    """A sentence for each type without an example, for lines that stand in no file, and for what is listed in vain."""
+    """A sentence for each type without an example, for lines that stand in no file or in the library itself, and for
+    what is listed in vain."""
     found = []
     for name, page in sorted(pages.items()):
         text = (site / page).read_text("utf-8")
@@ -381,6 +529,8 @@ def wrong(root, site, pages, without):
         elif not has and not without.get(name):
             found.append(f"{name} has no example, nor a reason in the list")
         for path, word, lines in BLOCK.findall(text):
+            if path.startswith("include/"):
+                found.append(f"{name} is shown by the library's own code")
             lines = html.unescape(lines).splitlines()
             file = [line.strip() for line in (root / path).read_text("utf-8").splitlines()]
             wanted = [line.strip() for line in lines]
@@ -400,19 +550,23 @@ def attempt():
         folder = pathlib.Path(made)
         (folder / "a.cpp").write_text("  one = f();\n  two(one);\n  three();\n  one = f();\n" + "  three();\n" * MOST)
 
-        def page(lines, word="f"):
-            return f'<pre class="fragment shown" data-from="a.cpp" data-uses="{word}">{lines}</pre>'
+        (folder / "include").mkdir()
+        (folder / "include/a.hpp").write_text((folder / "a.cpp").read_text())
+
+        def page(lines, word="f", path="a.cpp"):
+            return f'<pre class="fragment shown" data-from="{path}" data-uses="{word}">{lines}</pre>'
 
         sound = "one = f();\ntwo(one);\nthree();"
         planted = {"sound": page(sound), "none": "<p>nothing</p>", "drifted": page(sound.replace("two", "2")),
                    "lengthy": page("\n".join(["one = f();", *["three();"] * MOST])),
-                   "silent": page(sound, "g"), "listed": page(sound)}
+                   "silent": page(sound, "g"), "listed": page(sound),
+                   "own": page(sound, path="include/a.hpp")}
         for name, text in planted.items():
             (folder / f"{name}.html").write_text(text)
         found = wrong(folder, folder, {name: f"{name}.html" for name in planted}, {"listed": "why", "gone": "why"})
         named = sorted(re.split(r"[ :]", line)[0] for line in found)
         print("\n".join(found))
-        return 0 if named == ["drifted", "gone", "lengthy", "listed", "none", "silent"] else 1
+        return 0 if named == ["drifted", "gone", "lengthy", "listed", "none", "own", "silent"] else 1
 
 
 def main():
