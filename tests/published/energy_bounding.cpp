@@ -55,6 +55,58 @@ TEST_CASE("energy_bounding in one dimension is the published window (§ 2(b))", 
   }
 }
 
+TEST_CASE("no force that energy_bounding could give is nearer to the desired one", "[bound]") {
+  sim::random_source random(19);
+  int at_plane = 0, at_rim = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double c1 = random.uniform(5.0, 30.0), c2 = random.uniform(2.0, c1);
+    const d2::vector h = random.direction<d2>() * random.uniform(0.0, 2.0);
+    const d2::vector dx = random.direction<d2>() * random.uniform(1e-3, 5e-2);
+    const d2::vector desired = random.direction<d2>() * random.uniform(0.0, 4.0);
+    const auto gap = [&](const d2::vector& f) {  // of the half-space and of the ball
+      return std::pair{(h - f).dot(dx) - std::min(c1, 30.0) * dx.dot(dx),
+                       (f + c2 * dx).norm() - std::sqrt(h.dot(h) + c2 * c2 * dx.dot(dx))};
+    };
+    const d2::vector found = afresh_allowed(ph::energy_bounding{.slope = c1, .storage = c2},
+                                            desired, situation<d2>{.held = h, .travel = dx});
+    REQUIRE(gap(found).first <= 1e-12);
+    REQUIRE(gap(found).second <= 1e-12);
+    const bool plane = gap(found).first > -1e-9, rim = gap(found).second > -1e-9;
+    at_plane += plane && !rim ? 1 : 0;
+    at_rim += plane && rim ? 1 : 0;
+    const double miss = (found - desired).norm();
+    for (int n = 0; n < 64; ++n) {  // the set is convex: a nearer force would be near this one, too
+      const double angle = 2.0 * 3.141592653589793 * n / 64;
+      const d2::vector other = found + 1e-4 * d2::vector(std::cos(angle), std::sin(angle));
+      if (gap(other).first > 0.0 || gap(other).second > 0.0) continue;
+      REQUIRE((other - desired).norm() >= miss);
+    }
+  }
+  CHECK(std::min(at_plane, at_rim) > 10);
+}
+
+TEST_CASE("where the ball only touches the half-space, that force is energy_bounding's",
+          "[bound]") {
+  sim::random_source random(29);
+  for (int i = 0; i < 2000; ++i) {  // h = 0 and c1 = 2 c2: −2 c2 Δx is in both
+    const double c2 = random.uniform(1.0, 14.0), dx = random.uniform(-5e-2, 5e-2);
+    REQUIRE_THAT(limit(ph::energy_bounding{.slope = 2 * c2, .storage = c2}, -1e3 * dx, 0.0, dx),
+                 WithinRel(-2 * c2 * dx, 1e-6));
+  }
+}
+
+TEST_CASE("energy_bounding credits no more than it commanded, until it is reset", "[bound]") {
+  auto bound = at<d1>(ph::energy_bounding{});
+  const auto next = [&](double desired) {
+    return allowed(bound, desired, situation<d1>{.held = -2.0});
+  };
+  CHECK(next(-9.0) == -2.0);
+  CHECK(next(0.0) == 0.0);
+  CHECK(next(-9.0) == 0.0);  // the motors hold 2 N on their own
+  bound.reset();
+  CHECK(next(-9.0) == -2.0);
+}
+
 TEST_CASE("energy_bounding pushes on after the contact is lost, and starts nothing", "[bound]") {
   const ph::energy_bounding bound;
   static_assert(!ph::detail::reduces<ph::energy_bounding, d1, situation<d1>::state_type>());
@@ -111,6 +163,8 @@ TEST_CASE("energy_bounding and sector_bound never exceed tight_energy_bounding",
 }
 
 TEST_CASE("energy_bounding takes new parameters, refuses bad ones and starts anew", "[bound]") {
+  CHECK(refused(ph::energy_bounding{.storage = -1}) == "storage");
+  CHECK(refused(ph::tight_energy_bounding{.storage = -1}) == "storage");
   const ph::energy_bounding first, soft{.slope = 20, .storage = 5}, none{.slope = -1};
   check_upkeep(following_half_space<d1>(ph::spring{}, thesis_ledger(), first), first, soft, none);
 }

@@ -92,6 +92,24 @@ TEST_CASE("a tank that predicts its outflow passes all but what the last motion 
   CHECK_THAT(force(-80.0), WithinRel(-std::sqrt(4.0 * 2e-3 * 0.03 / 2e-3), 1e-12));
 }
 
+TEST_CASE("the share that a predicting tank leaves is between 0 and 1, of a level of any sign",
+          "[time domain]") {
+  const auto tank = at<d1>(ph::predicting_tank{.reserve = 1e-3});
+  const auto share = [&](double force, double travel, double energy) {
+    const situation<d1> now{.energy = energy, .travel = travel};
+    return tank.limit(force, now.port()).factor;
+  };
+  for (const double energy : {-1.0, 1e-3, 3e-3}) {
+    CHECK(share(-8.0, 0.0, energy) == 1.0);   // at rest nothing is predicted to go out
+    CHECK(share(-0.1, 1e-3, energy) == 1.0);  // and on the way in it comes in, in debt, too
+    CHECK(share(-8.0, 1e-3, energy) == 1.0);
+  }
+  CHECK(share(-1.5, -1e-3, 3e-3) == 1.0);
+  CHECK(share(-4.0, -1e-3, 3e-3) == 0.5);
+  CHECK(share(-4.0, -1e-3, 1e-3) == 0.0);
+  CHECK(share(-4.0, -1e-3, -1.0) == 0.0);
+}
+
 TEST_CASE("a tank that predicts its outflow feeds a hand of 5 N, one that does not, does not",
           "[time domain]") {
   CHECK(tapped(model_of<d1>(ph::predicting_tank{})) < -1e-3);
@@ -126,6 +144,13 @@ TEST_CASE("the two-layer tank lets out at most what it holds and takes all that 
     CHECK_THAT(force(-8.0), WithinRel(-0.2, 1e-6));
     now.travel = 1e-6;
     CHECK(force(-8.0) == -8.0);
+    now.travel = 0.0;
+    CHECK(force(-8.0) == -8.0);
+  }
+  SECTION("the next tick may be longer than the last") {
+    now.dt = 0.5e-3;
+    now.travel = -1e-3;  // 0.06 mJ of damping is credited
+    CHECK_THAT(force(-8.0), WithinRel(-1.03, 1e-12));
   }
   SECTION("the level controller drags until the level is there") {
     parameters = {.wanted = 3e-3, .refill = 1e4, .max_damping = 50.0};

@@ -98,6 +98,16 @@ TEST_CASE("the parallel controller leaks velocity along the force", "[time domai
     CHECK(controller.velocity(0.1, -4.0, T) == 0.1);
     CHECK(controller.velocity(0.1, 0.0, T) == 0.1);
   }
+  SECTION("just the least force is enough, and a loan is there from the start") {
+    controller = after_a_push({.max_mobility = 0.1, .least_force = 4.0});
+    CHECK(controller.velocity(0.1, -4.0, T) < 0.1);
+    CHECK(parallel({.max_mobility = 0.1, .loan = 1.0}).energy() == 1.0);
+  }
+  SECTION("after a bad sample nothing is held") {
+    CHECK(controller.velocity(0.1, std::nan(""), T) == 0.0);
+    CHECK(controller.velocity(0.2, 3.0, T) == 0.2);
+    CHECK(controller.energy() == 0.0);
+  }
   SECTION("the velocity really held counts") {
     static_cast<void>(controller.velocity(0.0, -4.0, T, 0.05));
     CHECK_THAT(controller.energy(), WithinRel(-0.2e-3, 1e-12));

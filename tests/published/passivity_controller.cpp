@@ -111,6 +111,14 @@ TEST_CASE("the series controller repays a deficit with a damper and carries what
     now.travel = 0.0;
     CHECK(force(-1.0) == -1.0);
   }
+  SECTION("it acts at just those, and at rest it does nothing however strong it may be") {
+    controller.set({.max_damping = 10.0, .least_travel = 0x1p-14});
+    now.travel = -0x1p-14;
+    CHECK(force(-1.0) > -1.0);
+    controller.set({.max_damping = ph::kernels::largest<double>()});
+    now.travel = 0.0;
+    CHECK(force(-1.0) == -1.0);
+  }
   SECTION("a threshold below zero is a loan") {
     controller.set({.max_damping = 10.0, .threshold = -1e-3});
     now.travel = -4e-4;
@@ -119,6 +127,14 @@ TEST_CASE("the series controller repays a deficit with a damper and carries what
   }
   SECTION("positive energy is voided after a force-free time, a debt is not") {
     controller = at<d1>(series{.max_damping = 10.0, .reset_after = 2e-3, .loan = 1e-3});
+    now.held = 0.0;
+    static_cast<void>(force(0.0));
+    CHECK_THAT(ledger_of(controller), WithinRel(1e-3, 1e-12));
+    controller.reset();  // and the time begins anew
+    static_cast<void>(force(0.0));
+    CHECK_THAT(ledger_of(controller), WithinRel(1e-3, 1e-12));
+    now.held = -1.0;
+    static_cast<void>(force(0.0));  // as it does with a force
     now.held = 0.0;
     static_cast<void>(force(0.0));
     CHECK_THAT(ledger_of(controller), WithinRel(1e-3, 1e-12));
@@ -254,11 +270,14 @@ TEST_CASE("parameters of the time-domain controllers are refused with their name
           "[time domain]") {
   const double nan = std::nan("");
   CHECK_FALSE(series{.max_damping = 50}.check());
+  CHECK_FALSE(series{.max_damping = 50, .reset_after = 0}.check());
   CHECK(refused(series{}) == "max_damping");
   CHECK(refused(series{.max_damping = 50, .threshold = nan}) == "threshold");
   using reference = ph::reference_energy;
   CHECK(refused(reference{.controller = {.max_damping = 50}, .part = 1.1}) == "part");
   CHECK(refused(reference{.controller = {}, .part = 1.0}) == "max_damping");
+  CHECK_FALSE(reference{.controller = {.max_damping = 50}, .part = 0.0}.check());
+  CHECK_FALSE(reference{.controller = {.max_damping = 50}, .part = 1.0}.check());
   CHECK(refused(series{.max_damping = 50, .least_speed = -1}) == "least_speed");
   CHECK(refused(series{.max_damping = 50, .least_travel = nan}) == "least_travel");
   CHECK(refused(series{.max_damping = 50, .reset_after = nan}) == "reset_after");

@@ -38,6 +38,27 @@ TEST_CASE("reference_energy keeps the energy of the spring, in contact only", "[
   CHECK(force(0.51e-3, -1.0) == -1.0);
 }
 
+TEST_CASE("reference_energy keeps the part that is set, and none where the surface is beyond reach",
+          "[time domain]") {
+  ph::reference_energy p{.controller = {.max_damping = 1e3}};
+  const auto force = [&](double depth) {
+    auto shaper = at<d1>(reference);
+    shaper.set(p);
+    const ph::contact_state<d1> contact{.normal = -1,
+                                        .stiffness = 1000,
+                                        .depth = 1e-3,
+                                        .target_depth = depth,
+                                        .local_force = 1,
+                                        .target_changed = false};
+    return allowed(shaper, -1.0, contact, situation<d1>{.travel = 1e-3});
+  };
+  for (const double part : {0.0, 0.5, 1.0}) {  // part·K d²/2 over 1 mm, with nothing in the ledger
+    p.part = part;
+    CHECK_THAT(force(1e-3), WithinRel(-1.0 - part * 0.5, 1e-12));
+    CHECK(force(-1e-3) == -1.0);
+  }
+}
+
 TEST_CASE("reference_energy reproduces its rows of S0 (docs/design/mathematics.md § 5)",
           "[time domain]") {
   const auto smooth =

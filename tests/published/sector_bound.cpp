@@ -44,6 +44,31 @@ TEST_CASE("sector_bound rises by at most β and falls by β to 2b/T, and only wi
   CHECK(next(0.0, 0.0, 0.01) == 0.0);
 }
 
+TEST_CASE("sector_bound holds nothing after a lost or a late tick, until it is reset", "[bound]") {
+  const auto next = [](auto& bound, const situation<d1>& now) { return allowed(bound, -9.0, now); };
+  const situation<d1> good{.held = -1.0};
+  for (const situation<d1>& bad : {situation<d1>{.held = -1.0, .motion_known = false},
+                                   situation<d1>{.dt = 2e-3, .held = -1.0}}) {
+    auto bound = at<d1>(ph::sector_bound{.slope = 20});
+    CHECK(next(bound, good) == -1.0);
+    CHECK(next(bound, bad) == 0.0);
+    CHECK(next(bound, good) == 0.0);  // what the motors hold beyond the command is not credited
+    bound.reset();
+    CHECK(next(bound, good) == -1.0);
+  }
+}
+
+TEST_CASE("sector_bound takes the b of its one axis", "[bound]") {
+  const auto falls = [](auto damping) {
+    auto bound = at<d1>(ph::sector_bound{.slope = 20});
+    return allowed(bound, 0.0,
+                   situation<d1, decltype(damping)>{
+                       .damping = at<d1>(damping), .held = -1.0, .travel = -0.01});
+  };
+  CHECK(falls(ph::isotropic_damping{0.03}) == falls(ph::diagonal_damping<1>{{0.03}}));
+  CHECK(falls(ph::isotropic_damping{0.03}) != falls(ph::diagonal_damping<1>{{0.02}}));
+}
+
 TEST_CASE("motors a little too strong do not wind the force up", "[bound]") {
   const auto wound = [](const auto& parameters, double dx) {
     auto bound = at<d1>(parameters);

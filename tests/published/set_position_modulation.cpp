@@ -136,6 +136,91 @@ TEST_CASE("the gate lets an update add only what its tank holds", "[time domain]
   }
 }
 
+TEST_CASE("in any row of ticks the gate holds what its formulas say", "[time domain]") {
+  ph::laws::samples random(23);
+  const auto one_of = [&](std::initializer_list<double> numbers) {
+    return numbers.begin()[static_cast<int>((random.number<double>() + 1.0) * 0.5 *
+                                            static_cast<double>(numbers.size()))];
+  };
+  constexpr double dt = 1.0 / 1024, b = 0.03;
+  const gate p{.loan = 1e-3, .cap = 0.25, .ask_again = 5 * dt};
+  auto pspm = at<d1>(p);
+  struct spring {
+    double K = 0.0, d = 0.0, gap = 0.0;
+  } was;
+  struct interval {
+    double x = 0.0, least = 0.0, most = 0.0, time = 0.0, pays = HUGE_VAL;
+  } since;
+  double E = p.loan, at_target = -0.5, K = 16.0;
+  int cut = 0, asked_again = 0, pays = 0;
+  const auto stored = [](double stiffness, double d) {
+    return d > 0.0 ? stiffness * d * d / 2.0 : 0.0;
+  };
+  for (int n = 0; n < 6000; ++n) {
+    if (n % 60 == 0) {
+      pspm.reset();
+      E = p.loan;
+      was = {};
+      since = {};
+    }
+    const double travel = one_of({-2.0, -1.0, 0.0, 0.0, 0.0, 1.0, 2.0}) / 1024;
+    const bool changes = random.number<double>() > 0.8;
+    at_target = changes ? one_of({-4.0, 0.0, 1.0, 4.0, 32.0}) / 1024 : at_target + travel;
+    if (changes) K = one_of({1.0 / 64, 16, 32, 80});
+    const double before = was.K * std::max(was.d, 0.0);
+    const situation<d1> now{.dt = one_of({dt, dt, dt, dt, dt, dt, 0.5 * dt, 2 * dt}),
+                            .longest_tick = dt,
+                            .held = -before * one_of({1.0, 1.0, 0.5, 1.25}),
+                            .travel = travel,
+                            .motion_known = random.number<double>() < 0.97};
+    double kept = 0.0;
+    if (was.K > 0.0 && (!now.motion_known || now.dt > dt)) {
+      E = std::min(E, 0.0);
+      since = {};
+    } else if (was.K > 0.0) {
+      E += (-before - now.held) * travel;
+      since.x += travel;
+      since.least = std::min(since.least, since.x);
+      since.most = std::max(since.most, since.x);
+      since.time += now.dt;
+      since.pays = std::min(since.pays, b - was.K * dt / 2.0);
+      kept = stored(was.K, was.d + travel);
+    }
+    const bool again = was.gap > 0.0 && since.time >= p.ask_again;
+    asked_again += again && !changes ? 1 : 0;
+    if (changes || again) {
+      const double range = since.most - since.least;
+      if (since.time > 0.0 && since.pays > 0.0) {
+        E += since.pays * range * range / since.time;
+        pays += range > 0.0 ? 1 : 0;
+      }
+      since = {};
+      was.gap = 0.0;
+    }
+    double d = std::min(at_target, std::max(at_target - was.gap, 0.0));
+    const double budget = std::max(E + kept, 0.0);
+    if (stored(K, d) > budget) {
+      d = std::sqrt(2.0 * budget / K);
+      ++cut;
+    }
+    E = std::min(E + kept - stored(K, d), p.cap);
+    was = {K, d, at_target - d};
+    const ph::contact_state<d1> contact{.normal = -1,
+                                        .stiffness = K,
+                                        .depth = at_target,
+                                        .target_depth = at_target,
+                                        .local_force = 0,
+                                        .target_changed = changes};
+    const double share = pspm.shape(-1.0, contact, now.port()).factor;
+    CAPTURE(n, at_target, K, travel, now.held, now.dt);
+    REQUIRE_THAT(pspm.energy(), WithinAbs(E, 1e-12));
+    REQUIRE_THAT(share, WithinAbs(d < at_target ? d / at_target : 1.0, 1e-6));
+    E = pspm.energy();  // no gap comes of rounding alone
+    if (std::abs(was.gap) < 1e-12) was.gap = 0.0;
+  }
+  CHECK(std::min({cut, asked_again, pays}) > 30);
+}
+
 TEST_CASE("on a static wall stiffer than 2b/T the gate is the same as no bound", "[time domain]") {
   const fall bare = drop(model_of<d1>(ph::no_bound{}));
   const fall through = drop(by_itself<d1>(gated(published_gate{})));
@@ -277,6 +362,7 @@ TEST_CASE("the gate in front of strict_bound is strict at any stiffness", "[time
 }
 
 TEST_CASE("the gate takes new parameters, refuses bad ones and starts anew", "[time domain]") {
+  CHECK_FALSE(gate{.cap = 0.0}.check());
   const gate first{.loan = 1e-3}, full{.loan = 1e-3, .cap = 1e-9}, none{.cap = -1};
   check_upkeep(by_itself<d1>(gated(first)), first, full, none);
 }

@@ -198,6 +198,97 @@ TEST_CASE("growth takes what the ledger has beyond release and worst tick, and n
   }
 }
 
+TEST_CASE("in any row of ticks shapers that grow stiff hold what their formulas say",
+          "[shaper][augmentation]") {
+  ph::laws::samples random(17);
+  const auto one_of = [&](std::initializer_list<double> numbers) {
+    return numbers.begin()[static_cast<int>((random.number<double>() + 1.0) * 0.5 *
+                                            static_cast<double>(numbers.size()))];
+  };
+  constexpr double dt = 1.0 / 1024, initial = 64, most = 512, step = 96, away_for = 3 * dt;
+  const ph::nonlinear_coupling grows{.initial = initial, .rate = 1e5, .most = most};
+  const ph::stiffness_increment steps{.initial = initial, .step = step, .reset_after = away_for};
+  const ph::force_augmentation adds{.low = initial, .step = 0.25};
+  auto grown = at<d1>(grows);
+  auto increment = at<d1>(steps);
+  auto offset = at<d1>(adds);
+  double Kc = 0.0, Ki = 0.0, F = 0.0, away = 0.0;
+  bool released = false, leaving = false;
+  int turns = 0, paid = 0;
+  for (int n = 0; n < 4000; ++n) {
+    if (n % 50 == 0) {
+      grown.reset(), increment.reset(), offset.reset();
+      Kc = Ki = F = away = 0.0;
+      released = leaving = false;
+    }
+    const double d = one_of({-1.0, 0.0, 1.0, 1.5, 2.0, 3.0}) / 128,
+                 K = one_of({32, 200, 1024, 4096});
+    const double asked = K * std::max(d, 0.0) * one_of({0.0, 0.25, 1.0, 1.0, 2.0});
+    const double outward = one_of({-1.0, 0.0, 1.0}) / 1024;
+    const situation<d1> now{.energy = one_of({-1.0, 0.01, 0.03, 1.0}),
+                            .dt = dt,
+                            .longest_tick = dt,
+                            .travel = -outward,
+                            .motion_known = random.number<double>() < 0.9};
+    const ph::contact_state<d1> contact{.normal = -1,
+                                        .stiffness = K,
+                                        .depth = d,
+                                        .target_depth = d,
+                                        .local_force = 0,
+                                        .target_changed = false};
+    const bool shapes = asked > 0.0 && d > 0.0 && now.motion_known;
+    const auto spare = [&](double most_force, double release) {
+      const double f = std::min(asked, most_force);
+      return std::max(now.energy - std::max(release, f * f * dt / (4 * 0.03)), 0.0);
+    };
+    const auto agrees = [&](auto& shaper, double most_force) {
+      const auto left = shaper.shape(-asked, contact, now.port());
+      CAPTURE(n, d, K, asked, outward, now.energy, now.motion_known);
+      REQUIRE_THAT(left.factor, WithinRel(shapes ? std::min(1.0, most_force / asked) : 1.0, 1e-12));
+    };
+    if (!shapes) {
+      Kc = F = 0.0;
+      leaving = false;
+      away += dt;
+      const bool forgotten = away > away_for || !now.motion_known;
+      released = Ki > 0.0 && !forgotten;
+      if (forgotten) Ki = 0.0;
+      agrees(grown, 0.0), agrees(increment, 0.0), agrees(offset, 0.0);
+    } else {
+      Kc = std::max(Kc, initial);
+      const auto in_series = [&] { return 1.0 / (1.0 / K + 1.0 / Kc); };
+      const double half = d * d / 2.0;
+      Kc += std::min({1e5 * dt, most - Kc, spare(in_series() * d, in_series() * half) / half});
+      agrees(grown, in_series() * d);
+
+      away = 0.0;
+      Ki = std::min(std::max(Ki, initial), K);
+      if (outward < 0.0 && released) {
+        released = false;
+        const double free = spare(Ki * d, Ki * half);
+        paid += free > 0.0 && free / half < std::min(step, K - Ki) ? 1 : 0;
+        Ki += std::min({step, K - Ki, free / half});
+      }
+      released = released || outward > 0.0;
+      agrees(increment, Ki * d);
+
+      const double low = std::min(initial, K);
+      if (leaving ? outward < 0.0 : outward > 0.0) {
+        leaving = !leaving;
+        ++turns;
+        const double free = spare(low * d + F, low * half + F * d);
+        F += std::max(std::min({(K - low) * d - F, 0.25, free / d}), -0.25);
+      }
+      agrees(offset, low * d + F);
+    }
+    REQUIRE_THAT(grown.coupling(), WithinRel(Kc, 1e-12));
+    REQUIRE_THAT(increment.stiffness(), WithinRel(Ki, 1e-12));
+    REQUIRE_THAT(offset.offset(), WithinAbs(F, 1e-12));
+  }
+  CHECK(turns > 100);
+  CHECK(paid > 10);
+}
+
 TEST_CASE("a release gives back what its increments were charged, ΔK d²/2, at the true port",
           "[shaper][augmentation]") {
   // pressed to d with K_0, grown at rest to K_1, released: −(K_1 − K_0) d²/2, but for the damper's
