@@ -2,6 +2,9 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 
+#include <algorithm>
+#include <array>
+
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
@@ -56,6 +59,18 @@ TEST_CASE("diagonal_damping is isotropic where all axes are alike, and its own o
 
   const auto turning = at<joints>(ph::diagonal_damping<2>{{0.01, 0.04}});
   CHECK(turning.worst_outflow(f, T) == own.worst_outflow(f, T));
+}
+
+TEST_CASE("the least and the most b are those of any axis", "[damping]") {
+  std::array<double, 3> b{0.01, 0.03, 0.2};
+  do {
+    const auto own = at<d3>(ph::diagonal_damping<3>{b});
+    CHECK(ph::detail::least_damping<d3>(own) == 0.01);
+    CHECK(ph::detail::most_damping<d3>(own) == 0.2);
+  } while (std::next_permutation(b.begin(), b.end()));
+  const auto one = at<d1>(ph::diagonal_damping<1>{{0.05}});
+  CHECK(ph::detail::least_damping<d1>(one) == 0.05);
+  CHECK(ph::detail::most_damping<d1>(one) == 0.05);
 }
 
 TEST_CASE("a damping is refused with its name", "[damping]") {

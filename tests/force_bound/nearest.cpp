@@ -119,6 +119,35 @@ TEMPLATE_TEST_CASE("strict_bound takes the nearest effort that is covered, whate
   CHECK(longer / 8000 > 1.2);
 }
 
+TEST_CASE("the multiplier of the nearest effort comes from below to a millionth of its work",
+          "[bound][nearest]") {
+  sim::random_source random(17);
+  const auto work = [](const auto& device, const d3::vector& f, double lambda) {
+    return device.worst_outflow(device.yielding(f, lambda), T);
+  };
+  for (const double span : {0.5, 2.0, 3.0}) {
+    for (int n = 0; n < 2000; ++n) {
+      const auto device = at<d3>(any_damping<d3>(random, span));
+      const auto f = any_effort<d3>(random, span);
+      const double W = device.worst_outflow(f, T);
+      const double E = W * std::pow(10.0, random.uniform(-span, 0.0));
+      const double found = ph::detail::yield<d3>(device, f, E, T);
+      CAPTURE(span, n);
+      REQUIRE(found >= 0.0);
+      REQUIRE(work(device, f, found) >= E * (1 - 1e-12));
+      REQUIRE(work(device, f, found) <= E * (1 + 1.01e-6));
+      for (const double more : {1.0 + 5e-7, 1.1, 10.0}) {
+        REQUIRE(ph::detail::yield<d3>(device, f, W * more, T) == 0.0);
+      }
+      for (const double none : {0.0, -W}) {
+        REQUIRE(ph::detail::yield<d3>(device, f, none, T) == 0.0);
+      }
+    }
+  }
+  const auto device = at<d3>(axes<d3>{{0.01, 0.03, 0.2}});  // what has no square has no multiplier
+  CHECK(ph::detail::yield<d3>(device, d3::vector(1, 1e200, 1), 1e-3, T) == 0.0);
+}
+
 TEST_CASE("with dampings that are alike the nearest effort is the share for all",
           "[bound][nearest]") {
   sim::random_source random(3);
@@ -273,8 +302,17 @@ TEMPLATE_TEST_CASE(
       if (miss < best) best = miss, where = i;
     }
     inside += where > 0 && where < 16 ? 1 : 0;
-    REQUIRE(looks <= (best > 0.0 && most > 0.0 ? 2 + 2 * 4 : 1));
+    REQUIRE(looks <= (best > 0.0 && most > 0.0 ? 2 + 1 + 2 * 3 : 1));
     REQUIRE_THAT((f - found).norm(), WithinAbs(best, 1e-9 * f.norm()));
   }
   CHECK(inside > 100);
+  int looks = 0;
+  const auto all = [&](const typename P::vector&) {
+    ++looks;
+    return 1.0;
+  };
+  const typename P::vector f = any_effort<P>(random, 1.0);
+  CHECK(ph::detail::nearest_of<P>(
+            at<P>(any_damping<P>(random, 1.5)), f, [] { return 1.0; }, all) == f);
+  CHECK(looks == 1);  // nothing is missed, so nothing is searched for
 }
