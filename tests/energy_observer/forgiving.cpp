@@ -105,6 +105,26 @@ TEST_CASE(
   CHECK(lent < 12.0 * A);
 }
 
+TEST_CASE("a fault just when the pause ends does not double it, for amends have not begun",
+          "[forgiving]") {
+  constexpr double tick = 0.05;  // two of them are the first pause to the bit
+  const auto lent_after = [](int before, int after) {
+    auto ledger = at<d1>(ph::forgiving{ph::reduced_energy{.damping = 0.1, .loan = 2.0 * A}, A});
+    ledger.disturbed();  // there is credit, so nothing is lent at once
+    for (int n = 0; n < before; ++n) (void)ledger.update(0.0, 0.0, tick);
+    ledger.disturbed();
+    REQUIRE(ledger.update(1.5 * A / 9.0, 9.0, tick));
+    const double left = ledger.value();
+    REQUIRE(left < A);
+    for (int n = 1; n < after; ++n) (void)ledger.update(0.0, 0.0, tick);
+    return ledger.value() - left;
+  };
+  CHECK(lent_after(2, 2) == 0.0);
+  CHECK_THAT(lent_after(2, 3), WithinRel(A * tick / 0.5, 1e-9));
+  CHECK(lent_after(3, 4) == 0.0);  // a tick later they have
+  CHECK(lent_after(3, 5) > 0.0);
+}
+
 TEST_CASE("whenever the faults come, no more is lent than the promise says", "[forgiving]") {
   ph::laws::samples random(11);
   double worst = 0.0;

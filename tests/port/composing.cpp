@@ -87,6 +87,50 @@ TEST_CASE("bounds in a row are each shown what is left, and one that limits is e
   CHECK(ph::detail::applied<d1>(constant, -4.0, situation<d1>{}.port()).force == -1.0);
 }
 
+TEST_CASE("a source and a law are told of the loop what they ask for", "[composing]") {
+  struct {
+    double T = 0.0;
+    constexpr void adopt(double longest_tick) noexcept { T = longest_tick; }
+  } plain;
+  struct {
+    double T = 0.0;
+    int late = 0;
+    constexpr void adopt(double longest_tick, int ticks) noexcept {
+      T = longest_tick;
+      late = ticks;
+    }
+  } asking;
+  ph::detail::tell(plain, 1e-3, 3);
+  ph::detail::tell(asking, 1e-3, 3);
+  CHECK(plain.T == 1e-3);
+  CHECK(asking.T == 1e-3);
+  CHECK(asking.late == 3);
+  struct {
+    double K = 0.0, T = 0.0;
+    constexpr void adopt(double stiffness, double longest_tick) noexcept {
+      K = stiffness;
+      T = longest_tick;
+    }
+  } law;
+  struct {
+    double K = 0.0, T = 0.0;
+    int late = 0;
+    constexpr void adopt(double stiffness, double longest_tick, int ticks) noexcept {
+      K = stiffness;
+      T = longest_tick;
+      late = ticks;
+    }
+    constexpr void adopt(double stiffness, double longest_tick) noexcept {
+      adopt(stiffness, longest_tick, -1);
+    }
+  } late_law;
+  ph::detail::tell(law, 500.0, 1e-3, 3);
+  ph::detail::tell(late_law, 500.0, 1e-3, 3);
+  CHECK(std::pair{law.K, law.T} == std::pair{500.0, 1e-3});
+  CHECK(std::pair{late_law.K, late_law.T} == std::pair{500.0, 1e-3});
+  CHECK(late_law.late == 3);
+}
+
 TEST_CASE("the first fault in a row is told", "[composing]") {
   using ph::bound_chain;
   CHECK_FALSE(bound_chain{leaving{0.5}, leaving{0.25}}.check());
