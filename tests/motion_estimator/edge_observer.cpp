@@ -303,6 +303,155 @@ TEST_CASE("edge_observer of exact positions is the last difference", "[motion]")
   }
 }
 
+namespace {
+
+/// An axis of edge_observer a second time, from what its header says of it.
+struct plain_edges {
+  double q, p;
+  double x = 0.0, v = 0.0;              ///< v is |v| in the direction `to`
+  double way = 0.0, t = 0.0, to = 0.0;  ///< since the last edge, and which way that was
+  double at_edge = 0.0;                 ///< |v| there
+  double low = 0.0, high = 0.0;         ///< steps of the last turns
+  int turns = 0;
+
+  void start(double step) {
+    *this = {.q = q, .p = p, .x = step + q / 2, .low = step, .high = step};
+  }
+  void see(double step, double travel, double dt) {
+    way += travel;
+    t += dt;
+    const double most = 2 * p + 1.01 * q;
+    if (std::abs(way) >= q / 2) {
+      const double now = way < 0.0 ? -1.0 : 1.0, size = std::abs(way);
+      if (2 * p > q) {
+        if (now * to < 0.0) {
+          (now > 0.0 ? low : high) = step - way;
+          turns = high - low <= most ? std::min(turns + 1, 2) : 0;
+        }
+        const double beyond = std::max({low - step, step - high, 0.0});
+        if (high - low + beyond > most || beyond > 1.01 * q) turns = 0;
+      }
+      const double mean = size / t, share = std::max(t / dt, v * t / q) / 4;
+      if (to != now && size <= 1.5 * q) {
+        v = 0.8 * std::min(at_edge, 4 * q / t);
+      } else if (to != now || v == 0.0 || size >= 4 * q || share >= 1.0) {
+        v = mean;
+      } else {
+        v += share * (mean - v);
+      }
+      at_edge = v;
+      if (turns < 2) x = (now > 0.0 ? step : step + q) + now * std::min(v * dt, q) / 2;
+      to = now;
+      way = t = 0.0;
+    } else if (t > 0.1) {
+      if (turns == 2) x = step + q / 2;
+      turns = 0;
+      x = std::clamp(x, step, step + q);
+      x += (step + q / 2 - x) * std::min(dt / 0.2, 1.0);
+    } else if (turns == 2) {
+      x += ((low + high) / 2 + q / 2 - x) * std::min(dt / 0.05, 1.0);
+    } else {
+      v = std::min(v, q / t);
+      const double farthest = to > 0.0 ? step + q * 2 / 3 : step + q / 3;
+      if (to * (farthest - x) > 0.0) x += to * std::min(v * dt, std::abs(farthest - x));
+      x = std::clamp(x, step, step + q);
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("edge_observer shows what its formulas say, wherever an axis goes and rests",
+          "[motion]") {
+  constexpr double step = 0x1p-14, tick = 0x1p-10;  // so that ways and times are exact
+  for (const double p : {0.0, 0.5 * step, 1.5 * step, 2.0 * step}) {
+    ph::laws::samples random(5);
+    const auto one_of = [&](std::initializer_list<double> numbers) {
+      return numbers.begin()[static_cast<int>((random.number<double>() + 1.0) * 0.5 *
+                                              static_cast<double>(numbers.size()))];
+    };
+    auto eyes = at<d2>(ph::edge_observer{.quantum = step, .presliding = p});
+    plain_edges plain[2]{{step, p}, {step, p}};
+    d2::vector x = d2::zero();
+    int rested = 0, swung = 0, left[2]{0, 0};
+    double goes[2]{0.0, 0.0}, by[2]{0.0, 0.0}, part[2]{1.0, 1.0};
+    for (int n = 0; n < 5000; ++n) {
+      d2::vector travel = d2::zero();
+      for (int i = 0; i < 2; ++i) {
+        if (left[i]-- <= 0) {  // another kind of motion: so many ticks, or back and forth
+          left[i] = static_cast<int>(one_of({1, 3, 8, 30, 130}));
+          goes[i] = one_of({0, 0, 1, 1, 2, 3, 4, 6});
+          by[i] = one_of({-1, 1});
+          part[i] = one_of({1, 1, 1, 0.25, 0.5});
+        }
+        if (n % static_cast<int>(goes[i] + 1) == 0) {
+          travel(i) = goes[i] == 0.0 ? 0.0 : by[i] * step * part[i] * one_of({1, 1, 1, 2, 3, 4, 5});
+        }
+        if (goes[i] == 2.0 || goes[i] == 6.0) by[i] = one_of({1, 1, -1, -1, -by[i]});
+        if (goes[i] == 3.0 && travel(i) != 0.0) {
+          travel(i) = by[i] * step;
+          by[i] = -by[i];
+        }
+      }
+      x += travel;
+      const bool known = n % 997 != 0;
+      const double dt = tick * one_of({1, 1, 1, 0.5, 2, 64});
+      if (n % 499 ==
+          300) {  // where nothing rests it forgets its turns, and with the same numbers nothing
+        eyes.set({.quantum = step});
+        eyes.set({.quantum = step, .presliding = p});
+        plain[0].turns = plain[1].turns = 0;
+      } else if (n % 499 == 400) {
+        eyes.set({.quantum = step, .presliding = p});
+      }
+      const auto now = eyes.estimate(x, travel, d2::zero(), dt, known);
+      REQUIRE(eyes.position() == now.position);
+      for (int i = 0; i < 2; ++i) {
+        plain_edges& one = plain[i];
+        if (!known) {
+          one.start(x(i));
+        } else {
+          one.see(x(i), travel(i), dt);
+        }
+        CAPTURE(p, n, i, x(i) / step, travel(i) / step, dt / tick);
+        REQUIRE_THAT(now.position(i), WithinAbs(one.x, 1e-9 * step));
+        REQUIRE_THAT(now.velocity(i), WithinAbs(one.v * one.to, 1e-9 * step / tick));
+        rested += one.t > 0.1 ? 1 : 0;
+        swung += one.turns == 2 ? 1 : 0;
+      }
+      const double along = now.velocity(0), least = step / (8 * dt);
+      REQUIRE_THAT(now.along(d2::vector(1, 0)),
+                   WithinAbs(std::copysign(std::max(std::abs(along) - least, 0.0), along),
+                             1e-9 * step / tick));
+    }
+    CAPTURE(p);
+    CHECK(rested > 300);
+    CHECK((p > step / 2 ? swung > 300 : swung == 0));
+  }
+}
+
+TEST_CASE("edge_observer that is reset is as it was made", "[motion]") {
+  const ph::edge_observer held{.quantum = q, .presliding = 1.5 * q};
+  auto used = at<d1>(held), fresh = at<d1>(held);
+  double x = 0.0;
+  const auto go = [&](auto& eyes, double way) {
+    const auto now = eyes.estimate(x, way, 0.0, T, true);
+    return std::pair{now.position, now.velocity};
+  };
+  for (int n = 0; n < 60; ++n) {
+    const double way = n % 20 < 10 ? q : -q;
+    x += way;
+    (void)go(used, way);
+  }
+  used.reset();
+  CHECK(used.position() == 0.0);
+  for (int n = 0; n < 200; ++n) {
+    const double way = n % 7 != 3 ? 0.0 : n % 2 == 0 ? q : -q;
+    x += way;
+    REQUIRE(go(used, way) == go(fresh, way));
+  }
+}
+
 TEST_CASE("edge_observer begins anew after a sample that was lost, and takes new parameters",
           "[motion]") {
   seeing eyes(ph::edge_observer{q});
