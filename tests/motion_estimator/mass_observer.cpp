@@ -69,8 +69,12 @@ TEST_CASE("mass_observer finds speed and outside force of a falling mass between
   ph::mass_observer::on<d3> observer({.mass = 0.1, .quantum = q});
   sim::device<d3> device({.quantum = q, .load = {0.3, -0.981, 0.0}});
   auto sample = device.exchange(d3::zero());
+  CHECK(observer.position() == d3::zero());
   for (int n = 0; n < 400; ++n) {
     const auto seen = observer.estimate(sample.position, d3::zero(), sample.held, 1e-3, n > 0);
+    CHECK(observer.position() == seen.position);
+    CHECK(seen.along(d3::vector(0.6, 0.0, 0.8)) ==
+          d3::dot(seen.velocity, d3::vector(0.6, 0.0, 0.8)));
     if (n > 200) {
       const d3::vector error = seen.velocity - device.velocity();
       REQUIRE(error.norm() < 0.02);  // one step in one tick would be 0.06 m/s
@@ -111,6 +115,25 @@ TEST_CASE("mass_observer believes a motion of more than 4/3 of a step", "[motion
   const auto next = observer.estimate(1.9 * q + seen.velocity * dt, 0.0, 0.0, dt, true);
   const double w = 1.4 * q * (0.5 + 1.0 / (8 * 64 * 64)) / (dt * dt);
   CHECK_THAT(next.velocity, WithinRel(seen.velocity + w * dt, 1e-9));
+}
+
+TEST_CASE("mass_observer takes just 4/3 of a step for none, and counts the time before, either way",
+          "[motion]") {
+  constexpr double third = 0x1p-14, q = 3 * third, dt = 0x1p-10;  // so that sums are exact
+  const auto after = [](int ticks, double way) {
+    ph::mass_observer::on<d1> observer({.mass = 0.1, .quantum = q});
+    (void)observer.estimate(0.0, 0.0, 0.0, dt, false);
+    for (int n = 0; n < ticks; ++n) (void)observer.estimate(0.0, 0.0, 0.0, dt, true);
+    return observer.estimate(way, 0.0, 0.0, dt, true).velocity;
+  };
+  for (const double sign : {1.0, -1.0}) {  // from the middle to the nearer end of the new step
+    for (const int ticks : {0, 1, 10}) {
+      const double tie = 4 * third, more = 4.25 * third;
+      CHECK_THAT(after(ticks, sign * (tie + q / 2)), WithinRel(sign * tie / (64 * dt), 1e-12));
+      CHECK_THAT(after(ticks, sign * (more + q / 2)),
+                 WithinRel(sign * more * (1.0 / 64 + 1.0 / (ticks + 1)) / dt, 1e-12));
+    }
+  }
 }
 
 TEST_CASE("mass_observer follows a busy hand, at the price of half as much error again",

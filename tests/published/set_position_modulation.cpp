@@ -169,12 +169,12 @@ TEST_CASE("in any row of ticks the gate holds what its formulas say", "[time dom
     if (changes) K = one_of({1.0 / 64, 16, 32, 80});
     const double before = was.K * std::max(was.d, 0.0);
     const situation<d1> now{.dt = one_of({dt, dt, dt, dt, dt, dt, 0.5 * dt, 2 * dt}),
-                            .longest_tick = dt,
+                            .longest_tick = dt * one_of({1.0, 1.0, 1.5}),
                             .held = -before * one_of({1.0, 1.0, 0.5, 1.25}),
                             .travel = travel,
                             .motion_known = random.number<double>() < 0.97};
     double kept = 0.0;
-    if (was.K > 0.0 && (!now.motion_known || now.dt > dt)) {
+    if (was.K > 0.0 && (!now.motion_known || now.dt > now.longest_tick)) {
       E = std::min(E, 0.0);
       since = {};
     } else if (was.K > 0.0) {
@@ -183,7 +183,7 @@ TEST_CASE("in any row of ticks the gate holds what its formulas say", "[time dom
       since.least = std::min(since.least, since.x);
       since.most = std::max(since.most, since.x);
       since.time += now.dt;
-      since.pays = std::min(since.pays, b - was.K * dt / 2.0);
+      since.pays = std::min(since.pays, b - was.K * now.longest_tick / 2.0);
       kept = stored(was.K, was.d + travel);
     }
     const bool again = was.gap > 0.0 && since.time >= p.ask_again;
