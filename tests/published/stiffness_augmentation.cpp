@@ -352,6 +352,7 @@ TEST_CASE("parameters of shapers that grow stiff are refused with their name",
   CHECK(refused(ph::nonlinear_coupling{.initial = 50, .rate = 1, .most = 40}) == "most");
   CHECK(refused(ph::nonlinear_coupling{.initial = 50, .rate = 1, .most = 50}).empty());
   CHECK(refused(increments).empty());
+  CHECK(refused(ph::stiffness_increment{.initial = 50, .reset_after = 0}).empty());
   CHECK(refused(ph::stiffness_increment{.initial = nan}) == "initial");
   CHECK(refused(ph::stiffness_increment{.initial = 50, .step = nan}) == "step");
   CHECK(refused(ph::stiffness_increment{.initial = 50, .reset_after = nan}) == "reset_after");
