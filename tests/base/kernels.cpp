@@ -231,3 +231,46 @@ TEST_CASE("what bounds a path or a turn is what its formula says, rounded up", "
   CHECK(longest_path(1.0, 2.0, 0.2500001, 2.0, 1.0) == largest<double>());
   CHECK(unseen_turn(2.0, 3.0, 2.0) == 14.0);
 }
+
+TEST_CASE("the short kernels are what their formulas say, in numbers that do not round",
+          "[kernels]") {
+  using limits = std::numeric_limits<double>;
+  const double nan = limits::quiet_NaN();
+  CHECK(k::smaller(1.0, 2.0) == 1.0);
+  CHECK(k::smaller(2.0, 1.0) == 1.0);
+  CHECK(k::larger(1.0, 2.0) == 2.0);
+  CHECK(k::larger(2.0, 1.0) == 2.0);
+  CHECK(k::smaller(1.0, nan) == 1.0);  // of NaN and a number the first is taken
+  CHECK(k::larger(1.0, nan) == 1.0);
+  CHECK(k::clamped(5.0, -1.0, 2.0) == 2.0);
+  CHECK(k::clamped(-5.0, -1.0, 2.0) == -1.0);
+  CHECK(k::clamped(0.5, -1.0, 2.0) == 0.5);
+  CHECK(k::magnitude(-3.0) == 3.0);
+  CHECK(k::magnitude(3.0F) == 3.0F);
+  CHECK_FALSE(std::signbit(k::magnitude(-0.0)));
+  CHECK(k::smallest<float>() == std::numeric_limits<float>::min());
+  for (const double x : {0.0, 2.0, 1e-300, 1e300}) CHECK(k::square_root(x) == std::sqrt(x));
+  CHECK(k::square_root(2.0F) == std::sqrt(2.0F));
+
+  CHECK(k::damping_per_tick(6.0, 2.0) == 3.0);
+  CHECK(k::bank_for_hold(6.0, 2.0, 4.0) == 18.0);
+  CHECK(k::depth_bound(6.0, 2.0) == 3.0);
+  CHECK(k::depth_bound(6.0, 0.0) == 0.0);
+  CHECK(k::depth_bound(6.0, -2.0) == 0.0);
+  CHECK(k::sampled_stiffness(10.0, 0.5, 8.0, 2.0) == 1.0);
+  CHECK(k::sampled_stiffness(0.5, 0.5, 8.0, 2.0) == 0.5);
+  CHECK(k::sampled_damping(4.0, 0.5, 4.0, 16.0, 2.0) == 8.0);
+  CHECK(k::sampled_damping(4.0, 0.5, 0.25, 16.0, 2.0) == 2.0);
+  const auto right = k::half_angle_turn(2.0);
+  CHECK((right.cosine == 0.0 && right.sine == 1.0 && right.chord_squared == 2.0));
+
+  CHECK(k::strict_scale(1e-290, 1e20) == 0.0);  // a share with no root that is a normal number
+  CHECK(k::strict_force_bound(1e300, 1e300) == std::sqrt(limits::max()));
+  CHECK(k::unseen_arc(2.0) == 4.0 * (0.25 + 2.0 / 29.0));
+  CHECK(k::unseen_arc(3.125) == 3.125 * 3.125 * (0.25 + 3.125 / 29.0));
+  CHECK(k::unseen_arc(4.0) == 7.1875);
+  // Half of |τ| = 2 is 1, which is below 4b/T = 2, and twice as large as 4b/T = 1/2.
+  CHECK(k::coning_share(0.5, 4.0, 1.0, 2.0) == 0.5);
+  CHECK(k::coning_share(0.5, 4.0, 0.25, 2.0) < 0.25);
+  CHECK_THAT(k::coning_share(0.5, 4.0, 0.25, 2.0), WithinRel(0.25, 40 * limits::epsilon()));
+}
