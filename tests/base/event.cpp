@@ -42,3 +42,22 @@ TEST_CASE("every event has a text of its own", "[event]") {
   CHECK(texts.count("unknown event") == 0);
   CHECK(std::string(to_string(static_cast<event>(99))) == "unknown event");
 }
+
+TEST_CASE("without the events that the observer adds, the short order is the same", "[event]") {
+  for (int i = 0; i <= static_cast<int>(event::forces_off); ++i) {
+    const auto a = static_cast<event>(i);
+    for (int j = 0; j <= static_cast<int>(event::forces_off); ++j) {
+      const auto b = static_cast<event>(j);
+      CHECK(ph::detail::worse_yet(a, b) == worse(a, b));
+    }
+    CHECK(ph::detail::unusable(a) == worse(a, event::rejected_target));
+  }
+}
+
+TEST_CASE("every guarantee has a text", "[event]") {
+  using ph::guarantee;
+  CHECK(std::string(to_string(guarantee::none)) == "none");
+  CHECK(std::string(to_string(guarantee::conditional)) == "conditional");
+  CHECK(std::string(to_string(guarantee::strict)) == "strict");
+  CHECK(std::string(to_string(static_cast<guarantee>(3))) == "unknown guarantee");
+}
