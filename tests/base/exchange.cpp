@@ -226,3 +226,20 @@ TEST_CASE("the interleavings find what is wrong with four slots that nearly work
   CHECK(every_interleaving<mistaken<mistake::latest_told_first>>().faults != 0);
   CHECK(every_interleaving<mistaken<mistake::same_slot_again>>().faults != 0);
 }
+
+TEST_CASE("the reader gets the newest value, once, and keeps it while others are published",
+          "[exchange]") {
+  ph::exchange<std::array<int, 2>> news;
+  CHECK(news.take() == nullptr);
+  const auto value = [](int n) { return std::array{n, -n}; };
+  for (int n = 1; n < 200; ++n) {
+    for (int k = 0; k < n % 4; ++k) news.publish(value(1000 + k));  // which nobody takes
+    news.publish(value(n));
+    const std::array<int, 2>* taken = news.take();
+    REQUIRE(taken != nullptr);
+    REQUIRE(*taken == value(n));
+    CHECK(news.take() == nullptr);
+    for (int k = 0; k < n % 5; ++k) news.publish(value(2000 + k));
+    CHECK(*taken == value(n));
+  }
+}

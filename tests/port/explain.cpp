@@ -316,6 +316,32 @@ TEST_CASE("every reason has a name and a sentence", "[port]") {
   CHECK(std::string(to_string(static_cast<softened_by>(99))) == "unknown reason");
 }
 
+TEST_CASE("less by a millionth is no softer, and motors hold back from 95 % of their limit on",
+          "[explain]") {
+  using ph::softened_by;
+  ph::explanation e{.asked = 1000.0, .shown = 1000.0};
+  for (const double most : {2000.0, 1000.0, 1000.0 * (1.0 - 1e-6), std::nan("")}) {
+    e.soften(most, softened_by::coupling);
+    CHECK(e.shown == 1000.0);
+    CHECK(e.stiffness == softened_by::nothing);
+  }
+  e.soften(999.9, softened_by::coupling);
+  CHECK(e.shown == 999.9);
+  CHECK(e.stiffness == softened_by::coupling);
+
+  const auto held_back = [](double asked, double depth, double force) {
+    ph::explanation of{.asked = asked, .shown = 1024.0, .depth = depth, .force = force};
+    of.saturate(8.0);
+    CHECK((of.now == softened_by::nothing || of.now == softened_by::motors));
+    return of.now == softened_by::motors;
+  };
+  CHECK(held_back(1024.0, 0.01, 7.7));
+  CHECK_FALSE(held_back(1024.0, 0.01, 0.95 * 8.0));
+  CHECK_FALSE(held_back(1024.0, 8.0 / 1024.0, 8.0));  // it asks for no more than they hold
+  CHECK(held_back(HUGE_VAL, 0.0, 7.7));               // of a given force no depth tells
+  CHECK_FALSE(held_back(HUGE_VAL, 0.0, 7.5));
+}
+
 TEST_CASE("a force that the ledger has cut is no news in the air, nor after a reset", "[explain]") {
   ph::local_model wall{d1{},
                        ph::followed<ph::half_space<d1>>{},
