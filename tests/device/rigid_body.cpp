@@ -70,6 +70,20 @@ TEST_CASE("a radian counts as 0.1 m for the guard, and what is no number stays n
   CHECK(std::isnan(body::squared(body::join({1, 0, 0}, {0, not_a_number, 0}))));
 }
 
+TEST_CASE("of a motion from or to what is no rotation the way is known and the turn is no number",
+          "[rigid_body]") {
+  const body::pose right{{1, 2, 3}, {1, 0, 0, 0}}, wrong{{2, 4, 7}, {0.5, 0, 0, 0}};
+  const auto turn_is_none = [](const body::motion& m) {
+    const body::triple turn = body::angular(m);
+    return std::isnan(turn(0)) && std::isnan(turn(1)) && std::isnan(turn(2));
+  };
+  for (const body::motion& m : {body::between(right, wrong), body::between(wrong, right)}) {
+    CHECK(body::linear(m).cwiseAbs() == body::triple(1, 2, 4));
+    CHECK(turn_is_none(m));
+  }
+  CHECK(turn_is_none(body::between(wrong, wrong)));
+}
+
 TEMPLATE_TEST_CASE("a pose that is no rotation is refused, the first sample too", "[rigid_body]",
                    body, pen) {
   using P = TestType;

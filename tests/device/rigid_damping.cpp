@@ -8,6 +8,8 @@
 #include <passive_haptics/published/energy_tank.hpp>
 
 #include <array>
+#include <cmath>
+#include <string>
 
 using Catch::Matchers::WithinAbs;
 namespace ph = passive_haptics;
@@ -35,6 +37,47 @@ TEMPLATE_TEST_CASE("a rigid body's damping, ledger and bounds obey the laws", "[
   if constexpr (!ph::detail::reports_work<TestType>()) {
     CHECK(ph::laws::all<ph::memoryless_bound, TestType>());
   }
+}
+
+TEST_CASE("a rigid body's damping is refused with the name of what is none", "[rigid_damping]") {
+  const auto refused = [](const ph::rigid_damping& p) {
+    const auto fault = p.check();
+    return std::string(fault ? fault.parameter : "");
+  };
+  CHECK(refused(b).empty());
+  CHECK(refused({.linear = 0.0, .angular = 1e-4}) == "linear");
+  CHECK(refused({.linear = 0.03, .angular = -1.0}) == "angular");
+  CHECK(refused({.linear = std::nan(""), .angular = 0.0}) == "linear");
+  CHECK(damping.parameters().linear == b.linear);
+  CHECK(damping.parameters().angular == b.angular);
+}
+
+TEST_CASE("a rigid body's outflow and what it may hold are what their formulas say",
+          "[rigid_damping]") {
+  const ph::part_at<ph::rigid_damping, body> plain(
+      ph::rigid_damping{.linear = 0.5, .angular = 1.0});
+  const body::effort w = body::join({3, 4, 0}, {0, 0, 2});
+  CHECK(plain.worst_outflow(w, 0.5) == 6.75);  // ½·25/(4·½) + ½·4/4
+  CHECK(plain.per_tick(w, 0.5) == 29.0 / 27.0);
+  CHECK(plain.affordable(w, 100.0, 0.5) == 1.0);
+  CHECK_THAT(plain.affordable(w, 6.75 / 4, 0.5), WithinAbs(0.5, 1e-12));
+  CHECK(plain.affordable(w, -1.0, 0.5) == 0.0);
+  const body::effort torque = body::join({0, 0, 0}, {0, 32, 0});  // 4b_ω/T is a quarter of it
+  CHECK_THAT(plain.affordable(torque, 1e6, 0.5), WithinAbs(0.25, 1e-12));
+  CHECK(plain.affordable(torque, 1e6, 0.5) < 0.25);
+
+  // Lemma C holds up to a turn of 1 rad and a torque of 4b_ω/dt = 8 N·m, both included.
+  const auto unsure = [&plain](const vec3& turn, const vec3& held) {
+    return plain.unsure(body::join({9, 9, 9}, turn), body::join({7, 7, 7}, held), 0.5);
+  };
+  const auto just_above = [](double bound, double exact) {
+    return bound > exact && bound < exact * (1.0 + 1e-14);
+  };
+  CHECK(just_above(unsure({1, 0, 0}, {0, 8, 0}), 0.5 * 64 / 36));
+  CHECK(just_above(unsure({0.5, 0, 0}, {3, 4, 0}), 0.5 * 4 / 36));
+  CHECK(unsure({0, 1, 0}, {0, 8, 0}) == 0.0);
+  CHECK(just_above(unsure({2, 0, 0}, {1, 3, 0}), 4 / 0.5 - 2 + 0.5 * 10 / 4));
+  CHECK(just_above(unsure({0.5, 0, 0}, {-1, 0, 9}), 0.25 / 0.5 + 0.5 + 0.5 * 82 / 4));
 }
 
 TEST_CASE("a rigid body's damper pushes against each axis, and takes what it dissipates",
