@@ -71,6 +71,8 @@ TEMPLATE_TEST_CASE("a quadric ends at its thickness and at its reach", "[geometr
   CHECK(covers(0.0, 0.0, -0.0099));
   CHECK_FALSE(covers(0.0, 0.0, -0.0101));
   CHECK(covers(0.0141, 0.0141, 0.5));
+  CHECK(covers(0.02, 0.0, -0.001));  // the reach itself is inside
+  CHECK(covers(0.0, -0.02, -0.001));
   CHECK_FALSE(covers(0.0142, 0.0142, -0.001));
   const scalar nan = std::numeric_limits<scalar>::quiet_NaN();
   CHECK_FALSE(q.at({nan, scalar(0), scalar(0)}).covered());

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include <passive_haptics/constraint_geometry/triangle_point.hpp>
 
+#include <algorithm>
+#include <array>
 #include <random>
 
 using Catch::Matchers::WithinAbs;
@@ -120,6 +123,37 @@ TEMPLATE_TEST_CASE("degenerate and useless constraints are refused (A17)", "[geo
     t.stiffness = K;
     CHECK_FALSE(usable(t));
   }
+}
+
+TEST_CASE("of a triangle no point is closer than the closest, whatever side it is seen from",
+          "[geometry]") {
+  std::mt19937 seed(13);
+  std::normal_distribution<double> gauss;
+  const auto random = [&]() -> d3::vector {
+    return d3::vector(gauss(seed), gauss(seed), gauss(seed));
+  };
+  std::array<int, 4> parts{};  // corners that have a part in it: a corner, an edge, the face
+  for (int i = 0; i < 3000; ++i) {
+    const std::array<d3::vector, 3> corner{random(), random(), random()};
+    const d3::vector x = 2.0 * random();
+    const auto found = ph::detail::closest_on_triangle<d3>(corner[0], corner[1], corner[2], x);
+    d3::vector sum = d3::zero();
+    double all = 0.0;
+    std::size_t have = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      REQUIRE(found.weights[k] >= 0.0);
+      have += found.weights[k] > 0.0 ? 1 : 0;
+      all += found.weights[k];
+      sum += corner[k] * found.weights[k];
+    }
+    ++parts[have];
+    REQUIRE_THAT(all, WithinAbs(1.0, 1e-12));
+    REQUIRE((sum - found.point).norm() < 1e-9);
+    for (const d3::vector& one : corner) {  // no way to a corner leads nearer, so no way at all
+      REQUIRE((x - found.point).dot(one - found.point) < 1e-9);
+    }
+  }
+  CHECK(std::min({parts[1], parts[2], parts[3]}) > 100);
 }
 
 TEST_CASE("nodes follow the lines of Fig. 2.5 where those meet the new plane", "[geometry]") {

@@ -46,6 +46,18 @@ TEST_CASE("the tip of a stylus is where its pose says", "[at_tip]") {
   CHECK(port.tick(pose{{0, 0, length - 1e-3}, lean(angle)}, T).force.z() == 0.0);
 }
 
+TEST_CASE("a tip that is nowhere is refused by name, and any other is taken", "[at_tip]") {
+  const ph::contact_set set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::slots<plane, 1>{}};
+  CHECK_FALSE(ph::at_tip{set, {0.0, -0.1, 1e3}}.check());
+  for (int i = 0; i < 3; ++i) {
+    for (const double bad : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+      std::array<double, 3> tip{};
+      tip[static_cast<std::size_t>(i)] = bad;
+      CHECK(std::string(ph::at_tip{set, tip}.check().parameter) == "tip");
+    }
+  }
+}
+
 TEST_CASE("a tip that is turned in is damped by its own speed", "[at_tip]") {
   auto still = pen(), turned = pen();
   const pose above{{0, 0, length}, lean(0.3)}, in{{0, 0, length - 3e-3}, lean(0.1)};

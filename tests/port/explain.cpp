@@ -343,25 +343,30 @@ TEST_CASE("less by a millionth is no softer, and motors hold back from 95 % of t
 }
 
 TEST_CASE("a force that the ledger has cut is no news in the air, nor after a reset", "[explain]") {
-  ph::local_model wall{d1{},
-                       ph::followed<ph::half_space<d1>>{},
-                       ph::turn_at_once{},
-                       ph::spring{},
-                       thesis_ledger(),
-                       ph::strict_bound{},
-                       thesis_loop};
-  const auto press = [&] {
-    REQUIRE(wall.update({0.0, 1.0, 1000.0}));
-    for (int n = 0; n < 50; ++n) (void)wall.tick(1e-3 - 1e-4 * n, 1ms);
+  const auto check = [](const auto& bound) {
+    ph::local_model wall{d1{},
+                         ph::followed<ph::half_space<d1>>{},
+                         ph::turn_at_once{},
+                         ph::spring{},
+                         thesis_ledger(),
+                         bound,
+                         thesis_loop};
+    const auto press = [&] {
+      REQUIRE(wall.update({0.0, 1.0, 1000.0}));
+      for (int n = 0; n < 50; ++n) (void)wall.tick(1e-3 - 1e-4 * n, 1ms);
+    };
+    press();
+    CHECK(wall.explain().now == ph::softened_by::ledger);
+    for (int n = 0; n < 80; ++n) (void)wall.tick(-4e-3 + 1e-4 * n, 1ms);
+    CHECK(wall.explain().now == ph::softened_by::nothing);
+    press();
+    CHECK(wall.explain().now == ph::softened_by::ledger);
+    wall.reset();
+    CHECK(wall.explain().now == ph::softened_by::nothing);
   };
-  press();
-  CHECK(wall.explain().now == ph::softened_by::ledger);
-  for (int n = 0; n < 80; ++n) (void)wall.tick(-4e-3 + 1e-4 * n, 1ms);
-  CHECK(wall.explain().now == ph::softened_by::nothing);
-  press();
-  CHECK(wall.explain().now == ph::softened_by::ledger);
-  wall.reset();
-  CHECK(wall.explain().now == ph::softened_by::nothing);
+  check(ph::strict_bound{});
+  check(ph::bound_chain{ph::thermal_limit{.peak = 1e3, .continuous = 500.0, .time_constant = 1.0},
+                        ph::strict_bound{}});
 }
 
 TEST_CASE("a contact has started inside if it has neither force nor energy", "[explain]") {
