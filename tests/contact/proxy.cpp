@@ -4,6 +4,10 @@
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/contact/proxy_solver.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 using Catch::Matchers::WithinRel;
 
 namespace {
@@ -84,6 +88,25 @@ TEMPLATE_TEST_CASE("of up to three contacts exactly those press that must", "[pr
     ++pressing[pressed];
   }
   for (const int times : pressing) CHECK(times > 50);  // all cases have been met
+}
+
+TEST_CASE(
+    "a third contact that two others just leave nothing to press never pulls, however it rounds",
+    "[proxy]") {
+  ph::laws::samples random(6);
+  std::array<int, 3> rounded{};  // to more than nothing
+  for (int n = 0; n < 20000; ++n) {
+    random_set<f3, 3> set(random, 3);
+    const std::size_t k = static_cast<std::size_t>(n % 3), i = (k + 1) % 3, j = (k + 2) % 3;
+    const float press[2]{std::abs(random.number<float>()), std::abs(random.number<float>())};
+    set.problem.wish[i] = set.problem.own[i] * press[0] + set.inner(i, j) * press[1];
+    set.problem.wish[j] = set.problem.own[j] * press[1] + set.inner(i, j) * press[0];
+    set.problem.wish[k] = set.inner(i, k) * press[0] + set.inner(j, k) * press[1];
+    set.solve();
+    for (const float lambda : set.problem.pressed) REQUIRE(lambda >= 0.0F);
+    rounded[k] += set.problem.pressed[k] > 0.0F ? 1 : 0;
+  }
+  CHECK(std::min({rounded[0], rounded[1], rounded[2]}) > 20);
 }
 
 TEMPLATE_TEST_CASE("of sixteen contacts, too, from whatever they pressed with before", "[proxy]",

@@ -90,7 +90,7 @@ TEST_CASE("edge_observer stays within the step shown, wherever it goes", "[motio
   CHECK_THAT(eyes.at(0.3 * q).position, WithinRel(q / 2, 1e-12));  // it may be anywhere in it
   ph::laws::samples random(1);
   double x = 0.0;
-  for (int n = 0; n < 3500; ++n) {
+  for (int n = 0; n < 5000; ++n) {
     x += random.number<double>() * (n % 100 < 50 ? 2e-5 : 4e-4);
     const double seen = eyes.at(x).position;
     REQUIRE(seen >= shown(x));
