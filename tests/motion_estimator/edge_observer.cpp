@@ -376,14 +376,14 @@ TEST_CASE("edge_observer shows what its formulas say, wherever an axis goes and 
     auto eyes = at<d2>(ph::edge_observer{.quantum = width, .presliding = p});
     plain_edges plain[2]{{width, p}, {width, p}};
     d2::vector x = d2::zero();
-    int rested = 0, swung = 0, left[2]{0, 0};
+    int rested = 0, swung = 0, left[2]{0, 0}, moves[2]{0, 0};
     double goes[2]{0.0, 0.0}, by[2]{0.0, 0.0}, part[2]{1.0, 1.0};
     for (int n = 0; n < 3500; ++n) {
       d2::vector travel = d2::zero();
       for (int i = 0; i < 2; ++i) {
         if (left[i]-- <= 0) {  // another kind of motion: so many ticks, or back and forth
           left[i] = static_cast<int>(one_of({1, 3, 8, 30, 130}));
-          goes[i] = one_of({0, 0, 1, 1, 2, 3, 4, 6});
+          goes[i] = one_of({0, 0, 1, 2, 3, 4, 5, 6});
           by[i] = one_of({-1, 1});
           part[i] = one_of({1, 1, 1, 0.25, 0.5});
         }
@@ -391,13 +391,14 @@ TEST_CASE("edge_observer shows what its formulas say, wherever an axis goes and 
           travel(i) = goes[i] == 0.0 ? 0.0 : by[i] * step * part[i] * one_of({1, 1, 1, 2, 3, 4, 5});
         }
         if (goes[i] == 2.0 || goes[i] == 6.0) by[i] = one_of({1, 1, -1, -1, -by[i]});
-        if (goes[i] == 3.0 && travel(i) != 0.0) {
+        if (goes[i] > 2.0 && goes[i] < 6.0 &&
+            travel(i) != 0.0) {  // one, two or three steps to and fro
           travel(i) = by[i] * step;
-          by[i] = -by[i];
+          if (++moves[i] % (static_cast<int>(goes[i]) - 2) == 0) by[i] = -by[i];
         }
       }
       x += travel;
-      const bool known = n % 997 != 0;
+      const bool known = n % 191 != 0;
       const double dt = tick * one_of({1, 1, 1, 1, 1, 1, 0.5, 0.5, 2, 64, 0.1 / tick, 0.25 / tick});
       // Where nothing rests the turns are forgotten; with the same numbers nothing is.
       if (n % 499 == 300) {

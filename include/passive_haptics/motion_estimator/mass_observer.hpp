@@ -47,10 +47,7 @@ class mass_observer::on {
     }
   };
 
-  constexpr explicit on(const mass_observer& p) noexcept {
-    set(p);
-    reset();
-  }
+  constexpr explicit on(const mass_observer& p) noexcept { set(p); }
   constexpr void set(const mass_observer& p) noexcept {
     mass_ = detail::number<scalar>(p.mass);
     quantum_ = detail::number<scalar>(p.quantum);
