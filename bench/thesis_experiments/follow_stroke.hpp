@@ -14,13 +14,14 @@
 namespace experiments {
 
 struct as_it_is {
-  auto operator()(const auto& plane, const auto& /*contact*/) const { return plane; }
+  auto operator()(env::deformable_body& body, const vector3& finger, const vector3& force) const {
+    return tangent_plane(body.update(finger, force));
+  }
 };
 
-/// The environment answers every `period` [s]; the model is told told(tangent plane, contact).
-template <class Model, class Told = as_it_is>
-stroke_result follow_stroke(Model model, const stroke_scene& scene, double period,
-                            const Told& told = {}) {
+/// The environment answers every `period` [s]; the model is told ask(body, finger [m], force [N]).
+template <class Model, class Ask = as_it_is>
+stroke_result follow_stroke(Model model, const stroke_scene& scene, double period, Ask ask = {}) {
   env::deformable_body body(scene.mesh(), flesh, scene.fixed());
   sim::prescribed_motion<volume> device({.start = scene.position(0.0)});
   sim::update_schedule schedule(1, period, period);
@@ -29,10 +30,10 @@ stroke_result follow_stroke(Model model, const stroke_scene& scene, double perio
   const auto answer = [&](const auto& now) {
     if (!schedule.due(now.time)) return;
     const auto begin = std::chrono::steady_clock::now();
-    const auto contact = body.update(now.sample.position, now.sample.held);
+    const auto news = ask(body, now.sample.position, now.sample.held);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     result.update_ms.push_back(took.count());
-    model.update(told(tangent_plane(contact), contact));
+    model.update(news);
   };
   const auto move = [&](const auto& now) {
     const vector3 &x = now.position, &f = now.force;

@@ -24,9 +24,11 @@ stroke_result lent_stroke(const stroke_scene& scene, double period) {
   auto model = touch();
   (void)model.set(ph::reduced_energy{.damping = damping, .loan = loan});
   model.reset();
-  return follow_stroke(model, scene, period, [](const auto& plane, const auto& contact) {
-    return env::yielding(plane, contact);
-  });
+  return follow_stroke(
+      model, scene, period,
+      [where = env::ahead()](auto& body, const auto& finger, const auto& force) mutable {
+        return env::yielding(body, where, finger, force);
+      });
 }
 
 }  // namespace experiments
