@@ -6,6 +6,8 @@
 #include "../common/median.hpp"
 #include "../thesis_experiments/volume.hpp"
 #include "touch.hpp"
+#include <passive_haptics/compositions.hpp>
+#include <passive_haptics/environment/contact_surface.hpp>
 #include <passive_haptics/published/published.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
@@ -36,10 +38,26 @@ inline vector3 in_world(const vector3& v) {
   return v;
 }
 
+struct as_it_is {
+  answer operator()(const auto& environment, const vector3& x, const vector3& held) const {
+    return environment(x, held);
+  }
+};
+/// Asked where the hand will be, and told how it gives way.
+struct asked_ahead {
+  env::ahead where{};
+  answer operator()(const auto& environment, const vector3& x, const vector3& held) {
+    answer said = environment(where(x), held);
+    said.point = said.rest;
+    said.stiffness = said.soft;
+    return said;
+  }
+};
+
 /// The hand holds still for a second, and the environment goes on answering: since when is the force quiet, and how
 /// stiff is it, pressed by 1 µm along itself?
 template <class Model>
-void hold_still(Model& model, const auto& environment, const typename Model::pose& at,
+void hold_still(Model& model, const auto& environment, auto& ask, const typename Model::pose& at,
                 double period, double tick, felt& run) {
   using space = typename Model::port_type;
   using scalar = typename space::scalar;
@@ -47,7 +65,7 @@ void hold_still(Model& model, const auto& environment, const typename Model::pos
   typename Model::effort force = space::zero();
   for (int n = 0; tick * n < 1.0; ++n) {
     if (std::fmod(tick * n, period) < tick) {
-      const answer said = environment(in_world(at), in_world(force));
+      const answer said = ask(environment, in_world(at), in_world(force));
       run.asked = said.stiffness;
       model.update(constraint_of<typename Model::constraint_type>(said));
     }
@@ -65,8 +83,8 @@ void hold_still(Model& model, const auto& environment, const typename Model::pos
 }
 
 /// The scene in virtual time: a tick each `tick` [s], an answer of the environment each `period` [s].
-template <class Model>
-felt run_touch(Model model, const touch_scene& scene, double period, double tick) {
+template <class Model, class Ask = as_it_is>
+felt run_touch(Model model, const touch_scene& scene, double period, double tick, Ask ask = {}) {
   using space = typename Model::port_type;
   const auto hand = [&](int n) { return position_in<space>(scene.hand(tick * n)); };
   const auto environment = scene.fresh();
@@ -77,10 +95,10 @@ felt run_touch(Model model, const touch_scene& scene, double period, double tick
   const int last = static_cast<int>(scene.to / tick + 0.5) - 1;
   Model held = model;  // as it is when the hand comes to hold still
   std::vector<double> spent;
-  const auto ask = [&](const auto& now) {
+  const auto answered = [&](const auto& now) {
     if (!schedule.due(tick * now.tick + tick / 2.0)) return;
     const auto begin = std::chrono::steady_clock::now();
-    const answer said = environment(in_world(now.sample.position), in_world(now.sample.held));
+    const answer said = ask(environment, in_world(now.sample.position), in_world(now.sample.held));
     const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
     spent.push_back(took.count());
     model.update(constraint_of<typename Model::constraint_type>(said));
@@ -93,9 +111,9 @@ felt run_touch(Model model, const touch_scene& scene, double period, double tick
     if (now.tick == last) held = model;
     device.move_to(hand(now.tick + 1));
   };
-  sim::run(device, model, static_cast<int>(scene.duration / tick + 0.5), ask, move);
+  sim::run(device, model, static_cast<int>(scene.duration / tick + 0.5), answered, move);
   run.update_ns = median(spent);
-  hold_still(held, environment, hand(last), period, tick, run);
+  hold_still(held, environment, ask, hand(last), period, tick, run);
   return run;
 }
 
@@ -134,6 +152,26 @@ void compose_over(std::vector<composition>& all, const std::string& shape, const
   add("damped spring", "reachable", ph::damped_spring{.mass = 0.1}, ledger, reachable);
   add("virtual coupling", "reachable", ph::virtual_coupling{.stiffness = 5e3, .damping = 0.5},
       ledger, reachable);
+}
+
+/// What the door gives, told as all are told; and told all that a body can say, with a loan.
+template <class Constraint>
+void compose_door(std::vector<composition>& all, const std::string& shape) {
+  using space = typename Constraint::space_type;
+  const ph::reduced_energy ledger{.damping = 0.03, .loan = 2e-4};
+  auto model = ph::make_touch<space, Constraint>(
+      {.mass = 0.1, .damping = ledger.damping.coefficient, .force_limit = 9.0}, {.force = 5.0});
+  all.push_back({model.passivity, space::dof, candidate_of(shape + ", make_touch", model),
+                 [model](const touch_scene& scene, double rate) {
+                   return run_touch(model, scene, 1.0 / rate, 1e-3);
+                 }});
+  (void)model.set(ledger);
+  model.reset();
+  all.push_back({model.passivity, space::dof,
+                 candidate_of(shape + ", make_touch, asked ahead, lent", model),
+                 [model](const touch_scene& scene, double rate) {
+                   return run_touch(model, scene, 1.0 / rate, 1e-3, asked_ahead{});
+                 }});
 }
 
 }  // namespace experiments

@@ -3,6 +3,7 @@
 
 #include "../thesis_experiments/ball.hpp"
 #include "../thesis_experiments/organ.hpp"
+#include "../thesis_experiments/tangent_plane.hpp"
 #include "compose_touch.hpp"
 #include <passive_haptics/environment/ball.hpp>
 
@@ -12,7 +13,8 @@ namespace experiments {
 namespace {
 
 answer from_body(const env::surface_contact& c) {
-  return {c.nodes, c.point, c.normal, c.stiffness};
+  const auto at_rest = env::yielding(tangent_plane(c), c);
+  return {c.nodes, c.point, c.normal, c.stiffness, at_rest.point, at_rest.stiffness};
 }
 
 /// A deformable body as an environment.
@@ -40,7 +42,8 @@ touch_scene yielding_wall() {
       constexpr double local = 1e3, far = 2e3;  // [N/m]
       force += far / (far + local) * (held.z() - force);
       const double surface = -force / far;
-      return answer{{}, {0.0, 0.0, surface}, vector3::UnitZ(), local};
+      return answer{{},    {0.0, 0.0, surface}, vector3::UnitZ(),
+                    local, vector3::Zero(),     local * far / (local + far)};
     };
   };
   return {"wall", 1, 3.0, 0.5, 3.0, hand, fresh};

@@ -25,6 +25,8 @@ struct answer {
   std::array<vector3, 3> nodes;
   vector3 point, normal;
   double stiffness;
+  vector3 rest;  ///< the point where it is pressed by nothing
+  double soft;   ///< the stiffness, in series with the body behind [N/m]
 };
 
 /// A scene: where the hand is, and an environment that answers. `fresh` makes one at rest.

@@ -28,6 +28,7 @@ void compose_planes(std::vector<composition>& all) {
   using plane = ph::half_space<volume>;
   compose_over<plane>(all, "plane, turn_at_once", ph::turn_at_once{});
   compose_over<plane>(all, "plane, turn_limited", ph::turn_limited{.rate = 3.0});
+  compose_door<plane>(all, "plane");
   compose_sets<ph::frictionless>(all, "plane, contact_set");
   compose_sets<ph::stick_slip>(all, "plane, contact_set with stick_slip");
 }
