@@ -301,3 +301,125 @@ TEST_CASE("a brick is looked for around the middle of its cube", "[geometry]") {
   CHECK(ball.radius > std::sqrt(3.0) * 0.5);  // the cube's corners are within
   CHECK(ball.radius < 2.0 * 0.5);
 }
+
+namespace {
+
+/// A plane of any slope and distance at the origin, y up.
+template <class S>
+struct sloping {
+  typename S::coordinates gradient{};
+  typename S::scalar distance{};
+  ph::distance_and_gradient<S> operator()(const typename S::vector& x) const noexcept {
+    return {distance + S::dot(gradient, x), gradient};
+  }
+};
+/// What a field of this slope says where it is `distance`.
+auto seen(const d2::vector& gradient, double distance,
+          double thickness = ph::kernels::largest<double>()) {
+  return ph::distance_field<d2, sloping<d2>>{
+      .field = {gradient, distance}, .stiffness = 500, .thickness = thickness}
+      .at(d2::zero());
+}
+
+}  // namespace
+
+TEST_CASE("a field is a distance where the square of its slope is 1 but for 64 epsilon",
+          "[geometry][curved]") {
+  const double eps = std::numeric_limits<double>::epsilon();
+  for (const d2::vector& gradient :
+       {d2::vector(0, 1 + 20 * eps), d2::vector(std::ldexp(1.0, -23), 1)}) {
+    CHECK(seen(gradient, -0.5).depth == 0.5);
+    CHECK(seen(gradient, -0.5).push() == gradient);
+  }
+  CHECK(seen({0, 1 + 40 * eps}, -0.5).depth < 0.5);
+  CHECK(seen({0, 1}, -0.25, 0.25).covered());
+  CHECK_FALSE(seen({0, 1}, -0.2501, 0.25).covered());
+}
+
+TEST_CASE("a field of any slope is felt as deep as its thickness, and no deeper than a metre",
+          "[geometry][curved]") {
+  CHECK(seen({0, 2}, -0.5, 0.25).depth == 0.25);
+  CHECK(seen({0, 2}, -0.5, 0.25).covered());
+  CHECK_FALSE(seen({0, 2}, -1.0, 0.25).covered());
+  CHECK(seen({0, 2}, -2.0).covered());
+  CHECK_FALSE(seen({0, 2}, -3.0).covered());
+  for (const double slope :
+       {0.0, 1e-150, std::ldexp(1.0, -485)}) {  // a square of 2^-970 is too low
+    CHECK(seen({0, slope}, -0.5).depth == 0.5);
+    CHECK_FALSE(seen({0, slope}, -0.5).covered());
+  }
+  CHECK(seen({0, std::ldexp(1.0, -484)}, -std::ldexp(1.0, -485)).depth == 0.5);
+}
+
+TEST_CASE("the ball of a field reaches to its end, and no farther than a metre",
+          "[geometry][curved]") {
+  ph::distance_field<d2, waves> f{.stiffness = 500};
+  CHECK(f.around().radius == 1.0);
+  f.radius = 0.03125;
+  CHECK(f.around().radius == 0.03125);
+  CHECK(f.at({0.03125, 0}).covered());
+  f.field.amplitude = -1e-3;  // a number everywhere, and no good to the field itself
+  CHECK_FALSE(f.prepare());
+}
+
+TEST_CASE("how a field bends is seen in floats far from the origin, too", "[geometry][curved]") {
+  struct bent {
+    ph::distance_and_gradient<f2> operator()(const f2::vector& x) const noexcept {
+      const float y = x.y() - 8.0F;
+      return {y + 5.0F * y * y, f2::vector(0.0F, 1.0F + 10.0F * y)};
+    }
+  };
+  const float y = -0.01F;
+  const auto here = ph::distance_field<f2, bent>{.stiffness = 500}.at({0.0F, 8.0F + y});
+  const double slope = 0.9, depth = 0.0095 / slope;  // and its gradient bends by 10/m
+  CHECK_THAT(static_cast<double>(here.push().y()), WithinAbs((slope + 10 * depth) / slope, 5e-3));
+}
+
+TEST_CASE(
+    "a brick is refused for any coefficient that is no number, and left alone if it has no slope",
+    "[geometry]") {
+  for (const std::size_t node : {0U, 21U, 63U}) {
+    auto brick = curved::brick<d3>();
+    brick.coefficients[node] = std::nan("");
+    CHECK_FALSE(brick.prepare());
+  }
+  auto flat = curved::brick<d3>();
+  flat.coefficients.fill(0.0);
+  REQUIRE(flat.prepare());
+  for (const double c : flat.coefficients) CHECK(c == 0.0);
+}
+
+TEST_CASE("a brick is a distance if its slope is 1 but for a sixteenth", "[geometry]") {
+  const auto with = [](double slope) {
+    ph::distance_brick<d3> brick;
+    brick.spacing = 1.0 / 128;
+    brick.stiffness = 500;
+    for (std::size_t i = 0; i < brick.coefficients.size(); ++i) {
+      brick.coefficients[i] = slope * brick.spacing * (static_cast<double>(i % 4) - 1.5);
+    }
+    REQUIRE(brick.prepare());
+    return brick.coefficients[3] / (1.5 / 128);
+  };
+  CHECK(with(1.0625) == 1.0625);
+  CHECK(with(0.9375) == 0.9375);
+  CHECK_THAT(with(1.0626), WithinAbs(1.0, 1e-15));
+  CHECK_THAT(with(0.9374), WithinAbs(1.0, 1e-15));
+}
+
+TEST_CASE("the surface of a brick is found from its middle, along any axis, and within its cube",
+          "[geometry][curved]") {
+  const double h = 1.0 / 128;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double zero : {2.0, 4.5}) {  // where φ is 0, in spacings: in the cube, beyond it
+      const auto phi = [&](const d3::vector& x) {  // without a slope at the first node less h/2
+        const double z = x(axis) / h + 0.5;
+        return 3.0 * h * (z * z - (zero + 0.5) * (zero + 0.5));
+      };
+      auto brick = ph::distance_brick<d3>::sampled(phi, d3::zero(), h, 500.0);
+      REQUIRE(brick.prepare());
+      d3::vector there(1.5 * h, 1.5 * h, 1.5 * h);
+      there(axis) = std::min(zero, 2.5) * h;
+      CHECK_THAT(d3::norm(brick.at(there).push()), WithinAbs(1.0, 1e-9));
+    }
+  }
+}
