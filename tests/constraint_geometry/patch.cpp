@@ -169,3 +169,78 @@ TEST_CASE("the ball around a patch is about the mean of its nodes and reaches th
     CHECK_THAT(p.around().radius, WithinAbs(farthest, 1e-15));
   }
 }
+
+namespace {
+
+/// A floor, z = 0 where x > 0, and a wall on it, x = 0 where z > 0: what is behind either is inside.
+ph::patch<d3, 2> floor_and_wall(bool floor_first = true) {
+  ph::patch<d3, 2> p;
+  p.nodes = {{{0, -1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}}};
+  p.node_count = 4;
+  p.triangles = {{{1, 0, 2}, {0, 1, 3}}};
+  if (!floor_first) std::swap(p.triangles[0], p.triangles[1]);
+  p.triangle_count = 2;
+  p.stiffness = 500;
+  p.thickness = 0.125;
+  REQUIRE(p.prepare());
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("a patch ends just at its thickness, and of two faces as near the first counts",
+          "[geometry][curved]") {
+  const auto p = floor_and_wall();
+  CHECK(p.at({0.25, 0, 0.25}).outward() == d3::vector(0, 0, 1));
+  CHECK(floor_and_wall(false).at({0.25, 0, 0.25}).outward() == d3::vector(1, 0, 0));
+  CHECK(p.at({0.25, 0, -0.125}).depth == 0.125);
+  CHECK(p.at({0.25, 0, -0.125}).covered());  // under the floor
+  CHECK(p.at({-0.125, 0, 0}).depth == 0.125);
+  CHECK(p.at({-0.125, 0, 0}).covered());  // behind the edge
+  CHECK_FALSE(p.at({-0.126, 0, 0}).covered());
+  CHECK(p.at({1.5, 0, 0}).depth == -0.5);  // beyond the rim, level with the floor
+  CHECK_FALSE(p.at({1.5, 0, 0}).covered());
+}
+
+TEST_CASE("over the middle of a gap the edge of the first triangle counts", "[geometry][curved]") {
+  ph::patch<d3, 4> p;
+  p.nodes = {{{1, -1, 0}, {2, 0, 0}, {1, 1, 0}, {-1, 1, 0}, {-2, 0, 0}, {-1, -1, 0}}};
+  p.node_count = 6;
+  p.triangles = {{{0, 1, 2}, {3, 4, 5}}};
+  p.triangle_count = 2;
+  p.stiffness = 500;
+  REQUIRE(p.prepare());
+  CHECK(p.at({0, 0, 0.5}).outward().x() < 0.0);  // from the edge at x = 1
+  std::swap(p.triangles[0], p.triangles[1]);
+  REQUIRE(p.prepare());
+  CHECK(p.at({0, 0, 0.5}).outward().x() > 0.0);
+}
+
+TEST_CASE("an edge has its own normal within 64 epsilon of the size of its triangle",
+          "[geometry][curved]") {
+  const auto p = floor_and_wall();
+  const d3::vector across = d3::vector(1, 0, 1).normalized();
+  const double noise = std::ldexp(1.0, -45);  // 64 ε · 2 m, and 64 ε of itself
+  for (const double away : {1e-14, 2.5e-14, noise * (1 + std::ldexp(1.0, -46))}) {
+    CHECK((p.at({-away, 0, 0}).outward() - across).norm() < 1e-15);
+  }
+  CHECK((p.at({-3e-14, 0, 0}).outward() - d3::vector(1, 0, 0)).norm() < 1e-15);
+}
+
+TEST_CASE("a patch of one triangle or of all its nodes is one, and knows no node beyond",
+          "[geometry][curved]") {
+  auto p = curved::saddle<d3, 6>();
+  p.nodes[5] = {9, 9, std::nan("")};
+  CHECK(p.prepare());
+  p.nodes[5] = {9, 9, 9};
+  CHECK(p.around().radius < 0.02);
+  CHECK(d3::vector(p.around().centre).norm() < 0.02);
+  p.node_count = 8;
+  CHECK(p.prepare());
+  p.triangle_count = 1;
+  CHECK(p.prepare());
+  CHECK_FALSE(p.at({0, 0, 0}).covered());  // its rim
+  p.triangle_count = 4;
+  REQUIRE(p.prepare());
+  CHECK(p.at({0, 0, 0}).covered());  // which was closed
+}
