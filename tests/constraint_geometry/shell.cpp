@@ -181,3 +181,47 @@ TEST_CASE("a box with an edge below zero is none, with one of zero it is a plate
     CHECK_FALSE(core.prepare());
   }
 }
+
+TEST_CASE("of a box the first of its nearest faces counts, on its positive side",
+          "[geometry][curved]") {
+  const auto at = [](const d3::coordinates& half, const d3::vector& x) {
+    ph::box_core<d3> core{.centre = {0, 0, 0}, .half = half};
+    REQUIRE(core.prepare());
+    return core.closest(x);
+  };
+  CHECK(at({1, 1, 1}, {0, 0, 0}).normal == d3::vector(1, 0, 0));
+  CHECK(at({1, 1, 0.5}, {0, 0, 0}).normal == d3::vector(0, 0, 1));
+  CHECK(at({1, 1, 0.5}, {0, 0, 0}).point == d3::vector(0, 0, 0.5));
+  CHECK(at({1, 1, 0.5}, {0, 0, -0.25}).point == d3::vector(0, 0, -0.5));
+  CHECK(at({1, 1, 0.5}, {0, 0, 0.5}).inside);  // on it
+  CHECK_FALSE(at({1, 1, 0.5}, {0, 0, 0.75}).inside);
+  CHECK(shell_of(box).at({0.01, 0, 0}).covered());
+}
+
+TEST_CASE("a box has axes that are a thousandth apart, and a segment a length with a square",
+          "[geometry][curved]") {
+  const auto usable = [](double apart) {
+    return ph::box_core<d3>{
+        .centre = {0, 0, 0}, .half = {1, 1, 1}, .first = {1, 0, 0}, .second = {1, apart, 0}}
+        .prepare();
+  };
+  CHECK(usable(0.05));
+  CHECK(usable(1.1e-3));
+  CHECK_FALSE(usable(0.9e-3));
+  const auto as_long = [](double length) {
+    return ph::segment_core<d3>{{0, 0, 0}, {length, 0, 0}}.prepare();
+  };
+  CHECK(as_long(std::ldexp(1.0, -510)));
+  CHECK_FALSE(as_long(std::ldexp(1.0, -511)));  // its square is the least normal number
+}
+
+TEST_CASE("on its core a capsule has a unit normal across it, however long it is",
+          "[geometry][curved]") {
+  for (const double length : {1e-3, 1.0, 7.0}) {
+    const d3::vector end = length * d3::vector(1, 2, 3);
+    const auto capsule = shell_of(ph::segment_core<d3>{{0, 0, 0}, end});
+    const d3::vector n = capsule.core.closest(end / 2).normal;
+    CHECK_THAT(n.norm(), WithinAbs(1.0, 1e-15));
+    CHECK_THAT(n.dot(end), WithinAbs(0.0, 1e-14));
+  }
+}
