@@ -229,3 +229,52 @@ TEST_CASE("clamped and projected nodes keep the triangle whole where bare lines 
   CHECK(outside > cases / 3);  // the control: 48 % of these cases leave the segment,
   CHECK(bare_flips > 20);      // and some triangles flip
 }
+
+TEST_CASE("a triangle is lost in rounding from its longest edge on, whichever that is",
+          "[geometry]") {
+  const auto usable = [](double height) {
+    std::array<d3::vector, 3> corner{d3::vector(0, 0, 0), d3::vector(1, 0, 0),
+                                     d3::vector(0.5, height, 0)};
+    int count = 0;
+    for (int turn = 0; turn < 3; ++turn) {
+      count += ph::detail::facing_of<d3>(corner[0], corner[1], corner[2]).usable ? 1 : 0;
+      std::rotate(corner.begin(), corner.begin() + 1, corner.end());
+    }
+    return count;
+  };
+  CHECK(usable(1e-14) == 3);
+  CHECK(usable(16 * std::numeric_limits<double>::epsilon()) == 0);
+  CHECK(usable(2e-15) == 0);
+  auto plate = right_triangle();
+  plate.thickness = 0.0;
+  CHECK_FALSE(plate.prepare());
+}
+
+TEST_CASE("to no number the first corner is closest", "[geometry]") {
+  const double nan = std::nan("");
+  const auto found =
+      ph::detail::closest_on_triangle<d3>({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {nan, nan, nan});
+  CHECK(found.point == d3::vector(1, 0, 0));
+  CHECK(found.weights == std::array<double, 3>{1, 0, 0});
+}
+
+TEST_CASE("a node stays where its line is along the plane but for rounding, and is shifted to it",
+          "[geometry]") {
+  const double eps = std::numeric_limits<double>::epsilon();
+  const auto node = [](const d3::vector& to, double height) -> d3::vector {
+    const d3::coordinates a =
+        ph::detail::node_on_plane<d3>({0, 0, 0}, to, {0, 0, height}, {0, 0, 1});
+    const d3::coordinates b =
+        ph::detail::call_node_on_plane<d3>({0, 0, 0}, to, {0, 0, height}, {0, 0, 1});
+    CHECK(d3::vector(a) == d3::vector(b));
+    return a;
+  };
+  CHECK(node({1, 0, 0}, 0.25) == d3::vector(0, 0, 0.25));
+  for (const double side : {1.0, -1.0}) {
+    CHECK(node({1, 0, side * eps}, side * eps / 2) == d3::vector(0, 0, side * eps / 2));
+    CHECK(node({1, 0, side * 2 * eps}, side * eps) == d3::vector(0.5, 0, side * eps));
+    const double low = side * std::ldexp(1.0, -50);  // of a line of 2^-7, above ε times that
+    CHECK(node({std::ldexp(1.0, -7), 0, low}, low / 2) ==
+          d3::vector(std::ldexp(1.0, -8), 0, low / 2));
+  }
+}
