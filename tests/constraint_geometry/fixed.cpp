@@ -29,3 +29,11 @@ TEST_CASE("fixed says what its constraint lacks", "[supply]") {
             .a = {0, 0, 0}, .b = {1, 0, 0}, .c = {2, 0, 0}, .stiffness = 100}) == "constraint");
   CHECK(std::string(ph::fixed<ph::half_space<d1>>{}.check().parameter) == "stiffness");
 }
+
+TEST_CASE("fixed prepares its constraint, which is its target as well", "[supply]") {
+  ph::fixed supply{ph::half_space<d1>{0.5, -4.0, 100.0}};
+  CHECK(supply.local().normal == -1.0);
+  CHECK(supply.local().stiffness == 100.0);
+  CHECK(supply.target().normal == -1.0);
+  CHECK(supply.target().point == 0.5);
+}

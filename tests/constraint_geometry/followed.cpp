@@ -191,3 +191,41 @@ TEST_CASE("followed keeps two copies: the newest target, and its own", "[supply]
   supply.reset();
   CHECK_FALSE(supply.published());
 }
+
+TEST_CASE("followed says what came, how much it counts and where it has got", "[supply]") {
+  ph::followed<ph::segment<d2>> supply;
+  supply.vanish();
+  CHECK_FALSE(supply.changed());  // there is nothing to be new
+  CHECK_FALSE(supply.current());
+  ph::segment<d2> own{.a = {0.02, 0}, .b = {0, 0}, .stiffness = 100};
+  ph::segment<d2> next{.a = {0.021, 0.004}, .b = {0.001, 0.004}, .stiffness = 200};
+  REQUIRE(supply.update(own));
+  CHECK(supply.current());
+  REQUIRE(own.prepare());
+  REQUIRE(next.prepare());
+  const d2::vector x(0.01, -0.001), n(0, 1);
+  for (const bool from_own : {true, false}) {
+    supply.reset();
+    REQUIRE(supply.update(own));
+    REQUIRE(supply.update(next));
+    supply.approach(from_own, x, n, 0.003);
+    const auto expected = (from_own ? own : next).toward(next, x, n, 0.003);
+    CHECK(d2::vector(supply.local().a) == d2::vector(expected.a));
+    CHECK(d2::vector(supply.local().b) == d2::vector(expected.b));
+  }
+  supply.sync();
+  supply.approach(true, x, n, 0.003);
+  CHECK_FALSE(supply.together());
+  supply.seen(0.5);
+  CHECK(supply.last_weight() == 0.5);
+  CHECK_FALSE(supply.changed());
+  supply.vanish();
+  CHECK(supply.changed());
+  CHECK(supply.last_weight() == 0.0);
+  CHECK_FALSE(supply.refused());
+  supply.refuse();
+  CHECK(supply.refused());
+  supply.set({.stale_after = 0.1, .fade = 0.05});
+  supply.grow_older(0.11);
+  CHECK(supply.stale());
+}
