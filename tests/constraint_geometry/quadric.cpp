@@ -180,3 +180,29 @@ TEST_CASE("a quadric that follows another lies where it is told to, as curved an
   CHECK_THAT(Vector3d(steep.tangent).dot(Vector3d::UnitX()), WithinAbs(0.0, 1e-12));
   CHECK_THAT(Vector3d(steep.tangent).norm(), WithinAbs(1.0, 1e-12));
 }
+
+TEST_CASE("a quadric ends just at its thickness, and is looked for within ten of them or its reach",
+          "[geometry][curved]") {
+  auto q = prepared(bulge(0, 0));
+  CHECK(q.at({0, 0, -0.01}).covered());
+  CHECK(q.around().radius == 0.1);
+  q.reach = 0.02;
+  CHECK(q.around().radius == 0.02);
+}
+
+TEST_CASE("a tangent of any length is across the normal from a thousandth of it on",
+          "[geometry][curved]") {
+  const auto usable = [](double across, double along) {
+    auto q = bulge(20, 10);
+    q.tangent = {across, 0, along};
+    return q.prepare();
+  };
+  CHECK(usable(1e-6, 0.0));
+  CHECK(usable(0.05, 1.0));
+  CHECK(usable(1.1e-3, 1.0));
+  CHECK_FALSE(usable(0.9e-3, 1.0));
+  auto hollow = bulge(-100, 10);  // −100/m · 10 mm
+  CHECK_FALSE(hollow.prepare());
+  hollow.curvature = -99;
+  CHECK(hollow.prepare());
+}
