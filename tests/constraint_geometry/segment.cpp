@@ -65,3 +65,15 @@ TEST_CASE("a segment's nodes follow the lines of Fig. 2.5, too", "[geometry]") {
   CHECK_THAT(moved.at(x).depth, WithinAbs(0.003, 1e-15));
   CHECK(moved.stiffness == 200);
 }
+
+TEST_CASE("a segment of any direction, anywhere, has its normal and its ends", "[geometry]") {
+  ph::segment<d2> s{.a = {0, 0}, .b = {3, 4}, .stiffness = 100};
+  REQUIRE(s.prepare());
+  CHECK((s.at({0, 0}).outward() - d2::vector(0.8, -0.6)).norm() < 1e-15);
+  s.a = {1, 1};
+  s.b = {1, 2};
+  REQUIRE(s.prepare());
+  CHECK(s.at({2, 1.5}).covered());
+  CHECK_FALSE(s.at({2, 0.5}).covered());
+  CHECK_FALSE(s.at({2, 2.5}).covered());
+}

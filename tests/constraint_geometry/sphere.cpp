@@ -68,3 +68,26 @@ TEMPLATE_TEST_CASE("a sphere that cannot be used is refused", "[geometry]", d3, 
     CHECK_FALSE(usable(s));
   }
 }
+
+TEST_CASE("a sphere is looked for within twice its radius", "[geometry]") {
+  const auto found = ball<d3>({0.01, 0, 0}).around();
+  CHECK(found.radius == 0.1);
+  CHECK(d3::vector(found.centre) == d3::vector(0.01, 0, 0));
+}
+
+TEST_CASE("a vector is given the length one, and has a direction if its square is a number",
+          "[geometry]") {
+  d3::coordinates v{-3, -4, 0};
+  REQUIRE(ph::detail::make_unit<d3>(v));
+  CHECK((d3::vector(v) - d3::vector(-0.6, -0.8, 0)).norm() < 1e-15);
+  v = {-2, 0, 0};
+  REQUIRE(ph::detail::make_unit<d3>(v));
+  CHECK(d3::vector(v) == d3::vector(-1, 0, 0));
+  const auto direction = [](double length) {
+    return ph::detail::polar_form<d3>({length, 0, 0}, {0, 1, 0}).direction;
+  };
+  CHECK(direction(std::ldexp(1.0, -484)) == d3::vector(1, 0, 0));
+  CHECK(direction(std::ldexp(1.0, -485)) == d3::vector(0, 1, 0));  // of 2^-970, the least over ε
+  CHECK(direction(1e-150) == d3::vector(0, 1, 0));
+  CHECK(ph::detail::polar_form<d3>({0.5, 0, 0}, {0, 1, 0}).length == 0.5);
+}
