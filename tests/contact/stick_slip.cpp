@@ -4,6 +4,11 @@
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/contact/stick_slip.hpp>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <utility>
+
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
@@ -124,12 +129,112 @@ TEST_CASE("friction keeps its size when the normal turns, and lets go with the c
   CHECK(surface.move(d3::vector::Zero(), 2.0, n).norm() == 0.0);  // a new contact is not bent
 }
 
+TEST_CASE("a bristle that is bent just as far as it holds sticks, and heals", "[friction]") {
+  const ph::stick_slip::on<d3> law{ph::stick_slip{
+      .static_coefficient = 0.5, .kinetic_coefficient = 0.25, .weakening = 1.0 / 1024}};
+  ph::stick_slip::bristle<d3> bristle{};
+  const d3::vector n = d3::vector::UnitZ(), along = d3::vector::UnitX();
+  const auto pull = [&](double way) {  // in exact numbers: a spring of 1 N for D, under 1 N
+    return bristle.rub(law, 1.0, n, along * (way / 1024), d3::zero(), 1024.0, 0.0, T).x();
+  };
+  (void)pull(0.0);
+  CHECK(pull(1.5) == -0.375);  // which slips by D, and loses half of 0.5 − 0.25
+  CHECK(bristle.coefficient() == 0.375);
+  CHECK(pull(0.0) == -0.375);
+  CHECK_THAT(bristle.coefficient(), WithinAbs(0.375 + 0.125 / 21, 1e-12));
+}
+
 TEST_CASE("a stick_slip out of range is refused by name", "[friction]") {
   CHECK_FALSE(ph::stick_slip{}.check());
+  CHECK_FALSE(ph::stick_slip{.kinetic_coefficient = 0.0}.check());
+  CHECK_FALSE(ph::stick_slip{.static_coefficient = 0.5, .kinetic_coefficient = 0.5}.check());
   CHECK(std::string(ph::stick_slip{.static_coefficient = -1.0}.check().parameter) ==
         "static_coefficient");
   CHECK(std::string(ph::stick_slip{.kinetic_coefficient = 0.7}.check().parameter) ==
         "kinetic_coefficient");
   CHECK(std::string(ph::stick_slip{.weakening = 0.0}.check().parameter) == "weakening");
   CHECK(std::string(ph::stick_slip{.healing = std::nan("")}.check().parameter) == "healing");
+}
+
+namespace {
+
+/// The bristle a second time, its normal turned by a quaternion.
+struct told_bristle {
+  d3::vector z = d3::zero(), last = d3::zero();
+  double mu = 0.0;
+  bool touches = false;
+  int slips = 0, sticks = 0, cut = 0;
+
+  d3::vector rub(const ph::stick_slip& rule, double pressed, const d3::vector& n,
+                 const d3::vector& travel, const d3::vector& velocity, double K, double B,
+                 double dt) {
+    if (pressed <= 0.0) {
+      touches = false;
+      return d3::zero();
+    }
+    if (std::exchange(touches, true)) {
+      z += travel;
+      z -= last * last.dot(z);
+      z = Eigen::Quaterniond::FromTwoVectors(last, n) * z;
+    } else {
+      z = d3::zero();
+      mu = rule.static_coefficient;
+    }
+    last = n;
+    const double slip = z.norm() - mu * pressed / K;
+    if (slip > 0.0) {
+      ++slips;
+      mu = rule.kinetic_coefficient +
+           (mu - rule.kinetic_coefficient) / (1.0 + slip / rule.weakening);
+      z *= mu * pressed / K / z.norm();
+    } else {
+      ++sticks;
+      mu += (rule.static_coefficient - mu) * dt / (dt + rule.healing);
+    }
+    const d3::vector wanted = -K * z - B * (velocity - n * n.dot(velocity));
+    const double share = std::min(1.0, mu * pressed / wanted.norm());
+    cut += share < 1.0 ? 1 : 0;
+    return wanted.norm() > 0.0 ? d3::vector(wanted * share) : d3::zero();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a bristle bends, slips, heals and is let go tick by tick as its formulas say",
+          "[friction]") {
+  const ph::stick_slip rule{
+      .static_coefficient = 0.9, .kinetic_coefficient = 0.2, .weakening = 7e-4, .healing = 0.03};
+  const ph::stick_slip::on<d3> law{rule};
+  CHECK(law.parameters().static_coefficient == 0.9);
+  CHECK(law.parameters().kinetic_coefficient == 0.2);
+  CHECK(law.parameters().weakening == 7e-4);
+  CHECK(law.parameters().healing == 0.03);
+  ph::stick_slip::bristle<d3> bristle{};
+  told_bristle told;
+  ph::laws::samples random(7);
+  d3::vector n = random.direction<d3>();
+  for (int i = 0; i < 4000; ++i) {
+    const double pressed = i % 50 == 49 ? 0.0 : 1.0 + 0.9 * random.number<double>();
+    if (i % 3 == 0) n = (n + 0.2 * random.vector<d3>()).normalized();
+    const d3::vector travel = random.vector<d3>() * (i % 20 < 10 ? 2e-4 : 1e-3);
+    const d3::vector velocity = random.vector<d3>() * 0.3;
+    const double K = 800.0 + 300.0 * random.number<double>(), B = i % 2 == 0 ? 0.5 : 0.0;
+    const double dt = 1e-3 * (2.0 + random.number<double>());
+    if (i % 77 == 76) {
+      bristle.let_go();
+      told.touches = false;
+    }
+    if (i % 211 == 210) {
+      bristle.reset();
+      told.touches = false;
+    }
+    const d3::vector f = bristle.rub(law, pressed, n, travel, velocity, K, B, dt);
+    REQUIRE((f - told.rub(rule, pressed, n, travel, velocity, K, B, dt)).norm() < 1e-9);
+    if (told.touches) REQUIRE_THAT(bristle.coefficient(), WithinAbs(told.mu, 1e-9));
+  }
+  CHECK(told.slips > 500);
+  CHECK(told.sticks > 500);
+  CHECK(told.cut > 500);
+  bristle.reset();
+  CHECK(bristle.coefficient() == 0.0);
 }
