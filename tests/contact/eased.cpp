@@ -6,6 +6,7 @@
 #include <passive_haptics/compositions.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -666,6 +667,57 @@ TEST_CASE("a hand to and fro is not damped, whatever the noise of its samples, a
   for (int n = 0; n < 40; ++n) most = swing.damped(0.1, 4000.0, 1e-3);
   CHECK(most < 2e-3);
   CHECK(most > 1e-3);
+}
+
+namespace {
+
+/// What is damped, a second time: how long each half lasts, from the equations of contacts.md § 6.
+struct told_swing {
+  double half = 0.0, before = 0.0, peak = 0.0, share = 1.0;
+  double most = ph::kernels::largest<double>();
+
+  double damped(double v, double natural, double dt) {
+    half += dt;
+    if (v * peak < 0.0 && std::abs(v) > std::abs(peak) / 4.0) {  // it comes back
+      before = std::exchange(half, 0.0);
+      most = 2.0 * std::abs(peak);
+      peak = v;
+    } else if (std::abs(v) > std::abs(peak)) {
+      peak = v;
+    } else {
+      peak *= 1.0 - std::min(dt / 0.1, 1.0);
+    }
+    const double W = std::min(20.0, std::sqrt(natural / 4.0)), h = std::max(half, before);
+    const double q = std::pow(std::acos(-1.0) / (W * h), 2);
+    const double g = h > 0.0 ? std::clamp(4.0 / 3.0 * (q - 0.25), 0.0, 1.0) : 1.0;
+    share += (g - share) * std::min(dt / 0.02, 1.0);
+    return std::clamp(v, -most, most) * share;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("what is damped of any motion is told tick by tick by the halves so far", "[contact]") {
+  ph::laws::samples random(5);
+  const std::array<double, 6> ticks{0.0, 1e-3, 4e-3, 0.015, 0.05, 0.2};
+  double some = 0.0;
+  for (int run = 0; run < 60; ++run) {
+    ph::swing<double> swing;
+    told_swing told;
+    const double natural = run % 3 == 0 ? 100.0 : run % 3 == 1 ? 1600.0 : 1e4;
+    const int lasts = 1 + run % 50;  // of a speed in eighths, so that a peak and a quarter are met
+    double v = 0.0;
+    for (int n = 0; n < 400; ++n) {
+      if (n % lasts == 0 || run % 7 == 0) v = std::round(random.number<double>() * 8.0) / 8.0;
+      const double dt = run % 5 == 0 ? ticks[static_cast<std::size_t>(n) % ticks.size()] : 1e-3;
+      const double now = swing.damped(v, natural, dt);
+      REQUIRE_THAT(now, WithinAbs(told.damped(v, natural, dt), 1e-12));
+      some += std::abs(now) > 0.01 && std::abs(now) < 0.99 * std::abs(v) ? 1.0 : 0.0;
+    }
+    swing.stop();
+    CHECK(swing.damped(3.0, natural, 1e-3) == 3.0);
+  }
+  CHECK(some > 1000.0);
 }
 
 TEST_CASE("two news between two ticks are one", "[contact]") {
