@@ -238,3 +238,15 @@ TEST_CASE("dry friction is refused with its name, and gives its parameters back"
   CHECK(own.coulomb == arm.coulomb);
   CHECK(own.presliding == arm.presliding);
 }
+
+TEST_CASE("what yields is the part of a force that no friction holds, axis by axis", "[damping]") {
+  const auto own = at<d2>(arm);
+  const d2::vector left = own.yielding(d2::vector(3, -4), 0.03);
+  CHECK_THAT(left(0), WithinRel(0.2 + 2.8 * 0.01 / 0.04, 1e-14));
+  CHECK_THAT(left(1), WithinRel(-0.1 - 3.9 * 0.04 / 0.07, 1e-14));
+  CHECK(own.yielding(d2::vector(-0.2, 0.05), 0.03) == d2::vector(-0.2, 0.05));
+  const auto both = at<d2>(ph::damping_and_friction{0.03, 0.5, 1e-5});
+  const double least = std::ldexp(1.0, -485);  // m, whose square is the least normal number over ε
+  CHECK(both.friction_along(d2::vector(least, 0)) == d2::zero());
+  CHECK_THAT(both.friction_along(d2::vector(2 * least, 0)).x(), WithinRel(0.5, 1e-14));
+}
