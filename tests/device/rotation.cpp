@@ -124,3 +124,10 @@ TEST_CASE("exp and log are as exact in a wider number as it is", "[rotation]") {
     CHECK((back - turn).norm() <= 16 * std::numeric_limits<long double>::epsilon() * angle);
   }
 }
+
+TEST_CASE("half a turn is one about the axis that is said, not about its opposite", "[rotation]") {
+  const double pi = std::acos(-1.0);
+  CHECK_THAT(ph::rotation::log(quat{0, 0, 1, 0}).y(), WithinAbs(pi, 1e-15));
+  CHECK_THAT(ph::rotation::log(quat{0, 0, -1, 0}).y(), WithinAbs(-pi, 1e-15));
+  CHECK_THAT(ph::rotation::turned(quat{1, 0, 0, 0}, quat{0, 0, 1, 0}).y(), WithinAbs(pi, 1e-15));
+}

@@ -2,6 +2,9 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 
+#include <cmath>
+#include <utility>
+
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
@@ -93,4 +96,24 @@ TEST_CASE("the cross product is right-handed", "[space]") {
   CHECK(d3::cross(x, y) == z);
   CHECK(d3::cross(y, z) == x);
   CHECK(d3::cross(y, x) == -z);
+}
+
+TEST_CASE("one dimension is plain numbers at run time, too", "[space]") {
+  const auto of = [](double a, double b) {
+    CHECK(d1::difference(a, b) == a - b);
+    CHECK(d1::scaled(a, b) == a * b);
+    CHECK(d1::between(a, b) == b - a);
+    CHECK(d1::component(std::as_const(a), 0) == a);
+    CHECK(d1::is_finite(a));
+    CHECK(d1::work(a, b).joules == a * b);
+    CHECK(d1::work(a, b).passed == std::abs(a * b));
+    CHECK(d1::zero() == 0.0);
+    d1::component(b, 0) = a;
+    CHECK(b == a);
+  };
+  of(2.0, -3.0);
+  of(0.5, 4.0);
+  CHECK_FALSE(d1::is_finite(std::nan("")));
+  const d3::coordinates stored(1, 2, 3);
+  CHECK(d3::component(stored, 1) == 2);
 }
