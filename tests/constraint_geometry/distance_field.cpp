@@ -383,10 +383,17 @@ TEST_CASE(
     brick.coefficients[node] = std::nan("");
     CHECK_FALSE(brick.prepare());
   }
-  auto flat = curved::brick<d3>();
-  flat.coefficients.fill(0.0);
-  REQUIRE(flat.prepare());
-  for (const double c : flat.coefficients) CHECK(c == 0.0);
+  for (const double level : {0.0, 1e-3, -0.3, 1e6}) {  // rounding gives some of them a slope
+    auto flat = curved::brick<d3>();
+    flat.coefficients.fill(level);
+    REQUIRE(flat.prepare());
+    for (const double c : flat.coefficients) CHECK(c == level);
+  }
+  ph::distance_brick<f3> single;
+  single.spacing = single.stiffness = 1;
+  single.coefficients.fill(0.1F);
+  REQUIRE(single.prepare());
+  for (const float c : single.coefficients) CHECK(c == 0.1F);
 }
 
 TEST_CASE("a brick is a distance if its slope is 1 but for a sixteenth", "[geometry]") {

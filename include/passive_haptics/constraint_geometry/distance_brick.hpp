@@ -62,12 +62,15 @@ requires(Space::dof == 3) struct distance_brick {
   }
 
   /// Divides φ by its slope s₀ at the surface, near the middle of the cube, because the stiffness felt is K|∇φ|². If
-  /// s₀ is within 1/16 of 1, φ is a distance and stays unchanged. If φ is more than √2 times steeper in a corner, s₀ is
-  /// that slope over √2, so the stiffness felt is about 2K at most. False for coefficients or an origin that are not
-  /// finite, for a spacing, a stiffness or a thickness ≤ 0, and for a slope that overflows.
+  /// s₀ is within 1/16 of 1, φ is a distance and stays unchanged; so does a φ without a slope beyond rounding. If φ is
+  /// more than √2 times steeper in a corner, s₀ is that slope over √2, so the stiffness felt is about 2K at most. False
+  /// for coefficients or an origin that are not finite, for a spacing, a stiffness or a thickness ≤ 0, and for a slope
+  /// that overflows.
   [[nodiscard]] constexpr bool prepare() noexcept {
+    scalar most(0);
     for (const scalar& c : coefficients) {
       if (!kernels::is_finite(c)) return false;
+      most = kernels::larger(most, kernels::magnitude(c));
     }
     if (!(Space::is_finite(origin) && detail::usable_length(spacing) &&
           detail::usable_length(thickness) && detail::usable_stiffness(stiffness))) {
@@ -75,7 +78,8 @@ requires(Space::dof == 3) struct distance_brick {
     }
     const scalar slope = slope_at_the_surface();
     if (!kernels::is_finite(slope)) return false;
-    if (kernels::magnitude(slope - scalar(1)) > scalar(1) / scalar(16)) {
+    const bool slopes = slope * spacing > kernels::rounding<scalar>() * most;
+    if (slopes && kernels::magnitude(slope - scalar(1)) > scalar(1) / scalar(16)) {
       for (scalar& c : coefficients) c /= slope;
     }
     return true;
@@ -112,7 +116,7 @@ requires(Space::dof == 3) struct distance_brick {
   }
 
  private:
-  /// s₀; 1 if φ has no slope there.
+  /// s₀
   [[nodiscard]] constexpr scalar slope_at_the_surface() const noexcept {
     const vector least = vector(origin) + vector(spacing, spacing, spacing) * scalar(0.5);
     vector x = least + vector(spacing, spacing, spacing);
@@ -131,9 +135,7 @@ requires(Space::dof == 3) struct distance_brick {
       const vector there(of(1), of(2), of(4));
       steepest = kernels::larger(steepest, Space::norm(at(least + there * spacing).pushing));
     }
-    const scalar slope =
-        kernels::larger(Space::norm(at(x).pushing), steepest * scalar(0.7071067811865476));
-    return slope == scalar(0) ? scalar(1) : slope;  // a NaN stays
+    return kernels::larger(Space::norm(at(x).pushing), steepest * scalar(0.7071067811865476));
   }
   /// The values and slopes of the three B-splines along one axis that are not zero.
   struct basis {
