@@ -126,7 +126,7 @@ class axis_identification {
   }
   /// True in the ticks that disturbance_search.hpp is to see.
   [[nodiscard]] bool keeps_tick() const noexcept {
-    return again_ || (!break_away_ && swing_.settles_or_shakes());
+    return again_ || (!break_away_ && swing_.settles_shakes_or_crosses());
   }
   /// The force [N] of the present experiment; where that ends, the next one begins.
   double next() noexcept {

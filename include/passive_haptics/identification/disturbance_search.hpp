@@ -13,7 +13,7 @@
 //                by a                             g = (1 − σ) gap/2                                       σ gap
 //     fraction   ∬ (f(t − d ∓ T) − f(t − d))/m    g = the fraction                                        ∓
 //     filter     ∬ (f behind a low-pass)/m − …    g = 1                                                   θ, d
-//     cogging    ∬ sin 2πx/L, ∬ cos 2πx/L         √(g₁² + g₂²) m = its amplitude                           L
+//     cogging    ∬ sin 2πx/L, ∬ cos 2πx/L, the means over ticks   √(g₁² + g₂²) m = its amplitude           L
 //     hand       ∬ x, or what is left of x behind a high-pass                  g = −k/m                    τ
 //     drift      ∬ t sgn ẋ, ∬ t                                                g = ċ/m, ẇ/m
 //
@@ -566,8 +566,11 @@ class disturbance_search {
       }
       case column_of::cogging:
       case column_of::uneven: {
-        const double at = 2.0 * pi * c.p1 * middle;
-        return (k == 0 ? std::sin(at) : std::cos(at)) * (c.is == column_of::uneven ? way_[n] : 1.0);
+        // The mean over the way of a tick, which a fast one makes longer than a wave: sin πkΔx/πkΔx of that in its middle.
+        const double at = 2.0 * pi * c.p1 * middle, u = pi * c.p1 * (ticks_[n + 1].x - ticks_[n].x);
+        const double mean = std::abs(u) > 1e-3 ? std::sin(u) / u : 1.0;
+        return mean * (k == 0 ? std::sin(at) : std::cos(at)) *
+               (c.is == column_of::uneven ? way_[n] : 1.0);
       }
       case column_of::drift:
         return (c.p1 == 0.0 ? way_[n] : 1.0) * (ticks_[n].time / end - 0.5);

@@ -13,6 +13,8 @@
 //                a fifth of the largest force allowed
 //            In every other six sweeps the force is 1.5 times that, and in every other twelve the stroke is 0.6 of the
 //            stated one, because a single force or stroke does not separate damping from friction.
+//   cross    cross_time at 40 to 70 mm/s: a force A sin 2πx/L moves m by A L²/(m (2π v)²), so cogging of half a
+//            millimetre shows a hundred times more than in a sweep
 //
 // A relay moves the device (relay_motion.hpp; Åström and Hägglund, 1984). By default a bound is three deviations of
 // the jackknife (Miller, 1974) and 5 % away from the estimate (trust.hpp).
@@ -44,7 +46,8 @@ class swing_experiment {
     clock_.book(seen.samples(), seen.position());
     const double force = phase_ == phase::settle  ? settle(seen)
                          : phase_ == phase::shake ? shake(seen)
-                                                  : sweep(seen);
+                         : phase_ == phase::sweep ? sweep(seen)
+                                                  : cross(seen);
     regression_.commanded(force);
     return force;
   }
@@ -52,9 +55,9 @@ class swing_experiment {
   void interrupt() noexcept { regression_.interrupt(); }
 
   [[nodiscard]] bool done() const noexcept { return phase_ == phase::done; }
-  /// True until the last tick that disturbance_search.hpp is to see.
-  [[nodiscard]] bool settles_or_shakes() const noexcept {
-    return phase_ == phase::settle || phase_ == phase::shake;
+  /// True in the ticks that disturbance_search.hpp is to see: in all but the sweeps.
+  [[nodiscard]] bool settles_shakes_or_crosses() const noexcept {
+    return phase_ == phase::settle || phase_ == phase::shake || phase_ == phase::cross;
   }
   /// A sentence that says why nothing was found; null if something was, or may be yet.
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
@@ -83,7 +86,7 @@ class swing_experiment {
   }
 
  private:
-  enum class phase : std::uint8_t { settle, shake, sweep, done };
+  enum class phase : std::uint8_t { settle, shake, sweep, cross, done };
   static constexpr const char* stopped =
       "it stopped to swing: let go of the device, or allow more force";
   static constexpr double slowest = 0.03;  // least speed of the windows that count [m/s]
@@ -158,8 +161,33 @@ class swing_experiment {
   double conclude(double force) noexcept {
     motion_ = regression_.conclude();
     if (const char* wrong = motion_problem()) return fail(wrong);
-    phase_.enter(phase::done);
+    phase_.enter(phase::cross);
     return force;
+  }
+  /// Goes to and fro little faster than the windows of the search have to be, friction and load taken off the command.
+  double cross(const axis_record& seen) noexcept {
+    if (phase_.lasted() >= p_.cross_time) {
+      relay_.restart(seen.x());
+      phase_.enter(phase::done);
+      return 0.0;
+    }
+    if (across_ * seen.x() > 0.8 * p_.stroke) {
+      across_ = -across_;
+      pushes_ = 0.0;
+    }
+    const double m = motion_.mass.value;
+    const int ticks = std::clamp(static_cast<int>(8.0 * std::sqrt(m / 0.1)), 6, 24);
+    const double omega = std::clamp(20.0 / std::sqrt(m), 20.0, 64.0);
+    // The speed grows along the way, so that no speed meets the steps in time with the ticks for long.
+    const double along = std::clamp(0.5 + across_ * seen.x() / (1.6 * p_.stroke), 0.0, 1.0);
+    const double wanted =
+        (1.25 + 0.5 * along) * (slowest + seen.step() / (5.0 * kernels::larger(seen.dt(), 1e-5)));
+    const double slow = wanted - across_ * seen.velocity(ticks);
+    pushes_ =
+        std::clamp(pushes_ + 0.25 * m * omega * omega * slow * seen.dt(), -p_.force, p_.force);
+    const double force =
+        across_ * (motion_.friction.value + m * omega * slow + pushes_) - motion_.load.value;
+    return std::clamp(force, -p_.force, p_.force);
   }
   [[nodiscard]] const char* motion_problem() const noexcept {
     if (clock_.period() > 1) {
@@ -192,7 +220,8 @@ class swing_experiment {
   timed_phase<phase> phase_{phase::settle};
   motion_found motion_{};
   const char* problem_ = nullptr;
-  double force_ = 0.0;  // force of the sweeps [N]
+  double force_ = 0.0;                  // force of the sweeps [N]
+  double across_ = 1.0, pushes_ = 0.0;  // way, and force beyond friction and speed [N]
   int window_ = 16, window_since_ = 0;
 };
 
