@@ -195,9 +195,12 @@ mended_verdict identified_until_mended(const disturbed& truth) {
     bool mended = false;
     for (std::size_t i = 0; i < identification::disturbances; ++i) {
       const auto kind = static_cast<disturbance>(i);
-      if (!now.truth.is(kind) || !now.names(kind)) continue;
-      all.found_in_any[i] = true;
-      if (!now.refused()) continue;
+      if (!now.truth.is(kind)) continue;
+      const bool named = now.names(kind);
+      const bool of_two = !mended && now.names_as_one_of_two(kind);
+      all.found_in_any[i] = all.found_in_any[i] || named;
+      all.one_of_two_in_any[i] = all.one_of_two_in_any[i] || of_two;
+      if (!now.refused() || !(named || of_two)) continue;
       next.remedy(kind);
       mended = true;
     }

@@ -84,10 +84,19 @@ struct disturbed_verdict {
     if (what == disturbance::fraction || what == disturbance::filter) {
       return is(disturbance::fraction) || is(disturbance::filter);
     }
-    if (what == disturbance::hand && refused() && !found.wrong.refusal()) {
+    if (what == disturbance::hand && refused() && !found.wrong.refusal() && !of_two_names()) {
       return std::string(found.problem).find("let go") != std::string::npos;
     }
     return is(what);
+  }
+  /// Refused by the sentence that names a hand and the transmission, because no motion tells them apart.
+  [[nodiscard]] bool of_two_names() const {
+    return refused() && std::string(found.problem) == identification::held_or_gives;
+  }
+  /// That sentence names it, and nothing else does.
+  [[nodiscard]] bool names_as_one_of_two(disturbance what) const {
+    return of_two_names() && !names(what) &&
+           (what == disturbance::hand || what == disturbance::mode);
   }
   [[nodiscard]] bool has(disturbance what) const {
     const bool late = what == disturbance::fraction || what == disturbance::filter;
@@ -105,9 +114,10 @@ struct disturbed_verdict {
 [[nodiscard]] disturbed_verdict identified(const disturbed& truth);
 
 /// The first session of a device, and what comes of those that follow: while it is refused for something that is wrong
-/// with it, that is mended, and it is identified again. What is named in none of them is never found.
+/// with it, that is mended, and it is identified again. What is named in none of them is never found. Where two names are
+/// given, the hand goes first, and then the transmission is stiffened.
 struct mended_verdict : disturbed_verdict {
-  std::array<bool, identification::disturbances> found_in_any{};
+  std::array<bool, identification::disturbances> found_in_any{}, one_of_two_in_any{};
   int sessions = 0;
   double longest = 0.0;       ///< session [s]
   bool ends_refused = false;  ///< for nothing that is wrong with it

@@ -12,10 +12,10 @@ constexpr std::array kinds{disturbance::hand,     disturbance::mode,   disturban
                            disturbance::drift};
 
 /// A line of the summary: of those that have it, how many are named in the first session, or in any until all that is
-/// refused by name is mended, or refused at all.
+/// refused by name is mended, or then by a sentence with two names, or refused at all.
 struct line_of_kind {
   std::string kind;
-  int drawn = 0, named = 0, in_the_end = 0, answered = 0, safe = 0;
+  int drawn = 0, named = 0, in_the_end = 0, of_two = 0, answered = 0, safe = 0;
   int without = 0, alarms = 0;
 };
 ex::record record_of(const line_of_kind& l) {
@@ -37,17 +37,23 @@ std::vector<line_of_kind> summary_of(const std::vector<mended_verdict>& all) {
       if (v.truth.is(kind)) {
         ++l.drawn;
         l.named += v.names(kind) ? 1 : 0;
-        l.in_the_end += v.found_in_any[static_cast<std::size_t>(kind)] ? 1 : 0;
+        const auto i = static_cast<std::size_t>(kind);
+        l.in_the_end += v.found_in_any[i] ? 1 : 0;
+        l.of_two += v.found_in_any[i] || v.one_of_two_in_any[i] ? 1 : 0;
         l.answered += v.names(kind) || v.refused() ? 1 : 0;
         l.safe += v.names(kind) || v.refused() || holds(v) ? 1 : 0;
       } else if (!v.has(kind)) {
         ++l.without;
-        l.alarms += v.names(kind) ? 1 : 0;
+        // Two names, and neither is true: a false alarm of the first.
+        const bool neither =
+            kind == disturbance::hand && v.of_two_names() && !v.truth.is(disturbance::mode);
+        l.alarms += v.names(kind) || neither ? 1 : 0;
       }
     }
     total.drawn += l.drawn;
     total.named += l.named;
     total.in_the_end += l.in_the_end;
+    total.of_two += l.of_two;
     total.answered += l.answered;
     total.safe += l.safe;
     total.without += l.without;

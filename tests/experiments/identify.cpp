@@ -44,6 +44,37 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("cogging of half a millimetre is found by name, and none where there is none",
+          "[identify]") {
+  auto truth = identify::draw_disturbed(7700053);
+  REQUIRE(truth.has.wavelength < 0.6e-3);
+  const auto with = identify::identified(truth);
+  CHECK(with.names(identify::disturbance::cogging));
+  const auto& found = with.found.wrong.of(identify::disturbance::cogging);
+  CHECK(std::abs(found.size - truth.has.cogging) < 0.15 * truth.has.cogging);
+  CHECK(std::abs(found.where - truth.has.wavelength) < 0.02 * truth.has.wavelength);
+  truth.remedy(identify::disturbance::cogging);
+  const auto without = identify::identified(truth);  // the control
+  CHECK_FALSE(without.refused());
+  CHECK_FALSE(without.names(identify::disturbance::cogging));
+}
+
+TEST_CASE("a hand on a handle behind a spring is refused by a sentence that names both",
+          "[identify]") {
+  auto truth = identify::draw_disturbed(1700859);  // 95 N/m, and a mode of 106 Hz
+  const auto held = identify::identified(truth);
+  CHECK(held.of_two_names());
+  CHECK(held.names_as_one_of_two(identify::disturbance::hand));
+  CHECK(held.names_as_one_of_two(identify::disturbance::mode));
+  truth.remedy(identify::disturbance::hand);
+  const auto free = identify::identified(truth);
+  CHECK_FALSE(free.of_two_names());
+  CHECK(free.names(identify::disturbance::mode));
+  CHECK((free.mass() && free.damping() && free.friction()));
+  truth.remedy(identify::disturbance::mode);
+  CHECK_FALSE(identify::identified(truth).refused());  // the control
+}
+
 TEST_CASE("the study's judge knows a bound that does not hold", "[identify]") {
   identify::verdict v;
   v.truth = {.mass = 0.1, .damping = 0.1, .friction = 0.1, .presliding = 10e-6, .quantum = 1e-5};

@@ -102,6 +102,9 @@ class axis_identification {
           "the transmission between motor and handle rings too low: stiffen it, or take the handle "
           "off";
     }
+    if (found.problem == nullptr && found.wrong.unexplained > disturbances_found::too_much) {
+      found.problem = held_or_gives;
+    }
     if (const char* why = found.wrong.refusal()) found.problem = why;
     if (found.problem != nullptr) return found;
     swing_.state(found);

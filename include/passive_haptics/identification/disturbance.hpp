@@ -56,6 +56,13 @@ inline constexpr std::size_t disturbances = 7;
   return nullptr;
 }
 
+/// The sentence that refuses a device of which no motion tells a hand from a transmission that gives: a hand on a handle
+/// behind a spring is both. It names both, and what to try first.
+inline constexpr const char* held_or_gives =
+    "the force explains too little of the motion: something holds the handle, or the transmission "
+    "gives: let go of the "
+    "device; if nobody held it, stiffen the transmission";
+
 /// One disturbance: whether it was found, how large it is, and how sure that is.
 struct suspicion {
   bool found = false;
@@ -72,6 +79,9 @@ struct disturbances_found {
   double mass = 0.0;  ///< all that moves [kg]; 0: the axis moved too little
   /// What the rotor may at most yield beyond that, found or hidden by the steps: 1/m_r ≤ (1 + this)/m.
   double yields = 0.0;
+  /// Share of the motion, squared, that neither the device with what was found nor the steps explain, 0 to 1.
+  double unexplained = 0.0;
+  static constexpr double too_much = 0.01;  ///< a tenth of the motion
 
   /// The sentence that refuses the device, of the first that does, or null.
   [[nodiscard]] const char* refusal() const noexcept {

@@ -22,7 +22,8 @@
 // that lets errors within a window depend on each other (Liang and Zeger, Biometrika 1986), and gᵀ V⁻¹ g is χ² with the
 // number of columns as degrees of freedom where there is nothing. The one that explains most is taken into the model if
 // that would happen once in 2000 devices by chance, divided by the number of candidates, and if it is large enough to
-// matter; then the search begins anew.
+// matter; then the search begins anew. What is left at the end, over the motion, is `unexplained`: a hand on a handle behind
+// a spring is neither a column of a hand nor one of a mode.
 
 #include <passive_haptics/identification/disturbance.hpp>
 #include <passive_haptics/identification/motion_record.hpp>
@@ -64,6 +65,8 @@ class disturbance_search {
     }
     drop_what_others_explain();
     found.mass = mass_;
+    const double moved = placed([&](std::size_t n) { return ticks_[n].x; }).squaredNorm();
+    found.unexplained = (std::max)(y_.squaredNorm() - floor(), 0.0) / (std::max)(moved, 1e-300);
     static_cast<void>(search(found.yields));  // a mode that was dropped is hidden
     for (const candidate& c : model_) name(c, found);
     return found;

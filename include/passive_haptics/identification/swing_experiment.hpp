@@ -19,6 +19,7 @@
 // A relay moves the device (relay_motion.hpp; Åström and Hägglund, 1984). By default a bound is three deviations of
 // the jackknife (Miller, 1974) and 5 % away from the estimate (trust.hpp).
 
+#include <passive_haptics/identification/disturbance.hpp>
 #include <passive_haptics/identification/measure_latency.hpp>
 #include <passive_haptics/identification/motion_record.hpp>
 #include <passive_haptics/identification/motion_regression.hpp>
@@ -196,10 +197,7 @@ class swing_experiment {
     if (motion_.windows < 100) {
       return "it moves too slowly or too little: allow more force, or a longer stroke";
     }
-    if (!(motion_.explained > 0.9)) {
-      return "the force explains too little of the motion: let go of the device, or allow more "
-             "force";
-    }
+    if (!(motion_.explained > 0.9)) return held_or_gives;
     const double spring = motion_.stiffness.value;
     if (kernels::magnitude(spring) > 5.0 * motion_.stiffness.deviation &&
         kernels::magnitude(spring) * p_.stroke > 0.02 * force_) {
