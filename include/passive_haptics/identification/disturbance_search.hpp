@@ -388,7 +388,10 @@ class disturbance_search {
     }
     const Eigen::MatrixXd inverse = factors.solve(Eigen::MatrixXd::Identity(k, k));
     const Eigen::MatrixXd V = inverse * meat * inverse;
+    // Few windows underestimate V, the more where steps come in time with the ticks: what explains less than the steps
+    // alone would by chance is nothing.
     c.wald = g.dot(V.ldlt().solve(g));
+    if (step_ > 0.0) c.wald = (std::min)(c.wald, 12.0 * c.drop / (step_ * step_));
     c.deviation = std::sqrt((std::max)(V(0, 0), 0.0));
     for (Eigen::Index i = 0; i < k; ++i) c.g[static_cast<std::size_t>(i)] = g(i);
   }
