@@ -56,8 +56,8 @@ inline constexpr std::size_t disturbances = 7;
   return nullptr;
 }
 
-/// The sentence that refuses a device of which no motion tells a hand from a transmission that gives: a hand on a handle
-/// behind a spring is both. It names both, and what to try first.
+/// The sentence that refuses a device of which no motion tells a hand from a transmission that gives: a hand on a
+/// handle behind a spring is both. It says what to try first.
 inline constexpr const char* held_or_gives =
     "the force explains too little of the motion: something holds the handle, or the transmission "
     "gives: let go of the "

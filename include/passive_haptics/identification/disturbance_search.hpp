@@ -22,8 +22,8 @@
 // that lets errors within a window depend on each other (Liang and Zeger, Biometrika 1986), and gᵀ V⁻¹ g is χ² with the
 // number of columns as degrees of freedom where there is nothing. The one that explains most is taken into the model if
 // that would happen once in 2000 devices by chance, divided by the number of candidates, and if it is large enough to
-// matter; then the search begins anew. What is left at the end, over the motion, is `unexplained`: a hand on a handle behind
-// a spring is neither a column of a hand nor one of a mode.
+// matter; then the search begins anew. What is left at the end, over the motion, is `unexplained`: a hand on a handle
+// behind a spring is neither a column of a hand nor one of a mode.
 
 #include <passive_haptics/identification/disturbance.hpp>
 #include <passive_haptics/identification/motion_record.hpp>
@@ -572,7 +572,7 @@ class disturbance_search {
       }
       case column_of::cogging:
       case column_of::uneven: {
-        // The mean over the way of a tick, which a fast one makes longer than a wave: sin πkΔx/πkΔx of that in its middle.
+        // The mean over the way of a tick, which may be longer than a wave: sin u/u of what is in its middle.
         const double at = 2.0 * pi * c.p1 * middle, u = pi * c.p1 * (ticks_[n + 1].x - ticks_[n].x);
         const double mean = std::abs(u) > 1e-3 ? std::sin(u) / u : 1.0;
         return mean * (k == 0 ? std::sin(at) : std::cos(at)) *
