@@ -19,10 +19,15 @@ struct line_of_kind {
   int without = 0, alarms = 0;
 };
 ex::record record_of(const line_of_kind& l) {
-  return {{"disturbance", l.kind},    {"drawn", l.drawn},
-          {"named", l.named},         {"named once others are mended", l.in_the_end},
-          {"or refused", l.answered}, {"or bounds hold", l.safe},
-          {"without it", l.without},  {"false alarms", l.alarms}};
+  return {{"disturbance", l.kind},
+          {"drawn", l.drawn},
+          {"named", l.named},
+          {"named once others are mended", l.in_the_end},
+          {"or one of two names", l.of_two},
+          {"or refused", l.answered},
+          {"or bounds hold", l.safe},
+          {"without it", l.without},
+          {"false alarms", l.alarms}};
 }
 bool holds(const disturbed_verdict& v) {
   return v.mass() && v.damping() && v.friction();
