@@ -118,6 +118,12 @@ class axis_identification {
     if (found.remark != nullptr) return found;
     break_away_->state(found, record_.step());
     creep_->state(found, record_.step());
+    // The ramps slip at a few places, and the four at a place meet one level of a ripple longer than a slip; the motion
+    // meets all of them.
+    const double least = kinetic_friction(swing_.found()) - found.wrong.ripple;
+    found.friction = kernels::smaller(found.friction,
+                                      found.creep * p_.trust.margin * kernels::larger(least, 0.0));
+    if (!(least > 0.0)) found.remark = "dry friction: none to rely on, it varies along the way";
     return found;
   }
 

@@ -79,6 +79,8 @@ struct disturbances_found {
   double mass = 0.0;  ///< all that moves [kg]; 0: the axis moved too little
   /// What the rotor may at most yield beyond that, found or hidden by the steps: 1/m_r ≤ (1 + this)/m.
   double yields = 0.0;
+  /// What friction may at most fall below its mean along the way, as far as the motion shows it [N].
+  double ripple = 0.0;
   /// Share of the motion, squared, that neither the device with what was found nor the steps explain, 0 to 1.
   double unexplained = 0.0;
   static constexpr double too_much = 0.01;  ///< a tenth of the motion

@@ -120,6 +120,10 @@ class disturbance_search {
     yields = hidden;
     return best;
   }
+  /// The most that the amplitude of a force along the way may be [N].
+  [[nodiscard]] double largest_force(const candidate& c) const noexcept {
+    return (std::hypot(c.g[0], c.g[1]) + 4.0 * c.deviation) * mass_;
+  }
   /// Fits the parameters of each part of the model anew beside the others.
   void improve() {
     for (int again = 0; again < 2; ++again) {
@@ -392,7 +396,7 @@ class disturbance_search {
     // alone would by chance is nothing.
     c.wald = g.dot(V.ldlt().solve(g));
     if (step_ > 0.0) c.wald = (std::min)(c.wald, 12.0 * c.drop / (step_ * step_));
-    c.deviation = std::sqrt((std::max)(V(0, 0), 0.0));
+    c.deviation = std::sqrt((std::max)(V.trace(), 0.0));  // no less than that of an amplitude
     for (Eigen::Index i = 0; i < k; ++i) c.g[static_cast<std::size_t>(i)] = g(i);
   }
   /// True if it has the sign that it must have, and is large enough to matter.
@@ -504,7 +508,10 @@ class disturbance_search {
     }
   }
   void name(const candidate& c, disturbances_found& found) const noexcept {
-    if (c.is == column_of::uneven) return;
+    if (c.is == column_of::uneven) {
+      found.ripple += largest_force(c);
+      return;
+    }
     suspicion& s = found.all[static_cast<std::size_t>(c.is)];
     if (s.found) return;
     s.found = true;
