@@ -23,7 +23,7 @@ class swing {
  public:
   /// s v [m/s] of a speed v after a tick of dt [s], in a contact with K/m = `natural` [1/s²].
   [[nodiscard]] constexpr Scalar damped(Scalar v, Scalar natural, Scalar dt) noexcept {
-    constexpr Scalar once(9.8696044010893586);  // π²
+    constexpr Scalar once = Scalar(9.8696044010893586);  // π²
     half_ += dt;
     if (const Scalar square = peak_ * peak_; v * peak_ < square / Scalar(-4)) {
       most_ = Scalar(2) * kernels::magnitude(peak_);
