@@ -6,7 +6,6 @@
 #include <passive_haptics/compositions.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -602,122 +601,6 @@ TEST_CASE("what is damped is a swing, and neither a speed that stays nor one tha
   for (int n = 0; n < 1000; ++n) (void)law.swinging(0.1, 1e-3);
   law.let_go();
   CHECK(law.swinging(0.1, 1e-3) == 0.1);  // the next contact begins anew
-}
-
-TEST_CASE("how much of a swing is damped goes by how long its halves last", "[contact]") {
-  // The speed is ±v, each for n ticks, so that it is damped by g of that half at the end of each.
-  const auto share_of = [](double v, int n, double natural) {
-    ph::swing<double> swing;
-    double last = 0.0;
-    for (int half = 0; half < 40; ++half) {
-      for (int i = 0; i < n; ++i) last = swing.damped(half % 2 ? -v : v, natural, 1e-3);
-    }
-    return -last / v;
-  };
-  for (const double v : {1e-6, 1e-3, 0.3}) {
-    for (const double natural : {200.0, 900.0, 1600.0, 1e5}) {
-      const double W = std::min(20.0, std::sqrt(natural) / 2.0);
-      for (const double q : {0.2, 0.26, 0.5, 0.9, 1.1, 4.0}) {
-        const int n = static_cast<int>(std::lround(std::acos(-1.0) / (W * std::sqrt(q)) / 1e-3));
-        const double told = std::pow(std::acos(-1.0) / (W * 1e-3 * n), 2);
-        CAPTURE(v, natural, q);
-        CHECK_THAT(share_of(v, n, natural),
-                   WithinAbs(std::clamp((told - 0.25) * 4.0 / 3.0, 0.0, 1.0), 0.01));
-      }
-    }
-  }
-}
-
-TEST_CASE("a hand to and fro is not damped, whatever the noise of its samples, and a swing is",
-          "[contact]") {
-  // Positions of an amplitude of 1 mm and with noise, at Ω: what is damped of the speed, the largest [m/s]
-  const auto damped = [](double W, double noise, auto& swing) {
-    ph::laws::samples random(3);
-    double most = 0.0, last = 0.0;
-    for (int n = 0; n < 4000; ++n) {
-      const double x = 1e-3 * std::sin(W * 1e-3 * n) + noise * random.number<double>() / 2.0;
-      const double now = swing.damped((x - last) / 1e-3, 4000.0, 1e-3);
-      last = x;
-      if (n >= 1000) most = std::max(most, std::abs(now));
-    }
-    return most;
-  };
-  for (const double W : {3.0, 6.0, 9.5}) {
-    ph::swing<double> exact, noisy;
-    CAPTURE(W);
-    CHECK(damped(W, 0.0, exact) < 1e-12);
-    CHECK(damped(W, 1e-6, noisy) < 4e-3);  // speeds of the noise are up to 1 mm/s
-  }
-  for (const double W : {20.5, 40.0, 100.0}) {
-    ph::swing<double> exact, noisy;
-    CAPTURE(W);
-    CHECK(damped(W, 0.0, exact) > 0.98e-3 * W);
-    CHECK(damped(W, 1e-6, noisy) > 0.98e-3 * W);
-  }
-  // A stroke ends, and what it leaves swings by a hundredth of its speed: found within a second
-  ph::swing<double> swing;
-  for (int n = 0; n < 1000; ++n) (void)swing.damped(0.1, 4000.0, 1e-3);
-  double most = 0.0;
-  for (int n = 0; n < 1000; ++n) {
-    const double now = swing.damped(1e-3 * std::sin(0.04 * n), 4000.0, 1e-3);
-    if (n >= 800) most = std::max(most, now);
-  }
-  CHECK(most > 0.99e-3);
-  // What is faster than twice the half before is not of that swing, but a hand's
-  for (int n = 0; n < 40; ++n) most = swing.damped(0.1, 4000.0, 1e-3);
-  CHECK(most < 2e-3);
-  CHECK(most > 1e-3);
-}
-
-namespace {
-
-/// What is damped, a second time: how long each half lasts, from the equations of contacts.md § 6.
-struct told_swing {
-  double half = 0.0, before = 0.0, peak = 0.0, share = 1.0;
-  double most = ph::kernels::largest<double>();
-
-  double damped(double v, double natural, double dt) {
-    half += dt;
-    if (v * peak < 0.0 && std::abs(v) > std::abs(peak) / 4.0) {  // it comes back
-      before = std::exchange(half, 0.0);
-      most = 2.0 * std::abs(peak);
-      peak = v;
-    } else if (std::abs(v) > std::abs(peak)) {
-      peak = v;
-    } else {
-      peak *= 1.0 - std::min(dt / 0.1, 1.0);
-    }
-    const double W = std::min(20.0, std::sqrt(natural / 4.0)), h = std::max(half, before);
-    const double q = std::pow(std::acos(-1.0) / (W * h), 2);
-    const double g = h > 0.0 ? std::clamp(4.0 / 3.0 * (q - 0.25), 0.0, 1.0) : 1.0;
-    share += (g - share) * std::min(dt / 0.02, 1.0);
-    return std::clamp(v, -most, most) * share;
-  }
-};
-
-}  // namespace
-
-TEST_CASE("what is damped of any motion is told tick by tick by the halves so far", "[contact]") {
-  ph::laws::samples random(5);
-  const std::array<double, 6> ticks{0.0, 1e-3, 4e-3, 0.015, 0.05, 0.2};
-  double some = 0.0;
-  for (int run = 0; run < 60; ++run) {
-    ph::swing<double> swing;
-    told_swing told;
-    const double natural = run % 3 == 0 ? 100.0 : run % 3 == 1 ? 1600.0 : 1e4;
-    const int lasts = 1 + run % 50;  // of a speed in eighths, so that a peak and a quarter are met
-    double v = 0.0;
-    for (int n = 0; n < 400; ++n) {
-      if (n % lasts == 0 || run % 7 == 0) v = std::round(random.number<double>() * 8.0) / 8.0;
-      const double dt = run % 5 == 0 ? ticks[static_cast<std::size_t>(n) % ticks.size()] : 1e-3;
-      const double now = swing.damped(v, natural, dt);
-      REQUIRE_THAT(now, WithinAbs(told.damped(v, natural, dt), 1e-12));
-      some += std::abs(now) > 0.01 && std::abs(now) < 0.99 * std::abs(v) ? 1.0 : 0.0;
-    }
-    swing.stop();
-    CHECK(swing.damped(3.0, natural, 1e-3) == 3.0);
-  }
-  CHECK(some > 1000.0);
 }
 
 TEST_CASE("two news between two ticks are one", "[contact]") {
