@@ -59,6 +59,22 @@ TEST_CASE("cogging of half a millimetre is found by name, and none where there i
   CHECK_FALSE(without.names(identify::disturbance::cogging));
 }
 
+TEST_CASE("friction whose ramps have not met its least level is stated below that", "[identify]") {
+  auto truth = identify::draw_disturbed(9950015);
+  truth.remedy(identify::disturbance::filter);
+  truth.remedy(identify::disturbance::cogging);
+  truth.remedy(identify::disturbance::drift);
+  const auto v = identify::identified(truth);
+  REQUIRE_FALSE(v.refused());
+  const double ripple = truth.rigid.ripple;
+  CHECK(v.found.uneven < 0.6 * ripple);  // the control: the ramps have met half of it
+  const double amplitude = ripple / (1.0 - ripple) * truth.rigid.friction;
+  CHECK(v.found.wrong.ripple >= amplitude);
+  CHECK(v.found.wrong.ripple < 1.02 * amplitude);
+  CHECK(v.friction());
+  CHECK(v.found.friction > 0.9 * truth.rigid.friction);
+}
+
 TEST_CASE("a hand on a handle behind a spring is refused by a sentence that names both",
           "[identify]") {
   auto truth = identify::draw_disturbed(1700859);  // 95 N/m, and a mode of 106 Hz
