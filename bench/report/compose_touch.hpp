@@ -38,7 +38,7 @@ inline vector3 in_world(const vector3& v) {
   return v;
 }
 
-struct as_it_is {
+struct asked_there {
   answer operator()(const auto& environment, const vector3& x, const vector3& held) const {
     return environment(x, held);
   }
@@ -83,7 +83,7 @@ void hold_still(Model& model, const auto& environment, auto& ask, const typename
 }
 
 /// The scene in virtual time: a tick each `tick` [s], an answer of the environment each `period` [s].
-template <class Model, class Ask = as_it_is>
+template <class Model, class Ask = asked_there>
 felt run_touch(Model model, const touch_scene& scene, double period, double tick, Ask ask = {}) {
   using space = typename Model::port_type;
   const auto hand = [&](int n) { return position_in<space>(scene.hand(tick * n)); };
