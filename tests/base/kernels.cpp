@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 
 namespace k = passive_haptics::kernels;
@@ -22,7 +23,26 @@ double worst_motion(double f, double B, double from, double to) {
   return least;
 }
 
+/// A number that is none of the language's own: what a user brings, as a fixed-point one would be.
+struct own_number {
+  double value = 0.0;
+  own_number() = default;
+  explicit own_number(double of) : value(of) {}
+  friend own_number operator+(own_number a, own_number b) { return own_number(a.value + b.value); }
+  friend own_number operator-(own_number a, own_number b) { return own_number(a.value - b.value); }
+  friend own_number operator*(own_number a, own_number b) { return own_number(a.value * b.value); }
+  friend own_number operator/(own_number a, own_number b) { return own_number(a.value / b.value); }
+  friend own_number operator-(own_number a) { return own_number(-a.value); }
+  friend bool operator==(own_number a, own_number b) = default;
+  friend std::partial_ordering operator<=>(own_number a, own_number b) = default;
+};
+
 }  // namespace
+
+template <>
+struct std::numeric_limits<own_number> : std::numeric_limits<double> {
+  static own_number max() { return own_number(std::numeric_limits<double>::max()); }
+};
 
 TEST_CASE("worst_outflow is the minimum over all motions of the next tick (L3)", "[kernels]") {
   for (const double f : {0.0, 0.3, -2.0, 9.0}) {
@@ -242,12 +262,24 @@ TEST_CASE("the short kernels are what their formulas say, in numbers that do not
   CHECK(k::larger(2.0, 1.0) == 2.0);
   CHECK(k::smaller(1.0, nan) == 1.0);  // of NaN and a number the first is taken
   CHECK(k::larger(1.0, nan) == 1.0);
+  for (const double zero :
+       {0.0, -0.0}) {  // of two that are equal the first is taken, as std::max does
+    CHECK(std::signbit(k::smaller(zero, -zero)) == std::signbit(zero));
+    CHECK(std::signbit(k::larger(zero, -zero)) == std::signbit(zero));
+  }
   CHECK(k::clamped(5.0, -1.0, 2.0) == 2.0);
   CHECK(k::clamped(-5.0, -1.0, 2.0) == -1.0);
   CHECK(k::clamped(0.5, -1.0, 2.0) == 0.5);
   CHECK(k::magnitude(-3.0) == 3.0);
   CHECK(k::magnitude(3.0F) == 3.0F);
   CHECK_FALSE(std::signbit(k::magnitude(-0.0)));
+  for (const double x : {-3.0, -0.25, 0.5, 3.0}) {  // also of a number that has no fabs
+    CHECK(k::magnitude(own_number(x)).value == std::abs(x));
+    CHECK(k::is_finite(own_number(x)));
+  }
+  CHECK_FALSE(std::signbit(k::magnitude(own_number(0.0)).value));
+  CHECK_FALSE(k::is_finite(own_number(-HUGE_VAL)));
+  CHECK_FALSE(k::is_finite(own_number(nan)));
   CHECK(k::smallest<float>() == std::numeric_limits<float>::min());
   for (const double x : {0.0, 2.0, 1e-300, 1e300}) CHECK(k::square_root(x) == std::sqrt(x));
   CHECK(k::square_root(2.0F) == std::sqrt(2.0F));
