@@ -109,6 +109,28 @@ TEST_CASE(
   CHECK(std::min({rounded[0], rounded[1], rounded[2]}) > 20);
 }
 
+TEMPLATE_TEST_CASE(
+    "a contact that another just leaves nothing to press takes no force away, however it rounds",
+    "[proxy]", d3, f3) {
+  using scalar = typename TestType::scalar;
+  ph::laws::samples random(7);
+  int lost = 0;
+  for (int n = 0; n < 60000; ++n) {
+    random_set<TestType, 3> set(random, 2 + n % 2);
+    auto& p = set.problem;
+    const auto i = static_cast<std::size_t>(n / 2 % 2), j = 1 - i;
+    const scalar press = std::abs(random.number<scalar>()) + scalar(0.1);  // [N]
+    p.wish[i] = p.own[i] * press;
+    p.wish[j] = set.inner(i, j) * press;
+    for (int off = n / 4 % 3; off > 0; --off)
+      p.wish[j] = std::nextafter(p.wish[j], n % 8 < 4 ? scalar(1) : scalar(-1));
+    p.wish[2] = scalar(-1);  // [m]: where there is a third contact it is far away
+    set.solve();
+    lost += std::abs(p.pressed[i] - press) < scalar(1e-4) * press ? 0 : 1;
+  }
+  CHECK(lost == 0);
+}
+
 TEMPLATE_TEST_CASE("of sixteen contacts, too, from whatever they pressed with before", "[proxy]",
                    d2, d3, f3) {
   using scalar = typename TestType::scalar;

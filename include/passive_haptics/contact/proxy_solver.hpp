@@ -39,11 +39,11 @@ constexpr void solve_exactly(proxy_problem<Row, Scalar, Capacity>& p, auto betwe
 
   for (std::size_t i = 0; i < n; ++i) {  // one of them
     if (!(b[i] > none)) continue;
-    const Scalar alone = b[i] / own[i];
-    bool fits = true;
-    for (std::size_t j = 0; j < n; ++j) fits = fits && (j == i || b[j] <= between(i, j) * alone);
+    bool fits = true;  // by the products of `other` below: one of them or two, however they round
+    for (std::size_t j = 0; j < n; ++j)
+      fits = fits && (j == i || b[j] * own[i] <= between(i, j) * b[i]);
     if (fits) {
-      p.pressed[i] = alone;
+      p.pressed[i] = b[i] / own[i];
       return;
     }
   }
