@@ -5,7 +5,10 @@
 #include "support/catch.hpp"
 #include <passive_haptics/simulation/schedule.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace sim = ph::simulation;
 
@@ -315,4 +318,74 @@ TEMPLATE_TEST_CASE(
   CHECK(ph::detail::nearest_of<P>(
             at<P>(any_damping<P>(random, 1.5)), f, [] { return 1.0; }, all) == f);
   CHECK(looks == 1);  // nothing is missed, so nothing is searched for
+}
+
+namespace {
+
+/// A damping that counts how often it is asked for a b.
+template <class P>
+struct counted {
+  std::array<double, P::dof> b{};
+  int* asked = nullptr;
+  [[nodiscard]] double along_axis(int i) const {
+    ++*asked;
+    return b[static_cast<std::size_t>(i)];
+  }
+  [[nodiscard]] typename P::effort beyond(const typename P::effort& f) const { return f; }
+};
+
+/// How often Newton's method evaluates the work of an effort, beside what its start needs.
+template <class P>
+int evaluations(const std::array<double, P::dof>& b, const typename P::effort& f, double E) {
+  int asked = 0;
+  (void)ph::detail::yield<P>(counted<P>{b, &asked}, f, E, T);
+  return (asked - P::dof * (2 + 2 * P::dof)) / P::dof;
+}
+
+}  // namespace
+
+TEST_CASE("the multiplier of a force along one axis is known at once, and any in eight steps",
+          "[bound][nearest]") {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double share : {0.9, 1e-2, 1e-8}) {
+      d3::vector f = d3::zero();
+      f(axis) = 2.0;
+      std::array<double, 3> b{0.5, 0.5, 0.5};
+      b[static_cast<std::size_t>(axis)] = 0.01;
+      const double E = at<d3>(axes<d3>{b}).worst_outflow(f, T) * share;
+      CAPTURE(axis, share);
+      CHECK(evaluations<d3>(b, f, E) == 1);  // it begins at √(n²) − b, which is it
+    }
+  }
+  sim::random_source random(19);
+  int most = 0;
+  for (int n = 0; n < 3000; ++n) {  // a tick has time for eight, however much the axes differ
+    const auto damping = any_damping<d3>(random, 6.0);
+    const auto f = any_effort<d3>(random, 1.0);
+    const double E = at<d3>(damping).worst_outflow(f, T) * random.uniform(1e-4, 1.0);
+    most = std::max(most, evaluations<d3>(damping.coefficients, f, E));
+  }
+  CHECK(most == 8);
+}
+
+TEST_CASE("a search for the nearest effort never looks beyond its ends, whatever it finds there",
+          "[bound][nearest]") {
+  const double most = 16.0;
+  const auto device = at<d2>(axes<d2>{{1.0, 3.0}});
+  const d2::vector f(5.0, 7.0);
+  std::vector<double> looked;
+  const auto found = ph::detail::nearest_of<d2>(
+      device, f, [&] { return most; },
+      [&](const d2::vector& g) {
+        looked.push_back(f(0) / g(0) - 1.0);  // λ, as g₀ = f₀ b₀/(b₀ + λ)
+        return looked.size() < 3 ? std::nan("") : 1.0;
+      });
+  REQUIRE(looked.size() > 3);
+  for (const double lambda : looked) {
+    CHECK(lambda > -1e-12);
+    CHECK(lambda < most * (1.0 + 1e-12));
+  }
+  CHECK_THAT(looked[2],
+             WithinAbs(8.0, 1e-12));  // from an end on which nothing is known: half the way
+  CHECK(found(0) < f(0));
 }
