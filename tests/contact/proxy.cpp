@@ -78,6 +78,10 @@ TEMPLATE_TEST_CASE("of up to three contacts exactly those press that must", "[pr
   int pressing[4] = {};
   for (int n = 0; n < 4000; ++n) {
     random_set<TestType, 3> set(random, 1 + n % 3);
+    for (std::size_t i = 0; i < 3; ++i) {  // with what they pressed before, and what is beyond them
+      if (i < set.problem.count) set.problem.pressed[i] = typename TestType::scalar(n / 3 % 2);
+      if (i >= set.problem.count) set.problem.wish[i] = typename TestType::scalar(n / 3 % 2);
+    }
     set.solve();
     CAPTURE(n);
     set.check();
@@ -129,6 +133,22 @@ TEMPLATE_TEST_CASE(
     lost += std::abs(p.pressed[i] - press) < scalar(1e-4) * press ? 0 : 1;
   }
   CHECK(lost == 0);
+}
+
+TEST_CASE("of contacts none of which is entered none presses, though one is touched", "[proxy]") {
+  // All three rows at once would be pressed with A⁻¹d', which is more than 0 in the one that is touched.
+  for (const std::size_t touched : {0U, 1U, 2U}) {
+    ph::proxy_problem<double, double, 3> p{};
+    p.count = 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      p.own[i] = 1.0;
+      p.wish[i] = i == touched ? 0.0 : -1.0;
+    }
+    ph::solve(p, [touched](std::size_t i, std::size_t j) {
+      return i == touched || j == touched ? 0.5 : 0.0;
+    });
+    for (const double lambda : p.pressed) CHECK(lambda == 0.0);
+  }
 }
 
 TEMPLATE_TEST_CASE("of sixteen contacts, too, from whatever they pressed with before", "[proxy]",
@@ -436,4 +456,67 @@ TEST_CASE("what a spring for slots may not be told is refused with its name, up 
   CHECK(ph::detail::late_limits<double>(1, 6.0).ticks == 12.0);
   CHECK(ph::detail::late_limits<double>(0).ticks == 5.0);
   CHECK(ph::detail::late_limits<double>(0).least_ticks == 0.0);
+}
+
+namespace {
+
+/// Contacts that do not feel each other: A is the identity, so each is to press with λ = d'.
+ph::proxy_problem<double, double, 4> unrelated(const std::array<double, 4>& wish,
+                                               const std::array<double, 4>& pressed) {
+  ph::proxy_problem<double, double, 4> p{};
+  p.count = 4;
+  p.own = {1.0, 1.0, 1.0, 1.0};
+  p.wish = wish;
+  p.pressed = pressed;
+  return p;
+}
+constexpr auto nothing_between = [](std::size_t, std::size_t) { return 0.0; };
+using unrelated_set = ph::detail::active_set<double, double, 4>;
+
+}  // namespace
+
+TEST_CASE("contacts that a step brings to nothing together leave together", "[proxy]") {
+  auto p = unrelated({-1.0, 2.0, -1.0, 3.0}, {0.5, 1.0, 0.5, 1.0});
+  unrelated_set set(p);
+  CHECK_FALSE(set.step(nothing_between));  // a third of the way
+  CHECK_FALSE(set.has(0));
+  CHECK_FALSE(set.has(2));
+  CHECK(p.pressed[0] == 0.0);
+  CHECK(p.pressed[2] == 0.0);
+  CHECK(p.pressed[1] == Approx(4.0 / 3.0));
+  CHECK(set.step(nothing_between));
+  CHECK(p.pressed == std::array<double, 4>{0.0, 2.0, 0.0, 3.0});
+}
+
+TEST_CASE(
+    "what rounding left of a contact leaves, and neither one that is to press nor a larger one",
+    "[proxy]") {
+  for (const double wanted : {0.5, 5.0}) {
+    auto p = unrelated({-0.5, -0.1, wanted, -1.0}, {1.0, 4e-323, 5e-324, 0.5});
+    unrelated_set set(p);
+    CHECK_FALSE(set.step(nothing_between));  // a share of 4e-322, which is no step at all
+    CHECK(set.has(0));
+    CHECK_FALSE(set.has(1));
+    CHECK(set.has(2));
+    CHECK(set.has(3));
+  }
+}
+
+TEST_CASE("what a contact lacks by rounding of the largest depth does not make it press",
+          "[proxy]") {
+  const double slack = ph::kernels::rounding<double>();
+  for (const std::size_t deepest : {0U, 2U}) {
+    for (const double depth : {-1.0, 1.0, -4.0}) {
+      std::array<double, 4> wish{-0.25, -0.25, -0.25, -0.25};
+      wish[deepest] = depth;
+      for (const double lack : {0.5, 1.0, 1.5}) {
+        wish[1] = lack * slack * std::abs(depth);
+        auto p = unrelated(wish, {});
+        ph::solve(p, nothing_between);
+        CAPTURE(deepest, depth, lack);
+        CHECK(p.pressed[1] == (lack > 1.0 ? wish[1] : 0.0));
+        CHECK(p.pressed[deepest] == std::max(depth, 0.0));
+      }
+    }
+  }
 }
