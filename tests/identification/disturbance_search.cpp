@@ -101,6 +101,24 @@ TEST_CASE("a mode slower than half a sweep is refused, although the swing comes 
   CHECK(fast.damping <= 0.12);
 }
 
+TEST_CASE("a slow mode that hardly loses is found, although the rigid fit is far off",
+          "[identification]") {
+  const auto found = identified(sim::compliant_device<d1>({.mass = 0.7,
+                                                           .share = 0.34,
+                                                           .mode = 19.0,
+                                                           .loss = 0.01,
+                                                           .damping = 0.06,
+                                                           .friction = 0.3,
+                                                           .quantum = 3e-6}));
+  const suspicion& mode = found.wrong.of(disturbance::mode);
+  REQUIRE(mode.found);
+  CHECK(std::abs(mode.size - 19.0) < 0.2);
+  CHECK(std::abs(mode.where - 0.34) < 0.02);
+  CHECK(std::abs(found.wrong.mass - 0.7) < 0.035);
+  CHECK(found.wrong.unexplained < 1e-3);
+  CHECK(names(found) == 1);
+}
+
 TEST_CASE("a hand that holds lightly is refused by name", "[identification]") {
   using held = sim::device<d1, sim::impedance_hand<d1>, sim::slider_and_spring>;
   const auto found =

@@ -93,6 +93,7 @@ class axis_identification {
     axis_found found;
     found.problem = problem_ != nullptr ? problem_ : done() ? nullptr : "it is not at its end";
     if (!done() || stopped_ || !(swing_.force() > 0.0)) return found;
+    if (found.problem != nullptr && swing_.repeats()) return found;
     disturbance_search search(kept_.ticks(), swing_.found().latency, record_.step(), p_.stroke,
                               swing_.force());
     found.wrong = search.conclude();

@@ -32,6 +32,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -54,20 +55,32 @@ class disturbance_search {
   [[nodiscard]] disturbances_found conclude() {
     disturbances_found found;
     if (rows_ < 1000 || !(mass_ > 0.0)) return found;
-    for (std::size_t round = 0; round < most; ++round) {
-      candidate best = search(found.yields);
-      if (!(best.drop > 0.0)) break;
-      refine(best);
-      if (best.wald < surprise(count_)) break;
-      model_.push_back(best);
-      fit_latency();
-      improve();
-    }
-    drop_what_others_explain();
-    found.mass = mass_;
     const double moved = placed([&](std::size_t n) { return ticks_[n].x; }).squaredNorm();
-    found.unexplained = (std::max)(y_.squaredNorm() - floor(), 0.0) / (std::max)(moved, 1e-300);
-    static_cast<void>(search(found.yields));  // a mode that was dropped is hidden
+    const auto unexplained = [&] {
+      return (std::max)(y_.squaredNorm() - floor(), 0.0) / (std::max)(moved, 1e-300);
+    };
+    explain();
+    // What was taken first decides what else can be seen. Where too much is left, it may not have been that.
+    std::vector<candidate> kept = model_;
+    int latency = latency_;
+    double least = unexplained();
+    for (int again = 0; again < 3 && least > disturbances_found::too_much && first_; ++again) {
+      barred_.push_back(*first_);
+      model_.clear();
+      fit_latency();
+      explain();
+      if (unexplained() >= least) continue;
+      least = unexplained();
+      kept = model_;
+      latency = latency_;
+    }
+    barred_.clear();
+    model_ = kept;
+    latency_ = latency;
+    fit();
+    found.mass = mass_;
+    found.unexplained = unexplained();
+    static_cast<void>(search(found.yields, false));  // a mode that was dropped is hidden
     for (const candidate& c : model_) name(c, found);
     return found;
   }
@@ -82,7 +95,8 @@ class disturbance_search {
     filter,
     cogging,
     drift,
-    uneven
+    uneven,
+    swung
   };
   struct candidate {
     column_of is = column_of::uneven;
@@ -96,16 +110,20 @@ class disturbance_search {
   };
   static constexpr std::size_t longest = 64, shortest = 12, warm_up = 12;
   static constexpr double least_gap = 15e-6;  // σ gap that may be hidden [m]
+  static constexpr std::size_t kinds = 9;     // of columns
+  static constexpr double most_swung = 45.0;  // [Hz]
   static constexpr double pi = 3.14159265358979323846;
 
   /// χ² that is exceeded by chance once in 2000 · `count`; exact for two degrees of freedom, near for one.
   [[nodiscard]] static double surprise(int count) noexcept {
     return 2.0 * std::log(2000.0 * count);
   }
-  /// The candidate that explains most and is large enough to matter, and what a mode or a gap that was not seen may
-  /// yield: (1 − σ)/σ, which is g of a mode, and 2 g/(σ gap) of a gap.
-  [[nodiscard]] candidate search(double& yields) {
-    candidate best;
+  /// Of each kind the candidate that explains most and is large enough to matter, the best first, and what a mode or a
+  /// gap that was not seen may yield: (1 − σ)/σ, which is g of a mode, and 2 g/(σ gap) of a gap.
+  [[nodiscard]] std::vector<candidate> search(double& yields, bool refined) {
+    std::vector<candidate> best(kinds);
+    // A filter that is a little too late is worse than none, and the next one may be right.
+    best[static_cast<std::size_t>(column_of::filter)].drop = -1e300;
     double hidden = 0.0;
     count_ = 0;
     visit([&](candidate c) {
@@ -115,10 +133,58 @@ class disturbance_search {
         hidden = (std::max)(hidden, c.g[0] + 4.0 * c.deviation);
       if (c.is == column_of::backlash && c.p1 > least_gap)
         hidden = (std::max)(hidden, 2.0 * (c.g[0] + 4.0 * c.deviation) / c.p1);
-      if (counts(c) && c.drop > best.drop) best = std::move(c);
+      const bool barred =
+          model_.empty() && std::find(barred_.begin(), barred_.end(), c.is) != barred_.end();
+      candidate& of_kind = best[static_cast<std::size_t>(c.is)];
+      if (!barred && counts(c) && c.drop > of_kind.drop) of_kind = std::move(c);
     });
     yields = hidden;
+    if (!refined) return best;
+    for (candidate& c : best) {
+      if (c.columns.cols() > 0) refine(c);
+    }
+    std::sort(best.begin(), best.end(),
+              [](const candidate& a, const candidate& b) { return a.drop > b.drop; });
     return best;
+  }
+  /// Takes into the model what explains most, until nothing does, and drops what the others explain.
+  void explain() {
+    first_.reset();
+    double yields = 0.0;
+    for (std::size_t round = 0; round < most; ++round) {
+      // What explains most may still be chance where something smaller is none.
+      bool taken = false;
+      for (candidate& best : search(yields, true)) {
+        if (!(best.drop > 0.0)) break;
+        if (!counts(best) || best.wald < surprise(count_)) continue;
+        if (!first_) first_ = best.is;
+        model_.push_back(std::move(best));
+        taken = true;
+        break;
+      }
+      if (!taken) break;
+      fit_latency();
+      improve();
+      if (model_.back().is == column_of::swung) sharpen();
+    }
+    drop_what_others_explain();
+  }
+  /// What the axis swings is found without a rigid fit, but at the price of the steps that it is moved by. With a fit
+  /// that allows for it, the acceleration moves it without them: keeps what leaves less.
+  void sharpen() {
+    const std::vector<candidate> kept = model_;
+    const int latency = latency_;
+    const double left = y_.squaredNorm();
+    candidate& c = model_.back();
+    const double root = std::sqrt(1.0 + c.g[0]);
+    c = {.is = column_of::mode, .p1 = c.p1 * root, .p2 = (std::min)(c.p2 * root, 0.3)};
+    c.columns = columns_of(c);
+    fit_latency();
+    improve();
+    if (y_.squaredNorm() < left) return;
+    model_ = kept;
+    latency_ = latency;
+    fit();
   }
   /// The most that the amplitude of a force along the way may be [N].
   [[nodiscard]] double largest_force(const candidate& c) const noexcept {
@@ -138,8 +204,46 @@ class disturbance_search {
       fit_latency();
     }
   }
+  /// Of what delays or throws, which can look alike, drops what leaves little more if the others are fitted anew
+  /// without it.
+  void drop_what_others_become() {
+    const auto alike = [](const candidate& c) {
+      return c.is == column_of::mode || c.is == column_of::swung || c.is == column_of::backlash ||
+             c.is == column_of::fraction || c.is == column_of::filter;
+    };
+    while (std::count_if(model_.begin(), model_.end(), alike) > 1) {
+      const std::vector<candidate> all = model_;
+      const int latency = latency_;
+      project(model_.size());
+      const double left = (std::max)(y_.squaredNorm() - floor(), 0.0);
+      std::vector<candidate> fewer;
+      double least = 0.3;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!alike(all[i])) continue;
+        model_ = all;
+        model_.erase(model_.begin() + static_cast<std::ptrdiff_t>(i));
+        latency_ = latency;
+        fit_latency();
+        improve();
+        const double more = (std::max)(y_.squaredNorm() - floor(), 1e-300);
+        const double share = 1.0 - left / more;
+        if (share >= least) continue;
+        least = share;
+        fewer = model_;
+      }
+      if (least == 0.3) {
+        model_ = all;
+        latency_ = latency;
+        return static_cast<void>(fit());
+      }
+      model_ = fewer;
+      fit_latency();
+      improve();
+    }
+  }
   /// Drops what does not count beside the others, the least sure first.
   void drop_what_others_explain() {
+    drop_what_others_become();
     while (!model_.empty()) {
       const double left = (std::max)(y_.squaredNorm() - floor(), 0.0);
       std::size_t worst = model_.size();
@@ -300,7 +404,7 @@ class disturbance_search {
     for (std::size_t n = 0; n < drive_.size(); ++n) drive_[n] = command(n, latency_);
     for (std::size_t i = 0; i < model_.size(); ++i) {
       if (model_[i].is == column_of::filter && i != skip) {
-        drive_ = filtered(model_[i].p1, static_cast<int>(model_[i].p2));
+        drive_ = filtered(model_[i].p1, model_[i].p2);
       }
     }
     std::vector<column> all{twice([&](std::size_t n) { return drive_[n]; }),
@@ -347,7 +451,8 @@ class disturbance_search {
       for (const candidate& c : model_) {
         if (c.is == column_of::filter) continue;
         for (Eigen::Index k = 0; k < c.columns.cols(); ++k, ++i) {
-          if (c.is == column_of::mode || c.is == column_of::backlash) continue;
+          if (c.is == column_of::mode || c.is == column_of::backlash || c.is == column_of::swung)
+            continue;
           for (std::size_t n = 0; n + 1 < a_.size(); ++n) a_[n] += g(i) * acceleration(c, n, k);
         }
       }
@@ -407,6 +512,8 @@ class disturbance_search {
         return -g * mass_ * stroke_ > 0.02 * force_;
       case column_of::mode:
         return g > 0.05 && c.p1 < 480.0 && c.p2 < 0.2;
+      case column_of::swung:
+        return g > 0.05 && c.p2 < 0.2;
       case column_of::backlash:
         return g > 5e-6;
       case column_of::fraction:
@@ -427,8 +534,9 @@ class disturbance_search {
   template <class See>
   void visit(See&& see) {
     const auto one = [&](column_of is, double p1, double p2) {
-      if ((is == column_of::filter || is == column_of::mode || is == column_of::backlash) &&
-          has(is))
+      if ((is == column_of::filter || is == column_of::backlash) && has(is)) return;
+      if ((is == column_of::mode || is == column_of::swung) &&
+          (has(column_of::mode) || has(column_of::swung)))
         return;
       candidate c{.is = is, .p1 = p1, .p2 = p2};
       c.columns = columns_of(c);
@@ -438,6 +546,9 @@ class disturbance_search {
     for (double hz = 11.0; hz < 500.0; hz *= 1.1) {
       for (const double zeta : {0.12, 0.03}) one(column_of::mode, hz, zeta);
     }
+    for (double hz = 3.0; hz < most_swung; hz *= 1.1) {
+      for (const double zeta : {0.12, 0.03}) one(column_of::swung, hz, zeta);
+    }
     for (double gap = 5e-6; gap < 1e-3; gap *= 1.5) {
       for (const double back : {0.0, 0.5}) one(column_of::backlash, gap, back);
     }
@@ -445,7 +556,7 @@ class disturbance_search {
       if (latency_ + by >= 0.0) one(column_of::fraction, by, 0.0);
     }
     for (double lag = 0.3; lag < 6.5; lag *= 1.25) {
-      for (int d = 0; d <= latency_; ++d) one(column_of::filter, lag * tick_, d);
+      for (double d = 0.0; d <= latency_; d += 0.5) one(column_of::filter, lag * tick_, d);
     }
     for (double k = 1.0 / (2.0 * stroke_); k < 5e3; k += 1.0 / (4.0 * stroke_)) {
       one(column_of::cogging, k, 0.0);
@@ -465,6 +576,7 @@ class disturbance_search {
     double first = 0.05, second = 0.5;
     switch (best.is) {
       case column_of::mode:
+      case column_of::swung:
         break;
       case column_of::backlash:
         first = 0.2;
@@ -485,12 +597,21 @@ class disturbance_search {
         candidate c{.is = best.is, .p1 = best.p1, .p2 = best.p2};
         if (k == 0) c.p1 *= 1.0 + first;
         if (k == 1) c.p1 /= 1.0 + first;
-        if (k == 2) c.p2 = c.is == column_of::filter ? c.p2 + 1.0 : c.p2 * (1.0 + second);
-        if (k == 3)
-          c.p2 = c.is == column_of::filter ? (std::max)(c.p2 - 1.0, 0.0) : c.p2 / (1.0 + second);
+        if (k >= 2 && c.is == column_of::filter) {
+          // What is late by more is filtered by less: both together move along the valley.
+          c.p2 = (std::max)(c.p2 + (k == 2 ? second : -second), 0.0);
+          c.p1 = (std::max)(c.p1 + (best.p2 - c.p2) * tick_, 0.05 * tick_);
+        } else if (k >= 2) {
+          c.p2 *= k == 2 ? 1.0 + second : 1.0 / (1.0 + second);
+        }
         if (k >= 2 && second == 0.0) continue;
         if (best.is == column_of::mode) {
           c.p1 = std::clamp(c.p1, 5.0, 500.0);
+          c.p2 = std::clamp(c.p2, 0.002, 0.3);
+        } else if (second == 0.0) {
+          c.p1 = (std::max)(c.p1, 1.0 / (2.0 * stroke_));
+        } else if (best.is == column_of::swung) {
+          c.p1 = std::clamp(c.p1, 2.0, most_swung);
           c.p2 = std::clamp(c.p2, 0.002, 0.3);
         } else if (best.is == column_of::backlash) {
           c.p2 = (std::min)(c.p2, 0.9);
@@ -512,7 +633,8 @@ class disturbance_search {
       found.ripple += largest_force(c);
       return;
     }
-    suspicion& s = found.all[static_cast<std::size_t>(c.is)];
+    const bool swings = c.is == column_of::swung;
+    suspicion& s = found.all[static_cast<std::size_t>(swings ? column_of::mode : c.is)];
     if (s.found) return;
     s.found = true;
     s.sure = std::sqrt(c.wald);
@@ -523,6 +645,12 @@ class disturbance_search {
       case column_of::mode:
         s.size = c.p1;
         s.where = 1.0 / (1.0 + c.g[0]);
+        found.yields = (std::max)(found.yields, c.g[0] + 4.0 * c.deviation);
+        break;
+      case column_of::swung:
+        s.size = c.p1 * std::sqrt(1.0 + c.g[0]);
+        s.where = 1.0 / (1.0 + c.g[0]);
+        found.mass *= 1.0 + c.g[0];
         found.yields = (std::max)(found.yields, c.g[0] + 4.0 * c.deviation);
         break;
       case column_of::backlash:
@@ -548,9 +676,10 @@ class disturbance_search {
 
   [[nodiscard]] Eigen::MatrixXd columns_of(const candidate& c) const {
     if (c.is == column_of::mode) return ring(c.p1, c.p2);
+    if (c.is == column_of::swung) return swung(c.p1, c.p2);
     if (c.is == column_of::backlash) return thrown(c.p1, c.p2);
     if (c.is == column_of::filter) {
-      const auto y = filtered(c.p1, static_cast<int>(c.p2));
+      const auto y = filtered(c.p1, c.p2);
       return twice([&](std::size_t n) { return (y[n] - drive_[n]) / mass_; });
     }
     if (c.is == column_of::hand && c.p1 > 0.0) {
@@ -601,15 +730,20 @@ class disturbance_search {
     }
     return left;
   }
-  /// The commands behind a low-pass, d ticks late; the mean over each tick.
-  [[nodiscard]] std::vector<double> filtered(double lag, int d) const {
+  /// The commands behind a low-pass, d ticks late, whole or not; the mean over each tick.
+  [[nodiscard]] std::vector<double> filtered(double lag, double d) const {
     std::vector<double> y(ticks_.size());
     double f = 0.0;
+    const int whole = static_cast<int>(d);
+    const double part = d - whole;
     for (std::size_t n = 0; n < ticks_.size(); ++n) {
-      const double h = (std::max)(ticks_[n].length, 1e-9), now = command(n, d),
-                   e = std::exp(-h / lag);
-      y[n] = now + (f - now) * lag / h * (1.0 - e);
-      f = now + (f - now) * e;
+      const double h = (std::max)(ticks_[n].length, 1e-9);
+      for (const bool before : {true, false}) {
+        const double share = before ? part : 1.0 - part;
+        const double now = command(n, before ? whole + 1 : whole), e = std::exp(-h * share / lag);
+        y[n] += share * now + (f - now) * lag / h * (1.0 - e);
+        f = now + (f - now) * e;
+      }
     }
     return y;
   }
@@ -631,6 +765,25 @@ class disturbance_search {
       const double s = a_[n] / (w * w), off = x - s;
       x = off * (C + k * S) + v * S / wd + s;
       v = v * (C - k * S) - off * S * w * w / wd;
+    }
+    return placed([&](std::size_t n) { return y[n]; });
+  }
+  /// Less than nothing where a body is that the axis swings by a spring, exact for an axis that goes at an even speed
+  /// within a tick. Nothing of the rigid fit is in it.
+  [[nodiscard]] column swung(double hz, double zeta) const {
+    std::vector<double> y(ticks_.size());
+    const double w = 2.0 * pi * hz, wd = w * std::sqrt(1.0 - zeta * zeta);
+    const double k = zeta * w / wd;
+    double off = 0.0, v = 0.0;
+    for (std::size_t n = 0; n < ticks_.size(); ++n) {
+      if (ticks_[n].first) off = v = 0.0;
+      y[n] = -ticks_[n].x - off;
+      const double h = ticks_[n].length;
+      if (n + 1 == ticks_.size() || ticks_[n + 1].first || !(h > 0.0)) continue;
+      const double e = std::exp(-zeta * w * h), C = e * std::cos(wd * h), S = e * std::sin(wd * h);
+      const double speed = (ticks_[n + 1].x - ticks_[n].x) / h, u = v - speed, x = off;
+      off = x * (C + k * S) + u * S / wd;
+      v = u * (C - k * S) - x * S * w * w / wd + speed;
     }
     return placed([&](std::size_t n) { return y[n]; });
   }
@@ -662,8 +815,10 @@ class disturbance_search {
   static constexpr std::size_t most = 7;  ///< parts of the model besides the rigid device
   std::vector<window> windows_{};
   std::vector<candidate> model_{};
-  std::vector<double> drive_{};  ///< the force that acts in each tick [N]
-  int count_ = 1;                ///< candidates
+  std::optional<column_of> first_{};  ///< what the model began with
+  std::vector<column_of> barred_{};   ///< what it may not begin with
+  std::vector<double> drive_{};       ///< the force that acts in each tick [N]
+  int count_ = 1;                     ///< candidates
   double friction_ = 0.0;
   Eigen::Index rows_ = 0;
   std::vector<double> speed_{}, way_{}, a_{};

@@ -62,6 +62,8 @@ class swing_experiment {
   }
   /// A sentence that says why nothing was found; null if something was, or may be yet.
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
+  /// True if positions repeat: then the motion of the record is not that of the axis.
+  [[nodiscard]] bool repeats() const noexcept { return clock_.period() > 1; }
   /// The result, once it is done().
   [[nodiscard]] const motion_found& found() const noexcept { return motion_; }
   /// The relay that swings the device, and the force of the sweeps [N].
@@ -191,7 +193,7 @@ class swing_experiment {
     return std::clamp(force, -p_.force, p_.force);
   }
   [[nodiscard]] const char* motion_problem() const noexcept {
-    if (clock_.period() > 1) {
+    if (repeats()) {
       return "the sensor is slower than the loop: tick when it has something new";
     }
     if (motion_.windows < 100) {
