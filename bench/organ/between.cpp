@@ -401,14 +401,25 @@ void draw(ex::report& out, std::vector<between_row>& rows, bool quick) {
       {"At 30 Hz make_touch errs as much as bare, within a tenth.",
        [=] { return ex::between(share(30.0), 0.9, 1.1); }}};
   if (!quick) {  // which has no other rate
-    said.emplace_back("So it does from 10 to 100 Hz;", [=] {
-      return ex::between(share(10.0), 0.9, 1.1).so && ex::between(share(100.0), 0.9, 1.1).so;
+    said.emplace_back("So it does at 10 and 60 Hz;", [=] {
+      return ex::between(share(10.0), 0.9, 1.1).so && ex::between(share(60.0), 0.9, 1.1).so;
     });
     said.emplace_back("at 1 kHz bare errs less than a tenth of it,",
                       [=] { return ex::at_least(share(1000.0), 10.0); });
     said.emplace_back("and gives out energy, as that organ does and make_touch may not.", [=] {
       return row_of("bare", 1000.0).least < -1e-12 && row_of("make_touch", 1000.0).least >= -1e-12;
     });
+    said.emplace_back(
+        "Lent 0.2 mJ, told how the organ yields and asked ahead, it errs by less than "
+        "half as much as bare from 10 to 100 Hz, and by less than bare at 1 kHz.",
+        [=] {
+          const auto of_bare = [=](double rate) {
+            return row_of("... ahead and lent", rate).of_bare;
+          };
+          return ex::at_most(std::max({of_bare(10.0), of_bare(30.0), of_bare(60.0), of_bare(100.0),
+                                       of_bare(1000.0) / 2.0}),
+                             0.5);
+        });
   }
   out.plot("between", {"Error of the force of an organ over the work of its environment", said},
            "set logscale xy\nset xlabel 'CPU time of the updates [ms a second]'\n"
@@ -494,16 +505,16 @@ void draw_time(ex::report& out, const std::vector<between_row>& rows) {
          }},
         ex::definition("The grey line is the truth's own step. CHAI3D, sai and HAPI were measured "
                        "outside this repository."),
-        {"HAPI, told the speed too, errs about as little as ours,", "between_time.csv",
+        {"HAPI, told the speed too, errs more than twice as much as ours,", "between_time.csv",
          [](const ex::recorded& r) {
-           return ex::between(r["error N"].at(6) / r["error N"].at(2), 0.5, 2.0);
+           return ex::at_least(r["error N"].at(6) / r["error N"].at(2), 2.0);
          }},
         {"in a multiple of the time.", "between_time.csv",
          [](const ex::recorded& r) {
            return ex::at_least(r["ns a tick"].at(6) / r["ns a tick"].at(2), 2.0);
          }}}},
       "set multiplot layout 1,2\nunset key\nset logscale xy\nset xrange [5:2000]\n"
-      "set xlabel 'a tick [ns]; all made 0 J'\nset yrange [0.003:0.5]\n" +
+      "set xlabel 'a tick [ns]; all made 0 J'\nset yrange [0.001:0.5]\n" +
           panel("rms error of the force [N]", 2) + "set yrange [0.008:3]\n" +
           panel("largest step in a tick [N]", 3) + "unset multiplot");
 }

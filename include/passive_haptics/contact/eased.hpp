@@ -68,8 +68,8 @@ class eased<Law>::on : public part_at<Law, Space> {
 
   /// The part of an outward speed [m/s] that the law damps, which excludes a hand's motion (swing.hpp).
   [[nodiscard]] constexpr scalar swinging(scalar speed, scalar dt) noexcept {
-    if constexpr (requires(law_part l) { l.natural_square(); }) {
-      return swing_.damped(speed, law_part::natural_square(), dt);
+    if constexpr (requires(law_part l) { l.natural(); }) {
+      return swing_.damped(speed, law_part::natural(), dt);
     } else {
       return speed;
     }

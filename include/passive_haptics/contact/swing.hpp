@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Decides whether a device swings or a hand moves it. Only a swing is to be damped: a damper against a hand's motion
-// is an error of the force, at any update rate of the environment.
+// Decides which part of a speed is a swing. Only a swing is to be damped: a damper against a hand's motion is an error
+// of the force, at any update rate of the environment.
 //
-//     V ← V + (v² − V) dt/τ,   A ← A + (a² − A) dt/τ,   τ = 0.1 s        the mean of v² and of a² = (Δv/dt)²
-//     q = A/(V W²)                                     (Ω/W)² of a sinusoidal motion at Ω [1/s]
+//     h = v − v̄,   v̄ ← v̄ + h W dt/3                   what is faster than the mean of the last 3/W seconds
+//     q = (π/(W H))²,   W = min(22/s, ½√(K/m))        (Ω/W)² of a swing at Ω [1/s], whose halves last H [s]
 //     g = 0 below q = ¼, then 4/3 (q − ¼), 1 from q = 1 on
-//     W² = min(20², K/4m) [1/s²]
 //     s ← s + (g − s) dt/τ_s,   τ_s = 20 ms
 //
-// s is the share of the speed v [m/s] that is damped. It lags behind g, because an update of the surface raises a²,
-// and a damper that changes within a tick is a step of the force. A contact begins with s = 1. A free mass on K, up to
-// four times the stated m, swings at W or faster and is fully damped. A hand that moves to and fro once a second is
-// damped by s = 1/20, near its turns, because the means are short. Source: ours; docs/design/contacts.md § 6.
+// H is the longer one of the half before and of this one so far: a hand slower than W/2, 1.8 Hz, is not damped at all.
+// A half ends when h comes back with a quarter of p, its peak, which fades within 0.1 s; noise of the samples does not
+// end it. s is the share of h [m/s] that is damped, of no more than v itself, so that a device that stands still is
+// never pulled, and of no more than 2p of the half before, because a damped swing does not grow. s lags behind g: a
+// damper that changes within a tick is a step of the force. A contact begins with s = 1. A free mass on K, up to four
+// times the stated m, swings at W or faster. Source: ours; docs/design/contacts.md § 6.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -22,35 +23,37 @@ inline namespace v0 {
 template <class Scalar>
 class swing {
  public:
-  /// s v [m/s] of a speed v after a tick of dt [s], in a contact with K/m = `natural` [1/s²].
+  /// What is damped [m/s] of a speed v after a tick of dt [s], in a contact with √(K/m) = `natural` [1/s].
   [[nodiscard]] constexpr Scalar damped(Scalar v, Scalar natural, Scalar dt) noexcept {
-    const Scalar W2 = kernels::smaller(Scalar(400), natural / Scalar(4));
-    const Scalar change = v - last_;
-    last_ = v;
-    if (!begun_) {
-      begun_ = true;
-      speed_ = v * v;
-      gain_ = W2 * speed_;
-      return v;
+    constexpr Scalar pi = Scalar(3.14159265358979324), none = Scalar(0), all = Scalar(1);
+    const Scalar W = kernels::smaller(Scalar(22), natural / Scalar(2)), h = v - mean_;
+    mean_ += h * kernels::smaller(dt * W / Scalar(3), all);
+    half_ += dt;
+    if (const Scalar square = peak_ * peak_; h * peak_ < square / Scalar(-4)) {
+      most_ = Scalar(2) * kernels::magnitude(peak_);
+      before_ = half_;
+      half_ = none;
+      peak_ = h;
+    } else if (h * h > square) {
+      peak_ = h;
+    } else {
+      peak_ -= peak_ * kernels::smaller(dt * Scalar(10), all);
     }
-    const Scalar new_part = dt < Scalar(0.1) ? dt * Scalar(10) : Scalar(1);
-    speed_ += new_part * (v * v - speed_);
-    gain_ += new_part * (change * change / (dt * dt) - gain_);
-    const Scalar most = W2 * speed_, above = gain_ - most / Scalar(4);
-    const Scalar damps = !(above > Scalar(0)) ? Scalar(0)
-                         : gain_ < most       ? above / (most * Scalar(0.75))
-                                              : Scalar(1);
-    share_ += (damps - share_) * (dt < Scalar(0.02) ? dt * Scalar(50) : Scalar(1));
-    return v * share_;
+    const Scalar turn = W * kernels::larger(half_, before_) / pi;  // 1/√q
+    const Scalar damps = turn > all ? (Scalar(4) / (turn * turn) - all) / Scalar(3) : all;
+    share_ += (kernels::larger(damps, none) - share_) * kernels::smaller(dt * Scalar(50), all);
+    const Scalar part = kernels::clamped(h, -most_, most_);
+    return kernels::clamped(part, kernels::smaller(v, none), kernels::larger(v, none)) * share_;
   }
   /// Ends the contact.
   constexpr void stop() noexcept { *this = {}; }
 
  private:
-  Scalar speed_{}, gain_{};  ///< V [m²/s²], A [m²/s⁴]
-  Scalar last_{};            ///< v of the last tick [m/s]
-  Scalar share_{1};          ///< s
-  bool begun_ = false;
+  Scalar mean_{};             ///< v̄ [m/s]
+  Scalar half_{}, before_{};  ///< time since the last turn, and of the half before [s]
+  Scalar peak_{};             ///< p, with the sign of its h [m/s]
+  Scalar most_ = kernels::largest<Scalar>();  ///< 2p of the half before [m/s]
+  Scalar share_{1};                           ///< s
 };
 
 }  // namespace v0
