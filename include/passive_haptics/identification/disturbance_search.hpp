@@ -56,13 +56,10 @@ class disturbance_search {
     disturbances_found found;
     if (rows_ < 1000 || !(mass_ > 0.0)) return found;
     const double moved = placed([&](std::size_t n) { return ticks_[n].x; }).squaredNorm();
-    const auto unexplained = [&] {
-      return (std::max)(y_.squaredNorm() - floor(), 0.0) / (std::max)(moved, 1e-300);
-    };
+    const auto unexplained = [&] { return left_over() / (std::max)(moved, 1e-300); };
     explain();
     // What was taken first decides what else can be seen. Where too much is left, it may not have been that.
-    std::vector<candidate> kept = model_;
-    int latency = latency_;
+    explanation kept{model_, latency_};
     double least = unexplained();
     for (int again = 0; again < 3 && least > disturbances_found::too_much && first_; ++again) {
       barred_.push_back(*first_);
@@ -71,13 +68,10 @@ class disturbance_search {
       explain();
       if (unexplained() >= least) continue;
       least = unexplained();
-      kept = model_;
-      latency = latency_;
+      kept = {model_, latency_};
     }
     barred_.clear();
-    model_ = kept;
-    latency_ = latency;
-    fit();
+    take_back(kept);
     found.mass = mass_;
     found.unexplained = unexplained();
     static_cast<void>(search(found.yields, false));  // a mode that was dropped is hidden
@@ -163,8 +157,7 @@ class disturbance_search {
         break;
       }
       if (!taken) break;
-      fit_latency();
-      improve();
+      refit();
       if (model_.back().is == column_of::swung) sharpen();
     }
     drop_what_others_explain();
@@ -172,19 +165,14 @@ class disturbance_search {
   /// What the axis swings is found without a rigid fit, but at the price of the steps that it is moved by. With a fit
   /// that allows for it, the acceleration moves it without them: keeps what leaves less.
   void sharpen() {
-    const std::vector<candidate> kept = model_;
-    const int latency = latency_;
-    const double left = y_.squaredNorm();
+    const explanation kept{model_, latency_};
+    const double least = y_.squaredNorm();
     candidate& c = model_.back();
     const double root = std::sqrt(1.0 + c.g[0]);
     c = {.is = column_of::mode, .p1 = c.p1 * root, .p2 = (std::min)(c.p2 * root, 0.3)};
     c.columns = columns_of(c);
-    fit_latency();
-    improve();
-    if (y_.squaredNorm() < left) return;
-    model_ = kept;
-    latency_ = latency;
-    fit();
+    refit();
+    if (!(y_.squaredNorm() < least)) take_back(kept);
   }
   /// The most that the amplitude of a force along the way may be [N].
   [[nodiscard]] double largest_force(const candidate& c) const noexcept {
@@ -212,40 +200,32 @@ class disturbance_search {
              c.is == column_of::fraction || c.is == column_of::filter;
     };
     while (std::count_if(model_.begin(), model_.end(), alike) > 1) {
-      const std::vector<candidate> all = model_;
-      const int latency = latency_;
+      const explanation all{model_, latency_};
       project(model_.size());
-      const double left = (std::max)(y_.squaredNorm() - floor(), 0.0);
+      const double beside = left_over();
       std::vector<candidate> fewer;
       double least = 0.3;
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!alike(all[i])) continue;
-        model_ = all;
+      for (std::size_t i = 0; i < all.model.size(); ++i) {
+        if (!alike(all.model[i])) continue;
+        model_ = all.model;
         model_.erase(model_.begin() + static_cast<std::ptrdiff_t>(i));
-        latency_ = latency;
-        fit_latency();
-        improve();
-        const double more = (std::max)(y_.squaredNorm() - floor(), 1e-300);
-        const double share = 1.0 - left / more;
+        latency_ = all.latency;
+        refit();
+        const double share = 1.0 - beside / (std::max)(left_over(), 1e-300);
         if (share >= least) continue;
         least = share;
         fewer = model_;
       }
-      if (least == 0.3) {
-        model_ = all;
-        latency_ = latency;
-        return static_cast<void>(fit());
-      }
+      if (least == 0.3) return take_back(all);
       model_ = fewer;
-      fit_latency();
-      improve();
+      refit();
     }
   }
   /// Drops what does not count beside the others, the least sure first.
   void drop_what_others_explain() {
     drop_what_others_become();
     while (!model_.empty()) {
-      const double left = (std::max)(y_.squaredNorm() - floor(), 0.0);
+      const double beside = left_over();
       std::size_t worst = model_.size();
       double least = 1.0;
       for (std::size_t i = 0; i < model_.size(); ++i) {
@@ -254,7 +234,7 @@ class disturbance_search {
         c.columns = columns_of(c);
         test(c);
         const bool real = counts(c) && c.wald > surprise(count_);
-        const double share = real ? c.drop / (c.drop + left) : 0.0;
+        const double share = real ? c.drop / (c.drop + beside) : 0.0;
         if (share < least) {
           least = share;
           worst = i;
@@ -263,10 +243,26 @@ class disturbance_search {
       project(model_.size());
       if (least > 0.3) break;
       model_.erase(model_.begin() + static_cast<std::ptrdiff_t>(worst));
-      fit_latency();
-      improve();
+      refit();
     }
   }
+  /// Fits the latency and each part of another model anew.
+  void refit() {
+    fit_latency();
+    improve();
+  }
+  /// A model that was fitted before.
+  struct explanation {
+    std::vector<candidate> model{};
+    int latency = 0;
+  };
+  void take_back(const explanation& before) {
+    model_ = before.model;
+    latency_ = before.latency;
+    fit();
+  }
+  /// The sum of squares that the model leaves beyond what the steps do.
+  [[nodiscard]] double left_over() const { return (std::max)(y_.squaredNorm() - floor(), 0.0); }
   /// The sum of squares that the steps of the position leave.
   [[nodiscard]] double floor() const noexcept {
     return static_cast<double>(rows_ - 2 * static_cast<Eigen::Index>(windows_.size())) * step_ *
