@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 using Catch::Matchers::WithinAbs;
@@ -158,7 +159,7 @@ TEST_CASE("a stick_slip out of range is refused by name", "[friction]") {
 
 namespace {
 
-/// The bristle a second time, its normal turned by a quaternion.
+/// The bristle a second time, its normal turned about the axis across both.
 struct told_bristle {
   d3::vector z = d3::zero(), last = d3::zero();
   double mu = 0.0;
@@ -175,7 +176,8 @@ struct told_bristle {
     if (std::exchange(touches, true)) {
       z += travel;
       z -= last * last.dot(z);
-      z = Eigen::Quaterniond::FromTwoVectors(last, n) * z;
+      const d3::vector axis = last.cross(n);
+      z = Eigen::AngleAxisd(std::atan2(axis.norm(), last.dot(n)), axis.normalized()) * z;
     } else {
       z = d3::zero();
       mu = rule.static_coefficient;
