@@ -23,6 +23,8 @@ double worst_motion(double f, double B, double from, double to) {
   return least;
 }
 
+}  // namespace
+
 /// A number that is none of the language's own: what a user brings, as a fixed-point one would be.
 struct own_number {
   double value = 0.0;
@@ -36,8 +38,6 @@ struct own_number {
   friend bool operator==(own_number a, own_number b) = default;
   friend std::partial_ordering operator<=>(own_number a, own_number b) = default;
 };
-
-}  // namespace
 
 template <>
 struct std::numeric_limits<own_number> : std::numeric_limits<double> {
