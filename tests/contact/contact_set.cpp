@@ -4,7 +4,9 @@
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/contact/contact_set.hpp>
 
+#include <array>
 #include <string>
+#include <vector>
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
@@ -141,10 +143,14 @@ TEST_CASE(
     const d3::vector x(-2e-3, 0.0, 0.0);
     for (int i = 0; i < 5; ++i) (void)port.tick(x, ph::seconds{T});
     port.source().update(0, ph::half_space<d3>{d3::vector(1e-3, 0, 0), d3::vector::UnitX(), K});
-    double last = 2.0;
+    const auto& slot = port.source().slot(0);
+    double last = 2.0, lag = std::abs(slot.lag());
+    CHECK(slot.speed() == std::max(0.05, lag / 0.04));  // ρ, or ℓ within t_c
     for (int i = 0; i < 100; ++i) {
       const double f = port.tick(x, ph::seconds{T}).force.x();
       CHECK(std::abs(f - last) <= 1000.0 * 0.06 * T);
+      lag = std::max(0.0, lag - slot.speed() * T);
+      CHECK_THAT(std::abs(slot.lag()), WithinAbs(lag, 1e-15));
       last = f;
     }
     CHECK_THAT(last, WithinRel(K * 3e-3, 1e-12));
@@ -161,6 +167,108 @@ TEST_CASE("a plane that has been let go is met where it is, whatever it lagged b
   for (int i = 0; i < 3; ++i) (void)port.tick(away, ph::seconds{T});
   (void)port.tick(d3::vector::Zero(), ph::seconds{T});
   CHECK_THAT(port.tick(d3::vector::Zero(), ph::seconds{T}).force.x(), WithinRel(4.0, 1e-9));
+}
+
+TEST_CASE("a device that comes back to the very surface that it had left feels nothing there",
+          "[contact_set]") {
+  for (const double above : {0.0, 1e-9}) {
+    auto port = corner<d3, 2>();
+    const auto tick = [&](double x) {
+      return port.tick(d3::vector(x, 0.02, 0.02), ph::seconds{T}).force.x();
+    };
+    for (int i = 0; i < 5; ++i) (void)tick(-2e-3);
+    const d3::vector farther(-4e-3, 0, 0);  // by as much as its force still presses with
+    port.source().update(0, ph::half_space<d3>{farther, d3::vector::UnitX(), 1000.0});
+    CHECK(port.source().slot(0).lag() < -3.9e-3);
+    CHECK(tick(0.02) == 0.0);
+    CHECK(tick(-4e-3 + above) == 0.0);
+    CHECK(port.source().slot(0).lag() == 0.0);
+  }
+}
+
+TEST_CASE("a set that is reset is as a new one, wherever it is then and whatever it was following",
+          "[contact_set]") {
+  const auto made = [] { return planes<d3, 2>({}, ph::stick_slip{}); };
+  const auto push = [](auto& port, const d3::vector& x) {
+    const auto out = port.tick(x, ph::seconds{T});
+    return std::array<double, 5>{out.force.x(), out.force.y(), out.force.z(), out.depth,
+                                 double(out.what)};
+  };
+  const auto plane = [](const d3::vector& normal, double K) {
+    return ph::half_space<d3>{d3::zero(), normal, K};
+  };
+  const auto stroked = [&](auto& port) {  // on what is stiff, and it ends amid news
+    (void)port.tick(d3::vector(0, 0, 1e-3), ph::seconds{T});
+    REQUIRE(port.source().update(0, plane({0, 0, 1}, 5000.0)));
+    for (int n = 0; n < 50; ++n) (void)port.tick(d3::vector(1e-4 * n, 0, -1e-3), ph::seconds{T});
+    REQUIRE(port.source().update(0, plane({0.5, 0, 1}, 5000.0)));
+    for (int n = 50; n < 55; ++n) (void)port.tick(d3::vector(1e-4 * n, 0, -1e-3), ph::seconds{T});
+    REQUIRE_FALSE(port.source().update(0, plane({0, 0, 1}, -1.0)));
+  };
+  const auto lived = [&](auto& port) {  // deep in what is soft, and its normal turns far
+    std::vector<std::array<double, 5>> all;
+    double z = -0.03;
+    REQUIRE(port.source().update(0, plane({0, 0, 1}, 300.0)));
+    for (int n = 0; n < 300; ++n) {
+      if (n == 200) REQUIRE(port.source().update(0, plane({1, 0, -0.5}, 300.0)));
+      all.push_back(push(port, {0.1, 1e-4 * n, z}));
+    }
+    return all;
+  };
+  auto fresh = made(), worn = made();
+  const auto as_new = lived(fresh);
+  CHECK(as_new[199][2] > 2.0);
+  for (int n = 0; n < 2; ++n) {
+    stroked(worn);
+    worn.reset();
+    CHECK(lived(worn) == as_new);
+    worn.reset();
+  }
+}
+
+TEST_CASE("what is released lets go no faster than news may, whatever else is there",
+          "[contact_set]") {
+  auto port = planes<d3, 2>();
+  const double K = 3000.0, way = 1e-5;
+  (void)port.tick(d3::vector(0, 0, 1e-3), ph::seconds{T});
+  REQUIRE(port.source().update(0, ph::half_space<d3>{d3::zero(), d3::vector::UnitZ(), K}));
+  const d3::vector far(0, -0.1, 0);
+  REQUIRE(port.source().update(1, ph::half_space<d3>{far, d3::vector::UnitY(), 3.0 * K}));
+  double x = 0.0, last = 0.0;
+  const auto tick = [&] {
+    x += way;
+    return port.tick(d3::vector(x, 0, -1e-3), ph::seconds{T}).force.z();
+  };
+  for (int n = 0; n < 100; ++n) last = tick();
+  CHECK_THAT(last, WithinRel(3.0, 1e-9));
+  port.source().release(0);
+  for (int n = 0; n < 10; ++n) {
+    const double now = tick();
+    CHECK(last - now <= 50.0 * T + 2.0 * K * way + 1e-12);  // R dt, and what the way explains
+    CHECK(last - now > 50.0 * T);
+    last = now;
+  }
+}
+
+TEST_CASE("a finger that was lifted sticks anew where it touches again", "[contact_set]") {
+  const auto stroke = [](auto& port, double from, double to, double z) {
+    d3::vector f;
+    for (int n = 0; n <= 100; ++n) {
+      f = port.tick(d3::vector(from + (to - from) * n / 100.0, 0, z), ph::seconds{T}).force;
+    }
+    return f;
+  };
+  const auto touched = [&](auto port) {
+    REQUIRE(port.source().update(0, ph::half_space<d3>{d3::zero(), d3::vector::UnitZ(), 1000.0}));
+    (void)stroke(port, 0.0, 0.0, 1e-3);
+    CHECK(stroke(port, 0.0, 0.02, -1e-3).x() < -0.3);
+    (void)stroke(port, 0.02, 0.02, 1e-3);
+    const d3::vector f = stroke(port, 0.02, 0.02, -1e-3);
+    CHECK_THAT(f.z(), WithinRel(1.0, 1e-9));
+    CHECK(f.x() == 0.0);
+  };
+  touched(planes<d3, 1>({}, ph::stick_slip{}));
+  touched(planes<d3, 2>({}, ph::stick_slip{}));
 }
 
 TEST_CASE("what is released recedes, under a finger that follows it as well, and frees its slot",
@@ -201,6 +309,34 @@ TEST_CASE("a set without news for too long lets go", "[contact_set]") {
   }
   CHECK(worst == ph::event::stale_target);
   CHECK(least == 0.0);
+}
+
+TEST_CASE("a surface is stale when it is older than it may be, and not when it is just as old",
+          "[contact_set]") {
+  const double tick = 0x1p-10;
+  auto port = planes<d3, 2>({.stale_after = 4.0 * tick});
+  port.source().update(0, ph::half_space<d3>{d3::vector::Zero(), d3::vector::UnitZ(), 1000.0});
+  for (int n = 1; n <= 5; ++n) {
+    const auto out = port.tick(d3::vector(0, 0, 1e-3), ph::seconds{tick});
+    CHECK(out.what == (n == 5 ? ph::event::stale_target : ph::event::nominal));
+  }
+}
+
+TEST_CASE("a surface grows older while samples are refused", "[contact_set]") {
+  const double tick = 0x1p-10;
+  for (const int refused : {2, 3}) {
+    auto port = planes<d3, 2>({.stale_after = 4.0 * tick});
+    port.source().update(0, ph::half_space<d3>{d3::vector::Zero(), d3::vector::UnitZ(), 1000.0});
+    const d3::vector above(0, 0, 1e-3), nowhere(std::nan(""), 0, 0);
+    CHECK(port.tick(above, ph::seconds{tick}).what == ph::event::nominal);
+    for (int n = 0; n < refused; ++n) {
+      const auto none = port.tick(nowhere, ph::seconds{tick});
+      CHECK(none.depth == 0.0);
+      CHECK_FALSE(none.limited);
+    }
+    const auto out = port.tick(above, ph::seconds{tick});
+    CHECK(out.what == (refused == 3 ? ph::event::stale_target : ph::event::nominal));
+  }
 }
 
 TEMPLATE_TEST_CASE("an empty set, one slot too many and what is unusable say so and push nothing",
@@ -270,6 +406,61 @@ TEST_CASE("a surface that shows no number presses nothing and is seen through af
   }
 }
 
+namespace {
+
+/// A surface that shows an absurd depth to whoever is beyond x = 0.
+struct abyss {
+  using space_type = d3;
+  using scalar = double;
+  double stiffness = 1000.0;
+  [[nodiscard]] bool prepare() noexcept { return true; }
+  struct probe {
+    double depth;
+    [[nodiscard]] d3::vector outward() const noexcept { return {1, 0, 0}; }
+    [[nodiscard]] bool covered() const noexcept { return true; }
+  };
+  [[nodiscard]] probe at(const d3::vector& x) const noexcept {
+    return {x.x() > 0.0 ? 1e308 : -1.0};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a force beyond all numbers is none, and the force goes there and back as with any news",
+          "[contact_set]") {
+  auto port =
+      open_port<d3>(ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::stick_slip{},
+                                    ph::slots<ph::half_space<d3>, 1>{}, ph::slots<abyss, 1>{}});
+  const auto tick = [&](double x, double z) {
+    return port.tick(d3::vector(x, 0, z), ph::seconds{T});
+  };
+  REQUIRE(port.source().update(0, ph::half_space<d3>{d3::zero(), d3::vector::UnitZ(), 1000.0}));
+  REQUIRE(port.source().update(0, abyss{}));
+  (void)tick(-2e-3, 1e-3);
+  for (int n = 0; n < 100; ++n) (void)tick(-2e-3 + 2e-5 * n, -1e-3);  // its bristle is bent
+  for (int n = 0; n < 100; ++n) (void)tick(0.0, -1e-3);
+  const d3::vector before = tick(0.0, -1e-3).force;
+  CHECK_THAT(before.z(), WithinRel(1.0, 1e-9));
+  CHECK(before.x() < -0.1);
+  const auto out = tick(1e-12, -1e-3);
+  const double most = 50.0 * T + 1e-6;  // R dt
+  CHECK((out.force - before).norm() <= most);
+  CHECK(out.force.norm() < before.norm() - 0.9 * most);
+  CHECK(out.depth == 0.0);
+  CHECK(out.what == ph::event::rejected_target);
+  CHECK(port.source().slot(0).pressed() == 0.0);
+  CHECK(port.source().template slot<abyss>(0).pressed() == 0.0);
+  d3::vector last = out.force;
+  for (int n = 0; n < 40; ++n) {
+    const auto next = tick(0.0, -1e-3);
+    CHECK(next.what == ph::event::nominal);
+    CHECK((next.force - last).norm() <= most);
+    last = next.force;
+  }
+  CHECK_THAT(last.z(), WithinRel(1.0, 1e-9));
+  CHECK(std::abs(tick(0.0, -1e-3).force.x()) < 1e-6);  // it sticks anew
+}
+
 TEST_CASE("a surface that is left over its edge recedes, and is met anew", "[contact_set]") {
   auto port = open_port<d3>(
       ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::slots<rogue, 1>{}});
@@ -308,7 +499,9 @@ TEST_CASE("parameters of a set out of range are named, and change while it works
   CHECK(named({.mass = 0.1}, {.catch_up = 0.0}) == "catch_up");
   CHECK(named({.mass = 0.1}, {.turn_rate = std::nan("")}) == "turn_rate");
   CHECK(named({.mass = 0.1}, {.force_rate = 0.0}) == "force_rate");
+  CHECK(named({.mass = 0.1}, {.edge = 0.0}) == "edge");
   CHECK(named({.mass = 0.1}, {.stale_after = -1.0}) == "stale_after");
+  CHECK(named({.mass = 0.1}, {.stale_after = 0.0}) == "stale_after");
 
   auto rough = planes<d3, 3>({}, ph::stick_slip{});
   const ph::stick_slip backwards{.static_coefficient = 0.4, .kinetic_coefficient = 0.6};
@@ -578,6 +771,114 @@ TEST_CASE("surfaces out of reach sleep, and nobody feels that they do", "[contac
   CHECK(pressed > 200);
   CHECK(slept > 2000 * count / 10);
   CHECK(worst < 1e-9);
+}
+
+TEST_CASE("what is far from the device and near its proxy presses, however many slots there are",
+          "[contact_set]") {
+  // Deep in a soft floor, in the wedge that it forms with what is over it.
+  const auto wedge = [](auto port, double depth, double gap) {
+    const d3::vector leans(-std::sqrt(1.0 - 0.81), 0, -0.9), deep(0, 0, -depth);
+    std::vector<d3::vector> forces;
+    const auto tick = [&](const d3::vector& x) {
+      forces.push_back(port.tick(x, ph::seconds{T}).force);
+    };
+    REQUIRE(port.source().update(0, ph::half_space<d3>{d3::zero(), {0, 0, 1}, 300.0}));
+    tick({0, 0, 1e-3});
+    for (int n = 0; n <= 300; ++n) tick(d3::vector(deep * (n / 300.0)));
+    REQUIRE(port.source().update(1, ph::half_space<d3>{deep - leans * gap, leans, 300.0}));
+    for (int n = 0; n < 100; ++n) tick(deep);
+    for (int n = 0; n <= 40; ++n) tick(deep + d3::vector(1e-4 * n, 0, 0));
+    return forces;
+  };
+  const auto alike = [&](double depth, double gap) {
+    const auto naps = wedge(planes<d3, 5>(), depth, gap),
+               wakes = wedge(planes<d3, 4>(), depth, gap);
+    for (std::size_t n = 0; n < naps.size(); ++n) {
+      CAPTURE(depth, gap, n);
+      REQUIRE((naps[n] - wakes[n]).norm() < 1e-9);
+    }
+    CHECK(naps.back().x() < -0.1);  // what is over it presses
+  };
+  alike(0.022, 0.0202);
+  alike(0.030, 0.0262);
+}
+
+TEST_CASE("a surface that sleeps is there as soon as it is told to be where the device is",
+          "[contact_set]") {
+  const auto told = [](auto port) {
+    std::vector<d3::vector> forces;
+    for (int n = 0; n < 60; ++n) {
+      if (n % 30 == 0) {
+        const d3::vector at(0, 0, n == 0 ? -0.1 : 1e-3);
+        REQUIRE(port.source().update(0, ph::half_space<d3>{at, d3::vector::UnitZ(), 300.0}));
+      }
+      forces.push_back(port.tick(d3::vector(d3::zero()), ph::seconds{T}).force);
+    }
+    return forces;
+  };
+  const auto naps = told(planes<d3, 5>());
+  CHECK(naps == told(planes<d3, 4>()));
+  CHECK(naps.back().z() > 0.2);
+}
+
+TEST_CASE("a surface that sleeps is stale when it is old enough, or 0.05 s later, and never before",
+          "[contact_set]") {
+  const double tick = 0x1p-10;  // 52 of which are more than 0.05 s
+  for (const int told : {1, 20, 53, 60}) {
+    for (int most = 30; most < 120; ++most) {  // ticks
+      auto port = planes<d3, 5>({.stale_after = (most + 0.5) * tick});
+      const auto what = [&] { return port.tick(d3::vector(0, 0, 0.1), ph::seconds{tick}).what; };
+      const ph::half_space<d3> floor{d3::zero(), d3::vector::UnitZ(), 1000.0};
+      REQUIRE(port.source().update(0, floor));
+      for (int n = 0; n < told; ++n) (void)what();
+      REQUIRE(port.source().update(0, floor));
+      int age = 1;
+      while (age < 300 && what() != ph::event::stale_target) ++age;
+      CAPTURE(told, most, age);
+      REQUIRE(age > most);
+      REQUIRE(age <= most + 52);
+    }
+  }
+}
+
+namespace {
+
+/// A floor that ends 10 mm from the middle, where it covers nothing.
+struct tile : ph::half_space<d3> {
+  using space_type = d3;
+  struct seen {
+    double depth;
+    bool covers;
+    [[nodiscard]] d3::vector outward() const noexcept { return d3::vector::UnitZ(); }
+    [[nodiscard]] bool covered() const noexcept { return covers; }
+  };
+  [[nodiscard]] seen at(const d3::vector& x) const noexcept {
+    return {ph::half_space<d3>::at(x).depth, std::abs(x.x()) < 0.01};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a surface that woke up beside its edge is met as soon as it is there", "[contact_set]") {
+  const auto crossed = [](auto port) {
+    tile floor{{d3::zero(), d3::vector::UnitZ(), 1000.0}};
+    std::vector<d3::vector> forces;
+    const auto tick = [&](double x, double z) {
+      forces.push_back(port.tick(d3::vector(x, 0, z), ph::seconds{T}).force);
+    };
+    REQUIRE(port.source().update(0, floor));
+    for (int n = 0; n < 100; ++n) tick(0.011, 0.05);  // far above, beside its edge
+    for (int n = 0; n < 60; ++n) tick(0.0, 0.05);     // and above it, where it sleeps
+    tick(0.011, -1e-3);
+    for (int n = 0; n < 30; ++n) tick(0.009, -1e-3);
+    return forces;
+  };
+  const auto with = [](auto room) {
+    return open_port<d3>(ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, room});
+  };
+  const auto naps = crossed(with(ph::slots<tile, 5>{}));
+  CHECK(naps == crossed(with(ph::slots<tile, 4>{})));
+  CHECK(naps.back().z() > 0.9);
 }
 
 namespace {

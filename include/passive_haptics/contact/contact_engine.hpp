@@ -115,10 +115,7 @@ class contact_engine {
   template <class Surface = first_kind>
   constexpr void release(int i) noexcept {
     news();
-    slots_.template visit<Surface>(i, [](auto& slot) {
-      slot.release();
-      slot.asleep = false;
-    });
+    slots_.template visit<Surface>(i, [](auto& slot) { slot.release(); });
   }
   /// Slot i of that kind, 0 ≤ i < Count, with its newest surface, its lag ℓ and its λ.
   template <class Surface = first_kind>
@@ -311,8 +308,9 @@ class contact_engine {
         return;
       }
       if constexpr (naps) {
-        slot.asleep = slept > scalar(0) && own.depth < scalar(-2) * pace_.out_of_reach() &&
-                      !own.chases && !(slot.pressed() > scalar(0));
+        const scalar reach = pace_.out_of_reach() + nap_.reach;
+        slot.asleep = slept > scalar(0) && own.depth < scalar(-2) * reach && !own.chases &&
+                      !(slot.pressed() > scalar(0));
         if (slot.asleep) return;
       }
       all.chases = all.chases || own.chases;
@@ -335,8 +333,8 @@ class contact_engine {
       press(slot.spring());
     });
   }
-  /// The time that sleeping slots have slept [s] if all slots are to be evaluated now, else 0. A surface that was 2D
-  /// away cannot press while the device has moved by less than D − Σ λ_i c_i, the last term being the proxy's offset.
+  /// The time that sleeping slots have slept [s] if all slots are to be evaluated now, else 0. A surface that was
+  /// 2 (D + R) away, R = Σ λ_i c_i the proxy's offset, cannot press while the device has moved by less than D − R.
   constexpr scalar time_to_look(const auto& now, scalar dt) noexcept {
     if constexpr (naps) {
       nap_.lasted += dt;
