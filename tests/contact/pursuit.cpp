@@ -481,6 +481,21 @@ TEST_CASE("a set presses as its slow and plain definition does, whatever it is s
   CHECK(all.saturated > 20);
 }
 
+TEST_CASE("a felt surface is a number where its depth and the square of its push are",
+          "[contact_set]") {
+  const auto is_finite = [](double depth, double push) {
+    return ph::felt_surface<d3>{.normal = {0, 0, 1}, .push = {0, push, 0}, .depth = depth}
+        .is_finite();
+  };
+  CHECK(is_finite(-1e-3, 1.0));
+  CHECK(is_finite(-1.5e308, 1.25e154));  // far outside, and it leans
+  CHECK_FALSE(is_finite(-1e-3, 1.5e154));
+  for (const double none : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+    CHECK_FALSE(is_finite(none, 1.0));
+    CHECK_FALSE(is_finite(-1e-3, none));
+  }
+}
+
 TEST_CASE("what leaves a surface as it begins to recede by itself is let go at once",
           "[contact_set]") {
   // News is eased and motion never is, be it in the tick in which the surface goes stale, or is left over its edge.
