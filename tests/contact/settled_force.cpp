@@ -396,6 +396,49 @@ TEST_CASE("an absurd force is no reason to show a steep one as it is", "[settled
   }
 }
 
+TEST_CASE("after an absurd force three ticks are too few again", "[settled_force]") {
+  const double most = rule.most_stiffness(1e-3), step = 1e-5;
+  for (const double absurd : {1e200, -1e200}) {
+    auto guard = guard_of<d1>(rule);
+    double x = 0.0, w = 100.0;
+    const auto next = [&](double K) {
+      x -= step;
+      w += K * step;
+      (void)guard.tick(x, 1ms, w);
+      return double(guard.source().shown());
+    };
+    for (int n = 0; n < 200; ++n) (void)next(1.5 * most);
+    CHECK_THAT(guard.source().shown(), WithinRel(0.75 / 1.5, 1e-3));
+    x -= step;
+    (void)guard.tick(x, 1ms, absurd);
+    const double before = next(16.0 * most);  // the change from it is absurd as well
+    for (int n = 0; n < 3; ++n) CHECK(next(16.0 * most) == before);
+    CHECK(next(16.0 * most) < 0.1);
+  }
+}
+
+TEST_CASE("a settled force that looks at a steep one forgets at a reset that it did",
+          "[settled_force]") {
+  const double K = 8.0 * rule.most_stiffness(1e-3);
+  const auto touched = [&](auto& guard) {  // from the air onto a steep floor
+    std::vector<double> shown;
+    for (int n = 0; n < 12; ++n) {
+      const double x = 1e-5 * (3 - n);
+      (void)guard.tick(x, 1ms, std::max(0.0, -K * x));
+      shown.push_back(double(guard.source().shown()));
+    }
+    return shown;
+  };
+  auto fresh = guard_of<d1>(rule), worn = guard_of<d1>(rule);
+  const auto as_new = touched(fresh);
+  CHECK(as_new.front() == 1.0);
+  CHECK(as_new.back() < 0.2);
+  for (int n = 0; n < 3; ++n) {
+    CHECK(touched(worn) == as_new);
+    worn.reset();
+  }
+}
+
 TEST_CASE("what a settled force may not be told is refused with its name", "[settled_force]") {
   const auto refused = [](auto change) {
     ph::settled_force p = rule;
