@@ -390,6 +390,27 @@ TEST_CASE("after new parameters no choice counts on more friction than there is"
   }
 }
 
+TEST_CASE("a choice of 99 % of the friction is replaced by one of all of it, and of more is kept",
+          "[dual]") {
+  const auto stated = [](double friction) {
+    return ph::dual_ledger{.damping = {b, friction, 0.0}, .quantum = q};
+  };
+  const auto earns = [&](double first) {  // N, where there are 100 N
+    auto ledger = at<d1>(stated(first));
+    const auto slip = [&] {
+      const double before = ledger.value();
+      for (int n = 0; n < 10; ++n) (void)ledger.update(q, 0.0, 1.0);
+      return (ledger.value() - before) / (10 * q);
+    };
+    (void)slip();
+    ledger.set(stated(100.0));
+    (void)slip();
+    return slip();
+  };
+  CHECK_THAT(earns(99.0), WithinAbs(100.0, 1e-6));
+  CHECK_THAT(earns(99.5), WithinAbs(99.5, 1e-6));
+}
+
 namespace {
 
 /// The same ledger in plain words: each choice of u by itself with the whole of its A (§ 6), and nothing rounded.
