@@ -443,6 +443,17 @@ struct plainly {
   }
 };
 
+/// A ledger that counts what it is told of faults.
+struct counted : ph::reduced_energy {
+  template <ph::port P>
+  class on : public ph::part_at<ph::reduced_energy, P> {
+   public:
+    int told = 0;
+    constexpr explicit on(const counted& p) noexcept : ph::part_at<ph::reduced_energy, P>(p) {}
+    constexpr void disturbed() noexcept { ++told; }
+  };
+};
+
 /// A device in a hand that is as strong as it is `strong` [N], whose samples get lost, come late, are off or lie.
 /// Returns which events there were.
 template <class P, class Observer, class Bound, class Limits>
@@ -489,6 +500,9 @@ std::set<event> lives(unsigned seed, double strong, int lies, const Observer& ob
     REQUIRE_THAT(out.energy, WithinAbs(expected.energy, 1e-12));
     REQUIRE(P::norm(vector(out.force) - expected.force) <= 1e-9);
     REQUIRE(out.limited == expected.limited);
+    if constexpr (requires { twin.ledger.told; }) {
+      REQUIRE(port.observer().told == twin.ledger.told);
+    }
     events.insert(out.what);
     for (std::size_t j = flying.size() - 1; j > 0; --j) flying[j] = flying[j - 1];
     flying[0] = out.force;
@@ -515,6 +529,7 @@ TEST_CASE("a port does what its parts do one after the other, whatever its sampl
         all.merge(lives<d1>(seed, strong, lies, mild, bound, prompt));
         all.merge(lives<d2>(seed, strong, lies, ledger, bound, prompt));
         all.merge(lives<d3>(seed, strong, lies, mild, bound, late));
+        all.merge(lives<d1>(seed, strong, lies, counted{ledger}, bound, prompt));
       }
     }
   }
