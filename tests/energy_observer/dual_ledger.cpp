@@ -5,6 +5,7 @@
 #include "support/scenes.hpp"
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/device/joint_space.hpp>
+#include <passive_haptics/identification/crossed_step.hpp>
 #include <passive_haptics/simulation/adversary_motions.hpp>
 #include <passive_haptics/simulation/friction.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -256,6 +258,34 @@ TEST_CASE("dual_ledger keeps the laws of an observer, and its parameters", "[dua
   const auto model = following_half_space<d1>(ph::spring{}, stated, ph::strict_bound{});
   check_upkeep(model, stated, ph::dual_ledger{.damping = {0.02, 0.2, 1e-5}, .quantum = 1e-5},
                ph::dual_ledger{.damping = {0.02, 0.1}, .quantum = 1e-5});
+}
+
+TEST_CASE("a reset forgets which edges were crossed, and that a motion refuted the mass",
+          "[dual]") {
+  const double q = 50e-6;
+  const ph::crossed_ledger told{.damping = {0.05, 0.15, 5e-6},
+                                .quantum = {.quantum = q, .mass = 0.5, .hand_force = 1.0}};
+  auto fresh = at<d1>(told), worn = fresh, refuted = fresh;
+  const auto swings = [&](auto& ledger) {  // slowly, against a spring; it ends on an edge
+    std::vector<double> values;
+    double last = 0.0;
+    for (int n = 0; n < 200; ++n) {
+      const double x = q * std::floor(3.0 * std::sin(0.03 * n));
+      REQUIRE(ledger.update(x - last, 0.02 * x / q, 1e-3));
+      last = x;
+      values.push_back(ledger.value());
+    }
+    REQUIRE(ledger.update(-q, 1.0, 1e-3));
+    return values;
+  };
+  const auto as_new = swings(fresh);
+  (void)swings(worn);
+  for (const double way : {q, -3 * q, q, -3 * q}) REQUIRE(refuted.update(way, -0.5, 1e-3));
+  CHECK(refuted.steps().refuted());
+  worn.reset();
+  refuted.reset();
+  CHECK(swings(worn) == as_new);
+  CHECK(swings(refuted) == as_new);
 }
 
 TEST_CASE("a ledger that is full goes on booking", "[dual]") {
