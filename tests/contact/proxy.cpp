@@ -488,6 +488,32 @@ TEST_CASE("contacts that a step brings to nothing together leave together", "[pr
   CHECK(p.pressed == std::array<double, 4>{0.0, 2.0, 0.0, 3.0});
 }
 
+TEST_CASE("a contact that is to press with nothing leaves, and one that is to press stays",
+          "[proxy]") {
+  auto p = unrelated({0.0, 2.0, -1.0, 3.0}, {1.0, 1.0, 0.0, 1.0});
+  unrelated_set set(p);
+  CHECK(set.step(nothing_between));
+  CHECK(p.pressed == std::array<double, 4>{0.0, 2.0, 0.0, 3.0});
+  CHECK_FALSE(set.has(0));
+  CHECK(set.has(1));
+  auto q = unrelated({0.5, 2.0, -1.0, 3.0}, {0.0, 1.0, 0.0, 1.0});
+  unrelated_set two(q);
+  two.join(0);
+  two.join(2);  // which is to pull, and stops all of the step
+  CHECK_FALSE(two.step(nothing_between));
+  CHECK(two.has(0));
+  CHECK_FALSE(two.has(2));
+  CHECK(two.step(nothing_between));
+  CHECK(q.pressed == std::array<double, 4>{0.5, 2.0, 0.0, 3.0});
+}
+
+TEST_CASE("contacts that all have to change places do, in more steps than there are contacts",
+          "[proxy]") {
+  auto p = unrelated({-1.0, -2.0, 2.0, 3.0}, {0.5, 2.0, 0.0, 0.0});
+  ph::solve(p, nothing_between);
+  CHECK(p.pressed == std::array<double, 4>{0.0, 0.0, 2.0, 3.0});
+}
+
 TEST_CASE(
     "what rounding left of a contact leaves, and neither one that is to press nor a larger one",
     "[proxy]") {
