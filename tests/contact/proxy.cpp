@@ -526,6 +526,13 @@ TEST_CASE(
     CHECK(set.has(2));
     CHECK(set.has(3));
   }
+  auto p = unrelated({0.4, -1.4, -1.0, 5.0}, {5e-324, 1e-323, 0.5, 1.0});
+  unrelated_set set(p);
+  CHECK_FALSE(set.step(nothing_between));  // after which the first two are 5e-324
+  CHECK(set.has(0));
+  CHECK_FALSE(set.has(1));
+  CHECK(set.has(2));
+  CHECK(set.has(3));
 }
 
 TEST_CASE("what a contact lacks by rounding of the largest depth does not make it press",
