@@ -197,7 +197,7 @@ class contact_engine {
       let_go();
       wanted = Port::zero();
       all.deepest = scalar(0);
-      told_ = true;
+      all.chases = true;  // what comes back then is news, too
     }
     const row way = now.moved();
     if (told_ || chased_ || all.chases) [[unlikely]]
