@@ -117,7 +117,8 @@ TEST_CASE("friction and damping that are not there are not found", "[identificat
   CHECK(s.found.mass <= 0.1);
 }
 
-TEST_CASE("friction that varies along the way is stated where it is least", "[identification]") {
+TEST_CASE("friction that varies along the way is stated where it is least",
+          "[identification][long]") {
   const sim::stribeck_friction even{0.2, 0.26, 5e-3, 15e-6, 0.0, 0.0, 0.0};
   const sim::stribeck_friction rippled{0.2, 0.26, 5e-3, 15e-6, 0.3, 0.5e-3, 0.0};
   const auto a = identified(rubbing<sim::stribeck_friction>(grip, {}, even)).found;
@@ -131,7 +132,7 @@ TEST_CASE("friction that varies along the way is stated where it is least", "[id
 }
 
 TEST_CASE("friction that creeps under a force that comes and goes is not relied on",
-          "[identification]") {
+          "[identification][long]") {
   const auto lugre =
       identified(rubbing<sim::lugre_friction>(grip, {}, {0.2, 0.26, 5e-3, 30e-6, 0.0, 0.0}));
   REQUIRE(lugre.found.problem == nullptr);
@@ -149,7 +150,7 @@ TEST_CASE("friction that creeps under a force that comes and goes is not relied 
   CHECK(dupont.found.likely_friction > 0.19);
 }
 
-TEST_CASE("a held hand is refused, with the remedy", "[identification]") {
+TEST_CASE("a held hand is refused, with the remedy", "[identification][long]") {
   using held = sim::device<d1, sim::impedance_hand<d1>, sim::slider_and_spring>;
   for (const double stiffness : {60.0, 150.0, 300.0, 800.0, 3000.0}) {
     CAPTURE(stiffness);
@@ -271,7 +272,7 @@ TEST_CASE("an identification can be stopped, and refuses parameters out of their
 }
 
 TEST_CASE("every axis of a device is identified, in float as well, and stop() ends it at once",
-          "[identification]") {
+          "[identification][long]") {
   using device = sim::device<d2, sim::no_hand<d2>, sim::slider_and_spring>;
   const sim::device_parameters<d2> truth{
       .mass = 0.1, .damping = 0.3, .quantum = 10e-6, .load = {0.0, -0.3}, .latency = 2};

@@ -52,7 +52,7 @@ TEST_CASE("nothing is found wrong with a device that is as it should be", "[iden
 }
 
 TEST_CASE("a mode is found with its frequency, and what moves with the encoder is stated",
-          "[identification]") {
+          "[identification][long]") {
   for (const double hz : {200.0, 300.0}) {
     CAPTURE(hz);
     const auto found = identified(sim::compliant_device<d1>({.mass = 0.2,
@@ -83,7 +83,7 @@ TEST_CASE("a mode that spoils the swing is refused by name", "[identification]")
 }
 
 TEST_CASE("a mode slower than half a sweep is refused, although the swing comes about",
-          "[identification]") {
+          "[identification][long]") {
   const auto with = [](double hz) {
     return identified(sim::compliant_device<d1>({.mass = 0.2,
                                                  .share = 0.76,
