@@ -4,9 +4,10 @@
 #include "support/contact_sets.hpp"
 #include <passive_haptics/base/samples.hpp>
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <vector>
-
-using Catch::Matchers::WithinRel;
 
 namespace {
 
