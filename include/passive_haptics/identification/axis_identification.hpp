@@ -59,7 +59,7 @@ class axis_identification {
     if (done()) force = 0.0;
     force = std::clamp(force, -p_.force, p_.force);
     record_.commanded(force);
-    if (keeps) kept_.commanded(force);
+    if (keeps) kept_.commanded(force, !again_ && swing_.crosses());
     if (!keeps) kept_.leave_out(dt);
     return force;
   }
@@ -88,7 +88,7 @@ class axis_identification {
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
   [[nodiscard]] double time() const noexcept { return time_; }  ///< sum of its ticks [s]
 
-  /// The result. It allocates, and takes some tenths of a second where it searches for what is wrong.
+  /// The result. It allocates, and takes a second where it searches for what is wrong, half a minute at worst.
   [[nodiscard]] axis_found result() const {
     axis_found found;
     found.problem = problem_ != nullptr ? problem_ : done() ? nullptr : "it is not at its end";

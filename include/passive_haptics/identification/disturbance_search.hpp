@@ -19,7 +19,7 @@
 //
 // The columns that a rigid device has are taken out of a column and of x first, so what is left gives the coefficient and
 // the drop of the residual that the whole least squares would give (Frisch and Waugh, 1933). The covariance V is the one
-// that lets errors within a window depend on each other (Liang and Zeger, Biometrika 1986), and gᵀ V⁻¹ g is χ² with the
+// that lets errors within a sweep depend on each other (Liang and Zeger, Biometrika 1986), and gᵀ V⁻¹ g is χ² with the
 // number of columns as degrees of freedom where there is nothing. The one that explains most is taken into the model if
 // that would happen once in 2000 devices by chance, divided by the number of candidates, and if it is large enough to
 // matter; then the search begins anew. What is left at the end, over the motion, is `unexplained`: a hand on a handle
@@ -76,6 +76,8 @@ class disturbance_search {
     found.unexplained = unexplained();
     static_cast<void>(search(found.yields, false));  // a mode that was dropped is hidden
     for (const candidate& c : model_) name(c, found);
+    // A force along the way may be any part of what nothing explains.
+    if (found.unexplained > disturbances_found::too_much) found.of(disturbance::cogging) = {};
     return found;
   }
 
@@ -120,6 +122,7 @@ class disturbance_search {
     best[static_cast<std::size_t>(column_of::filter)].drop = -1e300;
     double hidden = 0.0;
     count_ = 0;
+    whole_ = true;
     visit([&](candidate c) {
       ++count_;
       test(c);
@@ -133,10 +136,11 @@ class disturbance_search {
       if (!barred && counts(c) && c.drop > of_kind.drop) of_kind = std::move(c);
     });
     yields = hidden;
-    if (!refined) return best;
     for (candidate& c : best) {
-      if (c.columns.cols() > 0) refine(c);
+      if (refined && c.columns.cols() > 0) refine(c);
     }
+    whole_ = false;
+    if (!refined) return best;
     std::sort(best.begin(), best.end(),
               [](const candidate& a, const candidate& b) { return a.drop > b.drop; });
     return best;
@@ -144,23 +148,34 @@ class disturbance_search {
   /// Takes into the model what explains most, until nothing does, and drops what the others explain.
   void explain() {
     first_.reset();
-    double yields = 0.0;
-    for (std::size_t round = 0; round < most; ++round) {
-      // What explains most may still be chance where something smaller is none.
-      bool taken = false;
-      for (candidate& best : search(yields, true)) {
-        if (!(best.drop > 0.0)) break;
-        if (!counts(best) || best.wald < surprise(count_)) continue;
-        if (!first_) first_ = best.is;
-        model_.push_back(std::move(best));
-        taken = true;
-        break;
-      }
-      if (!taken) break;
-      refit();
-      if (model_.back().is == column_of::swung) sharpen();
+    // What was dropped may have been in the way of something else.
+    for (int again = 0; again < 2; ++again) {
+      while (model_.size() < most && take_one()) continue;
+      const std::size_t taken = model_.size();
+      drop_what_others_explain();
+      if (model_.size() == taken || model_.empty()) break;
     }
-    drop_what_others_explain();
+  }
+  /// Takes into the model what explains most of what is left, if anything does.
+  [[nodiscard]] bool take_one() {
+    double yields = 0.0;
+    // What explains most may still be chance where something smaller is none.
+    for (candidate& best : search(yields, true)) {
+      if (!(best.drop > 0.0)) break;
+      if (!counts(best) || best.wald < surprise(count_)) continue;
+      const explanation before{model_, latency_};
+      const double left = y_.squaredNorm();
+      const column_of is = best.is;
+      model_.push_back(std::move(best));
+      refit();
+      if (is == column_of::swung) sharpen();
+      if (y_.squaredNorm() < left) {
+        if (!first_) first_ = is;
+        return true;
+      }
+      take_back(before);  // it led the others astray
+    }
+    return false;
   }
   /// What the axis swings is found without a rigid fit, but at the price of the steps that it is moved by. With a fit
   /// that allows for it, the acceleration moves it without them: keeps what leaves less.
@@ -342,10 +357,15 @@ class disturbance_search {
       middle_ += t.x / static_cast<double>(all);
     }
     const double slow = (std::max)(5e-3, step_ / (5.0 * tick_));
-    for (std::size_t n = 2; n + 3 < all; ++n) {
-      speed_[n] = (ticks_[n + 3].x - ticks_[n - 2].x) / (5.0 * tick_);
-      way_[n] = std::tanh(speed_[n] / slow);
+    for (std::size_t n = 10; n + 11 < all; ++n) {
+      speed_[n] = even(n) ? (ticks_[n + 11].x - ticks_[n - 10].x) / (21.0 * tick_)
+                          : (ticks_[n + 3].x - ticks_[n - 2].x) / (5.0 * tick_);
+      way_[n] = std::tanh(speed_[n] / (even(n) ? (std::max)(5e-3, step_ / (21.0 * tick_)) : slow));
     }
+  }
+  /// True where the speed hardly changes in 21 ticks, which tell it better than five.
+  [[nodiscard]] bool even(std::size_t n) const noexcept {
+    return n >= 10 && n + 11 < ticks_.size() && ticks_[n - 10].even && ticks_[n + 11].even;
   }
   /// The stretches in which the device goes one way, faster than the Stribeck part of friction, and has left the place
   /// where it turned by more than friction is elastic.
@@ -355,7 +375,7 @@ class disturbance_search {
     double turn = 0.0;
     for (std::size_t n = 0; n + 4 < ticks_.size(); ++n) {
       since = ticks_[n].first ? 0 : since + 1;
-      const bool fast = std::abs(speed_[n]) > slow;
+      const bool fast = std::abs(speed_[n]) > (even(n) ? 0.015 + step_ / (21.0 * tick_) : slow);
       const bool same = n > 0 && speed_[n] * speed_[n - 1] > 0.0;
       if (since == 0 || !same) turn = ticks_[n].x;
       const bool counts = fast && same && since >= warm_up && !ticks_[n + 3].first &&
@@ -485,11 +505,15 @@ class disturbance_search {
     const column e = y_ - left * g;
     Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(k, k);
     Eigen::Index row = 0;
-    for (const window& w : windows_) {
-      const auto n = static_cast<Eigen::Index>(w.ticks);
-      const Eigen::VectorXd s = left.middleRows(row, n).transpose() * e.segment(row, n);
-      meat += s * s.transpose();
+    Eigen::VectorXd s = Eigen::VectorXd::Zero(k);  // of the windows that follow on each other
+    for (std::size_t i = 0; i < windows_.size(); ++i) {
+      const auto n = static_cast<Eigen::Index>(windows_[i].ticks);
+      s += left.middleRows(row, n).transpose() * e.segment(row, n);
       row += n;
+      if (i + 1 < windows_.size() && windows_[i + 1].from == windows_[i].from + windows_[i].ticks)
+        continue;
+      meat += s * s.transpose();
+      s.setZero();
     }
     const Eigen::MatrixXd inverse = factors.solve(Eigen::MatrixXd::Identity(k, k));
     const Eigen::MatrixXd V = inverse * meat * inverse;
@@ -511,13 +535,13 @@ class disturbance_search {
       case column_of::swung:
         return g > 0.05 && c.p2 < 0.2;
       case column_of::backlash:
-        return g > 5e-6;
+        return g > 1e-6 && 2.0 * g + c.p1 > 20e-6;
       case column_of::fraction:
         return g > 0.08 && g < 0.92;
       case column_of::filter:
         return c.p1 > 0.15 * tick_;
       case column_of::cogging:
-        return amplitude * mass_ > 0.02 * force_;
+        return amplitude * mass_ > 0.02 * force_ && amplitude * mass_ < force_;
       case column_of::drift:
         return std::abs(g) * mass_ >
                (c.p1 == 0.0 ? (std::max)(0.1 * friction_, 0.005) : 0.02 * force_);
@@ -632,7 +656,11 @@ class disturbance_search {
     const bool swings = c.is == column_of::swung;
     suspicion& s = found.all[static_cast<std::size_t>(swings ? column_of::mode : c.is)];
     if (s.found) return;
-    s.found = true;
+    // Beside a gap that is surer, a mode is that of its stops.
+    s.found = c.is != column_of::mode ||
+              std::none_of(model_.begin(), model_.end(), [&](const candidate& m) {
+                return m.is == column_of::backlash && m.wald > c.wald;
+              });
     s.sure = std::sqrt(c.wald);
     switch (c.is) {
       case column_of::hand:
@@ -671,21 +699,21 @@ class disturbance_search {
   }
 
   [[nodiscard]] Eigen::MatrixXd columns_of(const candidate& c) const {
-    if (c.is == column_of::mode) return ring(c.p1, c.p2);
+    if (c.is == column_of::mode) return ring(c.p1, c.p2, a_);
     if (c.is == column_of::swung) return swung(c.p1, c.p2);
     if (c.is == column_of::backlash) return thrown(c.p1, c.p2);
     if (c.is == column_of::filter) {
       const auto y = filtered(c.p1, c.p2);
-      return twice([&](std::size_t n) { return (y[n] - drive_[n]) / mass_; });
+      return moved([&](std::size_t n) { return (y[n] - drive_[n]) / mass_; });
     }
     if (c.is == column_of::hand && c.p1 > 0.0) {
       const auto left = followed(c.p1);
-      return twice([&](std::size_t n) { return left[n]; });
+      return moved([&](std::size_t n) { return left[n]; });
     }
     const bool two = c.is == column_of::cogging || c.is == column_of::uneven;
     Eigen::MatrixXd all(rows_, two ? 2 : 1);
     for (Eigen::Index k = 0; k < all.cols(); ++k) {
-      all.col(k) = twice([&](std::size_t n) { return acceleration(c, n, k); });
+      all.col(k) = moved([&](std::size_t n) { return acceleration(c, n, k); });
     }
     return all;
   }
@@ -743,8 +771,21 @@ class disturbance_search {
     }
     return y;
   }
-  /// A resonator that is driven by the acceleration of the rigid device, exact for one that is held for each tick.
-  [[nodiscard]] column ring(double hz, double zeta) const {
+  /// What an acceleration moves: a force that is not yet in the model swings the mode that is, too.
+  template <class Value>
+  [[nodiscard]] column moved(Value acceleration) const {
+    column c = twice(acceleration);
+    if (!whole_) return c;
+    for (const candidate& m : model_) {
+      if (m.is != column_of::mode) continue;
+      std::vector<double> a(ticks_.size());
+      for (std::size_t n = 0; n + 1 < a.size(); ++n) a[n] = acceleration(n);
+      c += m.g[0] * ring(m.p1, m.p2, a);
+    }
+    return c;
+  }
+  /// A resonator that is driven by an acceleration, exact for one that is held for each tick.
+  [[nodiscard]] column ring(double hz, double zeta, const std::vector<double>& a) const {
     std::vector<double> y(ticks_.size());
     const double w = 2.0 * pi * hz, wd = w * std::sqrt(1.0 - zeta * zeta);
     const double k = zeta * w / wd;
@@ -758,7 +799,7 @@ class disturbance_search {
         C = e * std::cos(wd * h);
         S = e * std::sin(wd * h);
       }
-      const double s = a_[n] / (w * w), off = x - s;
+      const double s = a[n] / (w * w), off = x - s;
       x = off * (C + k * S) + v * S / wd + s;
       v = v * (C - k * S) - off * S * w * w / wd;
     }
@@ -815,6 +856,7 @@ class disturbance_search {
   std::vector<column_of> barred_{};   ///< what it may not begin with
   std::vector<double> drive_{};       ///< the force that acts in each tick [N]
   int count_ = 1;                     ///< candidates
+  bool whole_ = false;  ///< columns of forces include what the mode of the model makes of them
   double friction_ = 0.0;
   Eigen::Index rows_ = 0;
   std::vector<double> speed_{}, way_{}, a_{};

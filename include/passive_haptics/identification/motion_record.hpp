@@ -15,6 +15,7 @@ namespace identification {
 struct kept_tick {
   double x = 0.0, force = 0.0, length = 0.0, time = 0.0;
   bool first = false;  ///< true if there is a gap before it
+  bool even = false;   ///< true if the axis crosses slowly, at a speed that hardly changes
 };
 
 /// It allocates when it is made, and drops what comes after it is full.
@@ -28,10 +29,10 @@ class motion_record {
     if (!ticks_.empty() && !gap_) ticks_.back().length = length;
     next_ = x;
   }
-  /// Takes the force commanded for the tick that begins now [N].
-  void commanded(double force) noexcept {
+  /// Takes the force commanded for the tick that begins now [N], and whether it crosses slowly.
+  void commanded(double force, bool even) noexcept {
     if (ticks_.size() == ticks_.capacity()) return;
-    ticks_.push_back({next_, force, 0.0, time_, gap_});
+    ticks_.push_back({next_, force, 0.0, time_, gap_, even});
     gap_ = false;
   }
   /// The ticks to come do not follow on the last one; they lasted `length` [s].

@@ -13,8 +13,9 @@
 //                a fifth of the largest force allowed
 //            In every other six sweeps the force is 1.5 times that, and in every other twelve the stroke is 0.6 of the
 //            stated one, because a single force or stroke does not separate damping from friction.
-//   cross    cross_time at 40 to 70 mm/s: a force A sin 2πx/L moves m by A L²/(m (2π v)²), so cogging of half a
-//            millimetre shows a hundred times more than in a sweep
+//   cross    cross_time at v of 20 to 70 mm/s: a force A sin 2πx/L moves m by A L²/(m (2π v)²), so cogging of half a
+//            millimetre shows a hundred times more than in a sweep. Where steps or the mass hide it at the speed
+//            that five ticks tell, four of six crossings are as slow as they have to be, or as friction allows.
 //
 // A relay moves the device (relay_motion.hpp; Åström and Hägglund, 1984). By default a bound is three deviations of
 // the jackknife (Miller, 1974) and 5 % away from the estimate (trust.hpp).
@@ -60,6 +61,8 @@ class swing_experiment {
   [[nodiscard]] bool settles_shakes_or_crosses() const noexcept {
     return phase_ == phase::settle || phase_ == phase::shake || phase_ == phase::cross;
   }
+  /// True in the ticks of the slow crossing.
+  [[nodiscard]] bool crosses() const noexcept { return phase_ == phase::cross; }
   /// A sentence that says why nothing was found; null if something was, or may be yet.
   [[nodiscard]] const char* problem() const noexcept { return problem_; }
   /// True if positions repeat: then the motion of the record is not that of the axis.
@@ -92,7 +95,9 @@ class swing_experiment {
   enum class phase : std::uint8_t { settle, shake, sweep, cross, done };
   static constexpr const char* stopped =
       "it stopped to swing: let go of the device, or allow more force";
-  static constexpr double slowest = 0.03;  // least speed of the windows that count [m/s]
+  static constexpr double slowest = 0.03;   // least speed of the windows that count [m/s]
+  static constexpr double finest = 0.3e-3;  // cogging that is sought [m]
+  static constexpr double pi = 3.14159265358979323846;
 
   double fail(const char* why) noexcept {
     problem_ = why;
@@ -177,14 +182,20 @@ class swing_experiment {
     if (across_ * seen.x() > 0.8 * p_.stroke) {
       across_ = -across_;
       pushes_ = 0.0;
+      ++crossings_;
     }
     const double m = motion_.mass.value;
     const int ticks = std::clamp(static_cast<int>(8.0 * std::sqrt(m / 0.1)), 6, 24);
     const double omega = std::clamp(20.0 / std::sqrt(m), 20.0, 64.0);
-    // The speed grows along the way, so that no speed meets the steps in time with the ticks for long.
     const double along = std::clamp(0.5 + across_ * seen.x() / (1.6 * p_.stroke), 0.0, 1.0);
-    const double wanted =
-        (1.25 + 0.5 * along) * (slowest + seen.step() / (5.0 * kernels::larger(seen.dt(), 1e-5)));
+    const double a_step = kernels::larger(seen.step(), 1e-9) / kernels::larger(seen.dt(), 1e-5);
+    const double fast = slowest + a_step / 5.0;
+    // A fiftieth of the force every `finest` moves the axis by a twentieth of a step at that speed.
+    const double shows =
+        finest / (2.0 * pi) * std::sqrt(0.4 * p_.force / (m * kernels::larger(seen.step(), 1e-9)));
+    const double from = std::clamp(shows, 0.016 + a_step / 21.0, fast);
+    // The speed grows along the way, so that no speed meets the steps in time with the ticks for long.
+    const double wanted = (1.25 + 0.5 * along) * (crossings_ % 6 < 4 ? from : fast);
     const double slow = wanted - across_ * seen.velocity(ticks);
     pushes_ =
         std::clamp(pushes_ + 0.25 * m * omega * omega * slow * seen.dt(), -p_.force, p_.force);
@@ -222,7 +233,7 @@ class swing_experiment {
   const char* problem_ = nullptr;
   double force_ = 0.0;                  // force of the sweeps [N]
   double across_ = 1.0, pushes_ = 0.0;  // way, and force beyond friction and speed [N]
-  int window_ = 16, window_since_ = 0;
+  int window_ = 16, window_since_ = 0, crossings_ = 0;
 };
 
 }  // namespace identification
