@@ -106,6 +106,7 @@ class disturbance_search {
   };
   static constexpr std::size_t longest = 64, shortest = 12, warm_up = 12;
   static constexpr double least_gap = 15e-6;  // σ gap that may be hidden [m]
+  static constexpr double widest_gap = 1e-3;  // σ gap that is sought [m]
   static constexpr std::size_t kinds = 9;     // of columns
   static constexpr double most_swung = 45.0;  // [Hz]
   static constexpr double pi = 3.14159265358979323846;
@@ -535,7 +536,7 @@ class disturbance_search {
       case column_of::swung:
         return g > 0.05 && c.p2 < 0.2;
       case column_of::backlash:
-        return g > 1e-6 && 2.0 * g + c.p1 > 20e-6;
+        return g > 1e-6 && 2.0 * g + c.p1 > 20e-6 && 2.0 * g + c.p1 < stroke_ / 4.0;
       case column_of::fraction:
         return g > 0.08 && g < 0.92;
       case column_of::filter:
@@ -569,7 +570,7 @@ class disturbance_search {
     for (double hz = 3.0; hz < most_swung; hz *= 1.1) {
       for (const double zeta : {0.12, 0.03}) one(column_of::swung, hz, zeta);
     }
-    for (double gap = 5e-6; gap < 1e-3; gap *= 1.5) {
+    for (double gap = 5e-6; gap < widest_gap; gap *= 1.5) {
       for (const double back : {0.0, 0.5}) one(column_of::backlash, gap, back);
     }
     for (const double by : {-1.0, 1.0}) {
@@ -634,6 +635,7 @@ class disturbance_search {
           c.p1 = std::clamp(c.p1, 2.0, most_swung);
           c.p2 = std::clamp(c.p2, 0.002, 0.3);
         } else if (best.is == column_of::backlash) {
+          c.p1 = (std::min)(c.p1, widest_gap);
           c.p2 = (std::min)(c.p2, 0.9);
         }
         c.columns = columns_of(c);
