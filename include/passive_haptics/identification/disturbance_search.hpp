@@ -524,6 +524,38 @@ class disturbance_search {
     if (step_ > 0.0) c.wald = (std::min)(c.wald, 12.0 * c.drop / (step_ * step_));
     c.deviation = std::sqrt((std::max)(V.trace(), 0.0));  // no less than that of an amplitude
     for (Eigen::Index i = 0; i < k; ++i) c.g[static_cast<std::size_t>(i)] = g(i);
+    if (c.is == column_of::cogging && !crossings_agree(left, c.drop, e.squaredNorm())) c.wald = 0.0;
+  }
+  /// True if every crossing shows the same wave: by waves of their own the crossings explain less than 0.3 more than by
+  /// a common one, beside what chance does, which is χ² with two degrees of freedom for each of them, within three
+  /// deviations. What the steps or another disturbance pretend has another phase each time.
+  [[nodiscard]] bool crossings_agree(const Eigen::MatrixXd& left, double drop,
+                                     double unexplained) const {
+    Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d r = Eigen::Vector2d::Zero();
+    double apart = -drop;
+    int groups = 0;
+    Eigen::Index row = 0;
+    for (std::size_t i = 0; i < windows_.size(); ++i) {
+      const std::size_t from = windows_[i].from;
+      const auto n = static_cast<Eigen::Index>(windows_[i].ticks);
+      A += left.middleRows(row, n).transpose() * left.middleRows(row, n);
+      r += left.middleRows(row, n).transpose() * y_.segment(row, n);
+      row += n;
+      const bool last = i + 1 == windows_.size();
+      const std::size_t next = last ? from : windows_[i + 1].from;
+      // All that is no crossing is one group.
+      if (!last && ticks_[from].even == ticks_[next].even &&
+          (!ticks_[from].even || speed_[from] * speed_[next] > 0.0))
+        continue;
+      apart += r.dot(A.ldlt().solve(r));
+      ++groups;
+      A.setZero();
+      r.setZero();
+    }
+    const double freedom = 2.0 * (groups - 1);
+    const double error = (std::max)(unexplained / static_cast<double>(rows_), step_ * step_ / 12.0);
+    return apart - (freedom + 3.0 * std::sqrt(2.0 * freedom)) * error < 0.3 * drop;
   }
   /// True if it has the sign that it must have, and is large enough to matter.
   [[nodiscard]] bool counts(const candidate& c) const noexcept {
