@@ -250,7 +250,7 @@ class disturbance_search {
         c.columns = columns_of(c);
         test(c);
         const bool real = counts(c) && c.wald > surprise(count_);
-        const double share = real ? c.drop / (c.drop + beside) : 0.0;
+        const double share = real ? c.drop / (c.drop + (std::max)(beside - chance(), 0.0)) : 0.0;
         if (share < least) {
           least = share;
           worst = i;
@@ -279,6 +279,10 @@ class disturbance_search {
   }
   /// The sum of squares that the model leaves beyond what the steps do.
   [[nodiscard]] double left_over() const { return (std::max)(y_.squaredNorm() - floor(), 0.0); }
+  /// Two deviations of what the steps leave: the square of an error that is even within ±q/2 varies by 0.9 q²/12.
+  [[nodiscard]] double chance() const noexcept {
+    return 1.8 * floor() / std::sqrt(static_cast<double>(rows_));
+  }
   /// The sum of squares that the steps of the position leave.
   [[nodiscard]] double floor() const noexcept {
     return static_cast<double>(rows_ - 2 * static_cast<Eigen::Index>(windows_.size())) * step_ *
