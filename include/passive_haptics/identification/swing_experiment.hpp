@@ -13,7 +13,7 @@
 //                a fifth of the largest force allowed
 //            In every other six sweeps the force is 1.5 times that, and in every other twelve the stroke is 0.6 of the
 //            stated one, because a single force or stroke does not separate damping from friction.
-//   cross    cross_time at v of 20 to 70 mm/s: a force A sin 2πx/L moves m by A L²/(m (2π v)²), so cogging of half a
+//   cross    cross_time at v of 19 to 70 mm/s: a force A sin 2πx/L moves m by A L²/(m (2π v)²), so cogging of half a
 //            millimetre shows a hundred times more than in a sweep. Where steps or the mass hide it at the speed
 //            that five ticks tell, four of six crossings are as slow as they have to be, or as friction allows.
 //
@@ -194,8 +194,10 @@ class swing_experiment {
     const double shows =
         finest / (2.0 * pi) * std::sqrt(0.4 * p_.force / (m * kernels::larger(seen.step(), 1e-9)));
     const double from = std::clamp(shows, 0.016 + a_step / 21.0, fast);
-    // The speed grows along the way, so that no speed meets the steps in time with the ticks for long.
-    const double wanted = (1.25 + 0.5 * along) * (crossings_ % 6 < 4 ? from : fast);
+    // The speed grows along the way, so that no speed meets the steps in time with the ticks for long, and is another in
+    // each crossing, so that no place does each time: a wave of a fixed phase would come of it.
+    const double other = 0.618 * crossings_ - std::floor(0.618 * crossings_);
+    const double wanted = (1.2 + 0.1 * other + 0.5 * along) * (crossings_ % 6 < 4 ? from : fast);
     const double slow = wanted - across_ * seen.velocity(ticks);
     pushes_ =
         std::clamp(pushes_ + 0.25 * m * omega * omega * slow * seen.dt(), -p_.force, p_.force);
