@@ -8,6 +8,7 @@
 #include <passive_haptics/simulation/friction.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace ph = passive_haptics;
@@ -39,6 +40,14 @@ int names(const axis_found& found) {
   for (const suspicion& s : found.wrong.all) count += s.found ? 1 : 0;
   return count;
 }
+
+/// A magnet at every wavelength.
+struct cogs : sim::no_hand<d1> {
+  double amplitude = 0.0, wavelength = 1.0;
+  [[nodiscard]] double force(double /*t*/, double x, double /*v*/) const noexcept {
+    return amplitude * std::sin(2.0 * std::numbers::pi * x / wavelength);
+  }
+};
 
 }  // namespace
 
@@ -72,6 +81,33 @@ TEST_CASE("a mode is found with its frequency, and what moves with the encoder i
     CHECK(found.mass > 0.08);  // the control: all that moves is more
     CHECK(names(found) == 1);
   }
+}
+
+TEST_CASE("cogging of half a millimetre is found with its size under steps of 30 micrometres",
+          "[identification][long]") {
+  const double amplitude = 0.12, wavelength = 0.5e-3;
+  double mean = 0.0;
+  for (const double load : {0.2, 0.23, 0.26}) {
+    CAPTURE(load);
+    auto coarse = grip;
+    coarse.quantum = 30e-6;
+    coarse.load = load;
+    coarse.substeps = 50;
+    cogs magnets;
+    magnets.amplitude = amplitude;
+    magnets.wavelength = wavelength;
+    const auto found =
+        identified(sim::device<d1, cogs, sim::slider_and_spring>(coarse, magnets, rubs));
+    REQUIRE(found.problem == nullptr);
+    const suspicion& cogging = found.wrong.of(disturbance::cogging);
+    REQUIRE(cogging.found);
+    CHECK(names(found) == 1);
+    CHECK(std::abs(cogging.where - wavelength) < 0.01 * wavelength);
+    CHECK(found.friction <= rubs.level[0]);
+    mean += cogging.size / 3.0;
+  }
+  // Where the place was told by the steps, it was half of that.
+  CHECK(std::abs(mean - amplitude) < 0.25 * amplitude);
 }
 
 TEST_CASE("a mode that spoils the swing is refused by name", "[identification]") {

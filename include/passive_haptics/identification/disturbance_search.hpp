@@ -49,6 +49,7 @@ class disturbance_search {
     find_speeds();
     find_windows();
     a_.assign(ticks_.size(), 0.0);
+    for (const kept_tick& t : ticks_) place_.push_back(t.x);
     if (rows_ >= 1000) fit_latency();
   }
 
@@ -478,7 +479,13 @@ class disturbance_search {
         }
       }
     }
-    return project(model_.size());
+    const double left = project(model_.size());
+    Eigen::Index row = 0;
+    for (const window& w : windows_) {
+      for (std::size_t n = w.from; n < w.from + w.ticks; ++n)
+        place_[n] = ticks_[n].x - std::clamp(y_(row++), -step_, step_);
+    }
+    return left;
   }
   /// Takes columns into the model: out of the residual, and out of all columns to come.
   void take(const Eigen::MatrixXd& columns) {
@@ -758,7 +765,7 @@ class disturbance_search {
   /// The acceleration of column k of a disturbance that is a force, in tick n.
   [[nodiscard]] double acceleration(const candidate& c, std::size_t n,
                                     Eigen::Index k) const noexcept {
-    const double middle = (ticks_[n].x + ticks_[n + 1].x) / 2.0;
+    const double middle = (place_[n] + place_[n + 1]) / 2.0;
     const double end = ticks_.back().time;
     switch (c.is) {
       case column_of::hand:
@@ -771,7 +778,7 @@ class disturbance_search {
       case column_of::cogging:
       case column_of::uneven: {
         // The mean over the way of a tick, which may be longer than a wave: sin u/u of what is in its middle.
-        const double at = 2.0 * pi * c.p1 * middle, u = pi * c.p1 * (ticks_[n + 1].x - ticks_[n].x);
+        const double at = 2.0 * pi * c.p1 * middle, u = pi * c.p1 * (place_[n + 1] - place_[n]);
         const double mean = std::abs(u) > 1e-3 ? std::sin(u) / u : 1.0;
         return mean * (k == 0 ? std::sin(at) : std::cos(at)) *
                (c.is == column_of::uneven ? way_[n] : 1.0);
@@ -898,8 +905,9 @@ class disturbance_search {
   double friction_ = 0.0;
   Eigen::Index rows_ = 0;
   std::vector<double> speed_{}, way_{}, a_{};
-  column y_{};               ///< what the model leaves
-  Eigen::MatrixXd basis_{};  ///< the columns of the model, orthonormal
+  std::vector<double> place_{};  ///< where it is [m]: what the model says, within a step
+  column y_{};                   ///< what the model leaves
+  Eigen::MatrixXd basis_{};      ///< the columns of the model, orthonormal
 };
 
 }  // namespace identification
