@@ -150,6 +150,32 @@ TEST_CASE("mass_observer follows a busy hand, at the price of half as much error
   }
 }
 
+TEST_CASE("mass_observer keeps a speed and a push that are numbers, however far apart they are",
+          "[motion]") {
+  // Without steps all of a motion is off, which is believed at once: v loses v + a dt/2, and w half of that over dt,
+  // and both are corrected besides.
+  const double F = 1.75e308;
+  double v = 0.0, w = 0.0;
+  const auto pushed = [&](double dt) {
+    const double a = F + w, off = -(v + a * dt / 2);
+    v += a * dt + off * (1 + 1.0 / 64);
+    w += off * (0.5 + 1.0 / (8 * 64 * 64)) / dt;
+    return v;
+  };
+  const double after_one = pushed(1.0), after_two = pushed(0.5);
+  REQUIRE(std::isfinite(v + w));
+  REQUIRE(!std::isfinite(v - w));
+  for (const double sign : {1.0, -1.0}) {
+    ph::mass_observer::on<d1> observer({.mass = 1.0});
+    (void)observer.estimate(0.0, 0.0, 0.0, 1.0, false);
+    const auto seen = [&](double dt) {
+      return observer.estimate(0.0, 0.0, sign * F, dt, true).velocity;
+    };
+    CHECK_THAT(seen(1.0), WithinRel(sign * after_one, 1e-12));
+    CHECK_THAT(seen(0.5), WithinRel(sign * after_two, 1e-12));
+  }
+}
+
 TEST_CASE("mass_observer starts anew after lost samples and absurd forces", "[motion]") {
   ph::mass_observer::on<f1> observer({.mass = 0.1, .quantum = 1e-5});
   (void)observer.estimate(0.0F, 0.0F, 0.0F, 1e-3F, false);
