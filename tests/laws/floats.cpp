@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rounding only lowers a force: what a bound in floats lets through of it, the same bound in doubles lets through, too.
+// Both are told the same, because every number here is a float.
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+#include <passive_haptics/device/rigid_body.hpp>
+#include <passive_haptics/device/rigid_damping.hpp>
+#include <passive_haptics/force_bound/reachable_bound.hpp>
+#include <passive_haptics/force_bound/rigid_reachable_bound.hpp>
+#include <passive_haptics/force_bound/strict_bound.hpp>
+#include <passive_haptics/laws.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace {
+
+/// A number that is a float, of 10^`least` to 10^`most`.
+double some(ph::laws::samples& random, double least, double most) {
+  const double middle = (least + most) / 2.0, half = (most - least) / 2.0;
+  return static_cast<float>(std::pow(10.0, middle + half * random.number<double>()));
+}
+
+/// What of a tick has no direction.
+struct moment {
+  double energy, dt, T, longest, shortest, error;
+};
+
+/// The share of h[3] that `Bound` lets through on `Port`, where h[0] was held in the last tick, and `Late` forces after
+/// it are on their way.
+template <class Port, int Late, bool Exact, class Bound, class Damping, std::size_t N>
+double passes(const Bound& told, const Damping& damping, const moment& now,
+              const std::array<std::array<double, N>, 4>& h, const std::array<double, N>& moved) {
+  using S = typename Port::scalar;
+  using damper = ph::part_at<Damping, Port>;
+  using state = ph::port_state<Port, damper, Late, Exact>;
+  const damper b(damping);
+  const ph::part_at<Bound, Port> bound(told);
+  const auto as = [](auto zero, const std::array<double, N>& x) {
+    for (std::size_t i = 0; i < N; ++i) Port::component(zero, static_cast<int>(i)) = S(x[i]);
+    return zero;
+  };
+  const typename Port::effort none = Port::zero();
+  const auto effort = [&](std::size_t j) { return typename Port::effort(as(none, h[j])); };
+  typename state::commands commanded;
+  for (std::size_t j = 0; j <= Late; ++j) {
+    commanded[j] = typename Port::stored_effort(effort(Late - j));
+  }
+  const typename Port::stored_effort held(effort(0));
+  const state s{.damping = b,
+                .commanded = commanded,
+                .energy = S(now.energy),
+                .dt = S(now.dt),
+                .longest_tick = S(now.T),
+                .recent = {S(now.longest), S(now.shortest)},
+                .held = held,
+                .travel = as(typename Port::motion(Port::zero()), moved),
+                .travel_error = Exact ? S(0) : S(now.error),
+                .motion_known = true,
+                .late = false};
+  return static_cast<double>(bound.limit(effort(3), s).factor);
+}
+
+/// Tries ticks in which the force is about to be cut: where credit and reach nearly cancel, rounding is most of them.
+template <class Wide, class Narrow, int Late, bool Exact, class Bound, class Damping>
+void never_more(const Bound& told, const Damping& damping) {
+  ph::laws::samples random(1);
+  constexpr std::size_t N = Wide::dof;
+  int cut = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const double T = some(random, -3.2, -2.8);
+    moment now{.energy = some(random, -9.0, -2.0),
+               .dt = static_cast<float>(T * (0.75 + 0.25 * random.number<double>())),
+               .T = T,
+               .longest = T,
+               .shortest = 0.0,
+               .error = some(random, -8.0, -5.0)};
+    now.shortest = now.dt;
+    std::array<std::array<double, N>, 4> h{};
+    std::array<double, N> way{}, moved{};
+    for (std::size_t i = 0; i < N; ++i) {
+      for (auto& f : h) f[i] = static_cast<float>((i < 3 ? 4.0 : 0.08) * random.number<double>());
+      way[i] = random.number<double>() * (i < 3 ? 3e-3 : 1e-2);
+    }
+    const auto move = [&](double share) {
+      for (std::size_t i = 0; i < N; ++i) moved[i] = static_cast<float>(share * way[i]);
+    };
+    move(random.number<double>());
+    // Where do doubles begin to let through less than `most`?
+    const double most = 1.0 - 0.999 * std::abs(random.number<double>());
+    const auto begins = [&](double least, double high, const auto& set) {
+      const auto enough = [&](double x) {
+        set(x);
+        return passes<Wide, Late, Exact>(told, damping, now, h, moved) >= most;
+      };
+      const bool rises = enough(high);
+      for (int k = 0; k < 30; ++k) {
+        const double x = (least + high) / 2.0;
+        (enough(x) == rises ? high : least) = x;
+      }
+      set(high);
+    };
+    if (n % 3 == 1) begins(-9.0, -1.0, [&](double x) { now.energy = float(std::pow(10.0, x)); });
+    if (n % 3 == 2) begins(-1.0, 1.0, move);
+    const double wide = passes<Wide, Late, Exact>(told, damping, now, h, moved),
+                 narrow = passes<Narrow, Late, Exact>(told, damping, now, h, moved);
+    CAPTURE(n, wide);
+    REQUIRE(narrow <= wide);
+    cut += wide < 0.999 && wide > 0.0;
+  }
+  CHECK(cut > 50);
+}
+
+}  // namespace
+
+TEST_CASE("floats let through no more of a force than doubles", "[law][bound]") {
+  const ph::isotropic_damping damper{0.05F};
+  const ph::strict_bound strict;
+  never_more<d3, f3, 0, true>(strict, damper);
+  never_more<d3, f3, 2, true>(strict, damper);
+  const ph::reachable_bound known{0.1F, 5.0};
+  never_more<d1, f1, 0, true>(known, damper);
+  never_more<d3, f3, 0, true>(known, damper);
+  never_more<d3, f3, 1, true>(known, damper);
+  never_more<d3, f3, 2, true>(known, damper);
+  never_more<d3, f3, 0, false>(known, damper);
+  never_more<d3, f3, 1, false>(known, damper);
+  never_more<d3, f3, 2, false>(known, damper);
+}
+
+TEST_CASE("floats let through no more than doubles where friction is credited", "[law][bound]") {
+  const ph::damping_and_friction rubbing{0.05F, 0.25F, 1e-5F};
+  never_more<d3, f3, 0, false>(ph::strict_bound{}, rubbing);
+  never_more<d3, f3, 2, false>(ph::strict_bound{}, rubbing);
+  never_more<d3, f3, 0, false>(ph::reachable_bound{0.1F, 5.0}, rubbing);
+  never_more<d3, f3, 1, false>(ph::reachable_bound{0.1F, 5.0}, rubbing);
+}
+
+TEST_CASE("floats let through no more than doubles of what is bounded in joules", "[law][bound]") {
+  const ph::reachable_work_bound<3> axes{{0.125, 0.25, 0.0625}, 8.0};
+  never_more<d3, f3, 0, true>(axes, ph::isotropic_damping{0.05F});
+  never_more<d3, f3, 1, true>(axes, ph::isotropic_damping{0.05F});
+  never_more<d3, f3, 2, true>(axes, ph::isotropic_damping{0.05F});
+  const ph::rigid_reachable_bound handle{{0.15F, 1e-4F, 2e-4F, 0.02F}, 5.0, 0.1F, 0.06F, 2e-4F};
+  using wide = ph::rigid_body<double>;
+  using narrow = ph::rigid_body<float>;
+  never_more<wide, narrow, 0, true>(handle, ph::rigid_damping{0.05F, 1e-4F});
+  never_more<wide, narrow, 1, true>(handle, ph::rigid_damping{0.05F, 1e-4F});
+}
