@@ -82,6 +82,19 @@ TEST_CASE("after a fault a debt is written off and A is lent within half a secon
   }
 }
 
+TEST_CASE("who has just A lacks nothing, whatever is cut, and who has less lacks it",
+          "[forgiving]") {
+  const auto says = [](double spent) {
+    auto ledger = at<d1>(ph::forgiving{ph::reduced_energy{.damping = 0.1, .loan = A}, A});
+    ledger.disturbed();  // who has A is lent nothing at once
+    rest(ledger, 0.01);
+    REQUIRE(ledger.update(spent / 8.0, 8.0, T));
+    return ledger.tells(ph::event::nominal, true);
+  };
+  CHECK(says(0.0) == ph::event::nominal);
+  CHECK(says(1e-6 * A) == ph::event::wall_lost);
+}
+
 TEST_CASE(
     "a loop whose every tick is late, or that is in debt again and again, is lent next to nothing",
     "[forgiving]") {
