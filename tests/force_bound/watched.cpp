@@ -490,6 +490,24 @@ TEST_CASE("what rests is looked at ever less often, and what pushes without a pa
   CHECK(contact.bound.seen() == ph::event::nominal);
 }
 
+TEST_CASE("what pushes with just an eighth of what it may is looked at with pauses",
+          "[force_bound][watched]") {
+  constexpr double dt = 0x1p-10, m = 0.125,
+                   F = 8.0;  // so that sums are exact, and 9/8 F/m = 72 m/s²
+  const auto paused = [](double a) {
+    contact_of<d1> contact(m, F);
+    contact.ledger.viscous = ph::part_at<ph::isotropic_damping, d1>{ph::isotropic_damping{0.0}};
+    int ticks = 0;
+    for (int n = 1; n <= 64; ++n) {
+      if (!contact.see({n * a * dt * dt, 0.0, 0.0, dt})) ++ticks;
+    }
+    return ticks;
+  };
+  CHECK(paused(9.0) > 32);
+  CHECK(paused(-9.0) > 32);
+  CHECK(paused(9.0 + 0x1p-20) == 0);
+}
+
 TEST_CASE(
     "what is refuted once is forgiven after 0.1 s, forgotten after 0.25 s, and four times never",
     "[force_bound][watched]") {
