@@ -241,6 +241,15 @@ TEST_CASE("from rest it has gone as far as the wrench held pushes it, and no far
   }
 }
 
+TEST_CASE("a handle at rest that nothing pushes has done nothing unseen", "[rigid][unseen]") {
+  const ph::part_at<ph::rigid_reachable_bound, body> bound(ph::rigid_reachable_bound{
+      {.mass = 0.15, .least = 1e-4, .spread = 2e-4, .offset = 0.03}, 0.0, 0.0, 0.06, 2e-4});
+  const body::effort none = body::zero();
+  const auto said = bound.unseen({0.0, T, 0.0, none}, b, none, 5 * T);
+  CHECK(said.done == 0.0);
+  CHECK(said.beside == 0.0);
+}
+
 namespace {
 
 /// The formulas of docs/design/six_dof.md § 4 and of mathematics.md § 2(a″), in plain words and not rounded.
