@@ -288,6 +288,34 @@ TEST_CASE("what settles is what the circle condition says, and what rings is ref
   CHECK_FALSE(ph::proxy_spring{.mass = 0.1, .softness = 0.001}.check());     // the least there is
 }
 
+TEST_CASE("a contact comes to rest where it does beside others, which are stiffer by 1/(1 − ε)",
+          "[proxy]") {
+  constexpr double T = 1e-3, m = 0.1;
+  std::array<int, 2> met{};
+  for (const int late : {0, 1, 3}) {
+    for (const double softness : {0.001, 0.1, 0.5}) {
+      for (double fraction = 0.05; fraction < 1.0; fraction *= 1.1) {
+        ph::proxy_spring::at<double> rule({.mass = m,
+                                           .stiffness_fraction = fraction,
+                                           .damping_ratio = 0.5,
+                                           .damping_fraction = 0.8,
+                                           .softness = softness});
+        rule.adopt(T, late);
+        for (double K = 1e3; K < 1e6; K *= 1.5) {
+          const auto s = rule.sampled(K);
+          const double others = s.stiffness / (1.0 - softness);
+          const bool rests = ph::settles(others * T * T / m, s.settling / T, late);
+          CAPTURE(late, softness, fraction, K);
+          CHECK(rule.settles(K) == rests);
+          ++met[rests ? 1 : 0];
+        }
+      }
+    }
+  }
+  CHECK(met[0] > 100);
+  CHECK(met[1] > 100);
+}
+
 TEST_CASE("a contact that is hardly damped is damped as much as a late loop needs", "[proxy]") {
   constexpr double T = 1e-3, m = 0.1;
   int accepted = 0;

@@ -10,6 +10,7 @@
 #include <passive_haptics/simulation/rigid_device.hpp>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -186,6 +187,31 @@ TEST_CASE("a point moved along the tool keeps the force it has", "[rigid_tool]")
   CHECK_THAT(last, WithinRel(2.0, 1e-9));
 }
 
+TEST_CASE("a tool that turns lets go of what is released no faster than its turn explains",
+          "[rigid_tool]") {
+  auto port = open_port<double, 1>();
+  const double K = 3000.0, turn = 1e-4;
+  const plane floor{vector(0, 0, 0), vector(0, 0, 1), K};
+  REQUIRE(port.source().update(0, {0.0, 0.0, 0.0}, floor));
+  pose x{{0, 0, 1e-3}, {}};
+  double last = 0.0;
+  const auto tick = [&] {  // about the normal, which by itself changes nothing
+    x = body::moved(x, body::join(vector::Zero(), vector(0, 0, turn)));
+    return port.tick(x, ph::seconds{T}).force(2);
+  };
+  (void)tick();
+  x.position = {0, 0, -1e-3};
+  for (int n = 0; n < 100; ++n) last = tick();
+  CHECK_THAT(last, WithinRel(3.0, 1e-9));
+  port.source().release(0);
+  for (int n = 0; n < 10; ++n) {
+    const double now = tick();
+    CHECK(last - now <= 50.0 * T + 2.0 * K * light.lever * turn * (1.0 + 1e-6));
+    CHECK(last - now > 50.0 * T);
+    last = now;
+  }
+}
+
 TEST_CASE("every rough point of a tool pushes inside its cone, with the torque that goes with it",
           "[rigid_tool]") {
   auto port = open_port<double, 1>(ph::stick_slip{});
@@ -304,6 +330,50 @@ TEST_CASE("a contact of a tool settles as its slower mode does, in ticks at most
       }
     }
   }
+}
+
+TEST_CASE("a contact of a tool comes to rest where its translation and its rotation do",
+          "[rigid_tool]") {
+  std::array<int, 4> met{};
+  for (const int late : {0, 1, 3}) {
+    for (double fraction = 0.05; fraction < 1.0; fraction *= 1.3) {
+      for (const double lever : {0.01, 0.02, 0.05, 0.3}) {
+        const ph::tool_spring rule{.mass = 0.15,
+                                   .least_inertia = 1e-4,
+                                   .lever = lever,
+                                   .stiffness_fraction = fraction,
+                                   .softness = 0.25};
+        ph::tool_spring::at<double> spring(rule);
+        spring.adopt(T, late);
+        for (const double K : {300.0, 1e4, 5e4, 1e9}) {
+          const auto s = spring.sampled(K);
+          const auto rests = [&](double inertia, double k) {  // of which ε is not counted on
+            return ph::settles(k * T * T / (0.75 * inertia), s.settling / T, late);
+          };
+          const bool moves = rests(rule.mass, s.stiffness),
+                     turns = rests(rule.least_inertia, 1.0 / spring.yield(s.compliance));
+          CAPTURE(late, fraction, lever, K);
+          CHECK(spring.settles(K) == (moves && turns));
+          ++met[(moves ? 1U : 0U) + (turns ? 2U : 0U)];
+        }
+      }
+    }
+  }
+  for (const int times : met) CHECK(times > 0);
+}
+
+TEST_CASE("a tool_spring states what it was told", "[rigid_tool]") {
+  const ph::tool_spring::at<double> spring({.mass = 0.5,
+                                            .least_inertia = 0.25,
+                                            .lever = 0.125,
+                                            .stiffness_fraction = 0.0625,
+                                            .softness = 0.03125});
+  const ph::tool_spring stated = spring.parameters();
+  CHECK(stated.mass == 0.5);
+  CHECK(stated.least_inertia == 0.25);
+  CHECK(stated.lever == 0.125);
+  CHECK(stated.stiffness_fraction == 0.0625);
+  CHECK(stated.softness == 0.03125);
 }
 
 TEST_CASE("a tool_spring out of range is refused by name", "[rigid_tool]") {
