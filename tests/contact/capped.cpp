@@ -15,6 +15,16 @@ static_assert(ph::contact_law_for<ph::capped<ph::shaped<ph::spring>>, d1>);
 
 }  // namespace
 
+TEST_CASE("capped states what it was told, and no working capital as none", "[contact]") {
+  for (const double capital : {0.0, 5.0 / 64.0}) {
+    const ph::capped told{ph::damped_spring{.mass = 0.125}, 2000.0, capital};
+    const ph::part_at<capped_damper, d1> law(told);
+    CHECK(law.parameters().law.mass == 0.125);
+    CHECK(law.parameters().most == 2000.0);
+    CHECK(law.parameters().working_capital == capital);
+  }
+}
+
 TEST_CASE("capped gives its law no more stiffness than it was told, and tells", "[contact]") {
   ph::part_at<capped_damper, d1> law(ph::capped{ph::damped_spring{.mass = 0.1}, 2000.0});
   law.adopt(5000.0, 1e-3);
