@@ -210,3 +210,20 @@ TEST_CASE("what sleeps is looked at twenty times in a second, whatever else is p
   CHECK(in_a_second(-0.095) == 1000);                 // the control: within reach
   CHECK(looks_ahead == 0);
 }
+
+TEST_CASE("what has slept for just 0.05 s sleeps on", "[contact_set]") {
+  ph::passive_port port{
+      d3{}, ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::slots<counted, 7>{}},
+      ph::no_observer{}, ph::no_bound{}, ph::loop_limits{.longest_tick = 0.0625}};
+  counted far{{d3::zero(), {0, 0, 1}, 1000.0}};
+  far.point = {0, 0, -10.0};
+  for (int i = 0; i < 7; ++i) REQUIRE(port.source().update(i, far));
+  const auto looked_in = [&](double dt) {  // 20 ticks
+    for (int n = 0; n < 20; ++n) (void)port.tick(d3::vector(0, 0, 0.0), ph::seconds{dt});
+    looks = 0;
+    for (int n = 0; n < 20; ++n) (void)port.tick(d3::vector(0, 0, 0.0), ph::seconds{dt});
+    return looks / 7;
+  };
+  CHECK(looked_in(0.05) == 10);
+  CHECK(looked_in(0.0500001) == 20);
+}
