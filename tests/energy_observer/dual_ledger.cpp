@@ -288,6 +288,28 @@ TEST_CASE("a reset forgets which edges were crossed, and that a motion refuted t
   CHECK(swings(refuted) == as_new);
 }
 
+TEST_CASE(
+    "of a crossing comes back what holds the device at the edge, and nothing of what does not",
+    "[dual]") {
+  const double q = 64e-6, T = 1e-3;
+  const ph::crossed_ledger still{
+      .damping = {0.05, 0.0, 0.0},
+      .quantum = {.quantum = q, .mass = 1e6, .hand_force = 1.0}};  // it hardly accelerates
+  for (const double way : {q, -q}) {
+    auto back = at<d1>(still), on = at<d1>(still);
+    for (auto* ledger : {&back, &on}) REQUIRE(ledger->update(way, 0.0, T));
+    const double start = back.value();
+    REQUIRE(on.value() == start);
+    for (int n = 1; n <= 12; ++n) {  // it is q/(n + 1) beyond the edge at most
+      REQUIRE(back.update(0.0, -way / q, T));
+      REQUIRE(on.update(0.0, way / q, T));
+      CAPTURE(way, n);
+      CHECK_THAT(back.value() - start, Catch::Matchers::WithinAbs(-q / (n + 1), 2e-9));
+      CHECK(on.value() - start <= -q);  // and may have been there
+    }
+  }
+}
+
 TEST_CASE("a ledger that is full goes on booking", "[dual]") {
   auto ledger = at<f1>(ph::dual_ledger{.damping = {1e-3, 0.2, 0.0}, .quantum = 1e-5});
   for (int n = 0; n < 20; ++n) {
