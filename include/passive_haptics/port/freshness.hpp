@@ -40,10 +40,7 @@ class freshness::on {
   [[nodiscard]] constexpr freshness parameters() const noexcept {
     return {.stale_after = static_cast<double>(stale_after_), .fade = static_cast<double>(fade_)};
   }
-  constexpr void reset() noexcept {
-    age_ = scalar(0);
-    said_ = word::nothing_yet;
-  }
+  constexpr void reset() noexcept { said_ = word::nothing_yet; }
 
   /// Notes that a new value has come.
   constexpr void hear() noexcept {
