@@ -6,6 +6,7 @@
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/device/joint_space.hpp>
 #include <passive_haptics/identification/crossed_step.hpp>
+#include <passive_haptics/identification/sliders.hpp>
 #include <passive_haptics/simulation/adversary_motions.hpp>
 #include <passive_haptics/simulation/friction.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
@@ -15,7 +16,6 @@
 #include <cmath>
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace {
 
@@ -262,30 +262,46 @@ TEST_CASE("dual_ledger keeps the laws of an observer, and its parameters", "[dua
 
 TEST_CASE("a reset forgets which edges were crossed, and that a motion refuted the mass",
           "[dual]") {
-  const double q = 50e-6;
-  const ph::crossed_ledger told{.damping = {0.05, 0.15, 5e-6},
-                                .quantum = {.quantum = q, .mass = 0.5, .hand_force = 1.0}};
-  auto fresh = at<d1>(told), worn = fresh, refuted = fresh;
-  const auto swings = [&](auto& ledger) {  // slowly, against a spring; it ends on an edge
-    std::vector<double> values;
-    double last = 0.0;
-    for (int n = 0; n < 200; ++n) {
-      const double x = q * std::floor(3.0 * std::sin(0.03 * n));
-      REQUIRE(ledger.update(x - last, 0.02 * x / q, 1e-3));
-      last = x;
-      values.push_back(ledger.value());
-    }
-    REQUIRE(ledger.update(-q, 1.0, 1e-3));
-    return values;
+  const double q = 64e-6, T = 1e-3;
+  const ph::crossed_ledger still{
+      .damping = {0.05, 0.0, 0.0},
+      .quantum = {.quantum = q, .mass = 1e6, .hand_force = 1.0}};  // it hardly accelerates
+  const auto pressed = [&](auto& ledger, double way) {  // what 1 N costs after such a motion
+    REQUIRE(ledger.value() == 0.0);
+    if (way > 0.0) REQUIRE(ledger.update(way, 0.0, T));
+    const double start = ledger.value();
+    for (int n = 0; n < 12; ++n) REQUIRE(ledger.update(0.0, -1.0, T));
+    return ledger.value() - start;
   };
-  const auto as_new = swings(fresh);
-  (void)swings(worn);
-  for (const double way : {q, -3 * q, q, -3 * q}) REQUIRE(refuted.update(way, -0.5, 1e-3));
-  CHECK(refuted.steps().refuted());
-  worn.reset();
+  auto fresh = at<d1>(still);
+  auto another = fresh, crossed = fresh, refuted = fresh;
+  const double at_rest = pressed(fresh, 0.0), beyond = pressed(another, q);
+  CHECK_THAT(at_rest, Catch::Matchers::WithinAbs(-q, 1e-9));
+  CHECK_THAT(beyond, Catch::Matchers::WithinAbs(-q / 13, 2e-9));
+  REQUIRE(crossed.update(q, 0.0, T));
+  crossed.reset();
+  CHECK(pressed(crossed, 0.0) == at_rest);
+  for (const double way : {q, -3 * q, q, -3 * q}) REQUIRE(refuted.update(way, -0.5, T));
+  REQUIRE(refuted.steps().refuted());
   refuted.reset();
-  CHECK(swings(worn) == as_new);
-  CHECK(swings(refuted) == as_new);
+  CHECK(pressed(refuted, q) == beyond);
+}
+
+TEST_CASE("a reset forgets what the sliders opposed", "[dual]") {
+  const ph::basic_dual_ledger<ph::damping_and_sliders<2>> told{
+      .damping = {.coefficient = 0.05, .sliders = {{{0.1, 4e-6}, {0.2, 15e-6}}}}, .quantum = 1e-6};
+  const auto wound = [](auto& ledger) {  // what 30 µm of slow motion bring
+    const double start = ledger.value();
+    for (int n = 0; n < 30; ++n) REQUIRE(ledger.update(1e-6, 0.0, 1.0));
+    return ledger.value() - start;
+  };
+  auto fresh = at<d1>(told), worn = fresh;
+  const double once = wound(fresh);
+  CHECK(once > 0.0);
+  CHECK(wound(fresh) > 1.1 * once);  // what is wound already brings more
+  (void)wound(worn);
+  worn.reset();
+  CHECK(wound(worn) == once);
 }
 
 TEST_CASE(
