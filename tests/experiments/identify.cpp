@@ -33,8 +33,10 @@ TEST_CASE("bounds hold on devices drawn at random, and are near the truth", "[id
 TEST_CASE(
     "what moves with the encoder is less than a gap or a mode that was found and dropped yields",
     "[identify]") {
-  for (const std::uint64_t seed : {1700537, 2600097}) {  // a gap of 42 µm; a mode of 255 Hz
-    const auto v = identify::identified(identify::draw_disturbed(seed));
+  for (const std::uint64_t seed : {1700537, 2600097}) {  // a gap; a mode of 255 Hz
+    auto truth = identify::draw_disturbed(seed);
+    if (truth.has.gap > 0.0) truth.has.gap = 16e-6;  // those of 19 µm and more are found
+    const auto v = identify::identified(truth);
     CAPTURE(seed, v.truth.rotor(), v.found.moves_rigidly());
     REQUIRE_FALSE(v.refused());
     CHECK_FALSE(v.names(v.truth.has.gap > 0.0 ? identify::disturbance::backlash
@@ -67,7 +69,8 @@ TEST_CASE("friction whose ramps have not met its least level is stated below tha
   const auto v = identify::identified(truth);
   REQUIRE_FALSE(v.refused());
   const double ripple = truth.rigid.ripple;
-  CHECK(v.found.uneven < 0.6 * ripple);  // the control: the ramps have met half of it
+  // The control: by the ramps alone more would be stated.
+  CHECK(v.found.likely_friction * (1.0 - v.found.uneven) > 1.1 * truth.rigid.friction);
   const double amplitude = ripple / (1.0 - ripple) * truth.rigid.friction;
   CHECK(v.found.wrong.ripple >= amplitude);
   CHECK(v.found.wrong.ripple < 1.02 * amplitude);
