@@ -19,6 +19,8 @@
 
 #include <passive_haptics/identification/break_away_experiment.hpp>
 
+#include <numbers>
+
 namespace passive_haptics {
 inline namespace v0 {
 namespace identification {
@@ -87,7 +89,6 @@ class creep_experiment {
     }
     [[nodiscard]] double mean() const noexcept { return count > 0 ? sum / count : 0.0; }
   };
-  static constexpr double pi = 3.14159265358979323846;
   static constexpr double least_time = 6.0;  // that a lower level has to come back for [s]
   static constexpr double untold = 0.6;      // share of friction that is stated untested
   static constexpr std::array levels{1.0, 0.85, 0.72, 0.61, 0.52, 0.4, 0.25};
@@ -100,7 +101,7 @@ class creep_experiment {
   void next_level(double step) noexcept {
     const double softest = ramp_.compliance_at_most(step);  // [m/N]
     const double omega = 1.0 / std::sqrt(mass_ * softest);
-    frequency_ = (std::min)(50.0, omega / (4.0 * 2.0 * pi));
+    frequency_ = (std::min)(50.0, omega / (4.0 * 2.0 * std::numbers::pi));
     edge_ = (std::max)(0.3, std::ceil(0.3 * frequency_) / frequency_);
     end_ = (std::max)(
         std::floor((std::min)({p_.creep_cycles / frequency_, 12.0, left_}) / edge_) * edge_,
@@ -115,7 +116,7 @@ class creep_experiment {
   double cycle(const axis_record& seen) noexcept {
     const double peak = levels[static_cast<std::size_t>(level_)] * cap_;
     const double t = phase_.lasted();
-    const double g = peak * (0.5 - 0.5 * std::cos(2.0 * pi * frequency_ * t));
+    const double g = peak * (0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * frequency_ * t));
     if (t > edge_) (t <= 2.0 * edge_ ? first_ : last_).book(seen.x(), seen.dt());
     const bool gone = kernels::magnitude(seen.x() - begun_at_) > 0.3e-3 + 3.0 * seen.step();
     if (gone) {

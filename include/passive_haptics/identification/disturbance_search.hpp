@@ -32,6 +32,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -110,7 +111,6 @@ class disturbance_search {
   static constexpr double widest_gap = 1e-3;  // σ gap that is sought [m]
   static constexpr std::size_t kinds = 9;     // of columns
   static constexpr double most_swung = 45.0;  // [Hz]
-  static constexpr double pi = 3.14159265358979323846;
 
   /// χ² that is exceeded by chance once in 2000 · `count`; exact for two degrees of freedom, near for one.
   [[nodiscard]] static double surprise(int count) noexcept {
@@ -142,7 +142,6 @@ class disturbance_search {
       if (refined && c.columns.cols() > 0) refine(c);
     }
     whole_ = false;
-    if (!refined) return best;
     std::sort(best.begin(), best.end(),
               [](const candidate& a, const candidate& b) { return a.drop > b.drop; });
     return best;
@@ -778,7 +777,8 @@ class disturbance_search {
       case column_of::cogging:
       case column_of::uneven: {
         // The mean over the way of a tick, which may be longer than a wave: sin u/u of what is in its middle.
-        const double at = 2.0 * pi * c.p1 * middle, u = pi * c.p1 * (place_[n + 1] - place_[n]);
+        const double at = 2.0 * std::numbers::pi * c.p1 * middle,
+                     u = std::numbers::pi * c.p1 * (place_[n + 1] - place_[n]);
         const double mean = std::abs(u) > 1e-3 ? std::sin(u) / u : 1.0;
         return mean * (k == 0 ? std::sin(at) : std::cos(at)) *
                (c.is == column_of::uneven ? way_[n] : 1.0);
@@ -832,7 +832,7 @@ class disturbance_search {
   /// A resonator that is driven by an acceleration, exact for one that is held for each tick.
   [[nodiscard]] column ring(double hz, double zeta, const std::vector<double>& a) const {
     std::vector<double> y(ticks_.size());
-    const double w = 2.0 * pi * hz, wd = w * std::sqrt(1.0 - zeta * zeta);
+    const double w = 2.0 * std::numbers::pi * hz, wd = w * std::sqrt(1.0 - zeta * zeta);
     const double k = zeta * w / wd;
     double x = 0.0, v = 0.0, h = 0.0, C = 1.0, S = 0.0;
     for (std::size_t n = 0; n < ticks_.size(); ++n) {
@@ -854,7 +854,7 @@ class disturbance_search {
   /// within a tick. Nothing of the rigid fit is in it.
   [[nodiscard]] column swung(double hz, double zeta) const {
     std::vector<double> y(ticks_.size());
-    const double w = 2.0 * pi * hz, wd = w * std::sqrt(1.0 - zeta * zeta);
+    const double w = 2.0 * std::numbers::pi * hz, wd = w * std::sqrt(1.0 - zeta * zeta);
     const double k = zeta * w / wd;
     double off = 0.0, v = 0.0;
     for (std::size_t n = 0; n < ticks_.size(); ++n) {

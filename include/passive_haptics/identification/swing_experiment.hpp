@@ -30,6 +30,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -97,7 +98,6 @@ class swing_experiment {
       "it stopped to swing: let go of the device, or allow more force";
   static constexpr double slowest = 0.03;   // least speed of the windows that count [m/s]
   static constexpr double finest = 0.3e-3;  // cogging that is sought [m]
-  static constexpr double pi = 3.14159265358979323846;
 
   double fail(const char* why) noexcept {
     problem_ = why;
@@ -191,8 +191,8 @@ class swing_experiment {
     const double a_step = kernels::larger(seen.step(), 1e-9) / kernels::larger(seen.dt(), 1e-5);
     const double fast = slowest + a_step / 5.0;
     // A fiftieth of the force every `finest` moves the axis by a twentieth of a step at that speed.
-    const double shows =
-        finest / (2.0 * pi) * std::sqrt(0.4 * p_.force / (m * kernels::larger(seen.step(), 1e-9)));
+    const double shows = finest / (2.0 * std::numbers::pi) *
+                         std::sqrt(0.4 * p_.force / (m * kernels::larger(seen.step(), 1e-9)));
     const double from = std::clamp(shows, 0.016 + a_step / 21.0, fast);
     // The speed grows along the way, so that no speed meets the steps in time with the ticks for long, and is another in
     // each crossing, so that no place does each time: a wave of a fixed phase would come of it.
