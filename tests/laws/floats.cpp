@@ -16,10 +16,15 @@
 
 namespace {
 
+/// The float nearest to `x`.
+constexpr double rounded(double x) {
+  return static_cast<double>(static_cast<float>(x));
+}
+
 /// A number that is a float, of 10^`least` to 10^`most`.
 double some(ph::laws::samples& random, double least, double most) {
   const double middle = (least + most) / 2.0, half = (most - least) / 2.0;
-  return static_cast<float>(std::pow(10.0, middle + half * random.number<double>()));
+  return rounded(std::pow(10.0, middle + half * random.number<double>()));
 }
 
 /// What of a tick has no direction.
@@ -71,7 +76,7 @@ void never_more(const Bound& told, const Damping& damping) {
   for (int n = 0; n < 2000; ++n) {
     const double T = some(random, -3.2, -2.8);
     moment now{.energy = some(random, -9.0, -2.0),
-               .dt = static_cast<float>(T * (0.75 + 0.25 * random.number<double>())),
+               .dt = rounded(T * (0.75 + 0.25 * random.number<double>())),
                .T = T,
                .longest = T,
                .shortest = 0.0,
@@ -80,11 +85,11 @@ void never_more(const Bound& told, const Damping& damping) {
     std::array<std::array<double, N>, 4> h{};
     std::array<double, N> way{}, moved{};
     for (std::size_t i = 0; i < N; ++i) {
-      for (auto& f : h) f[i] = static_cast<float>((i < 3 ? 4.0 : 0.08) * random.number<double>());
+      for (auto& f : h) f[i] = rounded((i < 3 ? 4.0 : 0.08) * random.number<double>());
       way[i] = random.number<double>() * (i < 3 ? 3e-3 : 1e-2);
     }
     const auto move = [&](double share) {
-      for (std::size_t i = 0; i < N; ++i) moved[i] = static_cast<float>(share * way[i]);
+      for (std::size_t i = 0; i < N; ++i) moved[i] = rounded(share * way[i]);
     };
     move(random.number<double>());
     // Where do doubles begin to let through less than `most`?
@@ -101,7 +106,7 @@ void never_more(const Bound& told, const Damping& damping) {
       }
       set(high);
     };
-    if (n % 3 == 1) begins(-9.0, -1.0, [&](double x) { now.energy = float(std::pow(10.0, x)); });
+    if (n % 3 == 1) begins(-9.0, -1.0, [&](double x) { now.energy = rounded(std::pow(10.0, x)); });
     if (n % 3 == 2) begins(-1.0, 1.0, move);
     const double wide = passes<Wide, Late, Exact>(told, damping, now, h, moved),
                  narrow = passes<Narrow, Late, Exact>(told, damping, now, h, moved);
@@ -115,11 +120,11 @@ void never_more(const Bound& told, const Damping& damping) {
 }  // namespace
 
 TEST_CASE("floats let through no more of a force than doubles", "[law][bound]") {
-  const ph::isotropic_damping damper{0.05F};
+  const ph::isotropic_damping damper{rounded(0.05)};
   const ph::strict_bound strict;
   never_more<d3, f3, 0, true>(strict, damper);
   never_more<d3, f3, 2, true>(strict, damper);
-  const ph::reachable_bound known{0.1F, 5.0};
+  const ph::reachable_bound known{rounded(0.1), 5.0};
   never_more<d1, f1, 0, true>(known, damper);
   never_more<d3, f3, 0, true>(known, damper);
   never_more<d3, f3, 1, true>(known, damper);
@@ -130,21 +135,26 @@ TEST_CASE("floats let through no more of a force than doubles", "[law][bound]") 
 }
 
 TEST_CASE("floats let through no more than doubles where friction is credited", "[law][bound]") {
-  const ph::damping_and_friction rubbing{0.05F, 0.25F, 1e-5F};
+  const ph::damping_and_friction rubbing{rounded(0.05), rounded(0.25), rounded(1e-5)};
   never_more<d3, f3, 0, false>(ph::strict_bound{}, rubbing);
   never_more<d3, f3, 2, false>(ph::strict_bound{}, rubbing);
-  never_more<d3, f3, 0, false>(ph::reachable_bound{0.1F, 5.0}, rubbing);
-  never_more<d3, f3, 1, false>(ph::reachable_bound{0.1F, 5.0}, rubbing);
+  never_more<d3, f3, 0, false>(ph::reachable_bound{rounded(0.1), 5.0}, rubbing);
+  never_more<d3, f3, 1, false>(ph::reachable_bound{rounded(0.1), 5.0}, rubbing);
 }
 
 TEST_CASE("floats let through no more than doubles of what is bounded in joules", "[law][bound]") {
   const ph::reachable_work_bound<3> axes{{0.125, 0.25, 0.0625}, 8.0};
-  never_more<d3, f3, 0, true>(axes, ph::isotropic_damping{0.05F});
-  never_more<d3, f3, 1, true>(axes, ph::isotropic_damping{0.05F});
-  never_more<d3, f3, 2, true>(axes, ph::isotropic_damping{0.05F});
-  const ph::rigid_reachable_bound handle{{0.15F, 1e-4F, 2e-4F, 0.02F}, 5.0, 0.1F, 0.06F, 2e-4F};
+  never_more<d3, f3, 0, true>(axes, ph::isotropic_damping{rounded(0.05)});
+  never_more<d3, f3, 1, true>(axes, ph::isotropic_damping{rounded(0.05)});
+  never_more<d3, f3, 2, true>(axes, ph::isotropic_damping{rounded(0.05)});
+  const ph::rigid_reachable_bound handle{
+      {rounded(0.15), rounded(1e-4), rounded(2e-4), rounded(0.02)},
+      5.0,
+      rounded(0.1),
+      rounded(0.06),
+      rounded(2e-4)};
   using wide = ph::rigid_body<double>;
   using narrow = ph::rigid_body<float>;
-  never_more<wide, narrow, 0, true>(handle, ph::rigid_damping{0.05F, 1e-4F});
-  never_more<wide, narrow, 1, true>(handle, ph::rigid_damping{0.05F, 1e-4F});
+  never_more<wide, narrow, 0, true>(handle, ph::rigid_damping{rounded(0.05), rounded(1e-4)});
+  never_more<wide, narrow, 1, true>(handle, ph::rigid_damping{rounded(0.05), rounded(1e-4)});
 }
