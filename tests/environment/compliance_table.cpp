@@ -385,11 +385,14 @@ TEST_CASE("several contacts push, never pull, and none goes through", "[environm
     for (Eigen::Index i = 0; i < f.size(); ++i) left += depth[i] > 0.0 && f[i] == 0.0 ? 1 : 0;
   }
   CHECK(left > 0);
-  const std::vector<env::contact_point> twice{all[0], all[0]};
-  CHECK(contains(text_of<std::invalid_argument>([&] {
-                   (void)env::contact_forces(env::capacitance(table, twice), Eigen::Vector2d(1, 1));
-                 }),
-                 "not positive definite"));
+  for (const auto& one : all) {  // rounded, the last pivot of some is above zero
+    const std::array twice{one, one};
+    CHECK(contains(text_of<std::invalid_argument>([&] {
+                     (void)env::contact_forces(env::capacitance(table, twice),
+                                               Eigen::Vector2d(1, 1));
+                   }),
+                   "not positive definite"));
+  }
   CHECK_THROWS_AS(env::contact_forces(Eigen::Matrix2d::Identity(), Eigen::Vector3d(1, 1, 1)),
                   std::invalid_argument);
   CHECK_THROWS_AS(

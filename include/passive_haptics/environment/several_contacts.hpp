@@ -48,7 +48,7 @@ template <class Table>
 }
 
 /// The k forces f [N] of k contacts at the depths d [m]. Throws std::invalid_argument unless G is k × k and
-/// positive definite and everything is finite.
+/// positive definite by more than rounding, and everything is finite.
 [[nodiscard]] inline Eigen::VectorXd contact_forces(const Eigen::MatrixXd& g,
                                                     const Eigen::VectorXd& depth) {
   const Eigen::Index count = depth.size();
@@ -56,11 +56,13 @@ template <class Table>
     refuse_argument("contact_forces: a matrix of ", g.rows(), " x ", g.cols(), " for ", count,
                     " depths, all of them finite, is needed");
   }
-  if (g.llt().info() != Eigen::Success) {
+  // A pivot is the part of G_ii that the contacts before i do not explain.
+  const Eigen::LLT<Eigen::MatrixXd> whole(g);
+  const auto pivots = whole.matrixLLT().diagonal().array().square();
+  if (whole.info() != Eigen::Success || (pivots < 1e-12 * g.diagonal().array()).any()) {
     refuse_argument(
         "contact_forces: the matrix is not positive definite; leave out contacts that are at the "
-        "same "
-        "point or on fixed nodes, or add 1/k of the tips to its diagonal");
+        "same point or on fixed nodes, or add 1/k of the tips to its diagonal");
   }
   std::vector<bool> pushes(static_cast<std::size_t>(count), false);
   const double noise = 1e-12 * (count > 0 ? depth.cwiseAbs().maxCoeff() : 0.0);
