@@ -13,11 +13,11 @@
 #include <passive_haptics/environment/nested_dissection.hpp>
 #include <passive_haptics/environment/stiffness_solver.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -80,12 +80,12 @@ class multifrontal {
   }
 
   /// Rows 3i..3i+2 of the result are those of node wanted[i] in K⁻¹B [m/N], where column 3j + c of B is a unit
-  /// force along axis c at node loaded[j]. Any number of threads may call it at a time.
-  [[nodiscard]] Eigen::MatrixXd columns(std::span<const int> loaded,
-                                        std::span<const int> wanted) const {
+  /// force along axis c at node loaded[j]. Any number of threads may call it at a time. (A template, so that only
+  /// programs that ask for columns compile their products.)
+  template <class Matrix = Eigen::MatrixXd>
+  [[nodiscard]] Matrix columns(std::span<const int> loaded, std::span<const int> wanted) const {
     const auto count = static_cast<Eigen::Index>(3 * loaded.size());
-    Eigen::MatrixXd result =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * wanted.size()), count);
+    Matrix result = Matrix::Zero(static_cast<Eigen::Index>(3 * wanted.size()), count);
     if (!factorised_ || result.size() == 0) return result;
     const std::vector<int> down = path_of(loaded);
     std::vector<int> all = path_of(wanted);
@@ -98,36 +98,36 @@ class multifrontal {
       const elimination_front& front = tree_.fronts[slot(t)];
       for (int k = 0; k < front.pivots; ++k) at[slot(front.first + k)] = rows++;
     }
-    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(3 * rows, count);
+    Matrix x = Matrix::Zero(3 * rows, count);
     for (std::size_t j = 0; j < loaded.size(); ++j) {
       const int position = tree_.position[slot(loaded[j])];
-      x.block<3, 3>(3 * at[slot(position)], row(j)).setIdentity();
+      x.block(3 * at[slot(position)], row(j), 3, 3).setIdentity();
     }
-    Eigen::MatrixXd bound;
+    Matrix bound;
     for (const int t : down) {
       const elimination_front& front = tree_.fronts[slot(t)];
-      const Eigen::MatrixXd& l = factor_[slot(t)];
+      const Matrix& l = factor_[slot(t)];
       auto pivots = x.middleRows(3 * at[slot(front.first)], l.cols());
-      l.topRows(l.cols()).triangularView<Eigen::Lower>().solveInPlace(pivots);
+      l.topRows(l.cols()).template triangularView<Eigen::Lower>().solveInPlace(pivots);
       bound.noalias() = l.bottomRows(l.rows() - l.cols()) * pivots;
       for (std::size_t i = 0; i < front.bound.size(); ++i) {
-        x.middleRows<3>(3 * at[slot(front.bound[i])]) -= bound.middleRows<3>(row(i));
+        x.middleRows(3 * at[slot(front.bound[i])], 3) -= bound.middleRows(row(i), 3);
       }
     }
     for (auto it = all.rbegin(); it != all.rend(); ++it) {
       const elimination_front& front = tree_.fronts[slot(*it)];
-      const Eigen::MatrixXd& l = factor_[slot(*it)];
+      const Matrix& l = factor_[slot(*it)];
       auto pivots = x.middleRows(3 * at[slot(front.first)], l.cols());
       bound.resize(l.rows() - l.cols(), count);
       for (std::size_t i = 0; i < front.bound.size(); ++i) {
-        bound.middleRows<3>(row(i)) = x.middleRows<3>(3 * at[slot(front.bound[i])]);
+        bound.middleRows(row(i), 3) = x.middleRows(3 * at[slot(front.bound[i])], 3);
       }
       pivots.noalias() -= l.bottomRows(bound.rows()).transpose() * bound;
-      l.topRows(l.cols()).triangularView<Eigen::Lower>().transpose().solveInPlace(pivots);
+      l.topRows(l.cols()).template triangularView<Eigen::Lower>().transpose().solveInPlace(pivots);
     }
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const int position = tree_.position[slot(wanted[i])];
-      result.middleRows<3>(row(i)) = x.middleRows<3>(3 * at[slot(position)]);
+      result.middleRows(row(i), 3) = x.middleRows(3 * at[slot(position)], 3);
     }
     return result;
   }
@@ -310,6 +310,31 @@ class multifrontal {
     }
   }
 
+  /// a ← a − b cᵀ, where a begins in row and column j of the front, and b and c are the rows of a and its columns in
+  /// columns k to k + count of L. (All products of blocks are this one: another kind is half a second of compilation.)
+  static void subtract(Eigen::Block<Eigen::MatrixXd> a, Eigen::MatrixXd& l, Eigen::Index j,
+                       Eigen::Index k, Eigen::Index count) {
+    a.noalias() -= l.block(j, k, a.rows(), count) * l.block(j, k, a.cols(), count).transpose();
+  }
+
+  /// Columns k to k + count of K, with all rows below, become those of L: the left half, then the right one. Returns
+  /// false if the matrix is not positive definite. Above the diagonal they are left undefined.
+  static bool factorise_columns(Eigen::MatrixXd& l, Eigen::Index k, Eigen::Index count) {
+    const Eigen::Index half = count / 2, next = k + half, rows = l.rows();
+    if (count > 12) {
+      if (!factorise_columns(l, k, half)) return false;
+      subtract(l.block(next, next, rows - next, count - half), l, next, k, half);
+      return factorise_columns(l, next, count - half);
+    }
+    for (Eigen::Index j = k; j < k + count; ++j) {
+      auto column = l.col(j).tail(rows - j);
+      for (Eigen::Index i = k; i < j; ++i) column -= l(j, i) * l.col(i).tail(rows - j);
+      if (!(column(0) > 0.0)) return false;
+      column /= std::sqrt(column(0));
+    }
+    return true;
+  }
+
   /// Factorises the pivots and the bound below them, panel by panel, and subtracts their part from `left`. Returns
   /// false if it was stopped or the matrix is not positive definite.
   static bool factorise_front(Eigen::MatrixXd& l, Eigen::MatrixXd& left, course& way,
@@ -317,10 +342,7 @@ class multifrontal {
     const Eigen::Index rows = l.rows(), pivots = l.cols();
     for (Eigen::Index k = 0; k < pivots; k += panel) {
       const Eigen::Index width = (std::min)(panel, pivots - k);
-      const Eigen::Index rest = rows - k - width;
-      Eigen::Ref<Eigen::MatrixXd> top(l.block(k, k, width, width));
-      const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(top);
-      if (cholesky.info() != Eigen::Success) {
+      if (!factorise_columns(l, k, width)) {
         result.smallest_pivot = 0.0;
         return false;
       }
@@ -329,22 +351,15 @@ class multifrontal {
         result.stopped = !way.count(m * w * static_cast<double>((std::min)(panel, rows - from)));
         return !result.stopped;
       };
-      if (rest == 0) return done(k);
-      auto below = l.block(k + width, k, rest, width);
-      l.block(k, k, width, width)
-          .triangularView<Eigen::Lower>()
-          .transpose()
-          .solveInPlace<Eigen::OnTheRight>(below);
+      if (k + width == rows) return done(k);
       for (Eigen::Index j = k + width; j < pivots; j += panel) {
         const Eigen::Index columns = (std::min)(panel, pivots - j);
-        l.block(j, j, rows - j, columns).noalias() -=
-            l.block(j, k, rows - j, width) * l.block(j, k, columns, width).transpose();
+        subtract(l.block(j, j, rows - j, columns), l, j, k, width);
         if (!done(j)) return false;
       }
       for (Eigen::Index j = pivots; j < rows; j += panel) {
         const Eigen::Index columns = (std::min)(panel, rows - j);
-        left.block(j - pivots, j - pivots, rows - j, columns).noalias() -=
-            l.block(j, k, rows - j, width) * l.block(j, k, columns, width).transpose();
+        subtract(left.block(j - pivots, j - pivots, rows - j, columns), l, j, k, width);
         if (!done(j)) return false;
       }
     }
