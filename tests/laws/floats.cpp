@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rounding only lowers a force: what a bound in floats lets through of it, the same bound in doubles lets through, too.
-// Both are told the same, because every number here is a float.
+// Rounding only lowers a force and raises what is feared: what a bound in floats lets through of a force, the same
+// bound in doubles lets through, too. Both are told the same, because every number here is a float.
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/device/rigid_body.hpp>
@@ -117,6 +117,40 @@ void never_more(const Bound& told, const Damping& damping) {
   CHECK(cut > 50);
 }
 
+/// Asks after up to 0.1 s without samples what a force may have done in them.
+template <class Wide, class Narrow, class Bound, class Damping>
+void no_less_unseen(const Bound& told, const Damping& damping) {
+  ph::laws::samples random(2);
+  int finite = 0;
+  for (int n = 0; n < 5000; ++n) {
+    const double square = some(random, -14.0, -5.0), T0 = some(random, -3.2, -2.8),
+                 error = some(random, -8.0, -5.0), dt = some(random, -3.0, -1.0);
+    std::array<double, Wide::dof> held{}, f{};
+    for (std::size_t i = 0; i < Wide::dof; ++i) {
+      held[i] = rounded((i < 3 ? 4.0 : 0.08) * random.number<double>());
+      f[i] = rounded((i < 3 ? 4.0 : 0.08) * random.number<double>());
+    }
+    const auto unseen = [&]<class Port>(const Port& /*of*/) {
+      using S = typename Port::scalar;
+      typename Port::stored_effort before(Port::zero()), effort(Port::zero());
+      for (std::size_t i = 0; i < Wide::dof; ++i) {
+        Port::component(before, static_cast<int>(i)) = S(held[i]);
+        Port::component(effort, static_cast<int>(i)) = S(f[i]);
+      }
+      const auto most = ph::part_at<Bound, Port>(told).unseen(
+          ph::detail::seen_tick<Port>{S(square), S(T0), S(error), before},
+          ph::part_at<Damping, Port>(damping), typename Port::effort(effort), S(dt));
+      return std::array{static_cast<double>(most.done), static_cast<double>(most.beside)};
+    };
+    const auto wide = unseen(Wide{}), narrow = unseen(Narrow{});
+    CAPTURE(n, wide[0], narrow[0], wide[1], narrow[1]);
+    REQUIRE((narrow[0] >= wide[0] || narrow[0] >= 1e38));
+    REQUIRE((narrow[1] >= wide[1] || narrow[1] >= 1e38));
+    finite += wide[0] < 1e38;
+  }
+  CHECK(finite > 1000);
+}
+
 }  // namespace
 
 TEST_CASE("floats let through no more of a force than doubles", "[law][bound]") {
@@ -157,4 +191,17 @@ TEST_CASE("floats let through no more than doubles of what is bounded in joules"
   using narrow = ph::rigid_body<float>;
   never_more<wide, narrow, 0, true>(handle, ph::rigid_damping{rounded(0.05), rounded(1e-4)});
   never_more<wide, narrow, 1, true>(handle, ph::rigid_damping{rounded(0.05), rounded(1e-4)});
+}
+
+TEST_CASE("what a force may have done unseen is no less in floats than in doubles",
+          "[law][bound]") {
+  no_less_unseen<ph::rigid_body<double>, ph::rigid_body<float>>(
+      ph::rigid_reachable_bound{{rounded(0.15), rounded(1e-4), rounded(2e-4), rounded(0.02)},
+                                5.0,
+                                rounded(0.1),
+                                rounded(0.06),
+                                rounded(2e-4)},
+      ph::rigid_damping{rounded(0.05), rounded(1e-4)});
+  no_less_unseen<d3, f3>(ph::reachable_bound{rounded(0.1), 5.0},
+                         ph::isotropic_damping{rounded(0.05)});
 }
