@@ -217,7 +217,8 @@ TEST_CASE("make_touch on encoders is as stiff as the device can pay for, and say
   };
   CHECK(refused(grip).empty());
   auto other = grip;
-  other.friction = 0.0;  // no budget
+  other.friction = 0.0;  // no budget, and no distance over which it would be elastic
+  other.presliding = ph::encoder_device{}.presliding;
   CHECK(refused(other) == "most");
   other = grip;
   other.presliding = ph::encoder_device{}.presliding;  // not stated
@@ -251,6 +252,7 @@ TEST_CASE("a composition refuses a device or a hand that cannot be, with the nam
   every(without(&ph::exact_device::mass), hand, "mass");
   CHECK(refused(ph::make_touch<d1>(falcon, ph::known_hand{})) == "hand_force");
   CHECK(refused(ph::make_guard<d1>(falcon, ph::known_hand{})) == "hand_force");
+  CHECK(ph::make_touch<d1>(falcon, ph::known_hand{.force = -5.0}).check().value == -5.0);
   CHECK_FALSE(refused(ph::make_touch<d1>(without(&ph::exact_device::force_limit), hand)).empty());
   CHECK_FALSE(
       refused(ph::make_guard<d1>(without(&ph::exact_device::force_limit), ph::any_hand)).empty());

@@ -74,14 +74,16 @@ inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
   return {.damping = d.damping};
 }
 [[nodiscard]] constexpr dual_ledger ledger_of(const encoder_device& d) noexcept {
-  return {.damping = {.coefficient = d.damping, .coulomb = d.friction, .presliding = d.presliding},
+  return {.damping = {.coefficient = d.damping,
+                      .coulomb = d.friction,
+                      .presliding = d.friction == 0.0 ? 0.0 : d.presliding},
           .quantum = d.quantum};
 }
 [[nodiscard]] constexpr actuator_limit motors_of(const exact_device& d) noexcept {
-  return {.most = positive(d.force_limit) ? d.force_limit : unstated};
+  return {.most = d.force_limit != 0.0 ? d.force_limit : unstated};
 }
 [[nodiscard]] constexpr thermal_limit motors_of(const encoder_device& d) noexcept {
-  return {.peak = positive(d.force_limit) ? d.force_limit : unstated,
+  return {.peak = d.force_limit != 0.0 ? d.force_limit : unstated,
           .continuous = d.continuous_force,
           .time_constant = d.winding_time};
 }
@@ -123,7 +125,7 @@ inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
   return ledger_of(d);
 }
 [[nodiscard]] constexpr reachable_bound reach_of(const auto& d, const known_hand& hand) noexcept {
-  return {.mass = d.mass, .hand_force = positive(hand.force) ? hand.force : unstated};
+  return {.mass = d.mass, .hand_force = hand.force != 0.0 ? hand.force : unstated};
 }
 [[nodiscard]] constexpr auto bounds_of(const auto& d, const known_hand& hand) noexcept {
   return bound_chain{watched{reach_of(d, hand)}, motors_of(d)};
@@ -200,9 +202,8 @@ template <class Space, class Limits>
 
 /// One surface: touch.update(plane), touch.tick(sample). Its normal turns with the rate of the updates, and catches
 /// up with the rest by at most `turn_rate` [rad/s] or, under a small force, by as much as turns the force at half of
-/// usual_force_rate. On encoders its stiffness is limited to the budget that dry friction pays for; without dry
-/// friction that is 0, and check() refuses `most`. E ≥ 0, on encoders E ≥ −½ c p, as long as device and hand are as
-/// stated and there is no fault.
+/// usual_force_rate. On encoders its stiffness is limited to the budget that dry friction pays for; without any,
+/// check() refuses `most`. E ≥ 0, on encoders E ≥ −½ c p, for device and hand as stated, and without a fault.
 template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits,
           detail::described Device = exact_device, detail::stated_hand Hand = known_hand>
 [[nodiscard]] constexpr auto make_touch(const Device& device, const Hand& hand,
@@ -256,8 +257,7 @@ template <class Space, class Limits = loop_limits, class Device = exact_device,
           class Hand = known_hand>
 using force_guard = decltype(make_guard<Space, Limits>(Device{}, Hand{}));
 
-/// The guard for any port, also joints, of which only the damping and the motors' limit are known (actuator_limit,
-/// motor_limits). It is strict, so a wall is soft while the ledger is empty: 2b/T [N/m], pressed slowly.
+/// The guard for any port, also joints, of which only damping and motors are known. It is strict, and soft: 2b/T [N/m].
 template <port P, class Motors, class Damping = isotropic_damping, class Limits = loop_limits>
 using strict_guard = passive_port<P, given_force, basic_reduced_energy<Damping>,
                                   bound_chain<strict_bound, Motors>, Limits>;

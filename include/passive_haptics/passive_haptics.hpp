@@ -3,7 +3,7 @@
 // The whole core: everything that a haptic loop needs, without device drivers, environments or simulation. A
 // loop with one degree of freedom and without Eigen includes firmware.hpp instead.
 //
-//   compositions.hpp        start here: touch, encoder_touch, force_guard, strict_guard
+//   compositions.hpp        start here: make_touch, make_contacts, make_guard
 //   local_model.hpp         one contact on one device
 //   port/passive_port.hpp   one device, with any contacts and forces
 //   energy_observer/        counts the energy that the hand and the device exchange
@@ -13,7 +13,6 @@
 //   contact/                depth to force; several contacts; a force of your own
 //   shaper/                 changes the desired force by the state of the contact, before the bound
 //   base/exchange.hpp       the newest value from another thread
-//   firmware.hpp            the part of the core that needs no Eigen
 //   published/published.hpp controllers of other authors; not included here
 //   laws.hpp                the laws that a part of your own must obey; not included here
 //   six_dof.hpp             devices that turn, or sense their orientation; not included here

@@ -32,7 +32,7 @@ struct capped {
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(most > 0.0))
-      return {"most", most, "> 0 N/m; a budget of 0 says that nothing is paid for"};
+      return {"most", most, "> 0 N/m; on encoders dry friction pays, stated as .friction"};
     if (!detail::not_negative(working_capital)) {
       return {"working_capital", working_capital, "finite and ≥ 0 J"};
     }

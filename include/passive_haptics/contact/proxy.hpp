@@ -36,7 +36,7 @@ struct proxy_spring {
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!(most > 0.0)) {
-      return {"most", most, "> 0 N/m; a budget of 0 says that nothing is paid for"};
+      return {"most", most, "> 0 N/m; on encoders dry friction pays, stated as .friction"};
     }
     return detail::sampled_fault(*this);
   }

@@ -52,7 +52,7 @@ struct settled_force {
     if (!detail::not_negative(turn_time)) return {"turn_time", turn_time, "finite and ≥ 0 s"};
     if (!(force_limit > 0.0)) return {"force_limit", force_limit, "> 0 N"};
     if (!(most > 0.0)) {
-      return {"most", most, "> 0 N/m; a budget of 0 says that nothing is paid for"};
+      return {"most", most, "> 0 N/m; on encoders dry friction pays, stated as .friction"};
     }
     return given_force{stale_after, fade}.check();
   }

@@ -40,7 +40,7 @@ struct actuator_limit {
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (detail::not_negative(most)) return {};
-    return {"most", most, "finite and ≥ 0 N"};
+    return {"most", most, "finite and ≥ 0 N; of a device: .force_limit > 0"};
   }
 
   template <port Space>

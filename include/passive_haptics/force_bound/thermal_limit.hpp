@@ -28,7 +28,7 @@ struct thermal_limit {
   double time_constant{};  ///< τ of the winding [s]; not used if continuous ≥ peak
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
-    if (!detail::not_negative(peak)) return {"peak", peak, "finite and ≥ 0 N"};
+    if (!detail::not_negative(peak)) return {"peak", peak, "≥ 0 N; of a device: .force_limit > 0"};
     if (!(continuous >= 0.0)) return {"continuous", continuous, "≥ 0 N"};
     if (!(continuous < peak) || detail::positive(time_constant)) return {};
     return {"time_constant", time_constant, "finite and > 0 s"};

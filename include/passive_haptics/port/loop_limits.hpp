@@ -79,7 +79,8 @@ struct late_loop_limits {
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(longest_tick)) {
-      return {"longest_tick", longest_tick, "finite and > 0 s: the worst tick of your loop"};
+      return {"longest_tick", longest_tick,
+              "finite and > 0 s: your loop's worst; NaN: .latency is not that of late_loop_limits"};
     }
     if (!detail::positive(top_speed)) return {"top_speed", top_speed, "finite and > 0 m/s"};
     if (!(workspace > 0.0)) return {"workspace", workspace, "> 0 m"};
