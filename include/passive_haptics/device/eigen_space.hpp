@@ -5,7 +5,7 @@
 
 #include <passive_haptics/device/space.hpp>
 
-#include <Eigen/Core>
+#include <Eigen/Core>  // libeigen3-dev; one degree of freedom needs none: include firmware.hpp
 
 #include <array>
 #include <utility>
