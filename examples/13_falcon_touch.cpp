@@ -4,8 +4,8 @@
 //     13_falcon_touch --simulate         a simulated Falcon, and a hand that pushes with 2.9 N
 //
 // A packet device holds a command one tick late: late_loop_limits<1> says so, once, for every bound.
-// encoder_touch keeps its promise on the steps of the encoders: dry friction, stated from below, pays
-// for them, and the wall is no stiffer than it can pay for.
+// make_touch of an encoder_device keeps its promise on the steps of the encoders: dry friction, stated from
+// below, pays for them, and the wall is no stiffer than it can pay for.
 
 #include "falcon_ready.hpp"
 #include <passive_haptics/passive_haptics.hpp>
