@@ -257,7 +257,8 @@ template <class Space, class Limits = loop_limits, class Device = exact_device,
           class Hand = known_hand>
 using force_guard = decltype(make_guard<Space, Limits>(Device{}, Hand{}));
 
-/// The guard for any port, also joints, of which only damping and motors are known. It is strict, and soft: 2b/T [N/m].
+/// The guard for any port, also joints, of which only damping and motors are known (actuator_limit, motor_limits). It is
+/// strict, so a wall is soft while the ledger is empty: 2b/T [N/m], pressed slowly.
 template <port P, class Motors, class Damping = isotropic_damping, class Limits = loop_limits>
 using strict_guard = passive_port<P, given_force, basic_reduced_energy<Damping>,
                                   bound_chain<strict_bound, Motors>, Limits>;

@@ -98,7 +98,8 @@ struct reachable_bound {
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
-    if (!detail::not_negative(hand_force)) return {"hand_force", hand_force, "stated and ≥ 0 N"};
+    if (!detail::not_negative(hand_force))
+      return {"hand_force", hand_force, "stated, finite, ≥ 0 N"};
     return {};
   }
   template <port Space>

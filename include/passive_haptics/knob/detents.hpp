@@ -36,7 +36,8 @@ struct detents {
     if (!(ends ? detail::positive(stop_stiffness) : stop_stiffness == 0.0)) {
       return {"stop_stiffness", stop_stiffness, "finite and > 0 N/m where there is a stop, else 0"};
     }
-    return most > 0.0 ? rest.check() : parameter_fault{"most", most, "> 0 N/m; .friction pays it"};
+    return most > 0.0 ? rest.check()
+                      : parameter_fault{"most", most, "> 0 N/m; .friction pays for it"};
   }
   template <port P>
   class on;
