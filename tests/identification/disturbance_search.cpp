@@ -10,6 +10,8 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace ph = passive_haptics;
 namespace sim = ph::simulation;
@@ -48,6 +50,26 @@ struct cogs : sim::no_hand<d1> {
     return amplitude * std::sin(2.0 * std::numbers::pi * x / wavelength);
   }
 };
+
+/// Ticks of 0.1 kg without friction on steps of 10 µm: it swings for 3 s, and then goes to and fro slowly, in crossings
+/// of 1 s, while a force of 0.02 N acts along the way, every 2 mm, late by phase(crossing) [rad].
+std::vector<kept_tick> crossed(auto phase) {
+  std::vector<kept_tick> all;
+  constexpr double m = 0.1, T = 1e-3, q = 10e-6, pi = std::numbers::pi;
+  double x = 0.0, v = 0.0;
+  for (int n = 0; n < 15000; ++n) {
+    const int crossing = n < 3000 ? -1 : (n - 3000) / 1000;
+    const double time = n * T, speed = crossing % 2 == 0 ? 0.04 : -0.04;
+    const double f = crossing < 0 ? 0.8 * std::cos(4.0 * pi * time) : 2.0 * (speed - v);
+    all.push_back({q * std::round(x / q), f, T, time, n == 0, crossing >= 0});
+    for (int i = 0; i < 20; ++i) {
+      const double along = crossing < 0 ? 0.0 : 0.02 * std::sin(1000.0 * pi * x - phase(crossing));
+      v += (f + along) / m * T / 20.0;
+      x += v * T / 20.0;
+    }
+  }
+  return all;
+}
 
 }  // namespace
 
@@ -108,6 +130,22 @@ TEST_CASE("cogging of half a millimetre is found with its size under steps of 30
   }
   // Where the place was told by the steps, it was half of that.
   CHECK(std::abs(mean - amplitude) < 0.25 * amplitude);
+}
+
+TEST_CASE("a wave that is another in each crossing is no cogging", "[identification]") {
+  const auto cogging = [](const std::vector<kept_tick>& ticks) {
+    disturbance_model of(ticks, 0, 10e-6);
+    of.fit_latency();
+    auto wave = of.tried({.is = column_of::cogging, .p1 = 500.0});
+    CHECK(wave.drop > 0.15 * of.left());  // of all that the rigid device leaves
+    return std::pair{wave.wald, std::hypot(wave.g[0], wave.g[1]) * of.mass()};
+  };
+  const auto [same, size] = cogging(crossed([](int /*crossing*/) { return 0.7; }));
+  CHECK(same > 1000.0);
+  CHECK(std::abs(size - 0.02) < 0.002);
+  const auto [other, part] = cogging(crossed([](int n) { return n % 2 == 0 ? 1.1 : -1.1; }));
+  CHECK(part > 0.005);
+  CHECK(other == 0.0);
 }
 
 TEST_CASE("a mode that spoils the swing is refused by name", "[identification]") {
