@@ -5,7 +5,7 @@
 
 #include <passive_haptics/device/space.hpp>
 
-#include <Eigen/Core>  // libeigen3-dev; one degree of freedom needs none: include firmware.hpp
+#include <Eigen/Core>  // libeigen3-dev, or firmware.hpp for one degree of freedom
 
 #include <array>
 #include <utility>
