@@ -306,7 +306,7 @@ class Shown:
     def members(self, name):
         """(owner, name, kind) of what the headers declare of that type: a call, a value, or a short name in a type. The
         tags have those alone that have a comment."""
-        wanted, found = [(name, "")], []
+        wanted, asked, found = [(name, "")], {name}, []
         while wanted:
             full, only = wanted.pop()
             short = full.rpartition("::")[2]
@@ -321,7 +321,10 @@ class Shown:
                     if not only and not self.tags.same(use[2], name, owner):
                         continue
                     if use[1] and owner in self.tags.pages:
-                        wanted.append((f"{owner}::{use[1]}", owner))
+                        alias = f"{owner}::{use[1]}"
+                        if alias not in asked:  # a short name may be the name itself
+                            wanted.append((alias, owner))
+                        asked.add(alias)
                     elif use[3] and not re.fullmatch(KEYWORDS + "|operator|const", use[3]):
                         called = header.code[use.end():use.end() + 1] == "("
                         found.append((owner, use[3], "call" if called else "value"))
