@@ -68,6 +68,9 @@ concept described = std::same_as<Device, exact_device> || std::same_as<Device, e
 template <class Hand>
 concept stated_hand = std::derived_from<Hand, known_hand> || std::same_as<Hand, any_hand_t>;
 inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
+[[nodiscard]] constexpr double stated(double x) noexcept {
+  return x != 0.0 ? x : unstated;
+}
 
 // The ledger, the motors' limit and the motion estimator of each kind of device.
 [[nodiscard]] constexpr reduced_energy ledger_of(const exact_device& d) noexcept {
@@ -80,10 +83,10 @@ inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
           .quantum = d.quantum};
 }
 [[nodiscard]] constexpr actuator_limit motors_of(const exact_device& d) noexcept {
-  return {.most = d.force_limit != 0.0 ? d.force_limit : unstated};
+  return {.most = stated(d.force_limit)};
 }
 [[nodiscard]] constexpr thermal_limit motors_of(const encoder_device& d) noexcept {
-  return {.peak = d.force_limit != 0.0 ? d.force_limit : unstated,
+  return {.peak = stated(d.force_limit),
           .continuous = d.continuous_force,
           .time_constant = d.winding_time};
 }
@@ -125,7 +128,7 @@ inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
   return ledger_of(d);
 }
 [[nodiscard]] constexpr reachable_bound reach_of(const auto& d, const known_hand& hand) noexcept {
-  return {.mass = d.mass, .hand_force = hand.force != 0.0 ? hand.force : unstated};
+  return {.mass = d.mass, .hand_force = stated(hand.force)};
 }
 [[nodiscard]] constexpr auto bounds_of(const auto& d, const known_hand& hand) noexcept {
   return bound_chain{watched{reach_of(d, hand)}, motors_of(d)};

@@ -58,7 +58,7 @@ class disturbance_model {
   /// The sum of squares that the model leaves of it [m²].
   [[nodiscard]] double left() const { return y_.squaredNorm(); }
   /// The sum of squares that the model leaves beyond what the steps do [m²].
-  [[nodiscard]] double left_over() const { return (std::max)(y_.squaredNorm() - floor(), 0.0); }
+  [[nodiscard]] double left_over() const { return (std::max)(left() - floor(), 0.0); }
   /// Two deviations of what the steps leave: the square of an error that is even within ±q/2 varies by 0.9 q²/12.
   [[nodiscard]] double chance() const noexcept {
     return 1.8 * floor() / std::sqrt(static_cast<double>(over_.rows()));
@@ -70,14 +70,6 @@ class disturbance_model {
     return false;
   }
   [[nodiscard]] explanation now() const { return {parts, latency}; }
-  /// What a disturbance moves, with the mode that the model has if `whole`.
-  [[nodiscard]] Eigen::MatrixXd columns_of(const shaped_disturbance& c) const {
-    std::optional<disturbance_columns::known_mode> beside;
-    for (const candidate& m : parts) {
-      if (whole && m.is == column_of::mode) beside = {m.p1, m.p2, m.g[0]};
-    }
-    return columns_.of(c, beside);
-  }
   /// Fits with the latency, of three, that leaves least.
   void fit_latency() {
     if (has(column_of::filter)) return static_cast<void>(fit());
@@ -99,13 +91,29 @@ class disturbance_model {
     latency = before.latency;
     fit();
   }
-  /// What is left without part `skip` of the model, under the acceleration of the whole of it.
-  double project(std::size_t skip) {
+  /// Leaves part `skip` out of the model, under the acceleration of the whole of it.
+  void project(std::size_t skip) {
     std::vector<double> scale;
     y_ = positions();
     basis_.resize(over_.rows(), 0);
     take(known(skip, scale));
-    return y_.squaredNorm();
+  }
+  /// A disturbance beside the model, from which project() has left out a part like it.
+  [[nodiscard]] candidate tried(const shaped_disturbance& shape) const {
+    candidate c{shape};
+    c.columns = columns_of(c);
+    test(c);
+    return c;
+  }
+
+ private:
+  /// What a disturbance moves, with the mode that the model has if `whole`.
+  [[nodiscard]] Eigen::MatrixXd columns_of(const shaped_disturbance& c) const {
+    std::optional<disturbance_columns::known_mode> beside;
+    for (const candidate& m : parts) {
+      if (whole && m.is == column_of::mode) beside = {m.p1, m.p2, m.g[0]};
+    }
+    return columns_.of(c, beside);
   }
   /// The rigid device and what has been found of it; returns the residual.
   double fit() {
@@ -134,23 +142,14 @@ class disturbance_model {
         }
       }
     }
-    const double left = project(parts.size());
+    project(parts.size());
     Eigen::Index row = 0;
     for (const motion_windows::window& w : over_.all()) {
       for (std::size_t n = w.from; n < w.from + w.ticks; ++n)
         columns_.place[n] = ticks_[n].x - std::clamp(y_(row++), -step_, step_);
     }
-    return left;
+    return left();
   }
-  /// A disturbance beside the model, from which project() has left out a part like it.
-  [[nodiscard]] candidate tried(const shaped_disturbance& shape) const {
-    candidate c{shape};
-    c.columns = columns_of(c);
-    test(c);
-    return c;
-  }
-
- private:
   void test(candidate& c) const {
     const Eigen::MatrixXd left = c.columns - basis_ * (basis_.transpose() * c.columns);
     const Eigen::Index k = left.cols();
@@ -198,7 +197,6 @@ class disturbance_model {
   }
   /// The columns of the rigid device and of the model, each of length one, but for part `skip` of the model.
   [[nodiscard]] Eigen::MatrixXd known(std::size_t skip, std::vector<double>& scale) {
-    columns_.drive.resize(ticks_.size());
     for (std::size_t n = 0; n < columns_.drive.size(); ++n)
       columns_.drive[n] = columns_.command(n, latency);
     for (std::size_t i = 0; i < parts.size(); ++i) {
