@@ -67,5 +67,5 @@ TEST_CASE("a rotor heavier than the device, or a chain that is none, is refused"
   auto none = cable;
   none.device.springs[0] = -1.0;
   CHECK(std::string(ph::make_touch<d1>(arm, none, person).check().parameter) == "springs");
-  CHECK(ph::make_touch<d1>(arm, cable, {.force = -1.0}).check());
+  CHECK(ph::make_touch<d1>(arm, cable, {.force = -1.0}).check().value == -1.0);
 }
