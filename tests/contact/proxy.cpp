@@ -567,17 +567,41 @@ TEST_CASE("what a contact lacks by rounding of the largest depth does not make i
           "[proxy]") {
   const double slack = ph::kernels::rounding<double>();
   for (const std::size_t deepest : {0U, 2U}) {
-    for (const double depth : {-1.0, 1.0, -4.0}) {
+    for (const double depth : {1.0, 4.0}) {
       std::array<double, 4> wish{-0.25, -0.25, -0.25, -0.25};
       wish[deepest] = depth;
       for (const double lack : {0.5, 1.0, 1.5}) {
-        wish[1] = lack * slack * std::abs(depth);
+        wish[1] = lack * slack * depth;
         auto p = unrelated(wish, {});
         ph::solve(p, nothing_between);
         CAPTURE(deepest, depth, lack);
         CHECK(p.pressed[1] == (lack > 1.0 ? wish[1] : 0.0));
-        CHECK(p.pressed[deepest] == std::max(depth, 0.0));
+        CHECK(p.pressed[deepest] == depth);
       }
     }
+  }
+}
+
+TEMPLATE_TEST_CASE("what is far away takes nothing from what is pressed", "[proxy]", d3, f3) {
+  using scalar = typename TestType::scalar;
+  using plane = ph::half_space<TestType>;
+  const auto force = [](scalar far) {
+    ph::passive_port port{
+        TestType{},
+        ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::slots<plane, 4>{}},
+        ph::no_observer{}, ph::no_bound{}, ph::loop_limits{.longest_tick = 1e-3}};
+    port.source().update(0, plane{{0, 0, scalar(1e-3)}, {0, 0, 1}, 1000});
+    port.source().update(1, plane{{scalar(1e-3), 0, 0}, {1, 0, 0}, 1000});
+    port.source().update(2, plane{{0, -1, 0}, {0, 1, 0}, 1000});
+    port.source().update(3, plane{{0, -far, 0}, {0, 1, 0}, 1000});
+    typename TestType::vector f = TestType::zero();
+    for (int n = 0; n < 200; ++n) f = port.tick(TestType::zero(), ph::seconds{scalar(1e-3)}).force;
+    return f;
+  };
+  const auto near = force(1);
+  CHECK(near.norm() > scalar(1.4));
+  for (const scalar far : {scalar(1e4), scalar(1e12), scalar(1e17)}) {
+    CAPTURE(far);
+    CHECK((force(far) - near).norm() == scalar(0));
   }
 }

@@ -177,7 +177,7 @@ constexpr void solve_by_sets(proxy_problem<Row, Scalar, Capacity>& p, auto betwe
   active_set<Row, Scalar, Capacity> set(p);
   Scalar widest(0);
   for (std::size_t i = 0; i < p.count; ++i) {
-    widest = kernels::larger(widest, kernels::magnitude(p.wish[i]));
+    widest = kernels::larger(widest, p.wish[i]);  // what is far away presses nothing
   }
   const Scalar slack = kernels::rounding<Scalar>() * widest;
   for (int change = 0; change < 4 * Capacity; ++change) {
