@@ -370,6 +370,25 @@ TEST_CASE("equal surfaces share a slot where there is no room for two", "[manifo
   CHECK(port.source().slot(0).target().normal[0] + port.source().slot(1).target().normal[0] == 1.0);
 }
 
+TEST_CASE("of two surfaces in one place the stiffer has the slot, in whatever order",
+          "[manifold]") {
+  auto port = set_of<d3, plane, 3>();
+  ph::contact_manifold<plane, 3> seen;
+  ph::laws::samples draw{5};
+  const plane side{{2e-3, 0, 0}, {1, 0, 0}, 800}, back{{0, 2e-3, 0}, {0, 1, 0}, 800};
+  std::array told{floor_at(1e-3, 8000), floor_at(1e-3, 300), floor_at(1e-3, 2000), side, back};
+  for (int frame = 0; frame < 100; ++frame) {
+    shuffle(told, draw);
+    const auto news = seen.show(port.source(), told, d3::zero());
+    CHECK(news.merged == 2);
+    CHECK(news.left_out == 0);
+    CHECK(news.released == 0);
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) sum += port.source().slot(i).target().stiffness;
+    CHECK(sum == 9600.0);
+  }
+}
+
 TEST_CASE("points of a tool find their walls again", "[manifold]") {
   using tool_body = ph::rigid_body<double>;
   ph::passive_port tool{tool_body{},

@@ -15,7 +15,7 @@
 // First, equal ids are matched, for any c; then pairs in the order of rising c (a stable matching, independent of the
 // order of the surfaces). A surface without a match takes a free slot, or else the slot with the smallest force; a
 // slot without a surface is released. A slot that is still receding may be matched. Of more surfaces than slots
-// the deepest are kept. Source (ours) and cost: docs/design/contacts.md.
+// the deepest are kept, and of two in one place the stiffer. Source (ours) and cost: docs/design/contacts.md.
 
 #include <passive_haptics/contact/contact_engine.hpp>
 
@@ -169,7 +169,7 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
     view seen;
     std::size_t number{};  ///< its number in the update
     scalar rank{};         ///< its depth less its distance c from the slots [m]
-    bool twin = false;     ///< equal to another candidate
+    bool twin = false;     ///< in the place of another candidate that is no softer
     bool placed = false;
   };
   struct frame_state {
@@ -240,9 +240,8 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
         choose<Where::apart>(now, next, surfaces.size() > cells, id_of(k), news);
       } else {
         ++news.refused;
-        for (std::size_t i = 0; i < cells; ++i) {
+        for (std::size_t i = 0; i < cells; ++i)
           now.kept[i] = now.kept[i] || (ids_[i] != no_id && ids_[i] == id_of(k));
-        }
         where.refuse(source);
       }
     }
@@ -302,8 +301,10 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
       if (id != no_id && ids_[i] == id) away = scalar(0);
     }
     next.rank -= away;
-    for (std::size_t k = 0; k < now.count; ++k) {
-      next.twin = next.twin || cost<Apart>(now.told[k].seen, next.seen, twin_) <= twin_;
+    for (std::size_t k = 0; k < now.count; ++k) {  // of two in one place the softer is hardly felt
+      if (cost<Apart>(now.told[k].seen, next.seen, twin_) > twin_) continue;
+      (now.told[k].seen.stiffness < next.seen.stiffness ? now.told[k] : next).twin = true;
+      if (before(now.told[k], now.told[now.worst])) now.worst = k;
     }
     if (full) {
       ++(next.twin || now.told[now.worst].twin ? news.merged : news.left_out);
@@ -311,9 +312,8 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
     }
     now.told[full ? now.worst : now.count++] = next;
     now.worst = 0;
-    for (std::size_t k = 1; k < now.count; ++k) {
+    for (std::size_t k = 1; k < now.count; ++k)
       if (before(now.told[k], now.told[now.worst])) now.worst = k;
-    }
   }
   /// True if a is dropped before b: twins first, then surfaces that do not cover the device, then shallower ones.
   [[nodiscard]] static constexpr bool before(const candidate& a, const candidate& b) noexcept {
