@@ -799,3 +799,22 @@ TEST_CASE("a port says what settles in its own loop, and why it shows less", "[s
   told.most = 0.0;
   CHECK(told.check().parameter == std::string_view("most"));
 }
+
+TEMPLATE_TEST_CASE("what is shown of a renderer is a share of it, however small or huge its forces",
+                   "[settled_force]", d2, d3, f1, f3) {
+  using scalar = typename TestType::scalar;
+  using vector = typename TestType::vector;
+  const scalar least = ph::kernels::smallest<scalar>(), root = std::sqrt(least);
+  ph::laws::samples draw{11};
+  auto guard = guard_of<TestType>(rule);
+  vector x = TestType::zero();
+  for (int n = 0; n < 20000; ++n) {
+    x = x + scalar(1e-4) * draw.vector<TestType>();
+    const scalar sizes[] = {scalar(1),          scalar(1e3),      root,
+                            root * scalar(1e3), scalar(1) / root, least};
+    const vector w = sizes[draw.bits() % 6] * draw.vector<TestType>();
+    (void)guard.tick({x, TestType::zero(), scalar(1e-3), true}, w);
+    REQUIRE(guard.source().shown() > scalar(0));
+    REQUIRE(guard.source().shown() <= scalar(1));
+  }
+}

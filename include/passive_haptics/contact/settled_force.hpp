@@ -210,11 +210,11 @@ class settled_force::on : private part_at<given_force, P> {
     }
     if (!(size > scalar(0) && moved > slow * slow)) return;
     const scalar keep = scalar(0.03) / (scalar(0.03) + dt), little = moved * scalar(1e-4);
-    const scalar out = P::dot(w, way), work = P::dot(change, way);
-    const scalar rise = P::dot(w, change), risen = rise * rise / size;
-    const scalar along = out * rise / size, outwards = out * out / size;
-    along_.see(along, outwards + little, risen, keep);
-    across_.see(work - along, moved - outwards + little, P::dot(change, change) - risen, keep);
+    const effort n = P::scaled(w, scalar(1) / kernels::square_root(size));
+    const scalar out = P::dot(n, way), rise = P::dot(n, change), risen = rise * rise;
+    const scalar work = P::dot(change, way), outwards = kernels::smaller(out * out, moved);
+    along_.see(out * rise, outwards + little, risen, keep);
+    across_.see(work - out * rise, moved - outwards + little, P::dot(change, change) - risen, keep);
     learns_ = learns_ || -work > steepest_ * moved;
     ticks_ = keep * ticks_ + scalar(1);
     const scalar s = learns_ && ticks_ > scalar(3)
