@@ -734,6 +734,31 @@ TEST_CASE("two news between two ticks are one", "[contact]") {
   CHECK_THAT(model.tick(-1e-3, 1ms).force, WithinRel(1.0, 1e-9));
 }
 
+TEST_CASE(
+    "the wall of a slider that is told on its other side is not met with the force of the first",
+    "[contact]") {
+  const auto pressed = [](double other) {
+    auto model = touching(ph::eased{damper});
+    REQUIRE(model.update({0.0, 1.0, 1000.0}));
+    double force = model.tick(1e-3, 1ms).force;
+    for (int n = 0; n < 200; ++n) force = model.tick(-2e-3, 1ms).force;
+    CHECK_THAT(force, WithinRel(2.0, 1e-9));
+    REQUIRE(model.update({other, -1.0, 1000.0}));
+    return model;
+  };
+  auto beyond = pressed(2e-3);  // which is not touched
+  for (int n = 0; n < 200; ++n) CHECK(beyond.tick(-2e-3, 1ms).force == 0.0);
+  auto over = pressed(-3e-3);  // which is 1 mm deep
+  double last = 0.0;
+  for (int n = 0; n < 200; ++n) {
+    const double force = over.tick(-2e-3, 1ms).force;
+    CHECK(force <= 0.0);
+    CHECK(last - force <= 0.05 + 1e-12);
+    last = force;
+  }
+  CHECK_THAT(last, WithinRel(-1.0, 1e-9));
+}
+
 TEST_CASE("news of a contact that fades begin with the force that there is", "[contact]") {
   auto model = touching(ph::eased{damper});
   REQUIRE(model.update({0.0, 1.0, 500.0}));

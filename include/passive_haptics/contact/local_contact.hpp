@@ -374,9 +374,8 @@ class local_contact {
         return scalar(0);
       }
       if (!supply_.changed()) supply_.grow_older(dt);
-      if (supply_.current()) [[likely]] {
+      if (supply_.current()) [[likely]]
         return scalar(1);
-      }
       if (supply_.stale()) what = detail::worse_yet(what, event::stale_target);
       return faded(supply_.weight(), depth, dt);
     } else {
@@ -418,11 +417,13 @@ class local_contact {
     lag_.let_go();  // neither is touched, so no force can step
     return now;
   }
-  /// Takes an update; a pressed contact keeps its force.
+  /// Takes an update; a pressed contact keeps its force, but not if a wall of one dimension is on the other side now.
   constexpr void hear(scalar now, const vector& x, const auto& port) noexcept {
     const auto was = shown_.at(x);
+    const vector outward = supply_.target().at(x).outward();
     const scalar counted = supply_.last_weight();
-    const bool known = counted > scalar(0) && was.covered();
+    const bool turned_over = Space::dof == 1 && !(Space::dot(outward, was.outward()) > scalar(0));
+    const bool known = counted > scalar(0) && was.covered() && !turned_over;
     const law_type before = law_;
     adopt(port.longest_tick, std::remove_cvref_t<decltype(port)>::latency);
     const scalar compliance = law_.depth(scalar(1), scalar(0));
@@ -431,7 +432,6 @@ class local_contact {
     if (own > scalar(0) && !(as_stiff && counted == scalar(1))) {
       own = law_.depth(counted * before.force(own, scalar(0)), scalar(0));
     }
-    const vector outward = supply_.target().at(x).outward();
     turn_.hear(known ? vector(outward - was.outward()) : Space::zero(), lag_.between(told_.age));
     const bool knows = told_.velocity.has_value();
     lag_.hear(own, now, known ? now - was.depth : scalar(0), compliance, law_.pace(),
