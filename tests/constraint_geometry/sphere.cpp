@@ -69,6 +69,24 @@ TEMPLATE_TEST_CASE("a sphere that cannot be used is refused", "[geometry]", d3, 
   }
 }
 
+TEMPLATE_TEST_CASE("a ball that is pressed deeper than its radius keeps its normal", "[geometry]",
+                   d1, d2, d3, f3) {
+  using S = TestType;
+  using scalar = typename S::scalar;
+  typename S::vector n = S::zero();
+  S::component(n, 0) = scalar(-1);
+  const auto solid = ball<S>({});
+  for (const double deep : {-0.02, 0.02, 0.0499, 0.05, 0.07, 1.0}) {
+    const auto own = solid.toward(solid, S::zero(), n, scalar(deep)).at(S::zero());
+    CAPTURE(deep);
+    CHECK_THAT(double(S::dot(own.outward(), n)), WithinAbs(1.0, 1e-3));
+    CHECK_THAT(double(own.depth), WithinAbs(std::min(deep, 0.04995), 1e-7));
+  }
+  const auto cavity = ball<S>({}, ph::felt_from::inside);
+  CHECK_THAT(double(cavity.toward(cavity, S::zero(), n, scalar(0.07)).at(S::zero()).depth),
+             WithinAbs(0.07, 1e-7));
+}
+
 TEST_CASE("a sphere is looked for within twice its radius", "[geometry]") {
   const auto found = ball<d3>({0.01, 0, 0}).around();
   CHECK(found.radius == 0.1);

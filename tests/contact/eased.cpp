@@ -759,6 +759,28 @@ TEST_CASE(
   CHECK_THAT(last, WithinRel(-1.0, 1e-9));
 }
 
+TEST_CASE("a small ball that is told to be softer does not turn its force round", "[contact]") {
+  using ball = ph::sphere<d3>;
+  ph::local_model model{d3{},
+                        ph::followed<ball>{},
+                        ph::turn_limited{.rate = 2.0},
+                        ph::eased{ph::damped_spring{.mass = 1.0}},
+                        ph::no_observer{},
+                        ph::no_bound{},
+                        thesis_loop};
+  d3::vector x(0, 0, 1e-4), last = d3::zero();
+  REQUIRE(model.update(ball{{0, 0, -3e-3}, 3e-3, 5000.0}));
+  for (int n = 0; n < 400; ++n) {
+    if (n < 110) x(2) -= 1e-5;
+    // 5 N that a ball of 400 N/m has 12.5 mm deep, four times its radius
+    if (n == 200) REQUIRE(model.update(ball{{0, 0, -3e-3}, 3e-3, 400.0}));
+    const d3::vector force = model.tick(x, 1ms).force;
+    if (n > 110) REQUIRE((force - last).norm() <= 0.05 + 1e-9);
+    last = force;
+  }
+  CHECK(last(2) > 0.3);
+}
+
 TEST_CASE("news of a contact that fades begin with the force that there is", "[contact]") {
   auto model = touching(ph::eased{damper});
   REQUIRE(model.update({0.0, 1.0, 500.0}));

@@ -39,11 +39,12 @@ struct sphere {
     return {-depth, vector(-from_centre.direction), true};
   }
 
-  /// A sphere of the target's size and side, placed so that x lies d [m] deep in it, under the normal n.
+  /// A sphere of the target's size and side, placed so that x lies d [m] deep in it, under the normal n, before its centre.
   [[nodiscard]] constexpr sphere toward(const sphere& target, const vector& x, const vector& n,
                                         scalar d) const noexcept {
-    const scalar way = target.felt == felt_from::outside ? d - target.radius : d + target.radius;
-    return {vector(x + n * way), target.radius, target.stiffness, target.felt};
+    const scalar r = target.radius, above = kernels::smaller(d, r * scalar(0.999)) - r;
+    const scalar way = target.felt == felt_from::outside ? above : d + r;
+    return {vector(x + n * way), r, target.stiffness, target.felt};
   }
 
   /// The ball about its centre of twice its radius.

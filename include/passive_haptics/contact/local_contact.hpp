@@ -400,9 +400,8 @@ class local_contact {
       scalar now, [[maybe_unused]] const vector& x, [[maybe_unused]] const auto& port) noexcept {
     if constexpr (eases) {
       lag_.grow_older(port.dt);
-      if (fresh() || lags()) [[unlikely]] {
+      if (fresh() || lags()) [[unlikely]]
         return depth_behind(now, x, port);
-      }
     }
     return now;
   }
