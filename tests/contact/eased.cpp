@@ -781,6 +781,31 @@ TEST_CASE("a small ball that is told to be softer does not turn its force round"
   CHECK(last(2) > 0.3);
 }
 
+TEST_CASE("a thin body that is told to be softer and elsewhere does not turn its force at once",
+          "[contact]") {
+  using thin = ph::quadric<d3>;
+  ph::local_model model{d3{},
+                        ph::followed<thin>{},
+                        ph::turn_limited{.rate = 2.0},
+                        ph::eased{ph::damped_spring{.mass = 1.0}},
+                        ph::no_observer{},
+                        ph::no_bound{},
+                        thesis_loop};
+  const auto told = [](const d3::coordinates& p, const d3::coordinates& n, double K) {
+    return thin{.point = p, .normal = n, .stiffness = K, .thickness = 3e-3};
+  };
+  d3::vector x(0, 0, 1e-4), last = d3::zero();
+  REQUIRE(model.update(told({0, 0, 0}, {0, 0, 1}, 5000.0)));
+  for (int n = 0; n < 400; ++n) {
+    if (n < 110) x(2) -= 1e-5;
+    // 5 N is 10 mm of 500 N/m; the body lies to the side of the device now, which does not touch it
+    if (n == 200) REQUIRE(model.update(told({-1e-3, 0, 0}, {1, 0, 0.1}, 500.0)));
+    const d3::vector force = model.tick(x, 1ms).force;
+    if (n > 110) REQUIRE((force - last).norm() <= 0.05 + 1e-9);
+    last = force;
+  }
+}
+
 TEST_CASE("news of a contact that fades begin with the force that there is", "[contact]") {
   auto model = touching(ph::eased{damper});
   REQUIRE(model.update({0.0, 1.0, 500.0}));

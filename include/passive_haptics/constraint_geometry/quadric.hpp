@@ -85,6 +85,7 @@ requires(Space::dof == 3) struct quadric {
     const scalar length = Space::norm(across);
     own.point = vector(x + n * d);
     own.normal = n;
+    own.thickness = kernels::larger(own.thickness, scalar(2) * d);  // it covers x, however pressed
     own.tangent = length > scalar(0.5) ? vector(across / length) : Space::orthogonal(n);
     return own;
   }

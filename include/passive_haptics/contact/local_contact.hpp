@@ -428,9 +428,8 @@ class local_contact {
     const scalar compliance = law_.depth(scalar(1), scalar(0));
     scalar own = known ? was.depth - lag_.offset() : scalar(0);
     const bool as_stiff = before.depth(scalar(1), scalar(0)) == compliance;
-    if (own > scalar(0) && !(as_stiff && counted == scalar(1))) {
+    if (own > scalar(0) && !(as_stiff && counted == scalar(1)))
       own = law_.depth(counted * before.force(own, scalar(0)), scalar(0));
-    }
     turn_.hear(known ? vector(outward - was.outward()) : Space::zero(), lag_.between(told_.age));
     const bool knows = told_.velocity.has_value();
     lag_.hear(own, now, known ? now - was.depth : scalar(0), compliance, law_.pace(),
