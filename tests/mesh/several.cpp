@@ -24,6 +24,39 @@ TEST_CASE("a finger in the corner of two meshes is held by both, and by one when
   CHECK(length(ball.place() - triple{-0.009, 0.003, 5e-4}) < 1e-9);
 }
 
+TEST_CASE("a mesh that is touched as well comes where it is, and takes no side away", "[mesh]") {
+  const body b = plate(), c = sphere(2, 0.02), mote = sphere(1, 0.001);
+  std::vector<triple> beside = mote.nodes;
+  for (triple& p : beside) p = p + triple{0.0, 0.0012, 5e-4};
+  ph::mesh::surface floor(b.triangles, b.nodes), far(c.triangles, c.nodes),
+      near(mote.triangles, beside);
+  REQUIRE(far.update(ph::mesh::pose{.position = {0.5, 0.0, 0.0}}));
+  ph::mesh::proxy ball({.radius = 5e-4});
+  ball.touch(floor);
+  for (int k = 0; k < 60; ++k) ball.step({0.0, 0.0, 0.02 - 5e-4 * k}, T);
+  REQUIRE(length(ball.place() - triple{0.0, 0.0, 5e-4}) < 1e-9);
+  for (const auto* other :
+       {&far, &near}) {  // one that was never here, and one within r of the ball
+    REQUIRE(ball.also_touch(*other));
+    for (int k = 0; k < 100; ++k) {
+      ball.step({0.0, 0.0, -0.01}, T);
+      REQUIRE(ball.placed());
+      REQUIRE(ball.place().z >= 2.5e-4);
+      REQUIRE(length(ball.place() - triple{0.0, 0.0, 5e-4}) < 5e-4);
+    }
+  }
+  CHECK(ball.where(1).position.x == 0.5);
+  ph::mesh::proxy above(
+      {.radius = 5e-4});  // in the air, where the far sphere would be without its pose
+  above.touch(floor);
+  above.step({0.0, 0.0, 0.01}, T);
+  REQUIRE(above.also_touch(far));
+  for (int k = 0; k < 100; ++k) above.step({0.0, 0.0, 0.01}, T);
+  CHECK(above.place() == triple{0.0, 0.0, 0.01});
+  above.let_go();
+  ball.let_go();
+}
+
 TEST_CASE("no mesh of two lets the ball through while both move, turn and bend", "[mesh]") {
   const body plates = plate(), balls = sphere(2, 0.03);
   int by[2] = {0, 0};

@@ -68,8 +68,9 @@ class proxy {
     let_go();
     return also_touch(s);
   }
-  /// Touches this surface as well. Each has its own pose and news, and where they meet all of them hold the ball. It
-  /// returns false if most_meshes are touched, if the surface has no place left, or if it is touched already.
+  /// Touches this surface as well, where it is now. Each has its own pose and news, and where they meet all of them
+  /// hold the ball; what it presses keeps its side. It returns false if most_meshes are touched, if the surface has no
+  /// place left, or if it is touched already.
   bool also_touch(const surface& s) noexcept {
     for (const part& p : parts()) {
       if (p.news.reads(s)) return false;
@@ -77,8 +78,10 @@ class proxy {
     if (meshes_ == most_meshes) return false;
     part fresh;
     if (!fresh.news.join(s)) return false;
+    if (const pose* there = fresh.news.take_pose()) fresh.goal = fresh.shown = *there;
     reframe([&] { parts_[slot(meshes_++)] = fresh; });
-    placed_ = placed_ && meshes_ > 1 && clear_of(meshes_ - 1);
+    const int last = meshes_ - 1;
+    placed_ &= !(at_ == device_ && closest(fresh, last, at_, rule_.radius).triangle >= 0);
     return true;
   }
   /// Touches no surface any more.
@@ -247,9 +250,6 @@ class proxy {
     count_ = 0;
     pressed_ = {};
     beside_device_ = {};
-  }
-  [[nodiscard]] bool clear_of(int mesh) const noexcept {
-    return !(closest(parts_[slot(mesh)], mesh, at_, rule_.radius).triangle >= 0);
   }
 
   /// A mesh on its way from one shape to another, at a pose in the frame that is looked from.
