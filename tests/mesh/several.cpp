@@ -147,5 +147,8 @@ TEST_CASE("news from the past or the future are refused, and the last good ones 
   CHECK_THAT(s.fault(), Contains("from the past"));
   CHECK_FALSE(s.update(ph::mesh::pose{}, now + std::chrono::hours(1)));
   CHECK_THAT(s.fault(), Contains("from the future"));
+  CHECK_FALSE(s.update(b.nodes, ph::mesh::surface::clock::time_point::min()));
+  CHECK_THAT(s.fault(),
+             Contains("older by 9"));  // 292 years, which no difference of clocks can hold
   CHECK(s.update(b.nodes, now));
 }

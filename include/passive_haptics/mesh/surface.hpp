@@ -328,17 +328,17 @@ class surface {
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
   [[nodiscard]] bool in_order(clock::time_point at) {
-    const auto ms = [](auto d) {
-      return std::to_string(std::chrono::duration<double, std::milli>(d).count()) + " ms";
+    const auto ms = [](auto later, auto earlier) {  // as numbers that cannot overflow
+      std::chrono::duration<double, std::milli> way = later.time_since_epoch();
+      return std::to_string((way -= earlier.time_since_epoch()).count()) + " ms";
     };
-    const auto now = clock::now();
-    if (at > now) {
-      fault_ = "mesh: news from the future, by " + ms(at - now) +
+    if (const auto now = clock::now(); at > now) {
+      fault_ = "mesh: news from the future, by " + ms(at, now) +
                "; give the time of surface::clock at which they were made";
       return false;
     }
     if (at < last_) {
-      fault_ = "mesh: news from the past, older by " + ms(last_ - at) +
+      fault_ = "mesh: news from the past, older by " + ms(last_, at) +
                " than the last ones; publish in the order of making";
       return false;
     }
