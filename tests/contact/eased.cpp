@@ -24,10 +24,10 @@ static_assert(ph::contact_law_for<ph::capped<eased_damper>, d1>);
 constexpr ph::damped_spring damper{.mass = 0.1};
 
 /// Unbounded, so that every step of a wanted force is felt.
-template <class Law>
+template <class Surface = ph::half_space<d1>, class Law>
 auto touching(const Law& law, const ph::freshness& rule = {}) {
-  return ph::local_model{d1{},
-                         ph::followed<ph::half_space<d1>>{rule},
+  return ph::local_model{typename Surface::space_type{},
+                         ph::followed<Surface>{rule},
                          ph::turn_limited{.rate = 2.0},
                          law,
                          thesis_ledger(),
@@ -195,13 +195,7 @@ TEST_CASE("a surface that moved and falls silent is felt where it is", "[contact
 
 TEST_CASE("a sphere that beats under a device that slides does not step either", "[contact]") {
   const auto largest_step = [](const auto& law) {
-    ph::local_model model{d3{},
-                          ph::followed<ph::sphere<d3>>{},
-                          ph::turn_limited{.rate = 2.0},
-                          law,
-                          thesis_ledger(),
-                          ph::no_bound{},
-                          thesis_loop};
+    auto model = touching<ph::sphere<d3>>(law);
     double step = 0.0;
     d3::vector last = d3::zero();
     for (int n = 0; n < 3000; ++n) {
@@ -761,13 +755,7 @@ TEST_CASE(
 
 TEST_CASE("a small ball that is told to be softer does not turn its force round", "[contact]") {
   using ball = ph::sphere<d3>;
-  ph::local_model model{d3{},
-                        ph::followed<ball>{},
-                        ph::turn_limited{.rate = 2.0},
-                        ph::eased{ph::damped_spring{.mass = 1.0}},
-                        ph::no_observer{},
-                        ph::no_bound{},
-                        thesis_loop};
+  auto model = touching<ball>(ph::eased{ph::damped_spring{.mass = 1.0}});
   d3::vector x(0, 0, 1e-4), last = d3::zero();
   REQUIRE(model.update(ball{{0, 0, -3e-3}, 3e-3, 5000.0}));
   for (int n = 0; n < 400; ++n) {
@@ -784,13 +772,7 @@ TEST_CASE("a small ball that is told to be softer does not turn its force round"
 TEST_CASE("a thin body that is told to be softer and elsewhere does not turn its force at once",
           "[contact]") {
   using thin = ph::quadric<d3>;
-  ph::local_model model{d3{},
-                        ph::followed<thin>{},
-                        ph::turn_limited{.rate = 2.0},
-                        ph::eased{ph::damped_spring{.mass = 1.0}},
-                        ph::no_observer{},
-                        ph::no_bound{},
-                        thesis_loop};
+  auto model = touching<thin>(ph::eased{ph::damped_spring{.mass = 1.0}});
   const auto told = [](const d3::coordinates& p, const d3::coordinates& n, double K) {
     return thin{.point = p, .normal = n, .stiffness = K, .thickness = 3e-3};
   };

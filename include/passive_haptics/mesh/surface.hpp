@@ -329,8 +329,9 @@ class surface {
 
   [[nodiscard]] bool in_order(clock::time_point at) {
     const auto ms = [](auto later, auto earlier) {  // as numbers that cannot overflow
-      std::chrono::duration<double, std::milli> way = later.time_since_epoch();
-      return std::to_string((way -= earlier.time_since_epoch()).count()) + " ms";
+      const std::chrono::duration<double, std::milli> a = earlier.time_since_epoch(),
+                                                      b = later.time_since_epoch();
+      return std::to_string((b - a).count()) + " ms";
     };
     if (const auto now = clock::now(); at > now) {
       fault_ = "mesh: news from the future, by " + ms(at, now) +
