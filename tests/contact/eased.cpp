@@ -262,6 +262,53 @@ TEST_CASE("a normal that news go on turning is felt as it is by now, not as it w
   }
 }
 
+TEST_CASE("a wall that answers the force itself comes to rest before a device that stands",
+          "[contact]") {
+  // It yields by force/K, `late` updates late, so that F(n+1) = K x - F(n - late) would never end.
+  constexpr double K = 800.0, x = -2e-3, rest = 0.5 * K * 2e-3;
+  for (const std::size_t late : {0u, 1u, 2u}) {
+    for (const unsigned seed : {1u, 2u, 3u}) {
+      CAPTURE(late, seed);
+      ph::laws::samples random(seed);
+      auto model = touching(ph::eased{damper});
+      std::array<double, 4> past{};
+      double force = 0.0, least = K, most = 0.0;
+      for (int n = 0, next = 0; n < 6000; ++n) {
+        if (n == next) {
+          next += 30 + int(20.0 * random.number<double>());
+          std::rotate(past.begin(), past.end() - 1, past.end());
+          past[0] = force / K;
+          REQUIRE(model.update({-past[late], 1.0, K}));
+        }
+        force = model.tick(x, 1ms).force;
+        if (n < 5000) continue;
+        least = std::min(least, force);
+        most = std::max(most, force);
+      }
+      CHECK(most - least < 0.02);
+      CHECK_THAT(force, WithinRel(rest, 0.02));
+    }
+  }
+}
+
+TEST_CASE("a wall that moves to and fro is followed sooner by a device that moves by as much",
+          "[contact]") {
+  // It rises by 1 mm and falls again, so that nothing comes of what is expected.
+  const auto since_it_fell = [](double sideways) {
+    auto model = touching<ph::half_space<d3>>(ph::eased{ph::spring{}});
+    std::array<double, 2> force{};  // when it falls, and 30 ms later
+    for (int n = 0; n <= 430; ++n) {
+      const double height = n / 100 % 2 == 0 ? 0.0 : 1e-3;
+      if (n % 100 == 0) REQUIRE(model.update({{0, 0, height}, {0, 0, 1}, 200.0}));
+      force[n <= 400 ? 0 : 1] =
+          model.tick(d3::vector(n / 100 * sideways, 0, -4e-3), 1ms).force.norm();
+    }
+    return force[1] - force[0];
+  };
+  CHECK_THAT(since_it_fell(0.9e-3), WithinAbs(0.0, 0.04));
+  CHECK(since_it_fell(1.1e-3) < -0.08);
+}
+
 TEST_CASE("eased forgets at a reset, and changes live", "[contact]") {
   auto model = touching(ph::eased{damper});
   REQUIRE(model.update({0.0, 1.0, 1000.0}));
@@ -905,6 +952,7 @@ struct plainly {
   ph::turning<d3> turn{};
   Surface newest{}, before{}, own{};  // what is followed, the same a tick ago, and where it is felt
   motion told{};
+  d3::vector heard_at = d3::zero();
   bool heard = false, gone = false, news = false, refused = false, beside = false;
   bool together = true;  // what is felt is the newest
   double age = 0.0, last_weight = 0.0;
@@ -961,7 +1009,8 @@ struct plainly {
     turn.hear(known ? d3::vector(outward - was.outward()) : d3::zero(), lag.between(told.age));
     lag.hear(felt, depth, known ? depth - was.depth : 0.0, law.depth(1.0, 0.0), law.pace(),
              {told.velocity ? outward.dot(d3::vector(*told.velocity)) : 0.0, told.age,
-              told.velocity.has_value()});
+              told.velocity.has_value(), (x - heard_at).norm()});
+    heard_at = x;
     told = {};
   }
   /// The force [N], at most `most` [N], and the depth that is felt [m].

@@ -6,7 +6,8 @@
 //     own depth = d − ℓ + p
 //     update     the own depth is kept: the lag ℓ [m] takes the jump of d, and the lead p [m] is 0
 //     each tick  |ℓ| falls by ρ dt,   ρ = 3|ℓ₀|/P, within [R_least, R_most]/K; and, if that takes no longer than
-//                0.8 s, the sum of ρ and u is at most max(R_usual/K, 4/3 |u|)
+//                0.8 s, ρ + u is at most max(R_usual/K, 4/3 |u|). Where Σ u v ≤ max(Σ u², v²)/2, and the device has
+//                moved by less than the surface since the last update, |ℓ| falls by at most |ℓ₀|/2 while p grows
 //                p grows by u dt for the time P, but no longer than `ahead`; if no update has come for twice as
 //                long, the surface may have stopped, and p is reduced to 0 in the same way as ℓ
 //                the own normal turns by ω dt while p grows, and at its own rate towards the newest one so turned
@@ -14,8 +15,8 @@
 // ℓ₀ is the lag at the last update, P [s] the usual time between updates, and u [m/s] and ω [1/s] the velocity and the
 // turn of the surface at the device between the last two updates: at most twice that of the two before, and 0 if that
 // had the opposite sign. So a surface that jumps once is not extrapolated, and one that moves on is not late. That u is
-// reduced to the share Σ u v/Σ u² ≤ 1, v what followed, of the last 8 updates: one that yields late would swing for ever.
-// Source: ours; docs/design/contacts.md § 6.
+// reduced to the share Σ u v/Σ u² ≤ 1, v what followed, of the last 8 updates. A surface that yields late to the force
+// itself would swing for ever without that share, or without |ℓ₀|/2. Source: ours; docs/design/contacts.md § 6.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -150,6 +151,7 @@ class lag {
     Scalar speed{};      ///< outward, of the surface itself [m/s]
     Scalar age{};        ///< [s]
     bool knows = false;  ///< `speed` is stated
+    Scalar strayed{};    ///< way of the device since the last update [m]
   };
   /// True if an update of that age [s] is younger than the last one, or older by at most `slack` [s].
   [[nodiscard]] constexpr bool follows(Scalar age, Scalar slack) const noexcept {
@@ -178,11 +180,11 @@ class lag {
     const Scalar here = now + lead_;
     behind_ =
         own > Scalar(0) || here > Scalar(0) ? here - kernels::larger(own, Scalar(0)) : Scalar(0);
-    if (!kernels::is_finite(behind_ + goes_on_ + hits_ + tries_)) {
-      *this = {};
-      return;
-    }
+    if (!kernels::is_finite(behind_ + goes_on_ + hits_ + tries_)) return void(*this = {});
     speed_ = pace.speed_for(behind_, usual_, goes_on_, compliance);
+    const bool unlike = !(Scalar(2) * hits_ > kernels::larger(tries_, moved * moved));
+    if (unlike && told.strayed < kernels::magnitude(moved))
+      speed_ = kernels::smaller(speed_, kernels::magnitude(behind_) / (Scalar(2) * ahead_));
     settled_ = behind_ == Scalar(0) && lead_ == Scalar(0) && goes_on_ == Scalar(0);
   }
   /// Drops ℓ and p, for a device that touches neither surface, so that no force can step.

@@ -161,9 +161,8 @@ class local_contact {
   /// Recomputes the displayed stiffness for a new T [s], latency or parameter.
   constexpr void adopt(scalar longest_tick, int late) noexcept {
     if constexpr (eases) slack_ = longest_tick;
-    if (supply_.target().stiffness > scalar(0)) {
+    if (supply_.target().stiffness > scalar(0))
       detail::tell(law_, supply_.target().stiffness, longest_tick, late);
-    }
   }
 
   /// Explains the surface for a device at x, in ticks of T [s] with commands held `late` ticks later.
@@ -257,8 +256,8 @@ class local_contact {
     if constexpr (Shortcut && shapers_keep_zero<state>()) {
       if (!in_target) {
         if constexpr (eases) law_.let_go();
-        const vector none = Space::zero();
-        return {none, true, none, false, false, weight, scalar(0), scalar(0), none, none};
+        const vector zero = Space::zero();
+        return {zero, true, zero, false, false, weight, scalar(0), scalar(0), zero, zero};
       }
     }
 
@@ -332,7 +331,8 @@ class local_contact {
 
  private:
   static constexpr bool eases = Supply::moves && detail::eases_news<law_type>;
-  struct no_memory {};
+  template <int>
+  struct none {};  ///< one for each member that is left out, so that it takes no bytes
   /// The law for a surface of K [N/m].
   [[nodiscard]] constexpr law_type law_for(scalar K, scalar T, int late) const noexcept {
     law_type law = law_;
@@ -433,7 +433,8 @@ class local_contact {
     turn_.hear(known ? vector(outward - was.outward()) : Space::zero(), lag_.between(told_.age));
     const bool knows = told_.velocity.has_value();
     lag_.hear(own, now, known ? now - was.depth : scalar(0), compliance, law_.pace(),
-              {knows ? Space::dot(vector(*told_.velocity), outward) : scalar(0), told_.age, knows});
+              {knows ? Space::dot(vector(*told_.velocity), outward) : scalar(0), told_.age, knows,
+               Space::norm(vector(x - vector(std::exchange(heard_at_, x))))});
     told_ = {};
   }
   /// The factor of a contact that fades, whose force also falls at a limited rate if the law is eased.
@@ -513,21 +514,18 @@ class local_contact {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS normals_type normals_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS law_type law_;
   /// x was behind the surface, but outside its edges; this is needed for a supply that moves only.
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<Supply::moves, bool, no_memory> beside_{};
-  struct no_lag {};
-  struct no_turn {};
-  struct no_surface {};
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, lag<scalar>, no_lag> lag_{};
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, turning<Space>, no_turn> turn_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<Supply::moves, bool, none<0>> beside_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, lag<scalar>, none<1>> lag_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, turning<Space>, none<2>> turn_{};
   /// The target of the last tick, to compare with an update.
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, constraint_type, no_surface> shown_{};
-  struct no_account {};
-  struct no_slack {};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, constraint_type, none<3>> shown_{};
   /// The stated motion of the newest target, until the next tick takes it.
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, surface_motion<Space>, no_account>
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, surface_motion<Space>, none<4>>
       told_{};
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, scalar, no_slack>
-      slack_{};  ///< T [s]
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, scalar, none<5>> slack_{};  ///< T [s]
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
+  std::conditional_t<eases, typename Space::coordinates, none<6>>
+      heard_at_{};  ///< x at the last update [m]
 };
 
 /// The space is that of the constraint.
