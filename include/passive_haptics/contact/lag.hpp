@@ -7,7 +7,7 @@
 //     update     the own depth is kept: the lag ℓ [m] takes the jump of d, and the lead p [m] is 0
 //     each tick  |ℓ| falls by ρ dt,   ρ = 3|ℓ₀|/P, within [R_least, R_most]/K; and, if that takes no longer than
 //                0.8 s, ρ + u is at most max(R_usual/K, 4/3 |u|). Where Σ u v ≤ max(Σ u², v²)/2, and the device has
-//                moved by less than the surface since the last update, |ℓ| falls by at most |ℓ₀|/2 while p grows
+//                moved more slowly than v since the last update, |ℓ| falls by at most |ℓ₀|/2 while p grows
 //                p grows by u dt for the time P, but no longer than `ahead`; if no update has come for twice as
 //                long, the surface may have stopped, and p is reduced to 0 in the same way as ℓ
 //                the own normal turns by ω dt while p grows, and at its own rate towards the newest one so turned
@@ -166,8 +166,8 @@ class lag {
   /// the beginning of the contact, 0 without contact [m].
   constexpr void hear(Scalar own, Scalar now, Scalar moved, Scalar compliance,
                       const news_pace::at<Scalar>& pace, const account& told = {}) noexcept {
-    const Scalar speed = moved / between(told.age);
-    expect(speed, compliance, pace, told);
+    const Scalar took = between(told.age);
+    expect(moved / took, compliance, pace, told);
     const Scalar interval =
         kernels::smaller(kernels::larger(since_, kernels::rounding<Scalar>()), pace.longest());
     // P follows a longer interval at once and a shorter one slowly, for a network that drops updates.
@@ -182,8 +182,8 @@ class lag {
         own > Scalar(0) || here > Scalar(0) ? here - kernels::larger(own, Scalar(0)) : Scalar(0);
     if (!kernels::is_finite(behind_ + goes_on_ + hits_ + tries_)) return void(*this = {});
     speed_ = pace.speed_for(behind_, usual_, goes_on_, compliance);
-    const bool unlike = !(Scalar(2) * hits_ > kernels::larger(tries_, moved * moved));
-    if (unlike && told.strayed < kernels::magnitude(moved))
+    const Scalar came = kernels::magnitude(last_speed_) * took;
+    if (told.strayed < came && !(Scalar(2) * hits_ > kernels::larger(tries_, came * came)))
       speed_ = kernels::smaller(speed_, kernels::magnitude(behind_) / (Scalar(2) * ahead_));
     settled_ = behind_ == Scalar(0) && lead_ == Scalar(0) && goes_on_ == Scalar(0);
   }
