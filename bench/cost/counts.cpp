@@ -3,8 +3,10 @@
 
 #include "workload.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace cost {
@@ -104,23 +106,60 @@ bool valgrind_works() {
              "valgrind --tool=callgrind --callgrind-out-file=/dev/null true > /dev/null 2>&1") == 0;
 }
 
-counts count(const std::filesystem::path& program, const std::filesystem::path& scratch) {
+namespace {
+
+/// Runs `program` under callgrind with more options; returns where it wrote its counts, and its words beside them in .txt.
+std::string under_callgrind(const std::filesystem::path& program,
+                            const std::filesystem::path& scratch, const std::string& options) {
   const std::string out = (scratch / (program.filename().string() + ".callgrind")).string();
-  const std::string said = out + ".txt";
-  const std::string command =
-      "LD_BIND_NOW=1 valgrind --tool=callgrind --compress-strings=no --compress-pos=no "
-      "--callgrind-out-file='" +
-      out + "' '" + program.string() + "' > '" + said + "' 2> '" + out + ".log'";
+  const std::string command = "LD_BIND_NOW=1 valgrind --tool=callgrind " + options +
+                              " --callgrind-out-file='" + out + "' '" + program.string() + "' > '" +
+                              out + ".txt' 2> '" + out + ".log'";
   if (std::system(command.c_str()) != 0) {
     throw std::runtime_error("valgrind failed on " + program.string() + ": see " + out + ".log");
   }
+  return out;
+}
+
+}  // namespace
+
+counts count(const std::filesystem::path& program, const std::filesystem::path& scratch) {
+  const std::string out =
+      under_callgrind(program, scratch, "--compress-strings=no --compress-pos=no");
   std::ifstream in(out);
-  counts result{first_line(said), read_callgrind(in)};
+  counts result{first_line(out + ".txt"), read_callgrind(in)};
   if (result.compiler.empty() || result.rows.empty()) {
     throw std::runtime_error(out + ": no ticks in it, of a program that said \"" + result.compiler +
                              "\"");
   }
   return result;
+}
+
+std::vector<mesh_ticks> read_mesh_dumps(std::istream& in) {
+  std::vector<mesh_ticks> rows;
+  bool tick = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("desc: Trigger: ", 0) == 0) {
+      std::istringstream name(after(line, "Client Request: ", "\n"));
+      mesh_ticks row;
+      tick = static_cast<bool>(name >> row.triangles >> row.speed >> row.news);
+      const bool same = tick && !rows.empty() && rows.back().triangles == row.triangles &&
+                        rows.back().speed == row.speed && rows.back().news == row.news;
+      if (tick && !same) rows.push_back(row);
+    } else if (tick && line.rfind("totals: ", 0) == 0) {
+      const long instructions = std::atol(line.c_str() + 8);
+      ++rows.back().ticks;
+      rows.back().instructions += instructions;
+      rows.back().largest = std::max(rows.back().largest, instructions);
+    }
+  }
+  return rows;
+}
+
+std::vector<mesh_ticks> count_meshes(const std::filesystem::path& program,
+                                     const std::filesystem::path& scratch) {
+  std::ifstream in(under_callgrind(program, scratch, "--instr-atstart=no --combine-dumps=yes"));
+  return read_mesh_dumps(in);
 }
 
 baseline read_baseline(std::istream& in) {

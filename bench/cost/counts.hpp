@@ -48,6 +48,25 @@ struct counts {
                            const std::filesystem::path& scratch);
 [[nodiscard]] bool valgrind_works();
 
+/// Ticks of a finger on one mesh, each counted by itself.
+struct mesh_ticks {
+  long triangles = 0;
+  double speed = 0.0;  ///< of the finger [m/s]
+  int news = 0;        ///< a second
+  long ticks = 0, instructions = 0, largest = 0;
+
+  [[nodiscard]] double mean() const {
+    return static_cast<double>(instructions) / static_cast<double>(ticks);
+  }
+  /// The largest tick over the mean one.
+  [[nodiscard]] double spread() const { return static_cast<double>(largest) / mean(); }
+};
+/// Reads the dumps of count_meshes.cpp, a tick each.
+[[nodiscard]] std::vector<mesh_ticks> read_mesh_dumps(std::istream& in);
+/// Runs a build of count_meshes.cpp under valgrind; no rows where it was built without valgrind's headers.
+[[nodiscard]] std::vector<mesh_ticks> count_meshes(const std::filesystem::path& program,
+                                                   const std::filesystem::path& scratch);
+
 /// The committed counts by compiler, as CSV: compiler,scene,scalar,side,path,instructions per tick.
 using baseline = std::map<std::string, std::map<std::string, double>>;
 [[nodiscard]] baseline read_baseline(std::istream& in);

@@ -12,6 +12,8 @@
 #include "paired.hpp"
 #include "parts.hpp"
 
+#include <cmath>
+
 namespace {
 
 namespace ex = experiments;
@@ -21,6 +23,7 @@ struct settings {
   std::string baseline;
   std::string page;
   std::vector<std::filesystem::path> programs;
+  std::string meshes;
   bool quick = false;
   bool rewrite = false;
 };
@@ -32,6 +35,8 @@ settings parse(const std::vector<std::string>& arguments) {
       {ex::a_switch("--quick", "instructions only, no clock", chosen.quick),
        {"--count PROGRAM...", "builds of count.cpp, whose instructions are counted",
         [&](const std::string& program) { chosen.programs.emplace_back(program); }},
+       ex::a_text("--meshes PROGRAM", "a build of count_meshes.cpp, counted tick by tick",
+                  chosen.meshes),
        ex::a_text("--baseline FILE", "fails if a count has grown by more than 1 % over it",
                   chosen.baseline),
        ex::a_text("--page FILE", "fails if its counted lines are more than 1 % off", chosen.page),
@@ -167,6 +172,42 @@ std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::cou
   return found;
 }
 
+/// What a tick on a mesh costs, and as lines of the page; returns where that is not what is said of it.
+std::vector<std::string> show_meshes(ex::report& out, const std::vector<cost::mesh_ticks>& all,
+                                     std::string& page) {
+  std::vector<ex::record> rows;
+  std::vector<std::string> found;
+  page +=
+      "\n| triangles | m/s | news a second | instructions, mean | largest | of the mean |\n"
+      "|---|---|---|---|---|---|\n";
+  const auto logarithms = [&](const cost::mesh_ticks& row) {
+    return std::log(double(row.triangles)) / std::log(double(all.front().triangles));
+  };
+  for (const auto& row : all) {
+    rows.push_back({{"triangles", row.triangles},
+                    {"m/s", row.speed, "%g"},
+                    {"news a second", row.news},
+                    {"mean", row.mean(), "%.0f"},
+                    {"largest", row.largest},
+                    {"of the mean", row.spread(), "%.2f"}});
+    page += "| " + std::to_string(row.triangles) + ex::format(" | %g | ", row.speed) +
+            std::to_string(row.news) + ex::format(" | %.0f | ", row.mean()) +
+            std::to_string(row.largest) + ex::format(" | %.2f |\n", row.spread());
+    const std::string which = "a mesh of " + std::to_string(row.triangles) + " triangles at " +
+                              ex::format("%g m/s", row.speed);
+    if (row.spread() > 2.5) found.push_back(which + ": the largest tick is over 2.5 mean ones");
+    const bool judged = row.speed == all.front().speed && row.news == 0 && row.triangles < 100'000;
+    if (judged && row.mean() > logarithms(row) * all.front().mean()) {
+      found.push_back(which + ": a tick grows faster than the logarithm of their number");
+    }
+  }
+  out.section("Instructions per tick, a finger on a mesh",
+              "mesh::proxy::step, r = 0.5 mm, pressed 2 mm into a dome of 100 mm on a circle of 30 "
+              "mm, 300 ticks each, news by which it breathes.");
+  ex::show_rows(out, "meshes", rows);
+  return found;
+}
+
 /// What stands between the marks of the page: brought to `counted`, or compared, with 1 % of each number.
 std::vector<std::string> see_to_page(const settings& chosen, const std::string& counted) {
   const std::string head = "<!-- counted -->\n", tail = "<!-- so far -->";
@@ -299,6 +340,14 @@ int run(const settings& chosen) {
     csv.close();
     part_rows parts;
     found = show_parts(out, all, parts);
+    if (!chosen.meshes.empty()) {
+      const auto ticks = cost::count_meshes(chosen.meshes, chosen.out);
+      if (ticks.empty()) {
+        std::cout << "skipped: no tick on a mesh is counted without valgrind/callgrind.h\n";
+      } else {
+        for (auto& off : show_meshes(out, ticks, parts.page)) found.push_back(std::move(off));
+      }
+    }
     if (!chosen.page.empty() && all.size() == 2) {
       const auto off = see_to_page(chosen, ratio_lines(all) + "\n" + parts.page);
       found.insert(found.end(), off.begin(), off.end());

@@ -221,6 +221,23 @@ TEST_CASE("the counts of a tick are those of its calls, by path", "[cost]") {
   CHECK(now.ratio("wall", "float") == 1290. / 1200.);
 }
 
+TEST_CASE("each tick on a mesh is a dump of its own; the last one of a program is none", "[cost]") {
+  std::istringstream dumps(
+      "part: 1\ndesc: Trigger: Client Request: 72 0.100000 0\nsummary: 100\ntotals: 100\n"
+      "part: 2\ndesc: Trigger: Client Request: 72 0.100000 0\nsummary: 300\ntotals: 300\n"
+      "part: 3\ndesc: Trigger: Client Request: 72 0.100000 30\nsummary: 70\ntotals: 70\n"
+      "part: 4\ndesc: Trigger: Program termination\nsummary: 9999\ntotals: 9999\n");
+  const auto rows = cost::read_mesh_dumps(dumps);
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].triangles == 72);
+  CHECK(rows[0].speed == 0.1);
+  CHECK(rows[0].ticks == 2);
+  CHECK(rows[0].mean() == 200.0);
+  CHECK(rows[0].spread() == 1.5);
+  CHECK(rows[1].news == 30);
+  CHECK(rows[1].largest == 70);
+}
+
 TEST_CASE("growth of more than 1 % over the baseline fails, by name; less does not", "[cost]") {
   const cost::counts now = counted_once();
   std::ostringstream text;
