@@ -577,7 +577,7 @@ std::vector<between_row> run_between(ex::report& out, const between_settings& ch
   if (!chosen.quick) draw_time(out, rows);  // others were measured in all three hands
   ex::publish(out, "between", rows);
   if (chosen.mesh.empty())
-    std::cout << "between news: no --mesh was given, so no other organ was stroked\n";
+    std::cout << "skipped: no other organ was stroked, because no --mesh was given\n";
   return rows;
 }
 

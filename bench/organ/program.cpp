@@ -366,6 +366,8 @@ failures judge_between(const session& s) {
     expect(found, !ours || r.least >= -r.loan - 1e-12, where + ": energy was lost");
     expect(found, !knows || r.rate > 60.0 || r.of_bare <= 0.5,
            where + ": more than half of bare's error");
+    expect(found, !knows || r.rate < 100.0 || r.of_bare <= 1.2 || r.error <= 0.01,
+           where + ": more than 1.2 of bare's error, and than 0.01 N");
     expect(found, !ahead || r.step <= r.own, where + ": it steps by more than the organ does");
     const auto bare = std::find_if(rows.begin(), rows.end(), [&r](const between_row& b) {
       return b.by == "bare" && b.scene == r.scene && b.rate == r.rate && b.late == r.late;
