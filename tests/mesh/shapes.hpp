@@ -164,6 +164,54 @@ inline body book() {
   }
   return b;
 }
+/// What is below the gyroid sin x cos y + sin y cos z + sin z cos x = 0 in a box of 50 mm, a period of it: closed, a
+/// saddle nearly everywhere, one passage behind the other. Each edge of the tetrahedra, six to a cube, has a node.
+inline body gyroid(int cubes) {
+  body b;
+  const int n = cubes + 1;
+  const auto at = [&](int i) {
+    return triple{double(i % n), double(i / n % n), double(i / n / n)} * (2.0 * pi / cubes) -
+           triple{pi, pi, pi};
+  };
+  const auto level = [&](int i) {
+    const auto [x, y, z] = at(i);
+    const double farthest = std::max({std::abs(x), std::abs(y), std::abs(z)});
+    return std::max(std::sin(x + 0.1) * std::cos(y) + std::sin(y) * std::cos(z) +
+                        std::sin(z) * std::cos(x + 0.1),
+                    2.0 * (farthest - 2.6));
+  };
+  std::map<std::pair<int, int>, int> crossed;
+  const auto node = [&](int i, int j) {
+    const auto [known, fresh] = crossed.try_emplace(std::minmax(i, j), int(b.nodes.size()));
+    const double share = level(i) / (level(i) - level(j));
+    if (fresh) b.nodes.push_back(between(at(i), at(j), share) * (0.03 / pi));
+    return known->second;
+  };
+  const auto tetrahedron = [&](const std::array<int, 4>& its) {
+    std::vector<int> out, in;
+    for (const int c : its) (level(c) > 0.0 ? out : in).push_back(c);
+    const auto add = [&](triangle t) {
+      const triple &p = b.nodes[std::size_t(t[0])], &q = b.nodes[std::size_t(t[1])];
+      const triple across = cross(q - p, b.nodes[std::size_t(t[2])] - p);
+      if (dot(across, at(out[0]) - at(in[0])) < 0.0) std::swap(t[1], t[2]);
+      b.triangles.push_back(t);
+    };
+    if (out.size() == 1) add({node(out[0], in[0]), node(out[0], in[1]), node(out[0], in[2])});
+    if (in.size() == 1) add({node(in[0], out[0]), node(in[0], out[1]), node(in[0], out[2])});
+    if (out.size() != 2) return;
+    const int p = node(out[0], in[0]), q = node(out[1], in[1]);
+    add({p, node(out[0], in[1]), q});
+    add({p, q, node(out[1], in[0])});
+  };
+  const int x = 1, y = n, z = n * n;
+  for (int i = 0; i < n * n * n; ++i) {
+    if (i % n == cubes || i / n % n == cubes || i / n / n == cubes) continue;
+    for (const auto& [u, v, w] :
+         {std::array{x, y, z}, {x, z, y}, {y, x, z}, {y, z, x}, {z, x, y}, {z, y, x}})
+      tetrahedron({i, i + u, i + u + v, i + u + v + w});
+  }
+  return b;
+}
 /// A sphere with triangles of no area and some that are there twice.
 inline body with_degenerate() {
   body b = sphere(2, 0.04);
@@ -236,6 +284,7 @@ inline std::vector<moving> all_worst() {
          return triple{q.y, q.z, q.x};
        },
        false},
+      {"gyroid that breathes", gyroid(6), breathing(0.1, 1.4)},
   };
 }
 
