@@ -237,4 +237,15 @@ TEST_CASE("a proxy's parameters are refused by name", "[mesh]") {
         "news_speed");
   CHECK(std::string(ph::mesh::proxy_parameters{.longest_way = 2.0}.check().parameter) ==
         "longest_way");
+  // By itself, without a port that asks check(): it touches nothing, and keeps the last good ones.
+  const body b = plate();
+  const ph::mesh::surface s(b.triangles, b.nodes);
+  ph::mesh::proxy ball({.radius = std::nan("")});
+  CHECK_FALSE(ball.touch(s));
+  ball.set({.radius = 5e-4});
+  REQUIRE(ball.touch(s));
+  ball.step({0, 0, 0.01}, T);
+  ball.set({.radius = -1.0});
+  for (int k = 0; k < 50; ++k) ball.step({0, 0, -0.01}, T);
+  CHECK(length(ball.place() - triple{0, 0, 5e-4}) < 1e-9);
 }

@@ -60,22 +60,26 @@ class proxy {
   proxy() noexcept = default;
   explicit proxy(const proxy_parameters& p) noexcept : rule_(p) {}
   [[nodiscard]] constexpr const proxy_parameters& parameters() const noexcept { return rule_; }
-  constexpr void set(const proxy_parameters& p) noexcept { rule_ = p; }
+  /// Parameters that check() refuses change nothing.
+  constexpr void set(const proxy_parameters& p) noexcept {
+    if (!p.check()) rule_ = p;
+  }
 
   /// Touches this surface from now on; it must outlive the proxy. A surface has 64 places, and a proxy that ends must
-  /// call let_go(), or its place stays taken. It returns false, and nothing is touched, if no place is left.
+  /// call let_go(), or its place stays taken. It returns false, and nothing is touched, if no place is left, or if
+  /// check() refuses the parameters.
   bool touch(const surface& s) noexcept {
     let_go();
     return also_touch(s);
   }
   /// Touches this surface as well, where it is now. Each has its own pose and news, and where they meet all of them
   /// hold the ball; what it presses keeps its side. It returns false if most_meshes are touched, if the surface has no
-  /// place left, or if it is touched already.
+  /// place left or is touched already, or if check() refuses the parameters.
   bool also_touch(const surface& s) noexcept {
     for (const part& p : parts()) {
       if (p.news.reads(s)) return false;
     }
-    if (meshes_ == most_meshes) return false;
+    if (meshes_ == most_meshes || rule_.check()) return false;
     part fresh;
     if (!fresh.news.join(s)) return false;
     if (const pose* there = fresh.news.take_pose()) fresh.goal = fresh.shown = *there;

@@ -24,10 +24,12 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -204,10 +206,13 @@ class surface {
   /// Moves the whole mesh to this pose. It returns false if a number is not finite, if the place is farther than 1000 km,
   /// or if the quaternion has no length.
   bool update(pose where) {
+    const pose told = where;
     if (!where.prepare() || !(squared(where.position) < 1e12)) {
-      fault_ =
-          "mesh: a pose with a number that is not finite, farther than 1000 km, or a quaternion "
-          "without a length; give metres and w, x, y, z";
+      const auto& [place, w, axis] = told;
+      fault_ = "mesh: the pose at " + in_words({place.x, place.y, place.z}) + " m, turned by " +
+               in_words({w, axis.x, axis.y, axis.z}) +
+               ", has a number that is not finite, is farther than 1000 km, or has a quaternion "
+               "without a length; give metres and w, x, y, z";
       return false;
     }
     world_->poses.blank() = where;
@@ -345,13 +350,24 @@ class surface {
     }
     return true;
   }
+  /// "(1, nan, 2)".
+  [[nodiscard]] static std::string in_words(std::initializer_list<double> numbers) {
+    std::string all;
+    for (const double x : numbers) {
+      std::array<char, 32> one{};
+      std::snprintf(one.data(), one.size(), "%s%g", all.empty() ? "(" : ", ",
+                    x == x ? x : std::fabs(x));  // no sign of a NaN
+      all += one.data();
+    }
+    return all + ")";
+  }
   template <class Nodes>
   [[nodiscard]] static std::string not_finite(const Nodes& nodes) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const triple p = detail::node_of(nodes, i);
       if (!is_finite(p) || !(squared(p) < 1e12)) {
-        return "mesh: node " + std::to_string(i) +
-               " is not finite, or farther than 1000 km; give metres";
+        return "mesh: node " + std::to_string(i) + " at " + in_words({p.x, p.y, p.z}) +
+               " m is not finite, or farther than 1000 km; give metres";
       }
     }
     return {};
