@@ -172,7 +172,7 @@ std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::cou
   return found;
 }
 
-/// What a tick on a mesh costs, and as lines of the page; returns where that is not what is said of it.
+/// What a tick on a mesh costs, a tick each, also as lines of the page; returns what is too large, or grows too fast.
 std::vector<std::string> show_meshes(ex::report& out, const std::vector<cost::mesh_ticks>& all,
                                      std::string& page) {
   std::vector<ex::record> rows;
@@ -340,15 +340,16 @@ int run(const settings& chosen) {
     csv.close();
     part_rows parts;
     found = show_parts(out, all, parts);
-    if (!chosen.meshes.empty()) {
-      const auto ticks = cost::count_meshes(chosen.meshes, chosen.out);
-      if (ticks.empty()) {
-        std::cout << "skipped: no tick on a mesh is counted without valgrind/callgrind.h\n";
-      } else {
-        for (auto& off : show_meshes(out, ticks, parts.page)) found.push_back(std::move(off));
-      }
+    std::vector<cost::mesh_ticks> ticks;
+    if (!chosen.meshes.empty()) ticks = cost::count_meshes(chosen.meshes, chosen.out);
+    if (ticks.empty()) {
+      std::cout << "skipped: ticks on meshes are not counted, "
+                << (chosen.meshes.empty() ? "no --meshes program" : "no valgrind/callgrind.h")
+                << '\n';
+    } else {
+      for (auto& off : show_meshes(out, ticks, parts.page)) found.push_back(std::move(off));
     }
-    if (!chosen.page.empty() && all.size() == 2) {
+    if (!chosen.page.empty() && all.size() == 2 && !ticks.empty()) {
       const auto off = see_to_page(chosen, ratio_lines(all) + "\n" + parts.page);
       found.insert(found.end(), off.begin(), off.end());
     }
