@@ -7,7 +7,7 @@
 //     update     the own depth is kept: the lag ℓ [m] takes the jump of d, and the lead p [m] is 0
 //     each tick  |ℓ| falls by ρ dt,   ρ = 3|ℓ₀|/P, within [R_least, R_most]/K; and, if that takes no longer than
 //                0.8 s, ρ + u is at most max(R_usual/K, 4/3 |u|). Where Σ u v ≤ max(Σ u², v²)/2, and the device has
-//                moved more slowly than v since the last update, |ℓ| falls by at most |ℓ₀|/2 while p grows
+//                moved at less than v/4 since the last update, |ℓ| falls by at most |ℓ₀|/2 while p grows
 //                p grows by u dt for the time P, but no longer than `ahead`; if no update has come for twice as
 //                long, the surface may have stopped, and p is reduced to 0 in the same way as ℓ
 //                the own normal turns by ω dt while p grows, and at its own rate towards the newest one so turned
@@ -151,7 +151,7 @@ class lag {
     Scalar speed{};      ///< outward, of the surface itself [m/s]
     Scalar age{};        ///< [s]
     bool knows = false;  ///< `speed` is stated
-    Scalar strayed{};    ///< way of the device since the last update [m]
+    Scalar way{};        ///< of the device since the last update [m]
   };
   /// True if an update of that age [s] is younger than the last one, or older by at most `slack` [s].
   [[nodiscard]] constexpr bool follows(Scalar age, Scalar slack) const noexcept {
@@ -183,7 +183,7 @@ class lag {
     if (!kernels::is_finite(behind_ + goes_on_ + hits_ + tries_)) return void(*this = {});
     speed_ = pace.speed_for(behind_, usual_, goes_on_, compliance);
     const Scalar came = kernels::magnitude(last_speed_) * took;
-    if (told.strayed < came && !(Scalar(2) * hits_ > kernels::larger(tries_, came * came)))
+    if (told.way < came / Scalar(4) && !(Scalar(2) * hits_ > kernels::larger(tries_, came * came)))
       speed_ = kernels::smaller(speed_, kernels::magnitude(behind_) / (Scalar(2) * ahead_));
     settled_ = behind_ == Scalar(0) && lead_ == Scalar(0) && goes_on_ == Scalar(0);
   }
