@@ -180,9 +180,7 @@ std::vector<std::string> show_meshes(ex::report& out, const std::vector<cost::me
   page +=
       "\n| triangles | m/s | news a second | instructions, mean | largest | of the mean |\n"
       "|---|---|---|---|---|---|\n";
-  const auto logarithms = [&](const cost::mesh_ticks& row) {
-    return std::log(double(row.triangles)) / std::log(double(all.front().triangles));
-  };
+  const auto& first = all.front();
   for (const auto& row : all) {
     rows.push_back({{"triangles", row.triangles},
                     {"m/s", row.speed, "%g"},
@@ -196,8 +194,9 @@ std::vector<std::string> show_meshes(ex::report& out, const std::vector<cost::me
     const std::string which = "a mesh of " + std::to_string(row.triangles) + " triangles at " +
                               ex::format("%g m/s", row.speed);
     if (row.spread() > 2.5) found.push_back(which + ": the largest tick is over 2.5 mean ones");
-    const bool judged = row.speed == all.front().speed && row.news == 0 && row.triangles < 100'000;
-    if (judged && row.mean() > logarithms(row) * all.front().mean()) {
+    const double logarithms = std::log(double(row.triangles)) / std::log(double(first.triangles));
+    const bool judged = row.speed == first.speed && row.news == 0 && row.triangles < 100'000;
+    if (judged && row.mean() > logarithms * first.mean()) {
       found.push_back(which + ": a tick grows faster than the logarithm of their number");
     }
   }
