@@ -31,9 +31,7 @@ struct news_pace {
   double least_force_rate = 5.0;   ///< R_least, least rate of the force [N/s]
   double usual_force_rate = 19.5;  ///< R_usual [N/s]: 0.0195 N per ms are not felt
   double most_force_rate = 50.0;   ///< R_most, largest rate [N/s]
-  double longest_interval = 0.3;   ///< largest P [s]
   double ahead = 0.08;             ///< longest extrapolation by u after an update [s]
-  double oldest = 0.1;             ///< largest age of an update that u compensates [s]
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(least_force_rate)) {
@@ -45,11 +43,7 @@ struct news_pace {
     if (!(most_force_rate >= usual_force_rate)) {
       return {"most_force_rate", most_force_rate, "≥ usual_force_rate"};
     }
-    if (!detail::positive(longest_interval)) {
-      return {"longest_interval", longest_interval, "finite and > 0 s"};
-    }
     if (!detail::not_negative(ahead)) return {"ahead", ahead, "finite and ≥ 0 s"};
-    if (!detail::not_negative(oldest)) return {"oldest", oldest, "finite and ≥ 0 s"};
     return {};
   }
   template <class Scalar>
@@ -63,16 +57,12 @@ class news_pace::at {
       : least_(detail::number<Scalar>(p.least_force_rate)),
         usual_(detail::number<Scalar>(p.usual_force_rate)),
         most_(detail::number<Scalar>(p.most_force_rate)),
-        longest_(detail::number<Scalar>(p.longest_interval)),
-        ahead_(detail::number<Scalar>(p.ahead)),
-        oldest_(detail::number<Scalar>(p.oldest)) {}
+        ahead_(detail::number<Scalar>(p.ahead)) {}
   [[nodiscard]] constexpr news_pace parameters() const noexcept {
     return {.least_force_rate = static_cast<double>(least_),
             .usual_force_rate = static_cast<double>(usual_),
             .most_force_rate = static_cast<double>(most_),
-            .longest_interval = static_cast<double>(longest_),
-            .ahead = static_cast<double>(ahead_),
-            .oldest = static_cast<double>(oldest_)};
+            .ahead = static_cast<double>(ahead_)};
   }
 
   /// ρ [m/s] for a lag [m], the time between updates P [s], u [m/s] and 1/K [m/N].
@@ -86,14 +76,14 @@ class news_pace::at {
         kernels::smaller(Scalar(3) * size / interval, kernels::larger(calm, size / Scalar(0.8)));
     return kernels::clamped(wanted, least_ * compliance, most_ * compliance);
   }
-  [[nodiscard]] constexpr Scalar usual() const noexcept { return usual_; }      ///< R_usual [N/s]
-  [[nodiscard]] constexpr Scalar most() const noexcept { return most_; }        ///< R_most [N/s]
-  [[nodiscard]] constexpr Scalar longest() const noexcept { return longest_; }  ///< [s]
-  [[nodiscard]] constexpr Scalar ahead() const noexcept { return ahead_; }      ///< [s]
-  [[nodiscard]] constexpr Scalar oldest() const noexcept { return oldest_; }    ///< [s]
+  [[nodiscard]] constexpr Scalar usual() const noexcept { return usual_; }  ///< R_usual [N/s]
+  [[nodiscard]] constexpr Scalar most() const noexcept { return most_; }    ///< R_most [N/s]
+  [[nodiscard]] constexpr Scalar ahead() const noexcept { return ahead_; }  ///< [s]
+  static constexpr Scalar longest() noexcept { return Scalar(0.3); }        ///< largest P [s]
+  static constexpr Scalar oldest() noexcept { return Scalar(0.1); }  ///< largest age used [s]
 
  private:
-  Scalar least_, usual_, most_, longest_, ahead_, oldest_;
+  Scalar least_, usual_, most_, ahead_;
 };
 
 /// The motion of a surface, which an update may state.
