@@ -230,6 +230,71 @@ TEST_CASE("a slide brakes what swings along a trough, and its lead what is stiff
   CHECK(swings<d3>(no_lead, trough_of(2000.0, 300.0), down, 4.0) > 0.02);
 }
 
+TEST_CASE("a force that is the same everywhere is not braked, and a spring as its slope asks for",
+          "[settled_force]") {
+  const auto brakes = [](double slope, double aside, int ticks) {  // at 0.1 m/s and 1 N
+    auto guard = guard_of<d3>(rule);
+    (void)guard.tick({0, 0, 0}, 1ms, {0, 0, 1});
+    double added = 0.0;
+    for (int n = 1; n <= ticks; ++n) {
+      const double x = 1e-4 * n;
+      const d3::vector way(aside * x, 0.0, (1.0 - aside) * x), w(0, 0, 1.0 - slope * x);
+      added = (guard.tick(way, 1ms, w).force - w).norm();
+    }
+    return added;
+  };
+  CHECK_THAT(brakes(0.0, 0.0, 1), WithinAbs(1.0, 1e-12));  // at first it may be a wall
+  CHECK(brakes(0.0, 0.0, 1000) < 0.001);
+  CHECK_THAT(brakes(0.0, 1.0, 1000), WithinAbs(0.02, 1e-6));
+  const double asked = 0.1 * 0.05 * 5.0;  // [N]
+  CHECK(brakes(5.0, 0.0, 1000) >= asked);
+  CHECK(brakes(5.0, 0.0, 1000) <= 2.0 * asked);
+}
+
+TEST_CASE("a tick that comes half a second late leaves no damper, and none that pushes",
+          "[settled_force]") {
+  auto guard = guard_of<d1>(rule);
+  (void)guard.tick(0.0, 1ms, 1.0);
+  (void)guard.tick(0.01, 500ms, 1.0);
+  CHECK(guard.tick(0.0101, 1ms, 1.0).force == 1.0);
+  CHECK(guard.tick(0.0102, 1ms, 0.9).force < 0.9);  // the control: a slope
+}
+
+TEST_CASE("a slow loop is damped as its longest tick asks for", "[settled_force]") {
+  const auto brakes = [](double T) {  // a spring of 10 N/m at 0.1 m/s
+    ph::passive_port guard{d1{}, rule, ph::no_observer{}, ph::no_bound{},
+                           ph::loop_limits{.longest_tick = T}};
+    double added = 0.0;
+    for (int n = 0; n < 1000; ++n) {
+      const double x = 0.1 * T * n, w = 50.0 - 10.0 * x;
+      added = w - guard.tick(x, ph::seconds{T}, w).force;
+    }
+    return added / 0.1;  // [N·s/m]
+  };
+  CHECK(brakes(1e-3) >= 10.0 * 0.05);
+  CHECK(brakes(1e-3) <= 10.0 * 0.1);
+  CHECK(brakes(4e-3) >= 10.0 * 50.0 * 4e-3);
+  CHECK(brakes(4e-3) <= 10.0 * 100.0 * 4e-3);
+}
+
+TEST_CASE("a stroke along a flat wall costs 0.02 N at most, whatever the mass", "[settled_force]") {
+  for (const double mass : {0.1, 0.5, 3.0}) {
+    ph::settled_force heavy = rule;
+    heavy.mass = mass;
+    auto guard = guard_of<d3>(heavy);
+    double most = 0.0, rough = 0.0;
+    for (int n = 0; n < 2000; ++n) {
+      const double x = 0.02 * std::sin(5e-3 * n);
+      const double rubs = n < 1000 ? 0.0 : -200.0 * x;  // the control: what has a slope there
+      const double f = guard.tick({x, 0.0, -1e-3}, 1ms, {rubs, 0.0, 9.0}).force(0) - rubs;
+      (n < 1000 ? most : rough) = std::max(n < 1000 ? most : rough, std::abs(f));
+    }
+    CAPTURE(mass);
+    CHECK(most < 0.0201);
+    CHECK(rough > 0.9 * 0.1 * 2.0 * mass);
+  }
+}
+
 TEST_CASE("where a facet ends the damper turns smoothly", "[settled_force]") {
   const auto step = [](const ph::settled_force& p) {  // 0.1 m/s over an edge of 15 degrees
     auto guard = guard_of<d3>(p);
@@ -277,6 +342,7 @@ TEST_CASE("the damper is that of the longest tick, as the port knows it", "[sett
   ph::passive_port port{d1{}, rule, ph::no_observer{}, ph::no_bound{},
                         ph::loop_limits{.longest_tick = 2e-3}};
   const auto brake = [&](double from) {
+    (void)port.tick(from, 1ms, 0.0);
     (void)port.tick(from, 1ms, 2.0);
     return 2.0 - port.tick(from + 1e-5, 1ms, 2.0).force;
   };
@@ -502,6 +568,7 @@ struct plainly {
   bool knows_speed;
   std::vector<tick> seen{};
   vector rendered = vector::Zero(), last = vector::Zero(), n = vector::Zero();
+  double braked = 1e9, slid = 0.0;  // t times the slopes along n and across it
   bool begun = false, steep = false;
   int watched = 0;  // ticks of motion that are still to be looked at
   double shown = 1.0;
@@ -530,6 +597,17 @@ struct plainly {
   void reset() {
     forget();
     rendered = last = n = vector::Zero();
+    braked = 1e9, slid = 0.0;
+  }
+  /// What of a damper is in use where w falls by `fall` [N/s] per m/s of the speed v, and what is left for later.
+  [[nodiscard]] double felt(double& damper, double fall, double v, double dt, double share) const {
+    const double whole = p.damping_fraction * p.mass / (T * (1 + late));
+    damper = std::min(damper, whole);
+    const double asked = std::max(0.05, 50.0 * T) * fall / dt, used = damper;
+    if (v == 0.0) return used;
+    if (asked > damper) return damper += (std::min(asked, whole) - damper) / 5.0;
+    if (2.0 * asked < damper && v > 1e-3 && share == 1.0) damper *= 1.0 - std::min(10.0 * dt, 1.0);
+    return used;
   }
   void look(const vector& w, const vector& way, double dt) {
     const vector change = w - rendered;
@@ -562,26 +640,32 @@ struct plainly {
     const vector w = wanted * shown * (size > 0.0 ? share : 1.0), change = w - last;
     last = w;
     const bool looks = p.softens;
-    if (looks && !knows_speed && -change.dot(way) > most() * way.squaredNorm()) watched = 30;
+    if (looks && -change.dot(way) > most() * way.squaredNorm()) watched = 30;
     if (w.norm() == 0.0) {
       n.setZero();
+      braked = 1e9, slid = 0.0;
       return w;
     }
     const vector now = w / w.norm();
     const double a = dt / (p.turn_time + dt);
     n = n.dot(now) > 0.0 ? vector((1.0 - a) * n + a * now).normalized() : now;
     const double along = n.dot(w), speed = n.dot(v), rise = n.dot(change);
-    if (looks && -rise * speed > most() * dt * speed * speed) watched = 30;
     const double unit = p.mass / (T * (1 + late)) * std::sqrt(share);
     const double damps = p.damping_fraction * unit;
     const vector v_across = v - n * speed, w_across = change - n * rise;
-    vector across = -p.slide_fraction * unit * v_across;
+    const double aside = v_across.norm();
+    const double braking =
+        felt(braked, speed == 0.0 ? 0.0 : -rise / speed, std::abs(speed), dt, share);
+    const double falls = aside == 0.0 ? 0.0 : -w_across.dot(v_across) / (aside * aside);
+    const double sliding = std::max(felt(slid, 4.0 * falls, aside, dt, share), 0.02 / aside);
+    vector across = vector::Zero();
+    if (aside > 0.0) across = -std::min(p.slide_fraction * unit, sliding) * v_across;
     if (const double length = w_across.norm(); length > 0.0) {
       const double brakes = limited(-damps * w_across.dot(v) / length, 0.0, p.lead * length);
       across += w_across * (brakes / length);
     }
     if (across.norm() > w.norm()) across *= w.norm() / across.norm();
-    return w - n * limited(damps * speed, -2.0 * along, along) + across;
+    return w - n * limited(std::min(damps, braking) * speed, -2.0 * along, along) + across;
   }
 };
 
@@ -682,7 +766,7 @@ TEST_CASE("a settled force is that of its formulas, with the slope which all tic
     also(tries<d3>(seed, rule, late, known, 1e-3, 1800));
     also(tries<d2>(seed, rule, prompt, faster{}, 1e-3, 1800));
     also(tries<d1>(seed, rule, prompt, faster{}, 1e-3, 1800));
-    also(tries<d2>(seed, rule, hasty, known, 1e-20, 100));  // ticks that count as whole ones
+    also(tries<d2>(seed, no_slide, hasty, known, 1e-20, 100));  // ticks that count as whole ones
   }
   CHECK(all.softer > 2000);
   CHECK(all.rises > 50);

@@ -12,12 +12,14 @@ namespace passive_haptics {
 inline namespace v0 {
 
 /// The given force w [N] with dampers that only brake, v [m/s] the velocity and n the smoothed direction of w:
-///     f = w − n clip(B n·v, −2 n·w, n·w) + clip(σ (I − nnᵀ)(w − w_last)) − clip(B_s (I − nnᵀ) v)
-///     B = β m/T          along n [N·s/m]; at most 2|w| inwards, |w| outwards
+///     f = w − n clip(D n·v, −2 n·w, n·w) + clip(σ (I − nnᵀ)(w − w_last)) − clip(D_s (I − nnᵀ) v)
+///     D = min(B, t K)    B = β m/T, t = max(50 T, 50 ms), along n [N·s/m]; at most 2|w| inwards, |w| outwards
 ///     σ                  lead of the part of w across n [ticks]; at most B times the speed that it brakes
-///     B_s = β_s m/T      across n [N·s/m]: it stops a swing along a trough; 0.02 N at 0.1 kg and 0.1 m/s
+///     D_s = min(B_s, max(4 t K_s, 0.02 N/|v|))   B_s = β_s m/T, across n [N·s/m]: it stops a swing along a trough
+///     K, K_s             slopes −Δw·Δx/|Δx|² of w along n and across it, felt in the last 0.1 s of motion [N/m]
 ///     n ← n + (w/|w| − n) dt/(τ + dt), of length 1, so that it turns smoothly at facets and detents
-/// The sum of both parts across n is at most |w|. At rest f = w; for w = 0 f = 0.
+/// The sum of both parts across n is at most |w|. At rest f = w; for w = 0 f = 0. A force that is the same everywhere
+/// (a weight, wind) is not braked, and a stroke along a flat or convex wall by 0.02 N at most; at a touch D is B.
 ///
 /// A renderer stiffer than K_m = most_stiffness(T, 0, l) [N/m] would ring, so its w is multiplied by s = ¾ K_m/K. Its
 /// stiffness K, the slope −Δw·Δx/|Δx|² along w and across it, is estimated over 30 ms of motion; s rises again when K
@@ -99,7 +101,7 @@ class settled_force::on : private part_at<given_force, P> {
     lead_ = detail::number<scalar>(p.lead);
     turn_time_ = detail::number<scalar>(p.turn_time);
     softens_ = p.softens;
-    if (!softens_) forget();
+    if (!softens_) seen_ = {};
     most_ = detail::number<scalar>(p.force_limit);
     stiffest_ = detail::number<scalar>(p.most);
   }
@@ -131,37 +133,36 @@ class settled_force::on : private part_at<given_force, P> {
   /// Explains most_stiffness; for a renderer that was found too stiff, its estimated stiffness and ¾ of most_stiffness.
   constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
     e.asked = e.shown = std::numeric_limits<double>::infinity();
-    const double part = shown_ < scalar(1) ? 0.75 : 1.0;
+    const double part = seen_.shown < scalar(1) ? 0.75 : 1.0;
     e.soften(part * parameters().most_stiffness(static_cast<double>(T), 0, late),
              softened_by::mass_and_tick);
     e.soften(part * static_cast<double>(stiffest_), softened_by::encoder_steps);
-    if (shown_ < scalar(1)) e.asked = e.shown / static_cast<double>(shown_);
+    if (seen_.shown < scalar(1)) e.asked = e.shown / static_cast<double>(seen_.shown);
   }
   constexpr void reset() noexcept {
     given::reset();
-    last_ = n_ = given_ = P::zero();
-    forget();
+    last_ = n_ = P::zero();
+    braked_ = kernels::largest<scalar>();
+    slid_ = scalar(0);
+    seen_ = {};
   }
   /// s: 1, or less for a renderer that is too stiff to settle.
-  [[nodiscard]] constexpr scalar shown() const noexcept { return shown_; }
+  [[nodiscard]] constexpr scalar shown() const noexcept { return seen_.shown; }
 
   template <bool Shortcut>
   [[nodiscard, gnu::always_inline]] constexpr request ask(const auto& motion, const auto& port,
                                                           event& what) noexcept {
-    if (watched_ > 0) [[unlikely]]
+    if (seen_.left > 0) [[unlikely]]
       look(port.travel, port.dt);
     const request asked = given::template ask<Shortcut>(motion, port, what);
-    const effort softly = P::scaled(asked.wanted, shown_);
+    const effort softly = P::scaled(asked.wanted, seen_.shown);
     const scalar share = within(softly, most_);
     const scalar secant = share < scalar(1) ? kernels::square_root(share) : scalar(1);
     const effort w = P::scaled(softly, share);
-    if constexpr (!requires {
-                    motion.travel / motion.dt;
-                  }) {  // notice() misses a slow motion over encoder steps
-      const effort change = P::difference(w, last_), way = port.travel;
-      if (-P::dot(change, way) > steepest_ * P::dot(way, way)) watched_ = long_enough;
-    }
-    const effort f = settled(w, detail::velocity_of<P>(motion), per_tick_ * secant, port.dt);
+    const effort change = P::difference(w, last_), way = port.travel;
+    if (-P::dot(change, way) > steepest_ * P::dot(way, way)) seen_.left = 30;
+    const effort f =
+        settled(w, change, detail::velocity_of<P>(motion), per_tick_ * secant, port.dt);
     return {P::is_finite(f) ? f : w};  // f is not finite if w overflows or underflows
   }
 
@@ -184,81 +185,92 @@ class settled_force::on : private part_at<given_force, P> {
       return sure && stiff * scalar(100) > allowed ? allowed / stiff : scalar(100);
     }
   };
-  static constexpr int long_enough = 30;  ///< ticks of motion that are evaluated after a stiff one
-
-  constexpr void forget() noexcept {
-    along_ = across_ = {};
-    shown_ = scalar(1);
-    watched_ = 0;
-    ticks_ = scalar(0);
-    knows_given_ = learns_ = false;
-  }
-  /// Begins the evaluation if the last tick was too stiff along n.
-  [[gnu::always_inline]] constexpr void notice(scalar rise, scalar speed, scalar dt) noexcept {
-    if (-rise * speed > steepest_ * dt * speed * speed) [[unlikely]]
-      watched_ = long_enough;
-  }
+  struct evaluation {
+    slope along{}, across{};  ///< of the given force, along w and across it
+    scalar ticks{};           ///< evaluated ticks of motion, of the last 30 ms
+    int left = 0;             ///< ticks of motion still to be evaluated; 30 after a stiff one
+    bool begun = false, steep = false;  ///< `given` is known; a tick was too stiff
+    scalar shown = scalar(1);           ///< s
+    typename P::stored_effort given{};  ///< given force of the last evaluated tick [N]
+  };
   /// Estimates the renderer's stiffness from one tick, unless the device moves at less than 1 mm/s.
   [[gnu::cold, gnu::noinline]] constexpr void look(const typename P::stored_effort& travel,
                                                    scalar dt) noexcept {
-    const effort w = given::newest(), way = travel, change = P::difference(w, given_);
-    given_ = w;
+    const effort w = given::newest(), way = travel, change = P::difference(w, seen_.given);
+    seen_.given = w;
     const scalar size = P::dot(w, w), moved = P::dot(way, way), slow = scalar(1e-3) * dt;
-    if (!knows_given_) {
-      knows_given_ = true;
-      return;
-    }
-    if (!(size > scalar(0) && moved > slow * slow)) return;
+    if (!std::exchange(seen_.begun, true) || !(size > scalar(0) && moved > slow * slow)) return;
+    slope &along = seen_.along, &across = seen_.across;
     const scalar keep = scalar(0.03) / (scalar(0.03) + dt), little = moved * scalar(1e-4);
     const effort n = P::scaled(w, scalar(1) / kernels::square_root(size));
     const scalar out = P::dot(n, way), rise = P::dot(n, change), risen = rise * rise;
     const scalar work = P::dot(change, way), outwards = kernels::smaller(out * out, moved);
-    along_.see(out * rise, outwards + little, risen, keep);
-    across_.see(work - out * rise, moved - outwards + little, P::dot(change, change) - risen, keep);
-    learns_ = learns_ || -work > steepest_ * moved;
-    ticks_ = keep * ticks_ + scalar(1);
-    const scalar s = learns_ && ticks_ > scalar(3)
-                         ? kernels::smaller(along_.share(steepest_), across_.share(steepest_))
+    along.see(out * rise, outwards + little, risen, keep);
+    across.see(work - out * rise, moved - outwards + little, P::dot(change, change) - risen, keep);
+    seen_.steep = seen_.steep || -work > steepest_ * moved;
+    seen_.ticks = keep * seen_.ticks + scalar(1);
+    const scalar s = seen_.steep && seen_.ticks > scalar(3)
+                         ? kernels::smaller(along.share(steepest_), across.share(steepest_))
                          : scalar(1);
-    if (!kernels::is_finite(along_.stiff + along_.changed + across_.stiff + across_.moved +
-                            across_.changed)) {  // a force was absurd
-      along_ = across_ = {};
-      ticks_ = scalar(0);
-    } else if (s < shown_) {
-      shown_ = scalar(0.75) * s;
-    } else if (s > scalar(8) / scalar(3) * shown_) {
-      shown_ = kernels::smaller(shown_ * (scalar(1) + dt), scalar(1));
+    if (!kernels::is_finite(along.stiff + along.changed + across.stiff + across.moved +
+                            across.changed)) {  // a force was absurd
+      along = across = {};
+      seen_.ticks = scalar(0);
+    } else if (s < seen_.shown) {
+      seen_.shown = scalar(0.75) * s;
+    } else if (s > scalar(8) / scalar(3) * seen_.shown) {
+      seen_.shown = kernels::smaller(seen_.shown * (scalar(1) + dt), scalar(1));
     }
-    if (shown_ == scalar(1) && --watched_ == 0) forget();
+    if (seen_.shown == scalar(1) && --seen_.left == 0) seen_ = {};
   }
-  /// f [N] for w at the velocity v; m/T is `per_tick` [N·s/m].
-  [[nodiscard, gnu::always_inline]] constexpr effort settled(const effort& w, const effort& v,
-                                                             scalar per_tick, scalar dt) noexcept {
-    const effort change = P::difference(w, last_);
+  /// f [N] for w, which has changed by `change`, at the velocity v; m/T is `per_tick` [N·s/m].
+  [[nodiscard, gnu::always_inline]] constexpr effort settled(const effort& w, const effort& change,
+                                                             const effort& v, scalar per_tick,
+                                                             scalar dt) noexcept {
     last_ = w;
     const scalar squared = P::dot(w, w);
     if (!(squared > scalar(0))) {
       n_ = P::zero();
+      braked_ = kernels::largest<scalar>();
+      slid_ = scalar(0);
       return w;
     }
-    const scalar B = fraction_ * per_tick;
+    const scalar most = fraction_ * per_tick;
     if constexpr (P::dof == 1) {
-      notice(change, v, dt);
+      const scalar B = damper(braked_, -change * v, v * v, dt, most);
       const scalar inwards = scalar(-2) * w;
       return w - kernels::clamped(B * v, kernels::smaller(w, inwards), kernels::larger(w, inwards));
     } else {
       const scalar size = kernels::square_root(squared);
       const effort n = turned(w, size, dt);
-      const scalar along = P::dot(n, w), speed = P::dot(n, v);
+      const scalar along = P::dot(n, w), speed = P::dot(n, v), rise = P::dot(n, change);
+      const scalar B = damper(braked_, -rise * speed, speed * speed, dt, most);
       const scalar brake = kernels::clamped(B * speed, scalar(-2) * along, along);
-      const effort sideways = less(v, n, speed);
-      const scalar rise = P::dot(n, change);
-      notice(rise, speed, dt);
-      const effort ahead = P::scaled(less(change, n, rise), lead_);
-      const effort across =
-          less(P::scaled(ahead, braking(ahead, sideways, B)), sideways, slide_ * per_tick);
+      const effort sideways = less(v, n, speed), aside = less(change, n, rise);
+      const scalar square = P::dot(sideways, sideways), little = scalar(0.02);
+      const scalar felt = damper(slid_, scalar(-4) * P::dot(aside, sideways), square, dt, most);
+      scalar slide = slide_ * per_tick;
+      if (felt < slide && slide * slide * square > little * little) {
+        slide = kernels::larger(felt, little / kernels::square_root(square));
+      }
+      const effort ahead = P::scaled(aside, lead_);
+      const effort across = less(P::scaled(ahead, braking(ahead, sideways, most)), sideways, slide);
       return less(less(w, n, brake), across, -within(across, size));
     }
+  }
+  /// B [N·s/m] up to a limit. B grows to t K within a few ticks and, if `most` is the whole damper, fades while it is
+  /// above 2 t K at more than 1 mm/s. K is the slope of w along v, `fall` = −Δw·v and `square` = |v|².
+  [[nodiscard]] constexpr scalar damper(scalar& B, scalar fall, scalar square, scalar dt,
+                                        scalar most) const noexcept {
+    const scalar whole = fraction_ * per_tick_, way = square * dt;
+    const scalar asked = kernels::larger(scalar(0.05), scalar(50) * longest_tick_) * fall;
+    scalar now = B = kernels::smaller(B, whole);
+    if (asked > now * way) {
+      now = B += (kernels::smaller(asked / way, whole) - now) / scalar(5);
+    } else if (asked + asked < now * way && square > scalar(1e-6) && !(most < whole)) {
+      B -= now * kernels::smaller(scalar(10) * dt, scalar(1));
+    }
+    return kernels::smaller(now, most);
   }
   /// Updates n towards w/|w|; if w has turned by more than 90°, n = w/|w| at once.
   [[nodiscard, gnu::always_inline]] constexpr effort turned(const effort& w, scalar size,
@@ -294,18 +306,16 @@ class settled_force::on : private part_at<given_force, P> {
     return P::difference(a, P::scaled(b, s));
   }
   scalar mass_{}, fraction_{}, slide_{}, lead_{}, turn_time_{}, most_{}, stiffest_{};
-  scalar per_tick_{};                 ///< m/T [N·s/m]
-  scalar longest_tick_{};             ///< T [s]
-  int late_ = 0;                      ///< [ticks]
-  typename P::stored_effort last_{};  ///< w of the last tick [N]
-  typename P::stored_effort n_{};     ///< n; zero for w = 0
-  scalar steepest_{};                 ///< K_m [N/m]
-  bool softens_ = true, knows_given_ = false, learns_ = false;
-  scalar ticks_{};                     ///< evaluated ticks of motion, of the last 30 ms
-  int watched_ = 0;                    ///< ticks of motion that are still to be evaluated
-  scalar shown_ = scalar(1);           ///< s
-  slope along_{}, across_{};           ///< slopes of the given force, along w and across
-  typename P::stored_effort given_{};  ///< given force of the last evaluated tick [N]
+  scalar braked_ = kernels::largest<scalar>();  ///< t K along n, large at a touch [N·s/m]
+  scalar slid_{};                               ///< 4 t K_s across n [N·s/m]
+  scalar per_tick_{};                           ///< m/T [N·s/m]
+  scalar longest_tick_{};                       ///< T [s]
+  int late_ = 0;                                ///< [ticks]
+  typename P::stored_effort last_{};            ///< w of the last tick [N]
+  typename P::stored_effort n_{};               ///< n; zero for w = 0
+  scalar steepest_{};                           ///< K_m [N/m]
+  bool softens_ = true;
+  evaluation seen_{};
 };
 
 static_assert(source_for<settled_force, space<float, 1>>);
