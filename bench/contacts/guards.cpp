@@ -301,6 +301,52 @@ double detents_kept(guard g) {
   });
 }
 
+// ------------------------------------------------------------------------------- stroked, by any mass
+
+enum class stroked : std::uint8_t { floor, ball, bowl, wind };
+struct stroke_row {
+  stroked what{};
+  double mass = 0.0;     ///< [kg]
+  double adds = 0.0;     ///< mean of what is added to the force that is given [N]
+  double largest = 0.0;  ///< the most of it [N]
+};
+ex::record record_of(const stroke_row& r) {
+  return {{"stroked", std::string(r.what == stroked::floor  ? "floor"
+                                  : r.what == stroked::ball ? "sphere"
+                                  : r.what == stroked::bowl ? "bowl"
+                                                            : "1 N, constant")},
+          {"mass_kg", r.mass, "%.1f"},
+          {"adds_N", r.adds, "%.3f"},
+          {"largest_N", r.largest, "%.3f"}};
+}
+/// Behind make_guard, 20 mm to and fro at up to 0.1 m/s, 1 mm deep in 2 kN/m; or along a force that is the same everywhere.
+stroke_row stroke(stroke_row row) {
+  auto port = ph::make_guard<d3>(
+      {.mass = row.mass, .damping = 0.05, .force_limit = 9.0, .longest_tick = longest}, told_hand);
+  double added = 0.0;
+  for (int n = 0; n < 4000; ++n) {
+    const double aside = 0.02 * std::sin(1.6 * pi * n * T);
+    const double height = std::max(-1e-3, 5e-3 - 6e-3 * n * T);
+    const double side = row.what == stroked::bowl ? -1.0 : 1.0;
+    const vector up = vector(aside, 0.0, side * radius).normalized();
+    vector x(aside, 0.0, height), w(0.0, 0.0, 1.0);
+    if (row.what == stroked::wind) {
+      x = {0.0, 0.0, aside};
+    } else if (row.what == stroked::floor) {
+      w = pushed_out(w, -height, 2000.0);
+    } else {
+      x = up * (radius + side * height);
+      w = pushed_out(vector(side * up), -height, 2000.0);
+    }
+    const double more = (port.tick(x, ph::seconds{T}, w).force - w).norm();
+    if (n < 2000) continue;
+    added += more;
+    row.largest = std::max(row.largest, more);
+  }
+  row.adds = added / 2000.0;
+  return row;
+}
+
 // ---------------------------------------------------------------------- random sums, drops, encoders
 
 /// Off, relaxed or stiff, at a goal.
@@ -646,6 +692,21 @@ std::vector<std::string> run_guards(const session& s) {
                                        ex::format("%.0f", 100.0 * kept) +
                                        " of 100 of their force.");
   expect(found, kept > 0.95, "detents lose their force");
+
+  s.out.section(
+      "Guards: stroked",
+      "What make_guard adds to the given force of 2 N, stroked to and fro at up to 0.1 m/s by a "
+      "device of any mass, and to a force of 1 N that is the same everywhere.");
+  std::vector<stroke_row> strokes;
+  for (const stroked what : {stroked::floor, stroked::ball, stroked::bowl, stroked::wind}) {
+    for (const double m : {0.1, 0.3, 1.0, 2.0}) strokes.push_back({.what = what, .mass = m});
+  }
+  const auto felt = s.rows("guards_strokes.csv", "strokes", strokes, stroke);
+  ex::show_rows(s.out, "guards_strokes", felt);
+  for (const stroke_row& r : felt) {
+    if (r.what == stroked::bowl) continue;  // which has a slope
+    expect(found, r.largest <= 0.025, ex::format("stroked by %.1f kg it drags", r.mass));
+  }
 
   s.out.section("Guards: random sums of walls",
                 "Falls into one to five walls of 0.3 to 6 kN/m, as stiff as is in reach, 0 to 3 "
