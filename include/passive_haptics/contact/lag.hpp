@@ -10,6 +10,7 @@
 //                moved at less than v/4 since the last update, |ℓ| falls by at most |ℓ₀|/2 while p grows
 //                p grows by u dt for the time P, but no longer than `ahead`; if no update has come for twice as
 //                long, the surface may have stopped, and p is reduced to 0 in the same way as ℓ
+//                outwards the own surface moves by no more than what the ledger pays for (local_contact.hpp)
 //                the own normal turns by ω dt while p grows, and at its own rate towards the newest one so turned
 //
 // ℓ₀ is the lag at the last update, P [s] the usual time between updates, and u [m/s] and ω [1/s] the velocity and the
@@ -119,9 +120,9 @@ class lag {
 
   /// Adds dt [s] to that time.
   constexpr void grow_older(Scalar dt) noexcept { since_ += dt; }
-  /// Moves ℓ and p on by one tick of dt [s].
-  constexpr void follow(Scalar dt) noexcept {
-    const Scalar step = speed_ * dt;
+  /// Moves ℓ and p on by one tick of dt [s], and the own surface outwards by `most` [m] at most.
+  constexpr void follow(Scalar dt, Scalar most = kernels::largest<Scalar>()) noexcept {
+    const Scalar step = speed_ * dt, before = offset();
     if (kernels::magnitude(behind_) <= step) {
       behind_ = Scalar(0);
     } else {
@@ -134,6 +135,7 @@ class lag {
       behind_ -= lead_;
       lead_ = goes_on_ = gains_ = Scalar(0);
     }
+    if (before - offset() > most) behind_ = before - most + lead_;
     settled_ = behind_ == Scalar(0) && goes_on_ == Scalar(0);
   }
   /// The stated motion of an update at the device.
@@ -270,15 +272,10 @@ class turning {
   bool still_ = true;
 };
 template <class Space>
-class turning<Space, false> {
-  using scalar = typename Space::scalar;
-
- public:
+struct turning<Space, false> {
   [[nodiscard]] static constexpr bool still() noexcept { return true; }
-  [[nodiscard]] static constexpr scalar turned(scalar normal, scalar /*time*/) noexcept {
-    return normal;
-  }
-  static constexpr void hear(scalar /*swung*/, scalar /*took*/) noexcept {}
+  [[nodiscard]] static constexpr auto turned(auto normal, auto /*time*/) noexcept { return normal; }
+  static constexpr void hear(auto /*swung*/, auto /*took*/) noexcept {}
   static constexpr void stop() noexcept {}
 };
 

@@ -67,7 +67,8 @@ class passive_port {
       std::remove_cvref_t<decltype(std::declval<const observer_type&>().damping())>;
 
  public:
-  using state_type = port_state<P, damping_type, latency, Observer::exact>;
+  using state_type =
+      port_state<P, damping_type, latency, Observer::exact, Bound::traits.needs_ledger>;
 
   static_assert(force_bound_for<Bound, P, state_type>,
                 "passive_haptics: the bound does not model force_bound_for: see port/concepts.hpp");

@@ -60,7 +60,7 @@ concept knows_turns = requires(const D d, const typename P::motion m, const type
 }  // namespace detail
 
 /// The state of a port in one tick, in m, N, J and s; for joints rad and N·m.
-template <class Port, class Damping, int Latency = 0, bool Exact = true>
+template <class Port, class Damping, int Latency = 0, bool Exact = true, bool Spends = true>
 struct port_state {
   using port_type = Port;
   using damping_type = Damping;
@@ -69,6 +69,7 @@ struct port_state {
   using motion = typename Port::motion;
   static constexpr int latency = Latency;  ///< ticks from a command until it is held
   static constexpr bool exact = Exact;     ///< the measured Δx is exact
+  static constexpr bool spends = Spends;   ///< the bound spends the energy of the ledger
   /// The commands that are not yet held, newest first, and after them the one that was held.
   using commands = std::array<typename Port::stored_effort, static_cast<std::size_t>(Latency) + 1>;
 
