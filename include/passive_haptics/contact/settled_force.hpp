@@ -127,7 +127,9 @@ class settled_force::on : private part_at<given_force, P> {
     longest_tick_ = T;
     late_ = late;
     per_tick_ = mass_ / (T * scalar(1 + late));
-    const scalar settles = fraction_ * per_tick_ / ((scalar(late) + scalar(1.5)) * T);
+    most_damping_ = fraction_ * per_tick_;
+    slope_time_ = kernels::larger(scalar(0.05), scalar(50) * T);
+    const scalar settles = most_damping_ / ((scalar(late) + scalar(1.5)) * T);
     steepest_ = softens_ ? kernels::smaller(settles, stiffest_) : kernels::largest<scalar>();
   }
   /// Explains most_stiffness; for a renderer that was found too stiff, its estimated stiffness and ¾ of most_stiffness.
@@ -161,8 +163,7 @@ class settled_force::on : private part_at<given_force, P> {
     const effort w = P::scaled(softly, share);
     const effort change = P::difference(w, last_), way = port.travel;
     if (-P::dot(change, way) > steepest_ * P::dot(way, way)) seen_.left = 30;
-    const effort f =
-        settled(w, change, detail::velocity_of<P>(motion), per_tick_ * secant, port.dt);
+    const effort f = settled(w, change, detail::velocity_of<P>(motion), secant, port.dt);
     return {P::is_finite(f) ? f : w};  // f is not finite if w overflows or underflows
   }
 
@@ -223,9 +224,9 @@ class settled_force::on : private part_at<given_force, P> {
     }
     if (seen_.shown == scalar(1) && --seen_.left == 0) seen_ = {};
   }
-  /// f [N] for w, which has changed by `change`, at the velocity v; m/T is `per_tick` [N·s/m].
+  /// f [N] for w, which has changed by `change`, at the velocity v; `secant` is the factor of B.
   [[nodiscard, gnu::always_inline]] constexpr effort settled(const effort& w, const effort& change,
-                                                             const effort& v, scalar per_tick,
+                                                             const effort& v, scalar secant,
                                                              scalar dt) noexcept {
     last_ = w;
     const scalar squared = P::dot(w, w);
@@ -235,7 +236,7 @@ class settled_force::on : private part_at<given_force, P> {
       slid_ = scalar(0);
       return w;
     }
-    const scalar most = fraction_ * per_tick;
+    const scalar most = most_damping_ * secant;
     if constexpr (P::dof == 1) {
       const scalar B = damper(braked_, -change * v, v * v, dt, most);
       const scalar inwards = scalar(-2) * w;
@@ -249,7 +250,7 @@ class settled_force::on : private part_at<given_force, P> {
       const effort sideways = less(v, n, speed), aside = less(change, n, rise);
       const scalar square = P::dot(sideways, sideways), little = scalar(0.02);
       const scalar felt = damper(slid_, scalar(-4) * P::dot(aside, sideways), square, dt, most);
-      scalar slide = slide_ * per_tick;
+      scalar slide = slide_ * per_tick_ * secant;
       if (felt < slide && slide * slide * square > little * little) {
         slide = kernels::larger(felt, little / kernels::square_root(square));
       }
@@ -262,12 +263,11 @@ class settled_force::on : private part_at<given_force, P> {
   /// above 2 t K at more than 1 mm/s. K is the slope of w along v, `fall` = −Δw·v and `square` = |v|².
   [[nodiscard]] constexpr scalar damper(scalar& B, scalar fall, scalar square, scalar dt,
                                         scalar most) const noexcept {
-    const scalar whole = fraction_ * per_tick_, way = square * dt;
-    const scalar asked = kernels::larger(scalar(0.05), scalar(50) * longest_tick_) * fall;
-    scalar now = B = kernels::smaller(B, whole);
+    const scalar asked = slope_time_ * fall, way = square * dt;
+    scalar now = B = kernels::smaller(B, most_damping_);
     if (asked > now * way) {
-      now = B += (kernels::smaller(asked / way, whole) - now) / scalar(5);
-    } else if (asked + asked < now * way && square > scalar(1e-6) && !(most < whole)) {
+      now = B += (kernels::smaller(asked / way, most_damping_) - now) / scalar(5);
+    } else if (asked + asked < now * way && square > scalar(1e-6) && !(most < most_damping_)) {
       B -= now * kernels::smaller(scalar(10) * dt, scalar(1));
     }
     return kernels::smaller(now, most);
@@ -306,14 +306,14 @@ class settled_force::on : private part_at<given_force, P> {
     return P::difference(a, P::scaled(b, s));
   }
   scalar mass_{}, fraction_{}, slide_{}, lead_{}, turn_time_{}, most_{}, stiffest_{};
-  scalar braked_ = kernels::largest<scalar>();  ///< t K along n, large at a touch [N·s/m]
-  scalar slid_{};                               ///< 4 t K_s across n [N·s/m]
-  scalar per_tick_{};                           ///< m/T [N·s/m]
-  scalar longest_tick_{};                       ///< T [s]
-  int late_ = 0;                                ///< [ticks]
-  typename P::stored_effort last_{};            ///< w of the last tick [N]
-  typename P::stored_effort n_{};               ///< n; zero for w = 0
-  scalar steepest_{};                           ///< K_m [N/m]
+  scalar braked_ = kernels::largest<scalar>();         ///< t K along n, large at a touch [N·s/m]
+  scalar slid_{};                                      ///< 4 t K_s across n [N·s/m]
+  scalar per_tick_{}, most_damping_{}, slope_time_{};  ///< m/T and B [N·s/m], t [s]
+  scalar longest_tick_{};                              ///< T [s]
+  int late_ = 0;                                       ///< [ticks]
+  typename P::stored_effort last_{};                   ///< w of the last tick [N]
+  typename P::stored_effort n_{};                      ///< n; zero for w = 0
+  scalar steepest_{};                                  ///< K_m [N/m]
   bool softens_ = true;
   evaluation seen_{};
 };
