@@ -151,7 +151,7 @@ class contact_engine {
     const auto now = frame::now(motion, port, last_);
     const auto coupling = frame::coupling(spring_);
     gathered all;
-    gather(now, coupling, port.dt, all, what);
+    gather(now, coupling, port, all, what);
     if (all.empty) what = detail::worse_yet(what, event::no_target);
     const auto& rows = all.rows;
     solve(all.rows, [&coupling, &rows](std::size_t i, std::size_t j) {
@@ -281,8 +281,9 @@ class contact_engine {
     bool empty = true;
     bool chases = false;  ///< an own surface has not reached its target yet
   };
-  constexpr void gather(const auto& now, const auto& coupling, scalar dt, gathered& all,
+  constexpr void gather(const auto& now, const auto& coupling, const auto& port, gathered& all,
                         event& what) noexcept {
+    const scalar dt = port.dt;
     const bool rests = rests_;
     [[maybe_unused]] const scalar slept = time_to_look(now, dt);
     slots_.for_each([&](auto& slot, std::size_t i) {
@@ -302,7 +303,7 @@ class contact_engine {
       };
       const auto way = [&] { return space_type::norm(now.travel(slot.point, here)); };
       felt_surface<space_type> own;
-      if (!slot.follow(here.position, along, dt, rests, unfelt, way, pace_, own)) return;
+      if (!slot.follow(here.position, along, port, rests, unfelt, way, pace_, own)) return;
       if (!own.is_finite()) [[unlikely]] {
         what = unusable(what);
         return;

@@ -407,7 +407,7 @@ class local_contact {
   }
   [[nodiscard, gnu::noinline]] constexpr scalar depth_behind(scalar now, const vector& x,
                                                              const auto& port) noexcept {
-    if (!lag_.settled()) lag_.follow(port.dt, paid_way(port));
+    if (!lag_.settled()) lag_.follow(port.dt, port.paid_way(Space::norm(vector(port.held))));
     if (lag_.silent()) turn_.stop();
     if (fresh()) hear(now, x, port);
     const scalar own = now - lag_.offset();
@@ -415,16 +415,6 @@ class local_contact {
     turn_.stop();
     lag_.let_go();  // neither is touched, so no force can step
     return now;
-  }
-  /// How far the own surface may move outwards in a tick [m]. Of the way E/|f| against the held force f that the ledger
-  /// still pays for, all but 0.1 mm and two ticks of the device's way is used up with a time constant of 50 ms: so the
-  /// surface stops before the bound has to cut its force at once.
-  [[nodiscard]] static constexpr scalar paid_way(const auto& port) noexcept {
-    const scalar force = Space::norm(vector(port.held)), way = Space::norm(vector(port.travel));
-    const bool pays = std::remove_cvref_t<decltype(port)>::spends && force > scalar(0);
-    if (!pays) return kernels::largest<scalar>();
-    const scalar left = port.energy / force - scalar(1e-4) - scalar(2) * way;
-    return kernels::larger(left, scalar(0)) * port.dt / scalar(0.05);
   }
   /// Takes an update; a pressed contact keeps its force, but not if a wall of one dimension is on the other side now.
   constexpr void hear(scalar now, const vector& x, const auto& port) noexcept {

@@ -199,10 +199,11 @@ class pursued {
   /// last tick, and `unfelt`(push) is the largest depth [m] at which a contact with that push has λ = 0 beside the
   /// others. `way`() is the distance that the contact has moved in the tick [m].
   [[nodiscard, gnu::always_inline]] constexpr bool follow(const vector& x, const auto& along,
-                                                          scalar dt, bool rests, const auto& unfelt,
-                                                          const auto& way,
+                                                          const auto& port, bool rests,
+                                                          const auto& unfelt, const auto& way,
                                                           const pursuit::on<Space>& pace,
                                                           felt& own) noexcept {
+    const scalar dt = port.dt;
     const auto shown = target_.at(x);
     own.normal = own.push = shown.outward();
     if constexpr (detail::says_push<decltype(shown)>) own.push = shown.push();
@@ -219,8 +220,9 @@ class pursued {
         keep(scalar(0), own.normal);  // there is no force that could step
       }
     }
-    const scalar lag =
-        ends ? lag_ + pace.receding(along(own.normal), dt) : shortened(lag_, speed_ * dt);
+    scalar step = speed_ * dt;
+    if (lag_ > scalar(0)) step = kernels::smaller(step, port.paid_way(pressed_));
+    const scalar lag = ends ? lag_ + pace.receding(along(own.normal), dt) : shortened(lag_, step);
     const vector goal = own.normal;
     const vector before = normal_;
     if constexpr (bends) own.push = own.push + braking(goal, x, dt, pace);

@@ -117,6 +117,14 @@ struct port_state {
     if constexpr (Latency == 0) return energy;
     return kernels::smaller(credit(), (energy - held_back()) / scalar(Latency + 1));
   }
+  /// How far a surface may move outwards in a tick, against a force of that size [N], in m. Of the way E1/f that the
+  /// ledger still pays for, all but 0.1 mm and two ticks of the device's way is used up with a time constant of 50 ms: so
+  /// the surface stops before a bound has to cut the force at once.
+  [[nodiscard]] constexpr scalar paid_way(scalar force) const noexcept {
+    if (!Spends || !(force > scalar(0))) return kernels::largest<scalar>();
+    const scalar kept = scalar(1e-4) + scalar(2) * kernels::square_root(Port::squared(travel));
+    return kernels::larger(energy / force - kept, scalar(0)) * dt / scalar(0.05);
+  }
   /// Δxᵀ(b/dt)Δx − f_held·Δx [J], the least energy gained in the last tick, rounded down.
   [[nodiscard]] constexpr scalar gain() const noexcept {
     scalar brought = detail::sure_gain<Port>(damping.dissipated(travel, dt), held, travel);
