@@ -4,7 +4,7 @@
 // contact_set is ONE spring between the device and the place that the walls leave free, and what the world
 // tells is made up for at a limited speed. Beside it: by how much a force would step that is the sum of a
 // spring for each wall as it was told last. A floor that lifts the hand works on it, and the ledger pays;
-// were it empty (the floor at 7 rad/s), the bound would cut the force, and that is felt as steps of 0.3 N.
+// where it has less, the floor rises slower, so that the bound has nothing to cut.
 
 #include <passive_haptics/passive_haptics.hpp>
 #include <passive_haptics/simulation/device.hpp>
@@ -38,7 +38,7 @@ int main() {
   for (int tick = 1; tick <= 3000; ++tick) {
     device.hand().target = vector::Constant(-0.01 * std::min(1e-3 * tick, 1.0));
     if (tick % 33 == 1) {
-      floor.point = {0, 0, 0.003 * std::sin(4e-3 * tick)};
+      floor.point = {0, 0, 0.003 * std::sin(7e-3 * tick)};
       corner.source().update(0, floor);
     }
     const vector force = corner.tick(sample).force;
