@@ -236,41 +236,41 @@ class settled_force::on : private part_at<given_force, P> {
       slid_ = scalar(0);
       return w;
     }
-    const scalar most = most_damping_ * secant;
+    const scalar full = most_damping_ * secant;
     if constexpr (P::dof == 1) {
-      const scalar B = damper(braked_, -change * v, v * v, dt, most);
+      const scalar B = damper(braked_, -change * v, v * v, dt, full);
       const scalar inwards = scalar(-2) * w;
       return w - kernels::clamped(B * v, kernels::smaller(w, inwards), kernels::larger(w, inwards));
     } else {
       const scalar size = kernels::square_root(squared);
       const effort n = turned(w, size, dt);
       const scalar along = P::dot(n, w), speed = P::dot(n, v), rise = P::dot(n, change);
-      const scalar B = damper(braked_, -rise * speed, speed * speed, dt, most);
+      const scalar B = damper(braked_, -rise * speed, speed * speed, dt, full);
       const scalar brake = kernels::clamped(B * speed, scalar(-2) * along, along);
       const effort sideways = less(v, n, speed), aside = less(change, n, rise);
       const scalar square = P::dot(sideways, sideways), little = scalar(0.02);
-      const scalar felt = damper(slid_, scalar(-4) * P::dot(aside, sideways), square, dt, most);
+      const scalar felt = damper(slid_, scalar(-4) * P::dot(aside, sideways), square, dt, full);
       scalar slide = slide_ * per_tick_ * secant;
       if (felt < slide && slide * slide * square > little * little) {
         slide = kernels::larger(felt, little / kernels::square_root(square));
       }
       const effort ahead = P::scaled(aside, lead_);
-      const effort across = less(P::scaled(ahead, braking(ahead, sideways, most)), sideways, slide);
+      const effort across = less(P::scaled(ahead, braking(ahead, sideways, full)), sideways, slide);
       return less(less(w, n, brake), across, -within(across, size));
     }
   }
-  /// B [N·s/m] up to a limit. B grows to t K within a few ticks and, if `most` is the whole damper, fades while it is
+  /// B [N·s/m] up to a limit. B grows to t K within a few ticks and, if `limit` is the whole damper, fades while it is
   /// above 2 t K at more than 1 mm/s. K is the slope of w along v, `fall` = −Δw·v and `square` = |v|².
   [[nodiscard]] constexpr scalar damper(scalar& B, scalar fall, scalar square, scalar dt,
-                                        scalar most) const noexcept {
+                                        scalar limit) const noexcept {
     const scalar asked = slope_time_ * fall, way = square * dt;
     scalar now = B = kernels::smaller(B, most_damping_);
     if (asked > now * way) {
       now = B += (kernels::smaller(asked / way, most_damping_) - now) / scalar(5);
-    } else if (asked + asked < now * way && square > scalar(1e-6) && !(most < most_damping_)) {
+    } else if (asked + asked < now * way && square > scalar(1e-6) && !(limit < most_damping_)) {
       B -= now * kernels::smaller(scalar(10) * dt, scalar(1));
     }
-    return kernels::smaller(now, most);
+    return kernels::smaller(now, limit);
   }
   /// Updates n towards w/|w|; if w has turned by more than 90°, n = w/|w| at once.
   [[nodiscard, gnu::always_inline]] constexpr effort turned(const effort& w, scalar size,
