@@ -603,7 +603,8 @@ struct plainly {
   [[nodiscard]] double felt(double& damper, double fall, double v, double dt, double share) const {
     const double whole = p.damping_fraction * p.mass / (T * (1 + late));
     damper = std::min(damper, whole);
-    const double asked = std::max(0.05, 50.0 * T) * fall / dt, used = damper;
+    const double t = std::max({0.05, 50.0 * T, 4.0 * p.mass / whole});
+    const double asked = t * fall / dt, used = damper;
     if (v == 0.0) return used;
     if (asked > damper) return damper += (std::min(asked, whole) - damper) / 5.0;
     if (2.0 * asked < damper && v > 1e-3 && share == 1.0) damper *= 1.0 - std::min(10.0 * dt, 1.0);

@@ -407,7 +407,8 @@ class local_contact {
   }
   [[nodiscard, gnu::noinline]] constexpr scalar depth_behind(scalar now, const vector& x,
                                                              const auto& port) noexcept {
-    if (!lag_.settled()) lag_.follow(port.dt, port.paid_way(Space::norm(vector(port.held))));
+    const scalar force = Space::norm(vector(port.held));
+    if (!lag_.settled()) lag_.follow(port.dt, port.paid_way(force, scalar(1e-4), scalar(0.05)));
     if (lag_.silent()) turn_.stop();
     if (fresh()) hear(now, x, port);
     const scalar own = now - lag_.offset();

@@ -13,7 +13,7 @@ inline namespace v0 {
 
 /// The given force w [N] with dampers that only brake, v [m/s] the velocity and n the smoothed direction of w:
 ///     f = w − n clip(D n·v, −2 n·w, n·w) + clip(σ (I − nnᵀ)(w − w_last)) − clip(D_s (I − nnᵀ) v)
-///     D = min(B, t K)    B = β m/T, t = max(50 T, 50 ms), along n [N·s/m]; at most 2|w| inwards, |w| outwards
+///     D = min(B, t K)    B = β m/T, t = max(50 T, 50 ms, 4m/B), along n [N·s/m]; at most 2|w| inwards, |w| outwards
 ///     σ                  lead of the part of w across n [ticks]; at most B times the speed that it brakes
 ///     D_s = min(B_s, max(4 t K_s, 0.02 N/|v|))   B_s = β_s m/T, across n [N·s/m]: it stops a swing along a trough
 ///     K, K_s             slopes −Δw·Δx/|Δx|² of w along n and across it, felt in the last 0.1 s of motion [N/m]
@@ -128,7 +128,8 @@ class settled_force::on : private part_at<given_force, P> {
     late_ = late;
     per_tick_ = mass_ / (T * scalar(1 + late));
     most_damping_ = fraction_ * per_tick_;
-    slope_time_ = kernels::larger(scalar(0.05), scalar(50) * T);
+    slope_time_ = kernels::larger(scalar(4) * mass_ / most_damping_,
+                                  kernels::larger(scalar(0.05), scalar(50) * T));
     const scalar settles = most_damping_ / ((scalar(late) + scalar(1.5)) * T);
     steepest_ = softens_ ? kernels::smaller(settles, stiffest_) : kernels::largest<scalar>();
   }

@@ -118,12 +118,12 @@ struct port_state {
     return kernels::smaller(credit(), (energy - held_back()) / scalar(Latency + 1));
   }
   /// How far a surface may move outwards in a tick, against a force of that size [N], in m. Of the way E1/f that the
-  /// ledger still pays for, all but 0.1 mm and two ticks of the device's way is used up with a time constant of 50 ms: so
+  /// ledger still pays for, all but `kept` and two ticks of the device's way is used up with a time constant `time` [s]: so
   /// the surface stops before a bound has to cut the force at once.
-  [[nodiscard]] constexpr scalar paid_way(scalar force) const noexcept {
+  [[nodiscard]] constexpr scalar paid_way(scalar force, scalar kept, scalar time) const noexcept {
     if (!Spends || !(force > scalar(0))) return kernels::largest<scalar>();
-    const scalar kept = scalar(1e-4) + scalar(2) * kernels::square_root(Port::squared(travel));
-    return kernels::larger(energy / force - kept, scalar(0)) * dt / scalar(0.05);
+    kept += scalar(2) * kernels::square_root(Port::squared(travel));
+    return kernels::larger(energy / force - kept, scalar(0)) * dt / time;
   }
   /// Δxᵀ(b/dt)Δx − f_held·Δx [J], the least energy gained in the last tick, rounded down.
   [[nodiscard]] constexpr scalar gain() const noexcept {
