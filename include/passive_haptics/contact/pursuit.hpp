@@ -88,7 +88,7 @@ class pursuit::on {
   }
   /// How far a contact with λ [N] may move outwards in a tick for what the ledger holds [m].
   [[nodiscard]] constexpr scalar paid_way(scalar lambda, const auto& port) const noexcept {
-    return port.paid_way(lambda, speed_ * catch_up_ / scalar(20), catch_up_);
+    return port.paid_way(lambda, speed_ * catch_up_ / scalar(20), catch_up_ * scalar(1.25));
   }
   /// R dt, the largest change of the force by updates in dt [N].
   [[nodiscard]] constexpr scalar news(scalar dt) const noexcept { return force_rate_ * dt; }
