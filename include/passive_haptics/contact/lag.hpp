@@ -10,7 +10,7 @@
 //                moved at less than v/4 since the last update, |ℓ| falls by at most |ℓ₀|/2 while p grows
 //                p grows by u dt for the time P, but no longer than `ahead`; if no update has come for twice as
 //                long, the surface may have stopped, and p is reduced to 0 in the same way as ℓ
-//                outwards the own surface moves by no more than what the ledger pays for (local_contact.hpp)
+//                outwards the own surface moves by no more than what the ledger pays for (port_state::paid_way)
 //                the own normal turns by ω dt while p grows, and at its own rate towards the newest one so turned
 //
 // ℓ₀ is the lag at the last update, P [s] the usual time between updates, and u [m/s] and ω [1/s] the velocity and the

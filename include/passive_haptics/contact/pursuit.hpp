@@ -87,8 +87,7 @@ class pursuit::on {
     return turn_.step(from, to, dt);
   }
   /// How far a contact with λ [N] may move outwards in a tick for what the ledger holds [m].
-  [[nodiscard, gnu::noinline]] constexpr scalar paid_way(scalar lambda,
-                                                         const auto& port) const noexcept {
+  [[nodiscard]] constexpr scalar paid_way(scalar lambda, const auto& port) const noexcept {
     return port.paid_way(lambda, speed_ * catch_up_ / scalar(20), catch_up_ * scalar(1.25));
   }
   /// R dt, the largest change of the force by updates in dt [N].

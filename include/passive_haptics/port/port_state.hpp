@@ -69,7 +69,6 @@ struct port_state {
   using motion = typename Port::motion;
   static constexpr int latency = Latency;  ///< ticks from a command until it is held
   static constexpr bool exact = Exact;     ///< the measured Δx is exact
-  static constexpr bool spends = Spends;   ///< the bound spends the energy of the ledger
   /// The commands that are not yet held, newest first, and after them the one that was held.
   using commands = std::array<typename Port::stored_effort, static_cast<std::size_t>(Latency) + 1>;
 
