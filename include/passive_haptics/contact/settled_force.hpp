@@ -8,6 +8,8 @@
 
 #include <passive_haptics/contact/given_force.hpp>
 
+#include <utility>
+
 namespace passive_haptics {
 inline namespace v0 {
 
