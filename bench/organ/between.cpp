@@ -2,9 +2,10 @@
 #include "between.hpp"
 
 #include "../common/pareto.hpp"
+#include "../contacts/ball.hpp"
 #include "../thesis_experiments/organ.hpp"
 #include "published.hpp"
-#include <passive_haptics/compositions.hpp>
+#include <passive_haptics/mesh.hpp>
 #include <passive_haptics/published/passivity_controller.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
@@ -291,9 +292,51 @@ auto touch() {
       ph::known_hand{.force = 5.0});
 }
 
+/// A mesh in the place of the plane or the ball: two triangles, or 5120 that are felt smooth. The finger has a radius,
+/// and the nodes are so much lower. A copy is the same finger; fresh() is another.
+class meshed {
+ public:
+  explicit meshed(const scene& s) : of_(&s), ball_(s.name == "breathing sphere") {
+    const curved::triangulated round = curved::icosphere(4, 1.0);
+    nodes_ =
+        ball_ ? round.nodes : std::vector<vector>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    std::vector<ph::mesh::triangle> triangles{{0, 1, 2}, {0, 2, 3}};
+    if (ball_) triangles.assign(round.triangles.begin(), round.triangles.end());
+    const auto rounded = ball_ ? std::optional(ph::mesh::smooth{}) : std::nullopt;
+    news_ = std::make_shared<ph::mesh::surface>(triangles, placed(ball_ ? 0.04 : 0.0),
+                                                ph::mesh::made_of{}, rounded);
+    port_.source().touch(*news_);
+  }
+  [[nodiscard]] meshed fresh() const { return meshed(*of_); }
+  void update(const plane& flat) {
+    const vector at = flat.point;
+    if (!news_->update(placed(ball_ ? at.norm() : at.z())))
+      throw std::runtime_error(news_->fault());
+  }
+  auto tick(const ph::device_sample<volume>& sample) { return port_.tick(sample); }
+  auto tick(const vector& x, ph::seconds<double> dt) { return port_.tick(x, dt); }
+  [[nodiscard]] auto explain() const { return port_.explain(); }
+
+ private:
+  [[nodiscard]] std::vector<vector> placed(double level) const {
+    std::vector<vector> all = nodes_;
+    level -= ph::mesh::proxy_parameters{}.radius;
+    for (vector& p : all) p = ball_ ? vector(level * p) : vector(p + level * vector::UnitZ());
+    return all;
+  }
+  const scene* of_;
+  bool ball_;
+  std::vector<vector> nodes_;
+  std::shared_ptr<ph::mesh::surface> news_;
+  ph::mesh_touch<volume> port_ = ph::make_mesh_touch<volume>(
+      ph::exact_device{.mass = 0.1, .damping = 0.03, .force_limit = 9.0, .longest_tick = 1e-3},
+      ph::known_hand{.force = 5.0}, {.stiffness = ball_ ? 1000.0 : 800.0});
+};
+
 const auto as_planes = [](auto& model, const letter& a, double /*age*/) {
   (void)model.update(a.flat);
 };
+const auto as_nodes = [](auto& model, const letter& a, double /*age*/) { model.update(a.flat); };
 const auto all_that_they_know = [](auto& model, const letter& a, double age) {
   (void)model.update(a.flat, {.velocity = a.velocity, .age = age});
 };
@@ -337,6 +380,7 @@ class comparison {
     } else {
       add("... moving", touch<plane>(), all_that_they_know, rate, late);
       add("... moving quadric", touch<quadric>(), with_curvature, rate, late);
+      add("make_mesh_touch", meshed(scenes_[0]), as_nodes, rate, late);
       add("TDPA",
           ph::local_model{volume{}, ph::followed<plane>{}, ph::turn_at_once{}, ph::spring{},
                           ph::no_observer{}, ph::series_passivity_controller{.max_damping = 30.0},
@@ -355,13 +399,20 @@ class comparison {
       one.error = 0.0;
       const scene& s = scenes_[h];
       const felt run =
-          follow(s, model, tell, rate, late, ahead == 0.0 ? s.fresh() : s.ahead(ahead));
+          follow(s, another(model), tell, rate, late, ahead == 0.0 ? s.fresh() : s.ahead(ahead));
       judge(one, s, run, truths_[h]);
       judge(worst, s, run, truths_[h]);
       if (by == "bare") bare_[h] = one.error;
       worst.of_bare = std::max(worst.of_bare, one.error / std::max(bare_[h], 1e-6));
     }
     rows_.push_back(worst);
+  }
+  static auto another(const auto& model) {
+    if constexpr (requires { model.fresh(); }) {
+      return model.fresh();
+    } else {
+      return model;
+    }
   }
   std::vector<between_row>& rows_;
   const std::vector<scene>& scenes_;

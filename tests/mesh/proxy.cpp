@@ -230,6 +230,109 @@ TEST_CASE("a pose moves a mesh of any size at once, and carries the ball", "[mes
   }
 }
 
+namespace {
+
+/// A ball pressed into a plate that is told, every `period` ticks, where told(tick) [m] has it, for 4 s and then no more.
+struct followed_plate {
+  double
+      off = 0.0,
+      bare =
+          0.0;  ///< mean squares of where it is felt and of where it was told, less where it is [m²]
+  double highest = -1.0;           ///< where it is felt at the most, after 1 s [m]
+  double step = 0.0;               ///< the largest way of it in a tick [m]
+  double at_last = 0.0, last = 0;  ///< where it is felt, and told, 0.4 s after the last news [m]
+};
+followed_plate follow_plate(bool by_pose, int period, auto told) {
+  const body b = plate();
+  ph::mesh::surface s(b.triangles, b.nodes);
+  ph::mesh::proxy ball({.radius = 5e-4});
+  REQUIRE(ball.touch(s));
+  followed_plate seen;
+  double before = 0.0;
+  for (int k = 0; k < 4400; ++k) {
+    if (k % period == 0 && k < 4000) {
+      seen.last = told(k);
+      auto nodes = b.nodes;
+      for (triple& p : nodes) p.z += seen.last;
+      REQUIRE((by_pose ? s.update(ph::mesh::pose{.position = {0.0, 0.0, seen.last}})
+                       : s.update(nodes)));
+    }
+    ball.step({0.003, 0.002, std::max(0.02 - 1e-4 * k, -0.02)}, T);
+    const double felt = ball.place().z - 5e-4;
+    if (k >= 1000 && k < 4000) {
+      seen.off += (felt - told(k)) * (felt - told(k)) / 3000;
+      seen.bare += (seen.last - told(k)) * (seen.last - told(k)) / 3000;
+      seen.highest = std::max(seen.highest, felt);
+      seen.step = std::max(seen.step, std::abs(felt - before));
+    }
+    before = felt;
+  }
+  seen.at_last = before;
+  ball.let_go();
+  return seen;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a mesh that moves steadily is felt where it is by now, and where it was told when it stops",
+    "[mesh]") {
+  const auto heaved = [](int k) { return 0.002 * std::sin(6.9e-3 * k); };
+  for (const bool by_pose : {false, true}) {
+    for (const int period : {33, 17, 10}) {
+      const auto seen = follow_plate(by_pose, period, heaved);
+      INFO(by_pose << ", every " << period << " ms");
+      CHECK(std::sqrt(seen.off) < 0.4 * std::sqrt(seen.bare));
+      CHECK(seen.step < 2e-5);  // [m]; it moves by 1.4e-5 itself
+      CHECK(std::abs(seen.at_last - seen.last) < 1e-9);
+    }
+    CHECK(std::sqrt(follow_plate(by_pose, 1, heaved).off) < 1e-6);
+  }
+}
+
+TEST_CASE("news that jump, tremble or come seldom are not felt beyond where they were told",
+          "[mesh]") {
+  for (const bool by_pose : {false, true}) {
+    const auto jumped = follow_plate(by_pose, 33, [](int k) { return k < 2000 ? 0.0 : 0.002; });
+    CHECK(jumped.highest < 0.002 + 1e-9);
+    const auto climbed = follow_plate(by_pose, 300, [](int k) { return 0.001 * (k / 300); });
+    CHECK(climbed.highest < 0.013 + 1e-9);
+    CHECK(std::abs(climbed.at_last - climbed.last) < 1e-9);
+    std::mt19937 random(3);
+    std::vector<double> noise(4400);
+    for (double& z : noise) z = 1e-3 * std::uniform_real_distribution<>(-1.0, 1.0)(random);
+    const auto trembled = follow_plate(by_pose, 33, [&](int k) { return noise[std::size_t(k)]; });
+    CHECK(trembled.highest < 1.3e-3);
+  }
+}
+
+TEST_CASE("a mesh of which the news say how old they are is felt where it is by now", "[mesh]") {
+  // Each is told an age that is twice the time since the one before, or more.
+  using clock = ph::mesh::surface::clock;
+  const auto ahead = [](bool with_time) {
+    const body b = plate();
+    ph::mesh::surface s(b.triangles, b.nodes);
+    ph::mesh::proxy ball({.radius = 5e-4});
+    REQUIRE(ball.touch(s));
+    const auto first = clock::now() - std::chrono::hours(1);
+    double most = 0.0;
+    for (int k = 0; k < 1000; ++k) {
+      const double there = 5e-5 * (k / 20);
+      const ph::mesh::pose where{.position = {0.0, 0.0, there}};
+      if (k % 20 == 0) {
+        REQUIRE(
+            (with_time ? s.update(where, first + std::chrono::milliseconds(k)) : s.update(where)));
+      }
+      ball.step({0.003, 0.002, std::max(0.02 - 1e-4 * k, -0.02)}, T);
+      if (k % 20 == 19) most = ball.where().position.z - there;
+    }
+    ball.let_go();
+    return most;
+  };
+  CHECK(std::abs(ahead(false) - 5e-5) < 1e-9);
+  CHECK(std::abs(ahead(true) - 15e-5) < 1e-9);
+}
+
 TEST_CASE("a proxy's parameters are refused by name", "[mesh]") {
   CHECK_FALSE(ph::mesh::proxy_parameters{}.check());
   CHECK(std::string(ph::mesh::proxy_parameters{.radius = 0.0}.check().parameter) == "radius");

@@ -30,27 +30,34 @@ TEST_CASE("several readers of one writer see each shape whole, and none older th
   std::vector<std::thread> readers;
   for (int reader = 0; reader < 3; ++reader) {
     readers.emplace_back([&] {
-      int held = -1, read = 0, last = -1;
-      while (!stop) {
-        const int next = all->take();
+      std::array<int, 2> held{-1, -1}, last{-1, -1};  // of the newest, and of what was told
+      for (int read = 0; !stop;) {
+        const std::size_t which = read % 2 == 0 ? 0 : 1;
+        const int next = which == 0 ? all->take() : all->take_told();
         if (next < 0) continue;
-        if (held >= 0) {  // two at once, as on the way from one shape to the next
-          torn += whole((*all)[held]) ? 0 : 1;
-          all->give_back(held);
-        }
-        held = next;
-        torn += whole((*all)[held]) ? 0 : 1;
-        back += (*all)[held][0] < last ? 1 : 0;
-        last = (*all)[held][0];
-        if (++read == 100) ++reading;
+        for (const int one : held) torn += one < 0 || whole((*all)[one]) ? 0 : 1;
+        if (held[which] >= 0) all->give_back(held[which]);
+        held[which] = next;
+        torn += whole((*all)[next]) ? 0 : 1;
+        back += (*all)[next][0] < last[which] ? 1 : 0;
+        last[which] = (*all)[next][0];
+        if (++read == 200) ++reading;
       }
-      if (held >= 0) all->give_back(held);
+      for (const int one : held) {
+        if (one >= 0) all->give_back(one);
+      }
     });
   }
   int told = 0;
   while (reading < 3 || told < 20000) {
     all->blank().fill(told++);
-    all->publish();
+    all->publish_told();
+    if (told % 3 == 0) {
+      all->publish_as_told();
+    } else {
+      all->blank().fill(told++);
+      all->publish();
+    }
   }
   stop = true;
   for (std::thread& reader : readers) reader.join();

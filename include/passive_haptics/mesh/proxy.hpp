@@ -37,8 +37,8 @@ struct proxy_parameters {
   double radius = 5e-4;  ///< r, of the ball [m]
   double news_speed =
       0.05;  ///< what is touched follows its news at this speed [m/s], or faster as it must
-  double longest_way =
-      0.05;               ///< news are followed within the time since the last ones, or this [s]
+  /// News are followed within the time since the last ones, or this [s] unless they go on steadily.
+  double longest_way = 0.05;
   double friction = 0.0;  ///< μ of triangles whose mesh states none
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -82,7 +82,9 @@ class proxy {
     if (meshes_ == most_meshes || rule_.check()) return false;
     part fresh;
     if (!fresh.news.join(s)) return false;
-    if (const pose* there = fresh.news.take_pose()) fresh.goal = fresh.shown = *there;
+    if (const auto* there = fresh.news.take_pose()) {
+      fresh.told = fresh.goal = fresh.shown = there->where;
+    }
     reframe([&] { parts_[slot(meshes_++)] = fresh; });
     const int last = meshes_ - 1;
     placed_ &= !(at_ == device_ && closest(fresh, last, at_, rule_.radius).triangle >= 0);
@@ -212,11 +214,28 @@ class proxy {
   static constexpr int most_near = 48, most_rounds = 3;
   static constexpr std::size_t slot(int i) noexcept { return static_cast<std::size_t>(i); }
 
+  /// When news come.
+  struct timing {
+    double age = 1.0;     ///< of the last ones [s]
+    double period = 1.0;  ///< between those and the ones before [s]
+    void hear() noexcept { period = std::exchange(age, 0.0); }
+    /// Until the next are due [s]; who is late has half a period at least.
+    [[nodiscard]] double left() const noexcept { return (std::max)(period - age, 0.5 * period); }
+    /// True if the next are due before long, but not in the next two ticks, so that their place is worth foreseeing.
+    [[nodiscard]] bool are_due(double dt) const noexcept {
+      return period > 2.5 * dt && period < 0.15 && age < 1.5 * period;
+    }
+  };
   /// One mesh, and how far its shape and its pose have come on their way to the newest ones.
   struct part {
     surface::reader news;
-    double done = 1.0, done_before = 1.0;  ///< of the way between the shapes; in the last tick
-    double shape_way = 1e-3, shape_age = 1.0, pose_way = 1e-3, pose_age = 1.0;  // [s]
+    double done = 1.0, done_before = 1.0;      ///< of the way between the shapes; in the last tick
+    double shape_way = 1e-3, pose_way = 1e-3;  ///< [s]
+    timing shape_news, pose_news;
+    int newest = -1;    ///< number of the newest shape
+    pose told{};        ///< the newest pose, which `goal` may be ahead of
+    triple told_way{};  ///< by which it moved what is at the ball [m]
+    steadiness steady;  ///< of poses
     double pose_done = 1.0;
     int stuck = 0;  ///< ticks for which the mesh waits; < 0: it goes back
     pose came_from{}, goal{}, shown{}, shown_before{};
@@ -357,40 +376,13 @@ class proxy {
   }
 
   // -------------------------------------------------------------------------------------------- news
-  /// Takes the news of the slow thread; the way to a new shape begins when the last way is done. The pose of a single
-  /// mesh is shown at once; among several it is a motion, which may have to wait.
+  /// Takes the news of the slow thread. While they come steadily, the goal is where the mesh will be when the next are
+  /// due; when those do not come, it is what was told.
   void hear(part& p, double dt) noexcept {
-    p.pose_age += dt;
-    p.shape_age += dt;
     p.shown_before = p.shown;
     p.news.take_materials();
-    if (const pose* news = p.news.take_pose()) {
-      p.goal = *news;
-      p.came_from = placed_ ? p.shown : p.goal;
-      p.pose_way = way_of(p.pose_age, moved_by(p, *news), dt);
-      p.pose_done = 0.0;
-      p.pose_age = 0.0;
-    }
-    p.aim = p.shown;
-    if (p.pose_done < 1.0) {
-      p.pose_done = (std::min)(1.0, p.pose_done + dt / p.pose_way);
-      p.aim = p.pose_done < 1.0 ? between(p.came_from, p.goal, p.pose_done) : p.goal;
-    }
-    if (alone() || !placed_) p.shown = p.aim;
-    if (p.news.moves() && p.done >= 1.0) {
-      p.news.arrive();
-    } else if (p.news.moves() && p.done <= 0.0 && p.stuck < 0) {  // it has gone back
-      p.news.turn_back();
-      p.done = 1.0;
-    }
-    if (!p.news.moves()) {
-      p.stuck = 0;
-      if (p.news.go()) {
-        p.done = 0.0;
-        p.shape_way = way_of(p.shape_age, touched_way(p), dt);
-        p.shape_age = 0.0;
-      }
-    }
+    hear_pose(p, dt);
+    hear_shape(p, dt);
     p.done_before = p.done;
     p.wanted = 0.0;
     if (p.news.moves()) {
@@ -401,23 +393,76 @@ class proxy {
     p.done_at_first = p.done;
     p.shown_at_first = p.shown;
   }
-  [[nodiscard]] double way_of(double age, double distance, double dt) const noexcept {
-    const double asked = (std::max)(age, distance / rule_.news_speed);
-    return (std::max)((std::min)(asked, rule_.longest_way), dt);
+  /// The pose of a single mesh is shown at once; among several it is a motion, which may have to wait.
+  void hear_pose(part& p, double dt) noexcept {
+    p.pose_news.age += dt;
+    if (const auto* news = p.news.take_pose()) {
+      const triple way = moved_by(p, p.told, news->where);
+      p.steady.forget();
+      p.steady.add(way, p.told_way);
+      p.told_way = way;
+      p.pose_news.hear();
+      const double steady = p.steady.a();
+      const bool foreseen = placed_ && steady > 0.0 && p.pose_news.are_due(dt);
+      const double ahead = foreseen ? steady * (1.0 + news->late) : 0.0;
+      p.goal = foreseen ? between(p.told, news->where, 1.0 + ahead) : news->where;
+      p.told = news->where;
+      p.came_from = placed_ ? p.shown : p.goal;
+      const double distance = is_pressed(p) ? length(moved_by(p, p.shown, p.goal)) : 0.0;
+      p.pose_way = way_of(p.pose_news.left(), distance, steady, dt);
+      p.pose_done = 0.0;
+    } else if (p.pose_done >= 1.0 && !(p.goal == p.told) && !p.pose_news.are_due(dt)) {
+      p.came_from = p.shown;
+      p.goal = p.told;
+      p.pose_done = 0.0;
+    }
+    p.aim = p.shown;
+    if (p.pose_done < 1.0) {
+      p.pose_done = (std::min)(1.0, p.pose_done + dt / p.pose_way);
+      p.aim = p.pose_done < 1.0 ? between(p.came_from, p.goal, p.pose_done) : p.goal;
+    }
+    if (alone() || !placed_) p.shown = p.aim;
+  }
+  /// The way to a new shape begins when the last way is done.
+  void hear_shape(part& p, double dt) noexcept {
+    p.shape_news.age += dt;
+    if (std::exchange(p.newest, p.news.newest()) != p.newest) p.shape_news.hear();
+    if (p.news.moves() && p.done >= 1.0) {
+      p.news.arrive();
+    } else if (p.news.moves() && p.done <= 0.0 && p.stuck < 0) {  // it has gone back
+      p.news.turn_back();
+      p.done = 1.0;
+    }
+    if (p.news.moves()) return;
+    p.stuck = 0;
+    if (!p.news.go(p.shape_news.are_due(dt))) return;
+    p.done = 0.0;
+    p.shape_way = way_of(p.shape_news.left(), touched_way(p), p.news.to().steady, dt);
+  }
+  /// The time [s] for a way that moves what is touched by `distance` [m]: what is `left` until the next news, more for
+  /// what is not steady, and all that may be taken for what swings to and fro from one to the next.
+  [[nodiscard]] double way_of(double left, double distance, double steady,
+                              double dt) const noexcept {
+    if (steady < 0.0) return (std::max)(rule_.longest_way, dt);
+    const double asked = (std::max)(left, distance * (1.0 - steady) / rule_.news_speed);
+    const double most = steady > 0.0 ? (std::max)(left, rule_.longest_way) : rule_.longest_way;
+    return (std::max)((std::min)(asked, most), dt);
   }
   /// True if the half-space is one of a triangle of this mesh.
   [[nodiscard]] bool is_of(const half_space_of& h, const part& p) const noexcept {
     return &parts_[slot(h.mesh)] == &p;
   }
-  /// How far the news move what is touched [m].
-  [[nodiscard]] double moved_by(const part& p, const pose& news) const noexcept {
-    double most = 0.0;
+  [[nodiscard]] bool is_pressed(const part& p) const noexcept {
+    bool is = false;
     for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
-      if (!is_of(planes_[slot(pressed_.of[i])], p)) continue;
-      const triple ball = place(), own = p.shown.in(ball - p.shown.position);
-      most = length(news.out(own) + news.position - ball);
+      is = is || is_of(planes_[slot(pressed_.of[i])], p);
     }
-    return most;
+    return is;
+  }
+  /// By how much the way from one pose to another moves what is at the ball now [m].
+  [[nodiscard]] triple moved_by(const part& p, const pose& from, const pose& to) const noexcept {
+    const triple own = p.shown.in(place() - p.shown.position);
+    return to.out(own) + to.position - from.out(own) - from.position;
   }
   [[nodiscard]] double touched_way(const part& p) const noexcept {
     double most = 0.0;

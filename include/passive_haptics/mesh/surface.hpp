@@ -83,6 +83,31 @@ struct shape {
   std::vector<box> boxes;
   std::vector<triple> normals;  ///< of a smooth mesh (smooth.hpp)
   detail::bulge bulge;
+  double steady = 0.0;  ///< a of the news
+};
+
+/// A pose, and its age when it was told, in units of the time since the one before.
+struct told_pose {
+  pose where{};
+  double late = 0.0;
+};
+
+/// How steadily news go on in the same direction: a = Σ d_n·d_(n−1)/Σ d_(n−1)² in [−1, 1] of their ways d, those before
+/// counting for 0.7 of each later one. It is 1 for a steady motion, 0 for the first news after a rest and for a jump,
+/// and negative for noise and for what swings to and fro from one to the next.
+struct steadiness {
+  double both = 0.0, last = 0.0;
+  constexpr void forget() noexcept {
+    both *= 0.7;
+    last *= 0.7;
+  }
+  constexpr void add(const triple& way, const triple& before) noexcept {
+    both += dot(way, before);
+    last += squared(before);
+  }
+  [[nodiscard]] constexpr double a() const noexcept {
+    return std::abs(both) > 0.1 * last ? kernels::clamped(both / last, -1.0, 1.0) : 0.0;
+  }
 };
 
 namespace detail {
@@ -107,7 +132,7 @@ struct world {
   neighbours smooth;  ///< none of a mesh that is not
   news<made_of> stuffs;
   news<shape> shapes;
-  news<pose> poses;
+  news<told_pose> poses;
 
   /// The numbers of the shapes that one finger holds, `from` which and `to` which it goes (the same one while it
   /// rests), of its materials, and of its pose; −1 is none.
@@ -185,7 +210,7 @@ class surface {
   // ------------------------------------------------------------------------------------ the slow thread
   using clock = std::chrono::steady_clock;
   /// Moves the nodes to these places [m]. If it returns false, fault() says why, and the last good shape stays. After
-  /// three good updates it does not allocate, as long as every finger keeps up.
+  /// five good updates it does not allocate, as long as every finger keeps up.
   template <class Nodes>
   requires requires(const Nodes& n) { n.size(); }
   bool update(const Nodes& nodes) {
@@ -198,8 +223,7 @@ class surface {
       fault_ = std::move(fault);
       return false;
     }
-    fill(world_->shapes.blank(), nodes);
-    world_->shapes.publish();
+    tell(nodes);
     fault_.clear();
     return true;
   }
@@ -215,7 +239,7 @@ class surface {
                "without a length; give metres and w, x, y, z";
       return false;
     }
-    world_->poses.blank() = where;
+    world_->poses.blank() = {where, late_};
     world_->poses.publish();
     fault_.clear();
     return true;
@@ -229,12 +253,19 @@ class surface {
     world_->stuffs.publish();
     return true;
   }
-  /// The same for nodes or a pose of the time `at`. It also returns false if later news were told before, or if `at`
-  /// is in the future.
+  /// The same for nodes or a pose of the time `at`, so that what goes on steadily is felt where it is by now. It also
+  /// returns false if later news were told before, or if `at` is in the future.
   bool update(const auto& there, clock::time_point at) {
-    if (!in_order(at) || !update(there)) return false;
-    last_ = at;
-    return true;
+    if (!in_order(at)) return false;
+    const auto seconds = [](clock::time_point t) {  // a number that cannot overflow
+      return std::chrono::duration<double>(t.time_since_epoch()).count();
+    };
+    const double since = seconds(at) - seconds(last_), age = seconds(clock::now()) - seconds(at);
+    late_ = since > 0.0 ? (std::min)(age / since, 2.0) : 0.0;
+    const bool good = update(there);
+    late_ = 0.0;
+    if (good) last_ = at;
+    return good;
   }
   /// Why the last update was refused; empty if it was not.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
@@ -252,13 +283,13 @@ class surface {
       for (std::size_t i = 0; i < w->seats.size(); ++i) {
         if (w->seats[i].taken.exchange(true)) continue;
         auto& mine = w->seats[i];
-        const auto first = [](auto& all) {
+        const auto first = [](auto take) {
           int one = -1;
-          while (one < 0) one = all.take();  // there is one since the surface was made
+          while (one < 0) one = take();  // there is one since the surface was made
           return one;
         };
-        mine.from = first(w->shapes);
-        mine.stuff = first(w->stuffs);
+        mine.from = first([&] { return w->shapes.take_told(); });
+        mine.stuff = first([&] { return w->stuffs.take(); });
         w->shapes.hold(mine.from);
         mine.to = mine.from;
         mine.pose = -1;
@@ -281,16 +312,20 @@ class surface {
     }
     [[nodiscard]] bool reads(const surface& s) const noexcept { return world_ == s.world_.get(); }
     [[nodiscard]] const detail::world& mesh() const noexcept { return *world_; }
-    [[nodiscard]] bool has_news() const noexcept { return world_->shapes.newest() != seat_->to; }
+    [[nodiscard]] bool has_news() const noexcept { return world_->shapes.told() != seat_->to; }
     [[nodiscard]] const shape& from() const noexcept { return world_->shapes[seat_->from]; }
     [[nodiscard]] const shape& to() const noexcept { return world_->shapes[seat_->to]; }
     [[nodiscard]] bool moves() const noexcept { return seat_->from != seat_->to; }
-    /// Sets out for the newest shape. It returns false if there is none, or if the last way is not done.
-    bool go() noexcept {
-      if (moves() || !has_news()) return false;
-      const int newest = world_->shapes.take();
-      if (newest < 0) return false;
-      world_->shapes.give_back(std::exchange(seat_->to, newest));
+    /// The number of the newest shape; it changes with each.
+    [[nodiscard]] int newest() const noexcept { return world_->shapes.newest(); }
+    /// Sets out for the newest shape or, if not `ahead`, for what was told last. It returns false if it is there, or if
+    /// the last way is not done.
+    bool go(bool ahead) noexcept {
+      news<shape>& all = world_->shapes;
+      if (moves() || (ahead ? all.newest() : all.told()) == seat_->to) return false;
+      const int next = ahead ? all.take() : all.take_told();
+      if (next < 0) return false;
+      all.give_back(std::exchange(seat_->to, next));
       return true;
     }
     /// The way ends: from now on both shapes are the one it went to, or after turn_back() the one it came from.
@@ -315,7 +350,7 @@ class surface {
       if (newest >= 0) world_->stuffs.give_back(std::exchange(seat_->stuff, newest));
     }
     /// The newest pose, or null if none came since the last call.
-    [[nodiscard]] const pose* take_pose() noexcept {
+    [[nodiscard]] const told_pose* take_pose() noexcept {
       if (world_->poses.newest() == seat_->pose) return nullptr;
       const int newest = world_->poses.take();
       if (newest < 0) return nullptr;
@@ -394,8 +429,7 @@ class surface {
   }
   template <class Nodes>
   void publish(const Nodes& nodes, made_of stuff) {
-    fill(world_->shapes.blank(), nodes);
-    world_->shapes.publish();
+    tell(nodes);
     world_->stuffs.blank() = std::move(stuff);
     world_->stuffs.publish();
   }
@@ -427,11 +461,42 @@ class surface {
     box_tree tree(centres(triangles, nodes));
     return std::make_unique<detail::world>(std::move(triangles), std::move(tree));
   }
+  /// Publishes these nodes as what was told and, as the newest, where they will be when the next news are due: they go on
+  /// by a (1 + late) times their last way.
   template <class Nodes>
-  void fill(shape& s, const Nodes& nodes) {
+  void tell(const Nodes& nodes) {
+    auto& shapes = world_->shapes;
+    shape& there = shapes.blank();
+    there.nodes.resize(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) there.nodes[i] = detail::node_of(nodes, i);
+    fit(there);
+    if (shapes.told() >= 0) {
+      const std::vector<triple>& before = shapes[shapes.told()].nodes;
+      way_.resize(nodes.size());
+      steady_.forget();
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        steady_.add(there.nodes[i] - before[i], way_[i]);
+        way_[i] = there.nodes[i] - before[i];
+      }
+    }
+    there.steady = steady_.a();
+    shapes.publish_told();
+    if (!(there.steady > 0.0)) {
+      shapes.publish_as_told();
+      return;
+    }
+    shape& next = shapes.blank();
+    next.steady = there.steady;
+    next.nodes.resize(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      next.nodes[i] = there.nodes[i] + way_[i] * (next.steady * (1.0 + late_));
+    }
+    fit(next);
+    shapes.publish();
+  }
+  /// Fits the boxes, and the normals of a smooth mesh, to the nodes.
+  void fit(shape& s) {
     const detail::world& w = *world_;
-    s.nodes.resize(nodes.size());
-    for (std::size_t i = 0; i < nodes.size(); ++i) s.nodes[i] = detail::node_of(nodes, i);
     s.boxes.resize(w.tree.branches().size());
     w.tree.fit(s.boxes, [&](int t, box& b) {
       for (const int node : w.triangles[at(t)]) b.grow(s.nodes[at(node)]);
@@ -443,7 +508,10 @@ class surface {
   std::unique_ptr<detail::world> world_;
   std::size_t count_;  ///< number of nodes
   clock::time_point last_{};
+  double late_ = 0.0;  ///< age of the news over the time since the last ones
   std::string fault_;
+  std::vector<triple> way_;  ///< of each node by the last news [m]
+  steadiness steady_;
   problems problems_;  ///< while normals are fitted
   /// Of a smooth mesh. A program that makes none links nothing of it.
   void (*rounds_off_)(const detail::world&, shape&, problems&) = nullptr;
