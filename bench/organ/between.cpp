@@ -292,12 +292,12 @@ auto touch() {
       ph::known_hand{.force = 5.0});
 }
 
-/// A mesh in the place of the plane or the ball: two triangles, or 5120 that are felt smooth. The finger has a radius,
+/// A mesh in the place of the plane or the ball: two triangles, or 1280 that are felt smooth. The finger has a radius,
 /// and the nodes are so much lower. A copy is the same finger; fresh() is another.
 class meshed {
  public:
   explicit meshed(const scene& s) : of_(&s), ball_(s.name == "breathing sphere") {
-    const curved::triangulated round = curved::icosphere(4, 1.0);
+    const curved::triangulated round = curved::icosphere(3, 1.0);
     nodes_ =
         ball_ ? round.nodes : std::vector<vector>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     std::vector<ph::mesh::triangle> triangles{{0, 1, 2}, {0, 2, 3}};

@@ -13,7 +13,8 @@
 // proxy_spring along whatever presses:
 //     y ≥ 0 shortest with n_i·y ≥ d_i + min(−τ n_i·v, max(2 d_i, ⅔ λ_i, 0)),   f* = K y
 // n_i are the normals of the half-spaces near the ball, d_i [m] is how far x is beyond each, and λ_i [m] is the share
-// that n_i has in the shortest y without the damper. On a mesh at rest −K (p − x) is the gradient of ½K|p − x|², is no
+// that n_i has in the shortest y without the damper. Of the speed v of the device along p − x only what swings counts
+// (contact/swing.hpp), because a damper against the hand's own motion is an error of the force. On a mesh at rest −K (p − x) is the gradient of ½K|p − x|², is no
 // steeper than K, and the ball moves only so that this energy falls. The source promises nothing about the energy at
 // the port; the bound behind it does. A mesh of which no news come stays where it is.
 //
@@ -25,6 +26,7 @@
 
 #include <passive_haptics/contact/local_contact.hpp>
 #include <passive_haptics/contact/proxy.hpp>
+#include <passive_haptics/contact/swing.hpp>
 #include <passive_haptics/mesh/proxy.hpp>
 
 #include <algorithm>
@@ -140,6 +142,7 @@ class mesh_contact::on {
     const mesh::support& pressed = ball_.pressed();
     if (!ball_.placed() || pressed.count == 0) {
       presses_ = false;
+      swing_.stop();
       return free;
     }
     const double depth = mesh::length(pressed.way);
@@ -154,12 +157,13 @@ class mesh_contact::on {
       n[i] = ball_.normal(static_cast<int>(i));
       wish[i] = ball_.depth(static_cast<int>(i));
     }
+    const mesh::triple swings = swinging(v, depth, dt);
     std::array<double, mesh::proxy::most_planes> share{};
     for (std::size_t j = 0; j < static_cast<std::size_t>(pressed.count); ++j) {
       share[static_cast<std::size_t>(pressed.of[j])] = pressed.share[j];
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      wish[i] = damped_depth(felt, wish[i], mesh::dot(n[i], v), share[i] * felt.stiffness);
+      wish[i] = damped_depth(felt, wish[i], mesh::dot(n[i], swings), share[i] * felt.stiffness);
     }
     mesh::support damped;
     const bool can = mesh::shortest_way([&](int i) { return n[static_cast<std::size_t>(i)]; },
@@ -182,6 +186,14 @@ class mesh_contact::on {
   [[nodiscard]] static constexpr mesh::triple to_triple(const vector& v) noexcept {
     return {static_cast<double>(P::component(v, 0)), static_cast<double>(P::component(v, 1)),
             static_cast<double>(P::component(v, 2))};
+  }
+  /// v without what is no swing along the way on which the ball is held off (contact/swing.hpp).
+  [[nodiscard]] mesh::triple swinging(const mesh::triple& v, double depth, double dt) noexcept {
+    if (!(depth > 0.0)) return v;
+    const mesh::triple n = ball_.push() * (1.0 / depth);
+    const double natural = kernels::square_root(sampled_.stiffness / spring_.parameters().mass);
+    const double out = mesh::dot(n, v);
+    return v + n * (swing_.damped(out, natural, dt) - out);
   }
   /// What presses is made of, or on its way to it, and sampled_ as stiff as that; the device goes by `speed` [m/s].
   [[nodiscard]] mesh::material made_of(double depth, double speed, double dt) noexcept {
@@ -232,6 +244,7 @@ class mesh_contact::on {
   double most_viscosity_ = 0.0;  ///< m/2T [N·s/m]
   sampled_spring<double> sampled_{};
   bool presses_ = false;  ///< it did in the last tick
+  swing<double> swing_;
   mesh::proxy ball_;
 };
 
