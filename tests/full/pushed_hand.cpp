@@ -4,6 +4,7 @@
 #include "support/scenes.hpp"
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/compositions.hpp>
+#include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/hand.hpp>
 
@@ -87,4 +88,45 @@ TEST_CASE("a surface that pushes a hand stops before the ledger is used up", "[c
   CHECK(cut < ticks / 5);
   CHECK(cut_of_a_set < ticks / 5);
   CHECK(least == 0.0);
+}
+
+TEST_CASE("a surface that heaves against a stiff hand is as true as without a ledger",
+          "[contact]") {
+  // A finger stands 3 mm deep in a plane that heaves by 2 mm at 4 Hz and is told 100 times a second.
+  constexpr ph::exact_device device{
+      .mass = 0.1, .damping = 0.03, .force_limit = 20.0, .longest_tick = 1.1e-3};
+  const auto off = [](auto port, auto tell) {
+    double sum = 0.0;
+    for (int n = 0; n < 6000; ++n) {
+      const auto heaved = [&](int k) { return 0.002 * std::sin(0.02513 * std::max(k - 1000, 0)); };
+      if (n % 10 == 0) tell(port, heaved(n));
+      const double x = -0.003 + std::max(0.02 - 4e-5 * n, 0.0);
+      const double f = port.tick(x, ph::seconds{1e-3}).force;
+      if (n > 2000) sum += std::pow(f - 1000.0 * std::max(heaved(n) - x, 0.0), 2) / 3999;
+    }
+    return std::sqrt(sum);
+  };
+  const auto touched = [](auto& port, double at) { REQUIRE(port.update({at, 1.0, 1000.0})); };
+  const auto slotted = [](auto& port, double at) {
+    REQUIRE(port.source().update(0, {at, 1.0, 1000.0}));
+  };
+  const ph::proxy_spring spring{.mass = 0.1};
+  const auto free = [](const auto& source) {
+    return ph::passive_port{d1{}, source, ph::no_observer{}, ph::no_bound{},
+                            ph::loop_limits{.longest_tick = 1.1e-3}};
+  };
+  constexpr ph::known_hand hand{.force = 15.0};
+  const double eased = off(ph::make_touch<d1>(device, hand), touched);
+  const double unbounded =
+      off(ph::local_model{d1{}, ph::followed<ph::half_space<d1>>{}, ph::turn_limited{.rate = 2.0},
+                          ph::eased{ph::damped_spring{.mass = 0.1}}, ph::no_observer{},
+                          ph::no_bound{}, ph::loop_limits{.longest_tick = 1.1e-3}},
+          touched);
+  const double set =
+      off(ph::make_contacts<d1>(device, hand, ph::slots<ph::half_space<d1>, 1>{}), slotted);
+  const double unbounded_set = off(
+      free(ph::contact_set{spring, ph::pursuit{}, ph::slots<ph::half_space<d1>, 1>{}}), slotted);
+  CAPTURE(eased, unbounded, set, unbounded_set);
+  CHECK(eased < 1.01 * unbounded);
+  CHECK(set < 1.01 * unbounded_set);
 }
