@@ -227,7 +227,7 @@ class pursued {
       }
     }
     scalar step = speed_ * dt;
-    if (lag_ > scalar(0)) {
+    if (lag_ > scalar(0)) [[unlikely]] {
       step = kernels::smaller(step, pace.paid_way(pressed_, along(own.normal) * dt, port));
     }
     const scalar lag = ends ? lag_ + pace.receding(along(own.normal), dt) : shortened(lag_, step);
