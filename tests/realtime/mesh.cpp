@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A tick on a mesh takes nothing from the heap, nor does an update after the first four.
+// A tick on a mesh takes nothing from the heap, nor does an update after the first few.
 #include "mesh/shapes.hpp"
 #include "support/allocations.hpp"
 #include <passive_haptics/mesh/mesh_tool.hpp>

@@ -210,7 +210,7 @@ class surface {
   // ------------------------------------------------------------------------------------ the slow thread
   using clock = std::chrono::steady_clock;
   /// Moves the nodes to these places [m]. If it returns false, fault() says why, and the last good shape stays. After
-  /// five good updates it does not allocate, as long as every finger keeps up.
+  /// a few good updates it does not allocate, as long as every finger keeps up.
   template <class Nodes>
   requires requires(const Nodes& n) { n.size(); }
   bool update(const Nodes& nodes) {
