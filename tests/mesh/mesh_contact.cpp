@@ -196,6 +196,38 @@ TEST_CASE("what rests on a facet, in a groove, in a pit, on an edge or at a tip 
   }
 }
 
+TEST_CASE(
+    "a stroke over nodes and edges of a smooth sphere is not braked by facets that do not press",
+    "[mesh]") {
+  // 60 mm/s along a great circle of a sphere of 40 mm, 2.5 mm deep, and 3 mm/s in and out.
+  const body b = sphere(3, 0.0395);
+  const auto off = [&](std::optional<ph::mesh::smooth> rounded, double& step) {
+    ph::mesh::surface s(b.triangles, b.nodes, {}, rounded);
+    auto port = port_of(1000.0, 0.1, reachable(0.1));
+    port.source().touch(s);
+    double sum = 0.0;
+    vector last = vector::Zero();
+    for (int n = 0; n < 4000; ++n) {
+      const double angle = 0.35 * std::sin(4e-3 * n);
+      const double r = 0.0375 + std::max(0.006 - 1e-5 * n, 0.0) - 5e-4 * std::sin(6e-3 * n);
+      const vector up(std::sin(angle), 0.0, std::cos(angle));
+      const vector f = port.tick(vector(r * up), ph::seconds{T}).force;
+      if (n > 1000) {
+        sum += (f - 1000.0 * (0.04 - r) * up).squaredNorm() / 2999;
+        step = std::max(step, (f - last).norm());
+      }
+      last = f;
+    }
+    port.source().let_go();
+    return std::sqrt(sum);
+  };
+  double step = 0.0, facets = 0.0;
+  CHECK(off(ph::mesh::smooth{}, step) < 0.01);
+  CHECK(step < 0.015);
+  CHECK(off(std::nullopt, facets) > 0.1);
+  CHECK(facets > 0.2);
+}
+
 TEST_CASE("a mesh contact states and refuses its parameters, and lives without a mesh", "[mesh]") {
   CHECK(std::string(ph::mesh_contact{}.check().parameter) == "mass");
   CHECK(

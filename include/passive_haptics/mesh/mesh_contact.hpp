@@ -11,7 +11,7 @@
 //
 // The force is K (p − x), p the place of the ball (mesh/proxy.hpp) and x the device, with the damper of
 // proxy_spring along whatever presses:
-//     y ≥ 0 shortest with n_i·y ≥ d_i + min(−τ n_i·v, max(2 d_i, ⅔ λ_i, 0)),   f* = K y
+//     y ≥ 0 shortest with n_i·y ≥ d_i + min(−τ n_i·v, 2 λ_i),   f* = K y
 // n_i are the normals of the half-spaces near the ball, d_i [m] is how far x is beyond each, and λ_i [m] is the share
 // that n_i has in the shortest y without the damper. Of the speed v of the device along p − x only what swings counts
 // (contact/swing.hpp), because a damper against the hand's own motion is an error of the force. On a mesh at rest −K (p − x) is the gradient of ½K|p − x|², is no
@@ -163,7 +163,8 @@ class mesh_contact::on {
       share[static_cast<std::size_t>(pressed.of[j])] = pressed.share[j];
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      wish[i] = damped_depth(felt, wish[i], mesh::dot(n[i], swings), share[i] * felt.stiffness);
+      const double lead = -felt.settling * mesh::dot(n[i], swings);
+      wish[i] += (std::min)(lead, (inward_limit - 1) * share[i]);
     }
     mesh::support damped;
     const bool can = mesh::shortest_way([&](int i) { return n[static_cast<std::size_t>(i)]; },
