@@ -14,9 +14,10 @@
 //     y ≥ 0 shortest with n_i·y ≥ d_i + min(−τ n_i·v, 2 λ_i),   f* = K y
 // n_i are the normals of the half-spaces near the ball, d_i [m] is how far x is beyond each, and λ_i [m] is the share
 // that n_i has in the shortest y without the damper. Of the speed v of the device along p − x only what swings counts
-// (contact/swing.hpp), because a damper against the hand's own motion is an error of the force. On a mesh at rest −K (p − x) is the gradient of ½K|p − x|², is no
-// steeper than K, and the ball moves only so that this energy falls. The source promises nothing about the energy at
-// the port; the bound behind it does. A mesh of which no news come stays where it is.
+// (contact/swing.hpp), because a damper against the hand's own motion is an error of the force. On a mesh at rest
+// −K (p − x) is the gradient of ½K|p − x|², is no steeper than K, and the ball moves only so that this energy falls.
+// The source promises nothing about the energy at the port; the bound behind it does. A mesh of which no news come
+// stays where it is.
 //
 // Along the surface, of a triangle with μ and c (mesh/material.hpp), t how far the ball is held back and v_t the speed
 // beside the surface there:
