@@ -252,13 +252,12 @@ typedef struct ph_mesh_data {
 
 /// A probe. Zero in a member stands for its default.
 typedef struct ph_probe_parameters {
-  uint32_t size;      ///< sizeof(ph_probe_parameters)
-  uint32_t reserved;  ///< 0
-  double radius;      ///< of the ball [m]; 0: 5e-4
-  double friction;    ///< of triangles whose mesh states none
-  double news_speed;  ///< at which news are followed, if they need no more [m/s]; 0: 0.05
-  double
-      longest_way;  ///< news are followed within the time since the last ones, or this [s]; 0: 0.05
+  uint32_t size;       ///< sizeof(ph_probe_parameters)
+  uint32_t reserved;   ///< 0
+  double radius;       ///< of the ball [m]; 0: 5e-4
+  double friction;     ///< of triangles whose mesh states none
+  double news_speed;   ///< at which news are followed, if they need no more [m/s]; 0: 0.05
+  double longest_way;  ///< news that are not steady are followed in this at most [s]; 0: 0.05
 } ph_probe_parameters;
 
 /// The result of a step of a probe. A renderer's force is its stiffness times depth, along normal.
