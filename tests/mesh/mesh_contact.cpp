@@ -228,6 +228,61 @@ TEST_CASE(
   CHECK(facets > 0.2);
 }
 
+TEST_CASE("a mesh that pushes a hand stops before the ledger is used up", "[mesh]") {
+  // A hand of 100 or 400 N/m rests on a plate that then heaves by 5 or 9 mm, 30 times a second. The control is the
+  // spring of the same ball behind the same bound.
+  const body b = plate();
+  double least = 0.0;
+  const auto largest_step = [&](bool bare, bool by_pose, double K, double k, double way) {
+    ph::mesh::surface s(b.triangles, b.nodes);
+    auto port = port_of(K, 1.0, reachable(1.0));
+    ph::passive_port given{scene{}, ph::given_force{}, ph::reduced_energy{.damping = 0.03},
+                           reachable(1.0), ph::loop_limits{.longest_tick = T}};
+    ph::mesh::proxy ball;
+    REQUIRE((bare ? ball.touch(s) : port.source().touch(s)));
+    device dev({.mass = 1.0, .damping = 0.05, .start = vector(0.003, 0.002, 0.004)},
+               drawn(vector(0.003, 0.002, -1.0 / k), 9, k, 10));
+    double step = 0.0;
+    vector force = vector::Zero();
+    auto sample = dev.exchange(force);
+    for (int n = 1; n < 4500; ++n) {
+      const double up = n < 1500 ? 0.0 : way * std::sin(6.9e-3 * (n - 1500));
+      auto nodes = b.nodes;
+      for (triple& p : nodes) p.z += up;
+      if (n % 33 == 0) {
+        REQUIRE((by_pose ? s.update(ph::mesh::pose{.position = {0, 0, up}}) : s.update(nodes)));
+      }
+      const vector last = force;
+      if (bare) {
+        ball.step(of(sample.position), T);
+        force = given.tick(sample, vector(K * of(ball.push()))).force;
+      } else {
+        force = port.tick(sample).force;
+      }
+      if (n > 1500) step = std::max(step, (force - last).norm());
+      sample = dev.exchange(force);
+    }
+    least = std::min(least, dev.meter().minimum());
+    ball.let_go();
+    port.source().let_go();
+    return step;
+  };
+  double eased = 0.0, plain = 0.0;
+  for (const double K : {700.0, 3000.0}) {
+    for (const double k : {100.0, 400.0}) {
+      for (const double way : {0.005, 0.009}) {
+        for (const bool by_pose : {false, true}) {
+          eased += largest_step(false, by_pose, K, k, way) / 16;
+          plain += largest_step(true, by_pose, K, k, way) / 16;
+        }
+      }
+    }
+  }
+  CAPTURE(eased, plain);
+  CHECK(eased < 0.8 * plain);
+  CHECK(least >= -1e-12);
+}
+
 TEST_CASE("a mesh contact states and refuses its parameters, and lives without a mesh", "[mesh]") {
   CHECK(std::string(ph::mesh_contact{}.check().parameter) == "mass");
   CHECK(

@@ -16,8 +16,8 @@
 // that n_i has in the shortest y without the damper. Of the speed v of the device along p − x only what swings counts
 // (contact/swing.hpp), because a damper against the hand's own motion is an error of the force. On a mesh at rest
 // −K (p − x) is the gradient of ½K|p − x|², is no steeper than K, and the ball moves only so that this energy falls.
-// The source promises nothing about the energy at the port; the bound behind it does. A mesh of which no news come
-// stays where it is.
+// The source promises nothing about the energy at the port; the bound behind it does. A mesh that pushes a hand does so
+// by what the ledger pays for (port_state::paid_way). One of which no news come stays where it is.
 //
 // Along the surface, of a triangle with μ and c (mesh/material.hpp), t how far the ball is held back and v_t the speed
 // beside the surface there:
@@ -88,7 +88,10 @@ class mesh_contact::on {
     return spring_.settles(elsewhere_.stiffness);
   }
   /// Forgets which side was touched, but keeps the mesh.
-  constexpr void reset() noexcept { ball_.reset(); }
+  constexpr void reset() noexcept {
+    ball_.reset();
+    behind_ = force_ = 0.0;
+  }
 
   /// Touches this mesh from now on; it must outlive the port. Call it from the haptic thread. It returns false if 64
   /// fingers touch the mesh already.
@@ -120,7 +123,8 @@ class mesh_contact::on {
   };
   template <bool Shortcut>
   [[nodiscard]] request ask(const auto& motion, const auto& port, event& what) noexcept {
-    return asked(motion, static_cast<double>(port.dt), what);
+    const scalar most = port.paid_way(static_cast<scalar>(force_), scalar(1e-4), scalar(0.05));
+    return asked(motion, static_cast<double>(port.dt), static_cast<double>(most), what);
   }
   [[nodiscard]] constexpr result_type answered(const request& r,
                                                const port_result<P>& port) const noexcept {
@@ -132,7 +136,8 @@ class mesh_contact::on {
 
  private:
   /// Out of line, once for both kinds of tick that ask for it, so that a program compiles sooner; dt is in seconds.
-  [[gnu::noinline, nodiscard]] request asked(const auto& motion, double dt, event& what) noexcept {
+  [[gnu::noinline, nodiscard]] request asked(const auto& motion, double dt, double most,
+                                             event& what) noexcept {
     const request free{P::zero(), true, scalar(0)};
     if (!ball_.touching()) {
       what = detail::worse_yet(what, event::no_target);
@@ -143,10 +148,12 @@ class mesh_contact::on {
     const mesh::support& pressed = ball_.pressed();
     if (!ball_.placed() || pressed.count == 0) {
       presses_ = false;
+      behind_ = force_ = 0.0;
       swing_.stop();
       return free;
     }
     const double depth = mesh::length(pressed.way);
+    const double part = share_felt(depth, most, dt);
     const mesh::triple v = to_triple(detail::velocity_of<P>(motion));
     const mesh::material is = made_of(depth, mesh::length(v), dt);
     const auto felt =
@@ -157,6 +164,7 @@ class mesh_contact::on {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       n[i] = ball_.normal(static_cast<int>(i));
       wish[i] = ball_.depth(static_cast<int>(i));
+      if (wish[i] > 0.0) wish[i] *= part;
     }
     const mesh::triple swings = swinging(v, depth, dt);
     std::array<double, mesh::proxy::most_planes> share{};
@@ -165,7 +173,7 @@ class mesh_contact::on {
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       const double lead = -felt.settling * mesh::dot(n[i], swings);
-      wish[i] += (std::min)(lead, (inward_limit - 1) * share[i]);
+      wish[i] += (std::min)(lead, (inward_limit - 1) * share[i] * part);
     }
     mesh::support damped;
     const bool can = mesh::shortest_way([&](int i) { return n[static_cast<std::size_t>(i)]; },
@@ -177,6 +185,7 @@ class mesh_contact::on {
       const auto i = static_cast<std::size_t>(by.of[j]);
       f = f + n[i] * (by.share[j] * felt.stiffness);
     }
+    force_ = mesh::length(f);
     if (is.friction > 0.0 || is.viscosity > 0.0) {
       f = f + along(is, felt, f, v, dt);
     }
@@ -188,6 +197,21 @@ class mesh_contact::on {
   [[nodiscard]] static constexpr mesh::triple to_triple(const vector& v) noexcept {
     return {static_cast<double>(P::component(v, 0)), static_cast<double>(P::component(v, 1)),
             static_cast<double>(P::component(v, 2))};
+  }
+  /// The share of the depth [m] that is felt: the surface that is felt goes outwards with the mesh by `most` [m] in a tick,
+  /// and what it stays behind it makes up for by border_rate, or when the mesh comes back.
+  [[nodiscard]] double share_felt(double depth, double most, double dt) noexcept {
+    if (!(depth > 0.0)) return 1.0;
+    const mesh::support& pressed = ball_.pressed();
+    const mesh::triple n = ball_.push() * (1.0 / depth);
+    double out = mesh::dot(n, ball_.went(pressed.of[0]));
+    for (std::size_t j = 1; j < static_cast<std::size_t>(pressed.count); ++j) {
+      out = (std::max)(out, mesh::dot(n, ball_.went(pressed.of[j])));
+    }
+    const double left = most - (std::max)(out, 0.0), rate = border_rate * dt / felt_.stiffness;
+    behind_ += (std::min)(out, 0.0) - (std::min)(left, rate);
+    behind_ = kernels::clamped(behind_, 0.0, depth);
+    return 1.0 - behind_ / depth;
   }
   /// v without what is no swing along the way on which the ball is held off (contact/swing.hpp).
   [[nodiscard]] mesh::triple swinging(const mesh::triple& v, double depth, double dt) noexcept {
@@ -246,6 +270,8 @@ class mesh_contact::on {
   double most_viscosity_ = 0.0;  ///< m/2T [N·s/m]
   sampled_spring<double> sampled_{};
   bool presses_ = false;  ///< it did in the last tick
+  double behind_ = 0.0;   ///< how far the surface that is felt lies below the mesh [m]
+  double force_ = 0.0;    ///< that pressed in the last tick [N]
   swing<double> swing_;
   mesh::proxy ball_;
 };

@@ -181,6 +181,7 @@ class proxy {
   [[nodiscard]] triple went(int i) const noexcept {
     const half_space_of& h = planes_[slot(i)];
     const part& p = parts_[slot(h.mesh)];
+    if (p.done == p.done_before && p.shown == p.shown_before) return {};
     const auto in_world = [&](double done, const pose& where) {
       const view v{&p.news.mesh(),  &p.news.from(), &p.news.to(), done,
                    !p.news.moves(), true,           where};
