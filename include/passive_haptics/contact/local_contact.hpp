@@ -408,7 +408,10 @@ class local_contact {
   [[nodiscard, gnu::noinline]] constexpr scalar depth_behind(scalar now, const vector& x,
                                                              const auto& port) noexcept {
     const scalar force = Space::norm(vector(port.held));
-    if (!lag_.settled()) lag_.follow(port.dt, port.paid_way(force, scalar(1e-4), scalar(0.05)));
+    if (!lag_.settled()) {
+      const scalar spent = Space::work(port.held, port.travel).joules;
+      lag_.follow(port.dt, port.paid_way(force, spent, scalar(1e-4), scalar(0.05)));
+    }
     if (lag_.silent()) turn_.stop();
     if (fresh()) hear(now, x, port);
     const scalar own = now - lag_.offset();

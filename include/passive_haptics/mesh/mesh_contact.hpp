@@ -90,7 +90,8 @@ class mesh_contact::on {
   /// Forgets which side was touched, but keeps the mesh.
   constexpr void reset() noexcept {
     ball_.reset();
-    behind_ = force_ = 0.0;
+    behind_ = 0.0;
+    pressed_by_ = {};
   }
 
   /// Touches this mesh from now on; it must outlive the port. Call it from the haptic thread. It returns false if 64
@@ -123,8 +124,11 @@ class mesh_contact::on {
   };
   template <bool Shortcut>
   [[nodiscard]] request ask(const auto& motion, const auto& port, event& what) noexcept {
-    const scalar most = port.paid_way(static_cast<scalar>(force_), scalar(1e-4), scalar(0.05));
-    return asked(motion, static_cast<double>(port.dt), static_cast<double>(most), what);
+    const double dt = static_cast<double>(port.dt);
+    const double spent = mesh::dot(pressed_by_, to_triple(detail::velocity_of<P>(motion))) * dt;
+    const scalar most = port.paid_way(static_cast<scalar>(mesh::length(pressed_by_)),
+                                      static_cast<scalar>(spent), scalar(1e-4), scalar(0.05));
+    return asked(motion, dt, static_cast<double>(most), what);
   }
   [[nodiscard]] constexpr result_type answered(const request& r,
                                                const port_result<P>& port) const noexcept {
@@ -148,7 +152,8 @@ class mesh_contact::on {
     const mesh::support& pressed = ball_.pressed();
     if (!ball_.placed() || pressed.count == 0) {
       presses_ = false;
-      behind_ = force_ = 0.0;
+      behind_ = 0.0;
+      pressed_by_ = {};
       swing_.stop();
       return free;
     }
@@ -185,7 +190,7 @@ class mesh_contact::on {
       const auto i = static_cast<std::size_t>(by.of[j]);
       f = f + n[i] * (by.share[j] * felt.stiffness);
     }
-    force_ = mesh::length(f);
+    pressed_by_ = f;
     if (is.friction > 0.0 || is.viscosity > 0.0) {
       f = f + along(is, felt, f, v, dt);
     }
@@ -269,9 +274,9 @@ class mesh_contact::on {
   mesh::material felt_;          ///< of the last tick; sampled_ is of its K
   double most_viscosity_ = 0.0;  ///< m/2T [N·s/m]
   sampled_spring<double> sampled_{};
-  bool presses_ = false;  ///< it did in the last tick
-  double behind_ = 0.0;   ///< how far the surface that is felt lies below the mesh [m]
-  double force_ = 0.0;    ///< that pressed in the last tick [N]
+  bool presses_ = false;       ///< it did in the last tick
+  double behind_ = 0.0;        ///< how far the surface that is felt lies below the mesh [m]
+  mesh::triple pressed_by_{};  ///< the force of the last tick, without what rubs [N]
   swing<double> swing_;
   mesh::proxy ball_;
 };
