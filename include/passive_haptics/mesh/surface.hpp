@@ -106,7 +106,7 @@ struct steadiness {
     last += squared(before);
   }
   [[nodiscard]] constexpr double a() const noexcept {
-    return std::abs(both) > 0.1 * last ? kernels::clamped(both / last, -1.0, 1.0) : 0.0;
+    return kernels::magnitude(both) > 0.1 * last ? kernels::clamped(both / last, -1.0, 1.0) : 0.0;
   }
 };
 
