@@ -254,7 +254,7 @@ std::vector<std::string> run_passive(const session& s) {
     }
   }
   for (const bool reachable : {false, true}) {
-    jobs.push_back({3, false, reachable, 0, carried::ledger_each, std::max(runs, 300)});
+    jobs.push_back({3, false, reachable, 0, carried::ledger_each, 1200});
   }
   jobs.push_back({3, false, false, 0, carried::nothing, runs});
   jobs.push_back({3, true, false, 0, carried::nothing, runs});

@@ -86,11 +86,11 @@ class pursuit::on {
                                         scalar dt) const noexcept {
     return turn_.step(from, to, dt);
   }
-  /// How far a contact with λ [N] may move outwards in a tick for what the ledger holds, if the device did by `way` [m].
-  [[nodiscard]] constexpr scalar paid_way(scalar lambda, scalar way,
-                                          const auto& port) const noexcept {
-    const scalar kept = speed_ * catch_up_ / scalar(20);
-    return port.paid_way(lambda, lambda * way, kept, catch_up_ * scalar(1.25));
+  /// How far a contact with λ [N] may move outwards in a tick for what the ledger holds [m], in a stiff hand, too.
+  [[nodiscard]] constexpr scalar paid_way(scalar lambda, const auto& port) const noexcept {
+    const scalar kept = speed_ * catch_up_ / scalar(20),
+                 any = kernels::largest<scalar>() / scalar(8);
+    return port.paid_way(lambda, any, kept, catch_up_ * scalar(1.25));
   }
   /// R dt, the largest change of the force by updates in dt [N].
   [[nodiscard]] constexpr scalar news(scalar dt) const noexcept { return force_rate_ * dt; }
@@ -227,9 +227,7 @@ class pursued {
       }
     }
     scalar step = speed_ * dt;
-    if (lag_ > scalar(0)) [[unlikely]] {
-      step = kernels::smaller(step, pace.paid_way(pressed_, along(own.normal) * dt, port));
-    }
+    if (lag_ > scalar(0)) step = kernels::smaller(step, pace.paid_way(pressed_, port));
     const scalar lag = ends ? lag_ + pace.receding(along(own.normal), dt) : shortened(lag_, step);
     const vector goal = own.normal;
     const vector before = normal_;
