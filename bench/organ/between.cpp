@@ -399,7 +399,7 @@ class comparison {
       one.error = 0.0;
       const scene& s = scenes_[h];
       const felt run =
-          follow(s, another(model), tell, rate, late, ahead == 0.0 ? s.fresh() : s.ahead(ahead));
+          follow(s, fresh_one(model), tell, rate, late, ahead == 0.0 ? s.fresh() : s.ahead(ahead));
       judge(one, s, run, truths_[h]);
       judge(worst, s, run, truths_[h]);
       if (by == "bare") bare_[h] = one.error;
@@ -407,7 +407,7 @@ class comparison {
     }
     rows_.push_back(worst);
   }
-  static auto another(const auto& model) {
+  static auto fresh_one(const auto& model) {
     if constexpr (requires { model.fresh(); }) {
       return model.fresh();
     } else {
@@ -616,7 +616,8 @@ std::vector<between_row> run_between(ex::report& out, const between_settings& ch
       "Between news",
       "Worlds that move or give way, told so many times a second and so late, to a plane and a "
       "spring (bare) and to make_touch: as planes, with what the news know of their motion, as "
-      "quadrics, as they give way, or so and asked ahead of the hand. Against the same world asked "
+      "quadrics, as they give way, or so and asked ahead of the hand; and as meshes. Against the "
+      "same world asked "
       "at 10 kHz; each figure is the "
       "worst of three hands that go where they want. own_step: of the truth. least_J: with 0.03 "
       "N s/m of the device. Front: of the organ told at once, nothing has less error for as little "

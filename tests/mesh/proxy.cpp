@@ -234,10 +234,8 @@ namespace {
 
 /// A ball pressed into a plate that is told, every `period` ticks, where told(tick) [m] has it, for 4 s and then no more.
 struct followed_plate {
-  double
-      off = 0.0,
-      bare =
-          0.0;  ///< mean squares of where it is felt and of where it was told, less where it is [m²]
+  double off = 0.0;                ///< mean square of where it is felt less where it is [m²]
+  double bare = 0.0;               ///< the same of where it was told [m²]
   double highest = -1.0;           ///< where it is felt at the most, after 1 s [m]
   double step = 0.0;               ///< the largest way of it in a tick [m]
   double at_last = 0.0, last = 0;  ///< where it is felt, and told, 0.4 s after the last news [m]

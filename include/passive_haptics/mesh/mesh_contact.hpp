@@ -88,11 +88,7 @@ class mesh_contact::on {
     return spring_.settles(elsewhere_.stiffness);
   }
   /// Forgets which side was touched, but keeps the mesh.
-  constexpr void reset() noexcept {
-    ball_.reset();
-    behind_ = 0.0;
-    pressed_by_ = {};
-  }
+  constexpr void reset() noexcept { ball_.reset(); }
 
   /// Touches this mesh from now on; it must outlive the port. Call it from the haptic thread. It returns false if 64
   /// fingers touch the mesh already.

@@ -454,11 +454,10 @@ class proxy {
     return &parts_[slot(h.mesh)] == &p;
   }
   [[nodiscard]] bool is_pressed(const part& p) const noexcept {
-    bool is = false;
     for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
-      is = is || is_of(planes_[slot(pressed_.of[i])], p);
+      if (is_of(planes_[slot(pressed_.of[i])], p)) return true;
     }
-    return is;
+    return false;
   }
   /// By how much the way from one pose to another moves what is at the ball now [m].
   [[nodiscard]] triple moved_by(const part& p, const pose& from, const pose& to) const noexcept {

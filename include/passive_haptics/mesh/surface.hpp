@@ -257,11 +257,8 @@ class surface {
   /// returns false if later news were told before, or if `at` is in the future.
   bool update(const auto& there, clock::time_point at) {
     if (!in_order(at)) return false;
-    const auto seconds = [](clock::time_point t) {  // a number that cannot overflow
-      return std::chrono::duration<double>(t.time_since_epoch()).count();
-    };
-    const double since = seconds(at) - seconds(last_), age = seconds(clock::now()) - seconds(at);
-    late_ = since > 0.0 ? (std::min)(age / since, 2.0) : 0.0;
+    const double since = ms(last_, at);
+    late_ = since > 0.0 ? (std::min)(ms(at, clock::now()) / since, 2.0) : 0.0;
     const bool good = update(there);
     late_ = 0.0;
     if (good) last_ = at;
@@ -367,20 +364,21 @@ class surface {
  private:
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
+  /// From one time to another [ms], where no difference of clocks could hold it either.
+  [[nodiscard]] static double ms(clock::time_point from, clock::time_point to) {
+    const std::chrono::duration<double, std::milli> a = from.time_since_epoch(),
+                                                    b = to.time_since_epoch();
+    return (b - a).count();
+  }
   [[nodiscard]] bool in_order(clock::time_point at) {
-    const auto ms = [](auto later, auto earlier) {  // as numbers that cannot overflow
-      const std::chrono::duration<double, std::milli> a = earlier.time_since_epoch(),
-                                                      b = later.time_since_epoch();
-      return std::to_string((b - a).count()) + " ms";
-    };
     if (const auto now = clock::now(); at > now) {
-      fault_ = "mesh: news from the future, by " + ms(at, now) +
-               "; give the time of surface::clock at which they were made";
+      fault_ = "mesh: news from the future, by " + std::to_string(ms(now, at)) +
+               " ms; give the time of surface::clock at which they were made";
       return false;
     }
     if (at < last_) {
-      fault_ = "mesh: news from the past, older by " + ms(last_, at) +
-               " than the last ones; publish in the order of making";
+      fault_ = "mesh: news from the past, older by " + std::to_string(ms(at, last_)) +
+               " ms than the last ones; publish in the order of making";
       return false;
     }
     return true;
