@@ -410,7 +410,7 @@ class local_contact {
     const scalar force = Space::norm(vector(port.held));
     if (!lag_.settled()) {
       const scalar spent = Space::work(port.held, port.travel).joules;
-      lag_.follow(port.dt, port.paid_way(force, spent, scalar(1e-4), scalar(0.05)));
+      lag_.follow(port.dt, port.paid_way(force, scalar(1e-4), scalar(0.05), spent));
     }
     if (lag_.silent()) turn_.stop();
     if (fresh()) hear(now, x, port);

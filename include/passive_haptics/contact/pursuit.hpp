@@ -86,11 +86,9 @@ class pursuit::on {
                                         scalar dt) const noexcept {
     return turn_.step(from, to, dt);
   }
-  /// How far a contact with λ [N] may move outwards in a tick for what the ledger holds [m], in a stiff hand, too.
+  /// How far a contact with λ [N] may move outwards in a tick for what the ledger holds [m].
   [[nodiscard]] constexpr scalar paid_way(scalar lambda, const auto& port) const noexcept {
-    const scalar kept = speed_ * catch_up_ / scalar(20),
-                 any = kernels::largest<scalar>() / scalar(8);
-    return port.paid_way(lambda, any, kept, catch_up_ * scalar(1.25));
+    return port.paid_way(lambda, speed_ * catch_up_ / scalar(20), catch_up_ * scalar(1.25));
   }
   /// R dt, the largest change of the force by updates in dt [N].
   [[nodiscard]] constexpr scalar news(scalar dt) const noexcept { return force_rate_ * dt; }

@@ -122,8 +122,8 @@ class mesh_contact::on {
   [[nodiscard]] request ask(const auto& motion, const auto& port, event& what) noexcept {
     const double dt = static_cast<double>(port.dt);
     const double spent = mesh::dot(pressed_by_, to_triple(detail::velocity_of<P>(motion))) * dt;
-    const scalar most = port.paid_way(static_cast<scalar>(mesh::length(pressed_by_)),
-                                      static_cast<scalar>(spent), scalar(1e-4), scalar(0.05));
+    const scalar most = port.paid_way(static_cast<scalar>(mesh::length(pressed_by_)), scalar(1e-4),
+                                      scalar(0.05), static_cast<scalar>(spent));
     return asked(motion, dt, static_cast<double>(most), what);
   }
   [[nodiscard]] constexpr result_type answered(const request& r,

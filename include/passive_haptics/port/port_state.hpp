@@ -116,16 +116,19 @@ struct port_state {
     if constexpr (Latency == 0) return energy;
     return kernels::smaller(credit(), (energy - held_back()) / scalar(Latency + 1));
   }
-  /// How far a surface may move outwards in a tick, against a force of that size [N], in m, if the device took `spent` [J]
-  /// from it in the last one. Of the way E1/f that the ledger still pays for, all but `kept` and two ticks of the device's
-  /// way is used up with a time constant `time` [s], so the surface stops before a bound cuts the force. In a hand that
-  /// takes a quarter of that or less, it is not limited.
-  [[nodiscard]] constexpr scalar paid_way(scalar force, scalar spent, scalar kept,
-                                          scalar time) const noexcept {
+  /// How far a surface may move outwards in a tick, against a force of that size [N], in m. Of the way E1/f that the
+  /// ledger still pays for, all but `kept` and two ticks of the device's way is used up with a time constant `time` [s]: so
+  /// the surface stops before a bound has to cut the force at once.
+  [[nodiscard]] constexpr scalar paid_way(scalar force, scalar kept, scalar time) const noexcept {
     if (!Spends || !(force > scalar(0))) return kernels::largest<scalar>();
     kept += scalar(2) * kernels::square_root(Port::squared(travel));
-    const scalar paid = kernels::larger(energy / force - kept, scalar(0)) * dt / time;
-    return scalar(4) * spent > paid * force ? paid : kernels::largest<scalar>();
+    return kernels::larger(energy / force - kept, scalar(0)) * dt / time;
+  }
+  /// The same where the hand took `spent` [J] in the last tick: one that takes a quarter of what is paid does not limit it.
+  [[nodiscard]] constexpr scalar paid_way(scalar force, scalar kept, scalar time,
+                                          scalar spent) const noexcept {
+    const scalar paid = paid_way(force, kept, time), any = kernels::largest<scalar>();
+    return paid < any && scalar(4) * spent > paid * force ? paid : any;
   }
   /// Δxᵀ(b/dt)Δx − f_held·Δx [J], the least energy gained in the last tick, rounded down.
   [[nodiscard]] constexpr scalar gain() const noexcept {
