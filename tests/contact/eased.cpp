@@ -421,11 +421,10 @@ TEST_CASE(
     "[contact]") {
   // On 1000 N/m: least 5 mm/s, usual 19.5 mm/s, most 50 mm/s, of news that take 0.1 s.
   const ph::news_pace::at<double> pace(ph::news_pace{});
-  const auto speed = [&pace](double lag, double u) {
-    for (const double sign : {1.0, -1.0}) {
-      CHECK(pace.speed_for(sign * lag, 0.1, sign * u, 1e-3) == pace.speed_for(lag, 0.1, u, 1e-3));
-    }
-    return pace.speed_for(lag, 0.1, u, 1e-3);
+  const auto speed = [&pace](double lag, double u, double w = 0.0, double P = 0.1) {
+    const auto of = [&](double sign) { return pace.speed_for(sign * lag, P, sign * u, w, 1e-3); };
+    CHECK(of(-1.0) == of(1.0));
+    return of(1.0);
   };
   CHECK_THAT(speed(0.1e-3, 0.0), WithinRel(5e-3, 1e-12));
   CHECK_THAT(speed(0.5e-3, 0.0), WithinRel(3 * 0.5e-3 / 0.1, 1e-12));
@@ -436,6 +435,10 @@ TEST_CASE(
   CHECK_THAT(speed(1e-3, -12e-3), WithinRel(19.5e-3, 1e-12));
   CHECK_THAT(speed(2e-3, 30e-3), WithinRel(40e-3 - 30e-3, 1e-12));  // and 4/3 of it is usual
   CHECK_THAT(speed(2e-3, -30e-3), WithinRel(40e-3, 1e-12));
+  CHECK_THAT(speed(2e-3, 5e-3, 19e-3), WithinRel(19.5e-3 - 5e-3, 1e-12));
+  CHECK_THAT(speed(2e-3, 5e-3, 20e-3), WithinRel(40e-3 - 5e-3, 1e-12));  // a w that is felt, twice
+  CHECK_THAT(speed(2e-3, 0.0, 20e-3, 0.01), WithinRel(40e-3, 1e-12));
+  CHECK_THAT(speed(2e-3, 0.0, 20e-3, 1e-3), WithinRel(22e-3, 1e-12));  // each ms hardly more than w
 }
 
 TEST_CASE("news that take longer count at once, and sooner ones little by little", "[contact]") {
@@ -471,26 +474,34 @@ struct told_each_tenth {
   }
 };
 
-TEST_CASE("a surface is believed to go on no more than twice as fast as before, and not back",
+TEST_CASE("a surface is believed to go on no more than twice as fast as before, if it is not back",
           "[contact]") {
   told_each_tenth goes_on;
   CHECK(goes_on(1e-3) == 0.0);  // it may have jumped
   CHECK_THAT(goes_on(3e-3), WithinRel(0.02, 1e-9));
   CHECK_THAT(goes_on(2e-3), WithinRel(0.02, 1e-9));
-  CHECK(goes_on(-1e-3) == 0.0);
-  CHECK(goes_on(0.0) == 0.0);
   told_each_tenth comes_back;
   CHECK(comes_back(-1e-3) == 0.0);
   CHECK_THAT(comes_back(-3e-3), WithinRel(-0.02, 1e-9));
   CHECK_THAT(comes_back(-3e-3), WithinRel(-0.03, 1e-9));
+  told_each_tenth once;
+  CHECK(once(1e-3) == 0.0);
+  CHECK(once(-1e-3) == 0.0);
 }
 
-TEST_CASE("a surface is believed to go on by as much as it did after the last news", "[contact]") {
-  told_each_tenth slows;
-  for (int n = 0; n < 2; ++n) (void)slows(2e-3);
-  // Of 1.6 mm that were believed it went 0.5 mm; then, with an eighth forgotten, 0.5 mm of 0.4 mm.
-  CHECK_THAT(slows(0.5e-3), WithinRel(0.005 * 0.5 / 1.6, 1e-9));
-  CHECK_THAT(slows(0.5e-3), WithinRel(0.005 * 0.9 / 2.4, 1e-9));
+TEST_CASE("a surface is believed to go on as far as its speeds agree", "[contact]") {
+  ph::going_on<double> speeds;
+  CHECK(speeds.hear(2.0) == 0.0);
+  CHECK(speeds.hear(2.0) == 2.0);
+  CHECK_FALSE(speeds.is_steady());
+  CHECK(speeds.hear(1.0) == 1.0 * (1.5 * 2.0 / 4.0 - 0.5));
+  CHECK_THAT(speeds.hear(1.0), WithinRel(1.5 * 2.75 / 4.5 - 0.5, 1e-12));  // an eighth is forgotten
+  CHECK(speeds.is_steady());
+  CHECK(speeds.fastest() == 1.0);
+  CHECK_THAT(speeds.hear(-100.0),
+             WithinAbs(0.0, 1e-12));  // -2 is believed, and what it agrees is less than a third
+  CHECK(speeds.last() == 100.0);
+  CHECK(speeds.fastest() == 0.0);
   told_each_tenth goes_on;
   for (int n = 0; n < 20; ++n) (void)goes_on(2e-3);
   CHECK_THAT(goes_on(2e-3), WithinRel(0.02, 1e-9));

@@ -6,18 +6,23 @@
 //     own depth = d − ℓ + p
 //     update     the own depth is kept: the lag ℓ [m] takes the jump of d, and the lead p [m] is 0
 //     each tick  |ℓ| falls by ρ dt,   ρ = 3|ℓ₀|/P, within [R_least, R_most]/K; and, if that takes no longer than
-//                0.8 s, ρ + u is at most max(R_usual/K, 4/3 |u|). Where Σ u v ≤ max(Σ u², v²)/2, and the device has
-//                moved at less than v/4 since the last update, |ℓ| falls by at most |ℓ₀|/2 while p grows
+//                0.8 s, ρ + u is at most max(R_usual/K, 4/3 |u|) or, if w > R_usual/K, w + w min(P/10 ms, 1)
 //                p grows by u dt for the time P, but no longer than `ahead`; if no update has come for twice as
 //                long, the surface may have stopped, and p is reduced to 0 in the same way as ℓ
 //                outwards the own surface moves by no more than what the ledger pays for (port_state::paid_way)
 //                the own normal turns by ω dt while p grows, and at its own rate towards the newest one so turned
 //
-// ℓ₀ is the lag at the last update, P [s] the usual time between updates, and u [m/s] and ω [1/s] the velocity and the
-// turn of the surface at the device between the last two updates: at most twice that of the two before, and 0 if that
-// had the opposite sign. So a surface that jumps once is not extrapolated, and one that moves on is not late. That u is
-// reduced to the share Σ u v/Σ u² ≤ 1, v what followed, of the last 8 updates. A surface that yields late to the force
-// itself would swing for ever without that share, or without |ℓ₀|/2. Source: ours; docs/design/contacts.md § 6.
+// ℓ₀ is the lag at the last update, P [s] the usual time between updates, and vₙ [m/s] the velocity of the surface at
+// the device between the last two. Of it the share a is taken on,
+//
+//     u = a v'ₙ,   a = (3c − 1)/2 within [0, 1],   c = Σ v'ₙ v'ₙ₋₁/Σ v'ₙ₋₁²
+//     v'ₙ is vₙ, but |v'ₙ| ≤ 2 max(|v'ₙ₋₁|, |v'ₙ₋₂|, |vₙ₋₁| if vₙ vₙ₋₁ > 0); in Σ each counts 7/8 of the next
+//     w = max(|vₙ|, |vₙ₋₁|) if the surface is steady, 2 Σ v'ₙ v'ₙ₋₁ > max(Σ v'ₙ₋₁², vₙ²); else w = 0, and |ℓ| falls by
+//     at most |ℓ₀|/2 while p grows, unless the device has moved at vₙ/4 since the last update
+//
+// So a surface that jumps is not extrapolated, and one that moves on is not late. One that yields late to the force
+// itself would swing for ever without a, or without |ℓ₀|/2. ω [1/s] is the turn between the last two updates, at most
+// twice that of the two before, and 0 if that had the opposite sign. Source: ours; docs/design/contacts.md § 6.
 
 #include <passive_haptics/base/parameter.hpp>
 
@@ -66,13 +71,16 @@ class news_pace::at {
             .ahead = static_cast<double>(ahead_)};
   }
 
-  /// ρ [m/s] for a lag [m], the time between updates P [s], u [m/s] and 1/K [m/N].
-  [[nodiscard]] constexpr Scalar speed_for(Scalar lag, Scalar interval, Scalar u,
+  /// ρ [m/s] for a lag [m], the time between updates P [s], u and w [m/s], and 1/K [m/N].
+  [[nodiscard]] constexpr Scalar speed_for(Scalar lag, Scalar interval, Scalar u, Scalar w,
                                            Scalar compliance) const noexcept {
     const Scalar size = kernels::magnitude(lag), same_way = lag < Scalar(0) ? -u : u;
-    const Scalar its_own = kernels::magnitude(u) * Scalar(4) / Scalar(3);
-    const Scalar calm =
-        kernels::larger(usual_ * compliance, its_own) - kernels::larger(same_way, Scalar(0));
+    const Scalar not_felt = usual_ * compliance;
+    Scalar most = kernels::larger(not_felt, kernels::magnitude(u) * Scalar(4) / Scalar(3));
+    if (w > not_felt) {
+      most = kernels::larger(most, w + w * kernels::smaller(interval / Scalar(0.01), Scalar(1)));
+    }
+    const Scalar calm = most - kernels::larger(same_way, Scalar(0));
     const Scalar wanted =
         kernels::smaller(Scalar(3) * size / interval, kernels::larger(calm, size / Scalar(0.8)));
     return kernels::clamped(wanted, least_ * compliance, most_ * compliance);
@@ -99,6 +107,42 @@ struct surface_motion {
     return age >= typename Space::scalar(0) && kernels::is_finite(age) &&
            (!velocity || Space::is_finite(*velocity));
   }
+};
+
+/// Which speeds go on: v' and c of the speeds v of updates.
+template <class Scalar>
+class going_on {
+ public:
+  /// Takes v [m/s], and returns a v' [m/s].
+  constexpr Scalar hear(Scalar v) noexcept {
+    const Scalar usual = kernels::larger(kernels::magnitude(likely_), kernels::magnitude(before_));
+    const Scalar onwards = v * last_ > Scalar(0) ? kernels::magnitude(last_) : Scalar(0);
+    const Scalar twice = Scalar(2) * kernels::larger(usual, onwards);
+    older_ = std::exchange(last_, v);
+    before_ = std::exchange(likely_, kernels::clamped(v, -twice, twice));
+    constexpr Scalar memory = Scalar(7) / Scalar(8);
+    agree_ = memory * agree_ + likely_ * before_;
+    squares_ = memory * squares_ + before_ * before_;
+    const Scalar both = (Scalar(3) * agree_ - squares_) / Scalar(2);
+    if (!(both < squares_)) return likely_;
+    return likely_ * kernels::larger(both, Scalar(0)) / squares_;
+  }
+  [[nodiscard]] constexpr bool is_steady() const noexcept {
+    return Scalar(2) * agree_ > kernels::larger(squares_, last_ * last_);
+  }
+  /// w [m/s].
+  [[nodiscard]] constexpr Scalar fastest() const noexcept {
+    return is_steady() ? kernels::larger(last(), kernels::magnitude(older_)) : Scalar(0);
+  }
+  [[nodiscard]] constexpr Scalar last() const noexcept {
+    return kernels::magnitude(last_);
+  }  ///< |v| [m/s]
+  [[nodiscard]] constexpr Scalar sums() const noexcept { return agree_ + squares_; }
+
+ private:
+  Scalar last_{}, older_{};     ///< v, and the one before [m/s]
+  Scalar likely_{}, before_{};  ///< v', and the one before [m/s]
+  Scalar agree_{}, squares_{};  ///< Σ v'ₙ v'ₙ₋₁, Σ v'ₙ₋₁² [m²/s²]
 };
 
 /// The lag ℓ, the lead p, and the motion of the updates.
@@ -172,10 +216,9 @@ class lag {
     const Scalar here = now + lead_;
     behind_ =
         own > Scalar(0) || here > Scalar(0) ? here - kernels::larger(own, Scalar(0)) : Scalar(0);
-    if (!kernels::is_finite(behind_ + goes_on_ + hits_ + tries_)) return void(*this = {});
-    speed_ = pace.speed_for(behind_, usual_, goes_on_, compliance);
-    const Scalar came = kernels::magnitude(last_speed_) * took;
-    if (told.way < came / Scalar(4) && !(Scalar(2) * hits_ > kernels::larger(tries_, came * came)))
+    if (!kernels::is_finite(behind_ + goes_on_ + steady_.sums())) return void(*this = {});
+    speed_ = pace.speed_for(behind_, usual_, goes_on_, steady_.fastest(), compliance);
+    if (told.way < steady_.last() * took / Scalar(4) && !steady_.is_steady())
       speed_ = kernels::smaller(speed_, kernels::magnitude(behind_) / (Scalar(2) * ahead_));
     settled_ = behind_ == Scalar(0) && lead_ == Scalar(0) && goes_on_ == Scalar(0);
   }
@@ -198,12 +241,7 @@ class lag {
     fastest_ = kernels::larger(kernels::magnitude(its_), kernels::magnitude(before));
     const bool knew = std::exchange(knows_, told.knows) && told.knows;
     const Scalar rest = speed - (knew ? (its_ + before) / Scalar(2) : its_);
-    const Scalar went = guess_ * kernels::smaller(since_, ahead_);
-    hits_ += rest * between(told.age) * went - hits_ / Scalar(8);
-    tries_ += went * went - tries_ / Scalar(8);
-    Scalar of_the_rest = guess_ = believed(rest, last_speed_);
-    if (hits_ < tries_) of_the_rest *= kernels::larger(hits_, Scalar(0)) / tries_;
-    last_speed_ = rest;
+    Scalar of_the_rest = steady_.hear(rest);
     gains_ = knew ? (its_ - before) / between(told.age) : Scalar(0);
     if (knows_ && again) its_ = gains_ = of_the_rest = Scalar(0);
     if (knows_) of_the_rest = kernels::clamped(of_the_rest, -calm, calm);
@@ -217,25 +255,19 @@ class lag {
     lead_ = (its_ + gains_ * age_ / Scalar(2)) * age_;
     goes_on_ += gains_ * age_;
   }
-  /// The newer of two speeds, limited to twice the older; 0 if their signs differ.
-  [[nodiscard]] static constexpr Scalar believed(Scalar newer, Scalar older) noexcept {
-    if (!(newer * older > Scalar(0))) return Scalar(0);
-    const Scalar most = Scalar(2) * older;
-    return kernels::magnitude(newer) < kernels::magnitude(most) ? newer : most;
-  }
 
-  Scalar behind_{}, lead_{};           ///< ℓ, p [m]
-  Scalar speed_{};                     ///< ρ [m/s]
-  Scalar goes_on_{}, last_speed_{};    ///< u, and the speed between the last two updates [m/s]
-  Scalar guess_{}, hits_{}, tries_{};  ///< u before it is reduced [m/s], Σ u v, Σ u² [m²/s²]
-  Scalar usual_{}, ahead_{};           ///< P, and the time for which p grows [s]
-  Scalar since_{};                     ///< time since the last update [s]
-  Scalar age_{}, told_age_{};          ///< age of the last update, compensated and stated [s]
-  Scalar gains_{};                     ///< u̇ [m/s²]
-  Scalar its_{}, fastest_{};           ///< last stated speed used, larger one of the last two [m/s]
-  Scalar told_speed_{};                ///< last stated speed [m/s]
-  bool worse_ = false;                 ///< at the last update that was worse than 0 m/s
-  bool knows_ = false;                 ///< the last update stated its speed
+  Scalar behind_{}, lead_{};  ///< ℓ, p [m]
+  Scalar speed_{};            ///< ρ [m/s]
+  Scalar goes_on_{};          ///< u [m/s]
+  going_on<Scalar> steady_;
+  Scalar usual_{}, ahead_{};   ///< P, and the time for which p grows [s]
+  Scalar since_{};             ///< time since the last update [s]
+  Scalar age_{}, told_age_{};  ///< age of the last update, compensated and stated [s]
+  Scalar gains_{};             ///< u̇ [m/s²]
+  Scalar its_{}, fastest_{};   ///< last stated speed used, larger one of the last two [m/s]
+  Scalar told_speed_{};        ///< last stated speed [m/s]
+  bool worse_ = false;         ///< at the last update that was worse than 0 m/s
+  bool knows_ = false;         ///< the last update stated its speed
   bool settled_ = true;
 };
 
