@@ -109,7 +109,7 @@ struct surface_motion {
   }
 };
 
-/// Which speeds go on: v' and c of the speeds v of updates.
+/// How much of the speeds v of updates goes on: v', c and w.
 template <class Scalar>
 class going_on {
  public:
@@ -130,13 +130,13 @@ class going_on {
   [[nodiscard]] constexpr bool is_steady() const noexcept {
     return Scalar(2) * agree_ > kernels::larger(squares_, last_ * last_);
   }
+  /// |v| [m/s].
+  [[nodiscard]] constexpr Scalar last() const noexcept { return kernels::magnitude(last_); }
   /// w [m/s].
   [[nodiscard]] constexpr Scalar fastest() const noexcept {
     return is_steady() ? kernels::larger(last(), kernels::magnitude(older_)) : Scalar(0);
   }
-  [[nodiscard]] constexpr Scalar last() const noexcept {
-    return kernels::magnitude(last_);
-  }  ///< |v| [m/s]
+  /// Finite if all that is kept of v' is.
   [[nodiscard]] constexpr Scalar sums() const noexcept { return agree_ + squares_; }
 
  private:
