@@ -99,7 +99,7 @@ TEST_CASE("a surface that heaves fast is felt nearer to where it is than where i
   const double w = GENERATE(12.6, 25.1);  // [1/s]
   const auto height = [w](double t) { return 1.5e-3 * std::sin(w * t); };
   for (const int each : {10, 17, 33}) {
-    if (w * each > 500.0) continue;  // fewer than ten news a period
+    if (w * each > 500.0) continue;  // of less than 12 news a period bare is as near
     CAPTURE(w, each);
     double bare = 0.0, step = 0.0;
     for (int n = 1000; n < 6000; ++n) {

@@ -20,9 +20,9 @@
 //     w = max(|vₙ|, |vₙ₋₁|) if the surface is steady, 2 Σ v'ₙ v'ₙ₋₁ > max(Σ v'ₙ₋₁², vₙ²); else w = 0, and |ℓ| falls by
 //     at most |ℓ₀|/2 while p grows, unless the device has moved at vₙ/4 since the last update
 //
-// So a surface that jumps is not extrapolated, and one that moves on is not late. One that yields late to the force
-// itself would swing for ever without a, or without |ℓ₀|/2. ω [1/s] is the turn between the last two updates, at most
-// twice that of the two before, and 0 if that had the opposite sign. Source: ours; docs/design/contacts.md § 6.
+// So a surface that stood and jumps is not extrapolated, and one that moves on is not late. One that yields late to the
+// force itself would swing for ever without a, or without |ℓ₀|/2. ω [1/s] is the turn between the last two updates, at
+// most twice that of the two before, and 0 if that had the opposite sign. Source: ours; docs/design/contacts.md § 6.
 
 #include <passive_haptics/base/parameter.hpp>
 
