@@ -273,45 +273,5 @@ template <port P, class Damping = isotropic_damping, class Motors = actuator_lim
           bound_chain{strict_bound{}, motors}, loop_limits{.longest_tick = longest_tick}};
 }
 
-// The former names, deprecated, for one more version.
-
-struct known_device {
-  double mass{};         ///< [kg]
-  double damping{};      ///< [N·s/m]
-  double hand_force{};   ///< [N]
-  double force_limit{};  ///< [N]
-
-  [[nodiscard]] constexpr exact_device described(double longest_tick) const noexcept {
-    return {
-        .mass = mass, .damping = damping, .force_limit = force_limit, .longest_tick = longest_tick};
-  }
-};
-template <class Space, class Constraint = half_space<Space>>
-[[nodiscard, deprecated("write make_touch<Space>({.mass, .damping, .force_limit, "
-                        ".longest_tick}, {.force = hand_force})")]]  //
-constexpr auto
-make_touch(const known_device& device, double longest_tick, double turn_rate = 2.0) noexcept {
-  return make_touch<Space, Constraint>(device.described(longest_tick),
-                                       known_hand{.force = device.hand_force}, turn_rate);
-}
-template <class Space, class Constraint = half_space<Space>, class Limits = loop_limits>
-[[nodiscard, deprecated("write make_touch<Space>(encoder_device{…}, "
-                        "{.force = hand_force, .use = …})")]]  //
-constexpr auto
-make_encoder_touch(encoder_device device, double hand_force, const design::intended_use& use = {},
-                   double turn_rate = 2.0) noexcept {
-  device.latency = Limits::latency;
-  return make_touch<Space, Constraint, Limits>(device, known_hand{hand_force, use}, turn_rate);
-}
-template <class Space, class Limits = loop_limits>
-[[nodiscard, deprecated("write make_guard<Space>({.mass, .damping, .force_limit, "
-                        ".longest_tick}, {.force = hand_force})")]]  //
-constexpr auto
-make_force_guard(const known_device& device, double longest_tick) noexcept {
-  exact_device described = device.described(longest_tick);
-  described.latency = Limits::latency;
-  return make_guard<Space, Limits>(described, known_hand{.force = device.hand_force});
-}
-
 }  // namespace v0
 }  // namespace passive_haptics

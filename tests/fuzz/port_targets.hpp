@@ -152,7 +152,11 @@ const char* run(Port& port, numbers& in, limits_of<P>& most, double force, auto&
   return nullptr;
 }
 
-inline ph::known_device device_of(numbers& in) noexcept {
+/// A device and the hand that holds it.
+struct held_device {
+  double mass, damping, hand_force, force_limit;  ///< [kg], [N·s/m], [N], [N]
+};
+inline held_device device_of(numbers& in) noexcept {
   const double mass = in.about(0.1), b = in.about(0.05), hand = in.about(5.0);
   return {.mass = mass, .damping = b, .hand_force = hand, .force_limit = in.about(9.0)};
 }
@@ -231,8 +235,11 @@ const char* an_encoder_touch(numbers& in) noexcept {
 template <class Space>
 const char* a_force_guard(numbers& in) noexcept {
   const auto d = device_of(in);
-  auto port =
-      ph::make_guard<Space>(d.described(in.about(1e-3)), ph::known_hand{.force = d.hand_force});
+  auto port = ph::make_guard<Space>({.mass = d.mass,
+                                     .damping = d.damping,
+                                     .force_limit = d.force_limit,
+                                     .longest_tick = in.about(1e-3)},
+                                    ph::known_hand{.force = d.hand_force});
   auto most = force_limit<Space>(d.force_limit);
   return run<Space>(port, in, most, 9.0, [&](unsigned op) {
     if (op < 240) {
