@@ -89,7 +89,7 @@ TEST_CASE("a surface that says how fast it moves, and how old that is, is felt w
       CHECK(told.rms < 0.35 * bare);
       CHECK(told.largest_step < 1e-3 * K * w * 1e-3 + 0.02);
       if (late == 50)
-        CHECK(held(height, speed, each, late, false).rms > 0.6 * bare);  // the control
+        CHECK(held(height, speed, each, late, false).rms > 0.5 * bare);  // the control
     }
   }
 }

@@ -314,7 +314,7 @@ TEST_CASE("a mesh of which the news say how old they are is felt where it is by 
     REQUIRE(ball.touch(s));
     const auto first = clock::now() - std::chrono::hours(1);
     double most = 0.0;
-    for (int k = 0; k < 1000; ++k) {
+    for (int k = 0; k < 2000; ++k) {
       const double there = 5e-5 * (k / 20);
       const ph::mesh::pose where{.position = {0.0, 0.0, there}};
       if (k % 20 == 0) {

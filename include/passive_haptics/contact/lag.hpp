@@ -13,17 +13,17 @@
 //                the own normal turns by ω dt while p grows, and at its own rate towards the newest one so turned
 //
 // ℓ₀ is the lag at the last update, P [s] the usual time between updates, and vₙ [m/s] the velocity of the surface at
-// the device between the last two. Of it the share a is taken on,
+// the device between the last two. u is the next one, as far as it is foreseen (base/foresight.hpp).
 //
-//     u = a v'ₙ,   a = (3c − 1)/2 within [0, 1],   c = Σ v'ₙ v'ₙ₋₁/Σ v'ₙ₋₁²
-//     v'ₙ is vₙ, but |v'ₙ| ≤ 2 max(|v'ₙ₋₁|, |v'ₙ₋₂|, |vₙ₋₁| if vₙ vₙ₋₁ > 0); in Σ each counts 7/8 of the next
 //     w = max(|vₙ|, |vₙ₋₁|) if the surface is steady, 2 Σ v'ₙ v'ₙ₋₁ > max(Σ v'ₙ₋₁², vₙ²); else w = 0, and |ℓ| falls by
 //     at most |ℓ₀|/2 while p grows, unless the device has moved at vₙ/4 since the last update
 //
-// So a surface that stood and jumps is not extrapolated, and one that moves on is not late. One that yields late to the
-// force itself would swing for ever without a, or without |ℓ₀|/2. ω [1/s] is the turn between the last two updates, at
-// most twice that of the two before, and 0 if that had the opposite sign. Source: ours; docs/design/contacts.md § 6.
+// So a surface that stood and jumps is not extrapolated, and one that moves on, to and fro as well, is not late. One
+// that yields late to the force itself would swing for ever without |ℓ₀|/2. ω [1/s] is the turn between the last two
+// updates, at most twice that of the two before, and 0 if that had the opposite sign. Source: ours;
+// docs/design/contacts.md § 6.
 
+#include <passive_haptics/base/foresight.hpp>
 #include <passive_haptics/base/parameter.hpp>
 
 #include <optional>
@@ -109,40 +109,27 @@ struct surface_motion {
   }
 };
 
-/// How much of the speeds v of updates goes on: v', c and w.
+/// How the speeds v of updates go on: the next one that is foreseen, and w.
 template <class Scalar>
 class going_on {
  public:
-  /// Takes v [m/s], and returns a v' [m/s].
+  /// Takes v [m/s], and returns what is foreseen of the next one [m/s].
   constexpr Scalar hear(Scalar v) noexcept {
-    const Scalar usual = kernels::larger(kernels::magnitude(likely_), kernels::magnitude(before_));
-    const Scalar onwards = v * last_ > Scalar(0) ? kernels::magnitude(last_) : Scalar(0);
-    const Scalar twice = Scalar(2) * kernels::larger(usual, onwards);
+    sees_.hear(v * v, v * last_, v * older_);
     older_ = std::exchange(last_, v);
-    before_ = std::exchange(likely_, kernels::clamped(v, -twice, twice));
-    constexpr Scalar memory = Scalar(7) / Scalar(8);
-    agree_ = memory * agree_ + likely_ * before_;
-    squares_ = memory * squares_ + before_ * before_;
-    const Scalar both = (Scalar(3) * agree_ - squares_) / Scalar(2);
-    if (!(both < squares_)) return likely_;
-    return likely_ * kernels::larger(both, Scalar(0)) / squares_;
+    return sees_.last() * last_ + sees_.before() * older_;
   }
-  [[nodiscard]] constexpr bool is_steady() const noexcept {
-    return Scalar(2) * agree_ > kernels::larger(squares_, last_ * last_);
-  }
+  [[nodiscard]] constexpr bool is_steady() const noexcept { return sees_.is_steady(); }
   /// |v| [m/s].
   [[nodiscard]] constexpr Scalar last() const noexcept { return kernels::magnitude(last_); }
   /// w [m/s].
   [[nodiscard]] constexpr Scalar fastest() const noexcept {
     return is_steady() ? kernels::larger(last(), kernels::magnitude(older_)) : Scalar(0);
   }
-  /// Finite if all that is kept of v' is.
-  [[nodiscard]] constexpr Scalar sums() const noexcept { return agree_ + squares_; }
 
  private:
-  Scalar last_{}, older_{};     ///< v, and the one before [m/s]
-  Scalar likely_{}, before_{};  ///< v', and the one before [m/s]
-  Scalar agree_{}, squares_{};  ///< Σ v'ₙ v'ₙ₋₁, Σ v'ₙ₋₁² [m²/s²]
+  Scalar last_{}, older_{};  ///< v, and the one before [m/s]
+  foresight<Scalar> sees_;
 };
 
 /// The lag ℓ, the lead p, and the motion of the updates.
@@ -216,7 +203,7 @@ class lag {
     const Scalar here = now + lead_;
     behind_ =
         own > Scalar(0) || here > Scalar(0) ? here - kernels::larger(own, Scalar(0)) : Scalar(0);
-    if (!kernels::is_finite(behind_ + goes_on_ + steady_.sums())) return void(*this = {});
+    if (!kernels::is_finite(behind_ + goes_on_)) return void(*this = {});
     speed_ = pace.speed_for(behind_, usual_, goes_on_, steady_.fastest(), compliance);
     if (told.way < steady_.last() * took / Scalar(4) && !steady_.is_steady())
       speed_ = kernels::smaller(speed_, kernels::magnitude(behind_) / (Scalar(2) * ahead_));

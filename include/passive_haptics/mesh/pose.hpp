@@ -43,6 +43,19 @@ struct pose {
   return p.prepare() ? p : b;
 }
 
+/// c moved on by x times the way from b to c and y times the way from a to b; the turns go the shorter way round.
+[[nodiscard]] constexpr pose onwards(const pose& c, const pose& b, double x, const pose& a,
+                                     double y) noexcept {
+  const auto side = [&c](const pose& p) {
+    return c.w * p.w + dot(c.axis, p.axis) < 0.0 ? -1.0 : 1.0;
+  };
+  const double older = y - x, oldest = -y, turned = older * side(b), first = oldest * side(a);
+  pose p{c.position * (1.0 + x) + b.position * older + a.position * oldest,
+         c.w * (1.0 + x) + b.w * turned + a.w * first,
+         c.axis * (1.0 + x) + b.axis * turned + a.axis * first};
+  return p.prepare() ? p : c;
+}
+
 }  // namespace mesh
 }  // namespace v0
 }  // namespace passive_haptics

@@ -83,7 +83,7 @@ class proxy {
     part fresh;
     if (!fresh.news.join(s)) return false;
     if (const auto* there = fresh.news.take_pose()) {
-      fresh.told = fresh.goal = fresh.shown = there->where;
+      fresh.told_before = fresh.told = fresh.goal = fresh.shown = there->where;
     }
     reframe([&] { parts_[slot(meshes_++)] = fresh; });
     const int last = meshes_ - 1;
@@ -233,10 +233,10 @@ class proxy {
     double done = 1.0, done_before = 1.0;      ///< of the way between the shapes; in the last tick
     double shape_way = 1e-3, pose_way = 1e-3;  ///< [s]
     timing shape_news, pose_news;
-    int newest = -1;    ///< number of the newest shape
-    pose told{};        ///< the newest pose, which `goal` may be ahead of
-    triple told_way{};  ///< by which it moved what is at the ball [m]
-    steadiness steady;  ///< of poses
+    int newest = -1;                  ///< number of the newest shape
+    pose told{}, told_before{};       ///< the newest pose, which `goal` may be ahead of
+    triple told_way{}, way_before{};  ///< by which they moved what is at the ball [m]
+    foresight<double> sees;           ///< of poses
     double pose_done = 1.0;
     int stuck = 0;  ///< ticks for which the mesh waits; < 0: it goes back
     pose came_from{}, goal{}, shown{}, shown_before{};
@@ -399,15 +399,16 @@ class proxy {
     p.pose_news.age += dt;
     if (const auto* news = p.news.take_pose()) {
       const triple way = moved_by(p, p.told, news->where);
-      p.steady.forget();
-      p.steady.add(way, p.told_way);
-      p.told_way = way;
+      p.sees.hear(squared(way), dot(way, p.told_way), dot(way, p.way_before));
+      p.way_before = std::exchange(p.told_way, way);
       p.pose_news.hear();
-      const double steady = p.steady.a();
+      const double steady = p.sees.goes_back() ? -1.0 : p.sees.share();
+      const double times = 1.0 + news->late;
       const bool foreseen = placed_ && steady > 0.0 && p.pose_news.are_due(dt);
-      const double ahead = foreseen ? steady * (1.0 + news->late) : 0.0;
-      p.goal = foreseen ? between(p.told, news->where, 1.0 + ahead) : news->where;
-      p.told = news->where;
+      p.goal = foreseen ? onwards(news->where, p.told, p.sees.last() * times, p.told_before,
+                                  p.sees.before() * times)
+                        : news->where;
+      p.told_before = std::exchange(p.told, news->where);
       p.came_from = placed_ ? p.shown : p.goal;
       const double distance = is_pressed(p) ? length(moved_by(p, p.shown, p.goal)) : 0.0;
       p.pose_way = way_of(p.pose_news.left(), distance, steady, dt);

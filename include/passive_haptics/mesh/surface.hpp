@@ -14,6 +14,7 @@
 // surface may be open, inside out, or cross itself, have three triangles at an edge, or triangles without an area.
 // An input that is no mesh is refused with a sentence, and the last good one stays.
 
+#include <passive_haptics/base/foresight.hpp>
 #include <passive_haptics/mesh/box_tree.hpp>
 #include <passive_haptics/mesh/material.hpp>
 #include <passive_haptics/mesh/news.hpp>
@@ -83,31 +84,13 @@ struct shape {
   std::vector<box> boxes;
   std::vector<triple> normals;  ///< of a smooth mesh (smooth.hpp)
   detail::bulge bulge;
-  double steady = 0.0;  ///< a of the news
+  double steady = 0.0;  ///< share of the news that is foreseen; −1 if they go back
 };
 
 /// A pose, and its age when it was told, in units of the time since the one before.
 struct told_pose {
   pose where{};
   double late = 0.0;
-};
-
-/// How steadily news go on in the same direction: a = Σ d_n·d_(n−1)/Σ d_(n−1)² in [−1, 1] of their ways d, those before
-/// counting for 0.7 of each later one. It is 1 for a steady motion, 0 for the first news after a rest and for a jump,
-/// and negative for noise and for what swings to and fro from one to the next.
-struct steadiness {
-  double both = 0.0, last = 0.0;
-  constexpr void forget() noexcept {
-    both *= 0.7;
-    last *= 0.7;
-  }
-  constexpr void add(const triple& way, const triple& before) noexcept {
-    both += dot(way, before);
-    last += squared(before);
-  }
-  [[nodiscard]] constexpr double a() const noexcept {
-    return kernels::magnitude(both) > 0.1 * last ? kernels::clamped(both / last, -1.0, 1.0) : 0.0;
-  }
 };
 
 namespace detail {
@@ -459,8 +442,8 @@ class surface {
     box_tree tree(centres(triangles, nodes));
     return std::make_unique<detail::world>(std::move(triangles), std::move(tree));
   }
-  /// Publishes these nodes as what was told and, as the newest, where they will be when the next news are due: they go on
-  /// by a (1 + late) times their last way.
+  /// Publishes these nodes as what was told and, as the newest, where they are foreseen when the next news are due, which
+  /// is after 1 + late times their next way.
   template <class Nodes>
   void tell(const Nodes& nodes) {
     auto& shapes = world_->shapes;
@@ -471,13 +454,18 @@ class surface {
     if (shapes.told() >= 0) {
       const std::vector<triple>& before = shapes[shapes.told()].nodes;
       way_.resize(nodes.size());
-      steady_.forget();
+      way_before_.resize(nodes.size());
+      double own = 0.0, next = 0.0, second = 0.0;
       for (std::size_t i = 0; i < nodes.size(); ++i) {
-        steady_.add(there.nodes[i] - before[i], way_[i]);
-        way_[i] = there.nodes[i] - before[i];
+        const triple way = there.nodes[i] - before[i];
+        own += squared(way);
+        next += dot(way, way_[i]);
+        second += dot(way, way_before_[i]);
+        way_before_[i] = std::exchange(way_[i], way);
       }
+      sees_.hear(own, next, second);
     }
-    there.steady = steady_.a();
+    there.steady = sees_.goes_back() ? -1.0 : sees_.share();
     shapes.publish_told();
     if (!(there.steady > 0.0)) {
       shapes.publish_as_told();
@@ -486,8 +474,9 @@ class surface {
     shape& next = shapes.blank();
     next.steady = there.steady;
     next.nodes.resize(nodes.size());
+    const double last = sees_.last() * (1.0 + late_), older = sees_.before() * (1.0 + late_);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      next.nodes[i] = there.nodes[i] + way_[i] * (next.steady * (1.0 + late_));
+      next.nodes[i] = there.nodes[i] + way_[i] * last + way_before_[i] * older;
     }
     fit(next);
     shapes.publish();
@@ -508,8 +497,8 @@ class surface {
   clock::time_point last_{};
   double late_ = 0.0;  ///< age of the news over the time since the last ones
   std::string fault_;
-  std::vector<triple> way_;  ///< of each node by the last news [m]
-  steadiness steady_;
+  std::vector<triple> way_, way_before_;  ///< of each node by the last news, and those before [m]
+  foresight<double> sees_;
   problems problems_;  ///< while normals are fitted
   /// Of a smooth mesh. A program that makes none links nothing of it.
   void (*rounds_off_)(const detail::world&, shape&, problems&) = nullptr;
