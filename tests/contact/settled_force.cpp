@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "force_bound/attacks.hpp"
+#include "force_bound/upkeep.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 #include <passive_haptics/base/samples.hpp>
@@ -902,4 +904,289 @@ TEMPLATE_TEST_CASE("what is shown of a renderer is a share of it, however small 
     REQUIRE(guard.source().shown() > scalar(0));
     REQUIRE(guard.source().shown() <= scalar(1));
   }
+}
+
+// ------------------------------------------------------------------ as a shaper of a contact law
+
+namespace {
+
+/// A surface under a law, which the test moves.
+template <class Space, class Law, class Observer, class Bound, class Limits, class Motion>
+auto surface_under(const Law& law, const Observer& observer, const Bound& bound,
+                   const Limits& limits, const Motion& motion) {
+  return ph::local_model{Space{},
+                         ph::followed<ph::half_space<Space>>{},
+                         ph::turn_at_once{},
+                         law,
+                         observer,
+                         bound,
+                         limits,
+                         motion};
+}
+
+/// Somebody's laws without a damper: one that stiffens, twice as stiff 0.5 mm deep as at the surface, and one that
+/// pushes a device that leaves with 1 N·s/m.
+struct stiffening {
+  double pushes = 0.0, length = 1e-3;  ///< [N·s/m], [m]
+  [[nodiscard]] constexpr ph::parameter_fault check() const noexcept { return {}; }
+  template <class Space>
+  class on {
+   public:
+    constexpr explicit on(const stiffening& p) noexcept : pushes_(p.pushes), length_(p.length) {}
+    constexpr void adopt(double K, double /*T*/) noexcept { K_ = K; }
+    [[nodiscard]] constexpr double force(double d, double v) const noexcept {
+      return d > 0.0 ? std::max(0.0, K_ * d * (1.0 + d / length_) + pushes_ * v) : 0.0;
+    }
+    [[nodiscard]] double depth(double f, double v) const noexcept {
+      const double still = std::max(0.0, f - pushes_ * v) / (K_ * length_);
+      return length_ * still * 2.0 / (1.0 + std::sqrt(1.0 + 4.0 * still));
+    }
+
+   private:
+    double pushes_, length_, K_ = 0.0;
+  };
+};
+constexpr stiffening pushing{.pushes = 1.0, .length = 1.0};
+
+/// Comes down onto z = 0, presses 2 N more and holds still from 1.5 s on, or slides to and fro.
+struct pressing_hand {
+  bool slides = false;
+  [[nodiscard]] d3::vector force(double t, const d3::vector& x,
+                                 const d3::vector& v) const noexcept {
+    d3::vector goal(0.004, 0.003, 0.01 - 0.01 * std::min(t, 1.0));
+    if (slides && t > 1.5) goal(0) += 0.02 * std::sin(5.0 * (t - 1.5));
+    const d3::vector more(0.0, 0.0, -2.0 * std::clamp(2.0 * (t - 1.0), 0.0, 1.0));
+    return 300.0 * (goal - x) - 0.5 * v + more;
+  }
+  [[nodiscard]] double mass() const noexcept { return 0.0; }
+  [[nodiscard]] ph::parameter_fault check() const noexcept { return {}; }
+};
+struct pressed {
+  double step = 0.0,
+         speed = 0.0;  ///< the largest from a second after the hand holds still [N], [m/s]
+  double along = 0.0;  ///< the largest force along the wall [N]
+  double depth = 0.0, force = 0.0, shown = 0.0;  ///< at the end [m], [N], [N/m]
+  double least = 0.0;                            ///< energy at the port [J]
+};
+/// Presses, or slides on, a wall of K [N/m] under the law, behind a reachable_bound or behind none.
+template <class Law>
+pressed press(const Law& law, double K, bool bounded = true, bool slides = false) {
+  const auto run = [&](auto model) {
+    pressed seen;
+    REQUIRE(model.update({d3::vector(0, 0, 0), d3::vector(0, 0, 1), K}));
+    sim::device<d3, pressing_hand> device{
+        {.mass = 0.1, .damping = 0.1, .start = d3::vector(0.004, 0.003, 0.01)}, {slides}};
+    auto sample = device.exchange(d3::zero());
+    d3::vector last = d3::zero();
+    for (int n = 1; n < 4000; ++n) {
+      const d3::vector f = model.tick(sample).force;
+      sample = device.exchange(f);
+      seen.along = std::max(seen.along, std::hypot(f(0), f(1)));
+      if (n > 2500) {
+        seen.step = std::max(seen.step, (f - last).norm());
+        seen.speed = std::max(seen.speed, device.velocity().norm());
+      }
+      last = f;
+    }
+    seen.depth = -device.position()(2);
+    seen.force = last(2);
+    seen.shown = model.explain().shown;
+    seen.least = device.meter().minimum();
+    return seen;
+  };
+  const ph::last_difference known{};
+  if (!bounded) {
+    return run(surface_under<d3>(law, ph::no_observer{}, ph::no_bound{}, thesis_loop, known));
+  }
+  return run(surface_under<d3>(law, ph::reduced_energy{.damping = 0.05},
+                               ph::bound_chain{ph::reachable_bound{.mass = 0.1, .hand_force = 8.0},
+                                               ph::actuator_limit{.most = 9.0}},
+                               ph::loop_limits{.longest_tick = 1.1e-3}, known));
+}
+bool rests(const pressed& p) {
+  return p.step <= 0.02 && p.speed <= 1e-3;
+}
+
+/// A shaper that changes nothing.
+struct as_it_is {
+  static constexpr bool needs_local_model = false, needs_ledger = false;
+  template <class Space>
+  struct on {
+    constexpr explicit on(const as_it_is& /*p*/) noexcept {}
+    [[nodiscard]] constexpr ph::share<double> shape(const auto& /*f*/, const auto& /*contact*/,
+                                                    const auto& /*port*/) const noexcept {
+      return {1.0};
+    }
+  };
+};
+
+/// The shaped spring is the source that is given the spring's force, bit by bit, on a surface that moves.
+template <class Space, class Limits, class Motion>
+void shapes_as_it_is_asked(const ph::settled_force& p, const Limits& limits, const Motion& motion,
+                           double dt) {
+  using vector = typename Space::vector;
+  const ph::no_observer uncounted;
+  const ph::no_bound unbounded;
+  auto bare = surface_under<Space>(ph::spring{}, uncounted, unbounded, limits, motion);
+  auto shaped = surface_under<Space>(ph::shaped{ph::spring{}, as_it_is{}, p}, uncounted, unbounded,
+                                     limits, motion);
+  ph::passive_port guard{Space{}, p, uncounted, unbounded, limits, motion};
+  const double K = 3.0 * p.most_stiffness(limits.longest_tick, 0, Limits::latency);
+  ph::laws::samples random(5);
+  vector x = Space::zero();
+  int differ = 0;
+  double softest = 1.0;
+  for (int n = 0; n < 4000; ++n) {
+    if (n % 500 == 0) {
+      const ph::half_space<Space> now{random.vector<Space>() * 1e-3, random.direction<Space>(),
+                                      n % 1000 == 0 ? K : 0.1 * K};
+      REQUIRE((bare.update(now) && shaped.update(now)));
+      x = vector(now.point) - vector(now.normal) * 5e-4;
+    }
+    x = x + random.vector<Space>() * 2e-5;
+    const auto given = bare.tick(x, ph::seconds{dt}).force;
+    const auto asked = guard.tick(x, ph::seconds{dt}, given).force;
+    const auto got = shaped.tick(x, ph::seconds{dt}).force;
+    CAPTURE(Space::dof, Limits::latency, n);
+    REQUIRE(got == asked);
+    differ += got == given ? 0 : 1;
+    softest = std::min(softest, double(guard.source().shown()));
+    if (guard.source().shown() < 1.0) {
+      REQUIRE_THAT(shaped.explain().shown,
+                   WithinRel(guard.source().shown() * shaped.explain().asked, 1e-9));
+    }
+  }
+  CAPTURE(Space::dof, Limits::latency, differ);
+  CHECK(differ > 3000);
+  CHECK(softest < 0.5);
+}
+
+}  // namespace
+
+TEST_CASE("as a shaper it makes of a law's force what the source makes of a given one",
+          "[settled_force][shaper]") {
+  ph::settled_force limited = rule;
+  limited.force_limit = 20.0;
+  const ph::last_difference known{};
+  shapes_as_it_is_asked<d1>(rule, thesis_loop, known, 1e-3);
+  shapes_as_it_is_asked<d3>(rule, thesis_loop, known, 1e-3);
+  shapes_as_it_is_asked<d3>(limited, thesis_loop, faster{}, 0.75e-3);
+  shapes_as_it_is_asked<d2>(rule, ph::late_loop_limits<1>{.longest_tick = 2e-3, .top_speed = 100.0},
+                            known, 1.9e-3);
+}
+
+TEST_CASE("a law without a damper rings, and shaped by settled_force it rests where it did",
+          "[settled_force][shaper]") {
+  const auto tries = [](const auto& law, double K) {
+    CAPTURE(K);
+    const pressed bare = press(law, K), now = press(ph::shaped{law, rule}, K);
+    const pressed alone = press(ph::shaped{law, rule}, K, false);
+    CHECK_FALSE(rests(bare));
+    CHECK(rests(now));
+    CHECK(rests(alone));
+    CHECK(now.least == 0.0);
+    CHECK(now.shown == K);
+    ph::part_at<std::remove_cvref_t<decltype(law)>, d3> by_itself(law);
+    by_itself.adopt(K, 1e-3);
+    CHECK_THAT(alone.depth, WithinAbs(by_itself.depth(alone.force, 0.0), 1e-6));
+  };
+  tries(ph::spring{}, 2000.0);
+  for (const double K : {500.0, 2000.0}) {
+    tries(stiffening{}, K);
+    tries(pushing, K);
+  }
+}
+
+TEST_CASE("a law too stiff for the mass and the tick is felt softer, and rests",
+          "[settled_force][shaper]") {
+  ph::settled_force as_stiff = rule;
+  as_stiff.softens = false;
+  const double most = rule.most_stiffness(1e-3);
+  for (const double times : {1.5, 3.0, 10.0}) {
+    CAPTURE(times);
+    const double K = times * most;
+    const pressed now = press(ph::shaped{ph::spring{}, rule}, K, false);
+    CHECK(rests(now));
+    CHECK(now.shown < 1.2 * most);
+    CHECK(now.shown > 0.5 * most);
+    CHECK_THAT(now.depth, WithinRel(now.force / now.shown, 1e-3));
+    CHECK_FALSE(rests(press(ph::spring{}, K, false)));
+    CHECK_FALSE(rests(press(ph::shaped{ph::spring{}, as_stiff}, 3.0 * K, false)));
+    const pressed behind = press(ph::shaped{ph::spring{}, rule}, K);
+    CHECK(rests(behind));
+    CHECK(behind.least == 0.0);
+  }
+}
+
+TEST_CASE("along a flat wall a shaped law drags by 0.05 N at most", "[settled_force][shaper]") {
+  for (const double K : {500.0, 2000.0, 8000.0}) {
+    CAPTURE(K);
+    const pressed now = press(ph::shaped{ph::spring{}, rule}, K, true, true);
+    CHECK(now.along < 0.05);
+    CHECK(now.along > 0.01);
+    CHECK(now.least == 0.0);
+    CHECK(press(ph::shaped{ph::spring{}, no_slide}, K, true, true).along < 0.005);
+  }
+}
+
+TEST_CASE("a surface says what is shown of it under a law that settled_force shapes",
+          "[settled_force][shaper]") {
+  const auto under = [](const ph::settled_force& p, double T = 1e-3) {
+    return surface_under<d1>(ph::shaped{ph::spring{}, p}, ph::no_observer{}, ph::no_bound{},
+                             ph::loop_limits{.longest_tick = T, .top_speed = 100.0},
+                             ph::last_difference{});
+  };
+  const double most = rule.most_stiffness(1e-3);
+  auto model = under(rule);
+  CHECK(double(model.update(wall<d1>(0.99 * most)).stiffness) == 0.99 * most);
+  CHECK(model.explain().stiffness == ph::softened_by::nothing);
+  CHECK_THAT(double(model.update(wall<d1>(4.0 * most)).stiffness), WithinRel(most, 1e-12));
+  CHECK_THAT(model.explain().shown, WithinRel(most, 1e-12));
+  CHECK(model.explain().asked == 4.0 * most);
+  CHECK(model.explain().stiffness == ph::softened_by::mass_and_tick);
+  REQUIRE_FALSE(model.set(ph::loop_limits{.longest_tick = 2e-3, .top_speed = 100.0}));
+  CHECK_THAT(model.explain().shown, WithinRel(most / 4.0, 1e-12));
+
+  ph::settled_force thrifty = rule;
+  thrifty.most = 800.0;
+  auto paid = under(thrifty);
+  paid.update(wall<d1>(1000));
+  CHECK(paid.explain().shown == 800.0);
+  CHECK(paid.explain().stiffness == ph::softened_by::encoder_steps);
+  thrifty.softens = false;
+  REQUIRE_FALSE(paid.set(thrifty));
+  CHECK(paid.explain().shown == 1000.0);
+
+  const ph::damped_spring damped{.mass = 0.1};
+  const auto late = [](const auto& law) {
+    auto one = surface_under<d1>(law, ph::no_observer{}, ph::no_bound{},
+                                 ph::late_loop_limits<2>{.longest_tick = 1e-3, .top_speed = 100.0},
+                                 ph::last_difference{});
+    return double(one.update(wall<d1>(5e4)).stiffness);
+  };
+  CHECK(late(ph::shaped{damped, as_it_is{}}) == late(damped));
+  CHECK(late(damped) < double(under(rule).update(wall<d1>(5e4)).stiffness));
+  static_assert(!ph::settled_force::needs_local_model && !ph::settled_force::needs_ledger);
+  CHECK(ph::shaped{ph::spring{}, ph::settled_force{}}.check().parameter ==
+        std::string_view("mass"));
+}
+
+TEST_CASE("a shaped law takes new parameters of settled_force and keeps what it has learned",
+          "[settled_force][shaper]") {
+  ph::settled_force heavy = rule, wrong = rule;
+  heavy.mass = 0.2;
+  wrong.mass = 0.0;
+  check_upkeep(
+      following_half_space<d1>(ph::shaped{ph::spring{}, rule}, thesis_ledger(), ph::strict_bound{}),
+      rule, heavy, wrong);
+}
+
+TEST_CASE("a strict bound behind a law that settled_force shapes keeps its promise",
+          "[settled_force][shaper][passivity]") {
+  const ph::shaped settling{ph::spring{}, rule};
+  const auto least = [&](const auto& bound) {
+    return attacks::worst_of<d1>(attacks::model_of<d1>(bound, thesis_loop, settling), {}, 4).least;
+  };
+  CHECK(least(ph::strict_bound{}) >= -1e-12);
+  CHECK(least(ph::no_bound{}) < -1e-6);
 }

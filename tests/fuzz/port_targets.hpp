@@ -411,7 +411,7 @@ const char* a_shaper(numbers& in) noexcept {
     return run<Space>(port, in, most, 9.0,
                       [&](unsigned) { (void)port.update(plane_of<Space>(in)); });
   };
-  switch (in.one() % 8) {
+  switch (in.one() % 9) {
     case 0:
       return shaped(ph::shaped{ph::spring{}, ph::force_rate_limit{.rate = in.about(100.0)}});
     case 1:
@@ -440,6 +440,11 @@ const char* a_shaper(numbers& in) noexcept {
                                                  .damping_fraction = in.about(0.5),
                                                  .force_limit = in.about(9.0)},
                                in.about(1e3)});
+    case 7:
+      return shaped(ph::shaped{ph::spring{}, ph::settled_force{.mass = d.mass,
+                                                               .damping_fraction = in.about(0.25),
+                                                               .force_limit = in.about(9.0),
+                                                               .most = in.about(1e4)}});
     default:
       return shaped(ph::virtual_coupling{.stiffness = in.about(1000.0), .damping = in.about(1.0)});
   }

@@ -176,13 +176,19 @@ class local_contact {
     const scalar K = supply_.target().stiffness;
     bool fades = false;
     if constexpr (Supply::moves) fades = supply_.weight() < scalar(1);
-    detail::explain_surface(e, supply_.target(), x, shown_stiffness(K, T, late),
-                            softener(law_for(K, T, late)), lags(), fades);
+    const law_type law = law_for(K, T, late);
+    detail::explain_surface(e, supply_.target(), x, scalar(1) / law.depth(scalar(1), scalar(0)),
+                            softener(law), lags(), fades);
+    if constexpr (detail::is_shaped<Law, Space>) detail::explain(law.shapers(), e, x, T, late);
   }
 
   /// The displayed stiffness of a surface of K [N/m], in the same loop.
   [[nodiscard]] constexpr scalar shown_stiffness(scalar K, scalar T, int late) const noexcept {
-    return scalar(1) / law_for(K, T, late).depth(scalar(1), scalar(0));
+    const law_type law = law_for(K, T, late);
+    explanation e;
+    e.asked = e.shown = static_cast<double>(scalar(1) / law.depth(scalar(1), scalar(0)));
+    if constexpr (detail::is_shaped<Law, Space>) detail::explain(law.shapers(), e, K, T, late);
+    return static_cast<scalar>(e.shown);
   }
 
   /// Takes the environment's newest constraint. Returns false if it is unusable; then the last good one stays.
@@ -275,8 +281,9 @@ class local_contact {
     const vector desired = Space::scaled(normal, asked);
     vector wanted = desired;
     if constexpr (detail::is_shaped<Law, Space>) {
-      const contact_state<Space> contact{normal,       supply_.target().stiffness,      own.depth,
-                                         newest.depth, local_force(before, own, speed), fresh()};
+      contact_state<Space> contact{normal,       supply_.target().stiffness,      own.depth,
+                                   newest.depth, local_force(before, own, speed), fresh()};
+      contact.velocity = detail::velocity_of<Space>(motion);
       wanted = detail::applied<Space>(law_.shapers(), desired, contact, port).force;
       if constexpr (!shapers_reduce<state>()) {
         if (!Space::is_finite(wanted)) [[unlikely]] {

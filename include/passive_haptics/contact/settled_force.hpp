@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Force in, force out, and at rest when the hand is: given_force with a damper, for a renderer that has none.
+// Force in, force out, and at rest when the hand is: a damper for a renderer, or as a shaper for a law, that has none.
 //
+//     ph::shaped{your_law{}, ph::settled_force{.mass = 0.1}}
 //     ph::make_guard<scene>({.mass = 0.1, .damping = 0.03, .force_limit = 9, .longest_tick = 0.0011}, {.force = 5})
 //
 // Source: ours; docs/design/mathematics.md § 10, measured in docs/design/settling.md.
@@ -31,6 +32,8 @@ inline namespace v0 {
 /// device comes out at a speed from which F can stop it. In a loop that is k ticks late B is divided by 1 + k. T is the
 /// port's longest tick, and v is that of the motion estimator: with coarse encoders use a mass_observer. It gives no
 /// passivity guarantee; the bound behind it does.
+///
+/// As a shaper w is the force of the law, which ages with its surface, so stale_after and fade count for nothing.
 struct settled_force {
   double mass{};  ///< m, smallest apparent mass, over all directions and poses [kg]
   double damping_fraction = 0.25;                                ///< β, in units of m/T
@@ -74,6 +77,7 @@ struct settled_force {
     return K > 0.0 && K <= most_stiffness(T, renderer_late, loop_late) && loop_late <= 2 &&
            lead > static_cast<double>(renderer_late) + static_cast<double>(loop_late) + 0.5;
   }
+  static constexpr bool needs_local_model = false, needs_ledger = false;  ///< as a shaper
   template <port P>
   class on;
 };
@@ -136,13 +140,19 @@ class settled_force::on : private part_at<given_force, P> {
     steepest_ = softens_ ? kernels::smaller(settles, stiffest_) : kernels::largest<scalar>();
   }
   /// Explains most_stiffness; for a renderer that was found too stiff, its estimated stiffness and ¾ of most_stiffness.
+  /// As a shaper it explains the surface: its share s, or most_stiffness if no force was too stiff yet.
   constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
+    const double settles = parameters().most_stiffness(static_cast<double>(T), 0, late);
+    const double steps = static_cast<double>(stiffest_), s = static_cast<double>(seen_.shown);
+    const double most = kernels::smaller(settles, steps);
+    const auto why = settles <= steps ? softened_by::mass_and_tick : softened_by::encoder_steps;
+    if (e.asked > 0.0) {
+      if (softens_) e.soften(s < 1.0 ? s * e.shown : most, why);
+      return;
+    }
     e.asked = e.shown = std::numeric_limits<double>::infinity();
-    const double part = seen_.shown < scalar(1) ? 0.75 : 1.0;
-    e.soften(part * parameters().most_stiffness(static_cast<double>(T), 0, late),
-             softened_by::mass_and_tick);
-    e.soften(part * static_cast<double>(stiffest_), softened_by::encoder_steps);
-    if (seen_.shown < scalar(1)) e.asked = e.shown / static_cast<double>(seen_.shown);
+    e.soften(s < 1.0 ? 0.75 * most : most, why);
+    if (s < 1.0) e.asked = e.shown / s;
   }
   constexpr void reset() noexcept {
     given::reset();
@@ -157,20 +167,31 @@ class settled_force::on : private part_at<given_force, P> {
   template <bool Shortcut>
   [[nodiscard, gnu::always_inline]] constexpr request ask(const auto& motion, const auto& port,
                                                           event& what) noexcept {
-    if (seen_.left > 0) [[unlikely]]
-      look(port.travel, port.dt);
     const request asked = given::template ask<Shortcut>(motion, port, what);
-    const effort softly = P::scaled(asked.wanted, seen_.shown);
+    return {rested(given::newest(), asked.wanted, detail::velocity_of<P>(motion), port)};
+  }
+  /// The same, of the force of a contact law.
+  [[nodiscard, gnu::always_inline]] constexpr effort shape(const effort& w, const auto& contact,
+                                                           const auto& port) noexcept {
+    return rested(w, w, contact.velocity, port);
+  }
+
+ private:
+  /// f [N] for `wanted`, of `raw` as far as it has not faded, at the velocity v [m/s].
+  [[nodiscard, gnu::always_inline]] constexpr effort rested(const effort& raw, const effort& wanted,
+                                                            const effort& v,
+                                                            const auto& port) noexcept {
+    if (seen_.left > 0) [[unlikely]]
+      look(raw, port.travel, port.dt);
+    const effort softly = P::scaled(wanted, seen_.shown);
     const scalar share = within(softly, most_);
     const scalar secant = share < scalar(1) ? kernels::square_root(share) : scalar(1);
     const effort w = P::scaled(softly, share);
     const effort change = P::difference(w, last_), way = port.travel;
     if (-P::dot(change, way) > steepest_ * P::dot(way, way)) seen_.left = 30;
-    const effort f = settled(w, change, detail::velocity_of<P>(motion), secant, port.dt);
-    return {P::is_finite(f) ? f : w};  // f is not finite if w overflows or underflows
+    const effort f = settled(w, change, v, secant, port.dt);
+    return P::is_finite(f) ? f : w;  // f is not finite if w overflows or underflows
   }
-
- private:
   /// Σ −Δw Δx, Σ Δx² and Σ Δw² of the last 30 ms of motion.
   struct slope {
     scalar stiff{}, moved{}, changed{};
@@ -198,9 +219,10 @@ class settled_force::on : private part_at<given_force, P> {
     typename P::stored_effort given{};  ///< given force of the last evaluated tick [N]
   };
   /// Estimates the renderer's stiffness from one tick, unless the device moves at less than 1 mm/s.
-  [[gnu::cold, gnu::noinline]] constexpr void look(const typename P::stored_effort& travel,
+  [[gnu::cold, gnu::noinline]] constexpr void look(const effort& w,
+                                                   const typename P::stored_effort& travel,
                                                    scalar dt) noexcept {
-    const effort w = given::newest(), way = travel, change = P::difference(w, seen_.given);
+    const effort way = travel, change = P::difference(w, seen_.given);
     seen_.given = w;
     const scalar size = P::dot(w, w), moved = P::dot(way, way), slow = scalar(1e-3) * dt;
     if (!std::exchange(seen_.begun, true) || !(size > scalar(0) && moved > slow * slow)) return;
@@ -321,7 +343,8 @@ class settled_force::on : private part_at<given_force, P> {
   evaluation seen_{};
 };
 
-static_assert(source_for<settled_force, space<float, 1>>);
+static_assert(source_for<settled_force, space<float, 1>> &&
+              shaper_for<settled_force, space<float, 1>>);
 
 }  // namespace v0
 }  // namespace passive_haptics

@@ -6,6 +6,7 @@
 //
 //   shaper/thesis_rule.hpp                   the rule of the thesis             NOT passive by itself
 //   shaper/force_rate_limit.hpp              no jumps at updates
+//   contact/settled_force.hpp                any law at rest when the hand is
 //   published/stiffness_augmentation.hpp     springs that begin soft and stiffen
 //   published/set_position_modulation.hpp    PSPM, which limits the energy of jumps of the surface
 //   published/reference_energy.hpp           PO/PC that dissipates during the whole release
@@ -63,6 +64,10 @@ class shaped<Law, Shapers...>::on : public part_at<Law, Space> {
     if constexpr (detail::has_parameters<law_part>) p.law = law_part::parameters();
     p.shapers = shapers_.parameters();
     return p;
+  }
+  constexpr void adopt(typename Space::scalar K, typename Space::scalar T, int late = 0) noexcept {
+    detail::tell(static_cast<law_part&>(*this), K, T, late);
+    detail::tell(shapers_, T, late);
   }
   constexpr void reset() noexcept { shapers_.reset(); }
   template <class Parameters>

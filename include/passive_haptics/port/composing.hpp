@@ -275,6 +275,10 @@ class sequence<First, Rest...>::on {
     detail::take<First, P>(first_, p.first);
     rest_.set(p.rest);
   }
+  constexpr void adopt(typename P::scalar T, int late) noexcept {
+    tell(first_, T, late);
+    tell(rest_, T, late);
+  }
   [[nodiscard]] constexpr sequence parameters() const noexcept {
     sequence p;
     if constexpr (has_parameters<part_at<First, P>>) {

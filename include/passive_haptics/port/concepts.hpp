@@ -78,7 +78,7 @@ inline namespace v0 {
 //   stateless<States…>      sequence of parts    passive_port          true if limit() or shape() is const
 //   adopt(K, T, k)          law                  local_contact         it is called as adopt(K, T), and does
 //                                                                      not depend on the latency
-//   adopt(T), adopt(T, k)   source               passive_port, when T  its state does not depend on T, on the
+//   adopt(T), adopt(T, k)   source, shaper       passive_port, when T  its state does not depend on T, on the
 //                                                or a parameter is new latency k or on a parameter
 //   update(effort)          source               tick(…, wanted)       that tick does not compile
 //   needs_ledger            source, law          passive_port          false: it needs no ledger
@@ -490,6 +490,7 @@ struct contact_state {
   typename Space::scalar target_depth;  ///< depth in the environment's newest constraint [m]
   typename Space::scalar local_force;   ///< force of the law at `depth`, along `normal` [N]
   bool target_changed;                  ///< a new constraint arrived since the last tick
+  typename Space::vector velocity = Space::zero();  ///< of the device, as estimated [m/s]
 };
 
 /// shape() takes the desired force, the contact and the port, and returns a share or a force, as a bound does.
