@@ -464,6 +464,26 @@ TEST_CASE("an absurd force is no reason to show a steep one as it is", "[settled
   }
 }
 
+TEST_CASE("a given force that fades is not taken for a steep one", "[settled_force]") {
+  const auto shown = [](bool told) {  // 5 N that are gone after 0.15 s, or are told to go so
+    auto guard = guard_of<d1>(rule);
+    double x = 0.0;
+    (void)guard.tick(x, 1ms, 5.0);
+    for (int n = 1; n < 200; ++n) {
+      x += 2e-6;
+      if (told) {
+        (void)guard.tick(x, 1ms, std::clamp(5.0 * (150 - n) / 50.0, 0.0, 5.0));
+      } else {
+        (void)guard.tick(x, 1ms);
+      }
+    }
+    CHECK(guard.tick(x, 1ms).force == 0.0);
+    return double(guard.source().shown());
+  };
+  CHECK(shown(false) == 1.0);
+  CHECK(shown(true) < 0.5);
+}
+
 TEST_CASE("after an absurd force three ticks are too few again", "[settled_force]") {
   const double most = rule.most_stiffness(1e-3), step = 1e-5;
   for (const double absurd : {1e200, -1e200}) {
