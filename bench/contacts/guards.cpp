@@ -5,9 +5,11 @@
 #include "program.hpp"
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/compositions.hpp>
+#include <passive_haptics/contact/spring.hpp>
 #include <passive_haptics/energy_observer/no_observer.hpp>
 #include <passive_haptics/energy_observer/quantised_energy.hpp>
 #include <passive_haptics/motion_estimator/mass_observer.hpp>
+#include <passive_haptics/normal_interpolation/turn_at_once.hpp>
 
 #include <deque>
 
@@ -144,7 +146,7 @@ class renderer {
 
 // ------------------------------------------------------------------------------------------- guards
 
-enum class guard : std::uint8_t { given, strict, settled };
+enum class guard : std::uint8_t { given, strict, settled, law, shaped };
 constexpr guard all_guards[] = {guard::given, guard::strict, guard::settled};
 const char* to_string(guard g) {
   switch (g) {
@@ -154,6 +156,10 @@ const char* to_string(guard g) {
       return "given_force, strict";
     case guard::settled:
       return "make_guard";
+    case guard::law:
+      return "spring";
+    case guard::shaped:
+      return "shaped by settled_force";
   }
   return "";
 }
@@ -283,6 +289,40 @@ guard_row judge(guard_row row, double seconds) {
     press(row, port, true, std::min(seconds, 6.0));
     return row;
   });
+}
+
+/// A surface of ours under a law, in place of a renderer.
+template <class Model>
+struct under_law {
+  Model model;
+  auto tick(const ph::device_sample<d3>& sample, const vector& /*wanted*/) noexcept {
+    return model.tick(sample);
+  }
+};
+/// A floor under a bare spring, or under one that settled_force shapes, under a reachable bound.
+guard_row judge_law(guard_row row, double seconds) {
+  row.in_reach = row.stiffness <= ph::settled_force{.mass = told.mass}.most_stiffness(longest);
+  const auto pressed = [&](const auto& law) {
+    ph::local_model model{
+        d3{},
+        ph::followed<ph::half_space<d3>>{},
+        ph::turn_at_once{},
+        law,
+        ph::reduced_energy{.damping = told.damping},
+        ph::bound_chain{ph::reachable_bound{.mass = told.mass, .hand_force = told_hand.force},
+                        ph::actuator_limit{.most = told.force_limit}},
+        ph::loop_limits{.longest_tick = longest}};
+    model.update({vector(0.0, 0.0, radius), vector::UnitZ(), row.stiffness});
+    press(row, under_law<decltype(model)>{model}, false, seconds);
+    press(row, under_law<decltype(model)>{model}, true, std::min(seconds, 6.0));
+  };
+  if (row.by == guard::law) {
+    pressed(ph::spring{});
+  } else {
+    pressed(ph::shaped{ph::spring{},
+                       ph::settled_force{.mass = told.mass, .force_limit = told.force_limit}});
+  }
+  return row;
 }
 
 /// Do detents keep their force? The largest sideways force of a slow pass, over the largest asked for.
@@ -687,6 +727,35 @@ std::vector<std::string> run_guards(const session& s) {
   }
   expect(found, rings > 5, "the control does not ring: a given force under a reachable bound");
   expect(found, soft > 5, "the control is not soft: the strict guard");
+
+  s.out.section("Guards: a law",
+                "The floor as a surface, under a spring and under one that settled_force shapes, "
+                "behind a reachable bound. In reach: no stiffer than most_stiffness; above it the "
+                "law is softened.");
+  std::vector<guard_row> under;
+  for (const double K : {500.0, 2000.0, 8000.0, 40000.0, 160000.0}) {
+    for (const guard g : {guard::law, guard::shaped}) under.push_back({.stiffness = K, .by = g});
+  }
+  const auto laws = s.rows("guards_laws.csv", "laws", under,
+                           [seconds](const guard_row& r) { return judge_law(r, seconds); });
+  ex::show_rows(s.out, "guards_laws", laws);
+  rings = 0;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const guard_row& r = laws[i];
+    expect(found, r.least_energy >= -1e-12, named(r) + to_string(r.by) + " loses energy");
+    if (r.by == guard::law) {
+      if (r.settles > 1.0) ++rings;
+      continue;
+    }
+    const guard_row& bare = laws[i - 1];
+    expect(found, r.settles <= 1.0, named(r) + "the shaped law does not rest");
+    expect(found, r.drag <= 0.05, named(r) + "the shaped law drags");
+    if (r.in_reach) {
+      expect(found, r.step <= calm_step, named(r) + "the shaped law steps as it slides");
+      expect(found, r.kept <= bare.kept + calm_step, named(r) + "the shaped law withholds force");
+    }
+  }
+  expect(found, rings > 0, "the control rests: a bare spring under a reachable bound");
   const double kept = detents_kept(guard::settled);
   s.out.section("Guards: detents", "Crossed at 5 mm/s behind make_guard they keep " +
                                        ex::format("%.0f", 100.0 * kept) +
