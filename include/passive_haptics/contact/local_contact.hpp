@@ -283,7 +283,7 @@ class local_contact {
     if constexpr (detail::is_shaped<Law, Space>) {
       contact_state<Space> contact{normal,       supply_.target().stiffness,      own.depth,
                                    newest.depth, local_force(before, own, speed), fresh()};
-      contact.velocity = detail::velocity_of<Space>(motion);
+      if constexpr (Law::needs_velocity) contact.velocity = detail::velocity_of<Space>(motion);
       wanted = detail::applied<Space>(law_.shapers(), desired, contact, port).force;
       if constexpr (!shapers_reduce<state>()) {
         if (!Space::is_finite(wanted)) [[unlikely]] {

@@ -77,7 +77,7 @@ struct settled_force {
     return K > 0.0 && K <= most_stiffness(T, renderer_late, loop_late) && loop_late <= 2 &&
            lead > static_cast<double>(renderer_late) + static_cast<double>(loop_late) + 0.5;
   }
-  static constexpr bool needs_local_model = false, needs_ledger = false;  ///< as a shaper
+  static constexpr bool needs_local_model = false, needs_ledger = false, needs_velocity = true;
   template <port P>
   class on;
 };
@@ -146,13 +146,11 @@ class settled_force::on : private part_at<given_force, P> {
     const double steps = static_cast<double>(stiffest_), s = static_cast<double>(seen_.shown);
     const double most = kernels::smaller(settles, steps);
     const auto why = settles <= steps ? softened_by::mass_and_tick : softened_by::encoder_steps;
-    if (e.asked > 0.0) {
-      if (softens_) e.soften(s < 1.0 ? s * e.shown : most, why);
-      return;
-    }
-    e.asked = e.shown = std::numeric_limits<double>::infinity();
-    e.soften(s < 1.0 ? 0.75 * most : most, why);
-    if (s < 1.0) e.asked = e.shown / s;
+    const bool shapes = e.asked > 0.0;  // the force of a surface
+    if (shapes && !softens_) return;
+    if (!shapes) e.asked = e.shown = std::numeric_limits<double>::infinity();
+    e.soften(s < 1.0 ? (shapes ? s * e.shown : 0.75 * most) : most, why);
+    if (!shapes && s < 1.0) e.asked = e.shown / s;
   }
   constexpr void reset() noexcept {
     given::reset();

@@ -25,6 +25,7 @@ struct shaped {
   using sequence_type = detail::sequence<Shapers...>;
   static constexpr bool needs_local_model = (Shapers::needs_local_model || ...);
   static constexpr bool needs_ledger = (Shapers::needs_ledger || ...);
+  static constexpr bool needs_velocity = (requires { Shapers::needs_velocity; } || ...);
 
   Law law{};
   sequence_type shapers{};

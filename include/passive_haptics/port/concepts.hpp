@@ -85,6 +85,7 @@ inline namespace v0 {
 //   depth                   result of a source   contacts, scope       it has no depth
 //   travel, dt              estimate of motion   contact_set           along() is called for each axis
 //   needs_local_model       law; every shaper    local_contact         false: the supply may be fixed
+//   needs_velocity          shaper               local_contact         false: its contact has velocity 0
 //   shapers()               law                  local_contact         it has no shapers
 //   kind                    surface              contact_set           faceted
 //   push()                  probe of a surface   contact_set, the laws its force is along outward()
@@ -490,7 +491,7 @@ struct contact_state {
   typename Space::scalar target_depth;  ///< depth in the environment's newest constraint [m]
   typename Space::scalar local_force;   ///< force of the law at `depth`, along `normal` [N]
   bool target_changed;                  ///< a new constraint arrived since the last tick
-  typename Space::vector velocity = Space::zero();  ///< of the device, as estimated [m/s]
+  typename Space::vector velocity = Space::zero();  ///< of the device, if a shaper needs it [m/s]
 };
 
 /// shape() takes the desired force, the contact and the port, and returns a share or a force, as a bound does.
