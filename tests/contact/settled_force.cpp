@@ -985,8 +985,8 @@ struct pressed {
   double step = 0.0,
          speed = 0.0;  ///< the largest from a second after the hand holds still [N], [m/s]
   double along = 0.0;  ///< the largest force along the wall [N]
-  double depth = 0.0, force = 0.0, shown = 0.0;  ///< at the end [m], [N], [N/m]
-  double least = 0.0;                            ///< energy at the port [J]
+  double depth = 0.0, force = 0.0, shown = 0.0, asked = 0.0;  ///< at the end [m], [N], [N/m]
+  double least = 0.0;                                         ///< energy at the port [J]
 };
 /// Presses, or slides on, a wall of K [N/m] under the law, behind a reachable_bound or behind none.
 template <class Law>
@@ -1011,6 +1011,7 @@ pressed press(const Law& law, double K, bool bounded = true, bool slides = false
     seen.depth = -device.position()(2);
     seen.force = last(2);
     seen.shown = model.explain().shown;
+    seen.asked = model.explain().asked;
     seen.least = device.meter().minimum();
     return seen;
   };
@@ -1136,6 +1137,10 @@ TEST_CASE("a law too stiff for the mass and the tick is felt softer, and rests",
     CHECK(rests(behind));
     CHECK(behind.least == 0.0);
   }
+  const pressed cap = press(ph::shaped{ph::capped{ph::spring{}, 2.0 * most}, rule}, 4.0 * most);
+  CHECK(rests(cap));
+  CHECK(cap.asked == 4.0 * most);
+  CHECK(cap.shown < 1.2 * most);
 }
 
 TEST_CASE("along a flat wall a shaped law drags by 0.05 N at most", "[settled_force][shaper]") {

@@ -31,9 +31,7 @@ inline namespace v0 {
 /// A force above the motors' limit F is shortened to F, and B to B √(F/|w|), critical for the secant, so that the
 /// device comes out at a speed from which F can stop it. In a loop that is k ticks late B is divided by 1 + k. T is the
 /// port's longest tick, and v is that of the motion estimator: with coarse encoders use a mass_observer. It gives no
-/// passivity guarantee; the bound behind it does.
-///
-/// As a shaper w is the force of the law, which ages with its surface, so stale_after and fade count for nothing.
+/// passivity guarantee; the bound behind it does. As a shaper w is a law's force; stale_after and fade do nothing.
 struct settled_force {
   double mass{};  ///< m, smallest apparent mass, over all directions and poses [kg]
   double damping_fraction = 0.25;                                ///< β, in units of m/T

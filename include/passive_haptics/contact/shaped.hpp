@@ -25,7 +25,8 @@ struct shaped {
   using sequence_type = detail::sequence<Shapers...>;
   static constexpr bool needs_local_model = (Shapers::needs_local_model || ...);
   static constexpr bool needs_ledger = (Shapers::needs_ledger || ...);
-  static constexpr bool needs_velocity = (requires { Shapers::needs_velocity; } || ...);
+  static constexpr bool needs_velocity =
+      (requires { typename std::enable_if_t<Shapers::needs_velocity>; } || ...);
 
   Law law{};
   sequence_type shapers{};
