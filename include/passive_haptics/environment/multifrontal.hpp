@@ -6,8 +6,8 @@
 //   press          Y = L⁻¹B of unit forces B at a point, over the fronts from there to the root: BᵀK⁻¹B = YᵀY
 //   displacement   u of a node under a force at that point, over the fronts above THAT node
 //
-// J. W. H. Liu, "The multifrontal method for sparse matrix solution", SIAM Review 34(1), 1992. The products are
-// Eigen's dense ones; one thread factorises.
+// J. W. H. Liu, "The multifrontal method for sparse matrix solution", SIAM Review 34(1), 1992. One thread factorises.
+// All products are those of subtract_tile(): Eigen's take a user's compiler longer than the rest of this header.
 
 #include <passive_haptics/environment/marks.hpp>
 #include <passive_haptics/environment/nested_dissection.hpp>
@@ -17,6 +17,7 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -51,8 +52,7 @@ class multifrontal {
     factorised_ = !result.stopped && result.smallest_pivot > 0.0;
     if (!factorised_) return factor_ = {}, result;
     work_.setZero(stiffness.rows());
-    below_.setZero(largest_front());
-    three_.setZero(largest_front(), 3);
+    below_.setZero(largest_front(), 3);
     return result;
   }
   [[nodiscard]] bool factorised() const noexcept { return factorised_; }
@@ -64,8 +64,8 @@ class multifrontal {
     for (std::size_t k = 0; k < node_at_.size(); ++k) {
       work_.segment<3>(row(k)) = b.segment<3>(row(node_at_[k]));
     }
-    for (std::size_t t = 0; t < factor_.size(); ++t) forward(t, work_, below_);
-    for (std::size_t t = factor_.size(); t-- > 0;) backward(t, work_, below_);
+    for (std::size_t t = 0; t < factor_.size(); ++t) forward(t, work_.data(), work_.size(), 1);
+    for (std::size_t t = factor_.size(); t-- > 0;) backward(t, work_.data());
     for (std::size_t k = 0; k < node_at_.size(); ++k) {
       b.segment<3>(row(node_at_[k])) = work_.segment<3>(row(k));
     }
@@ -164,19 +164,21 @@ class multifrontal {
     tidy(at.path);
     for (const int t : at.path) {
       const elimination_front& front = tree_.fronts[slot(t)];
-      at.half.middleRows(3 * front.first, 3 * front.pivots).setZero();
+      for (Eigen::Index c = 0; c < 3; ++c) {
+        std::fill_n(&at.half(row(front.first), c), 3 * front.pivots, 0.0);
+      }
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      at.half.middleRows<3>(row(tree_.position[slot(nodes[i])])) +=
-          weights[i] * Eigen::Matrix3d::Identity();
+      const Eigen::Index first = row(tree_.position[slot(nodes[i])]);
+      for (Eigen::Index c = 0; c < 3; ++c) at.half(first + c, c) += weights[i];
     }
     for (const int t : at.path) {
       const elimination_front& front = tree_.fronts[slot(t)];
-      forward_three(slot(t), at.half);
-      const auto pivots = at.half.middleRows(3 * front.first, 3 * front.pivots);
-      for (Eigen::Index i = 0; i < 3; ++i) {
-        for (Eigen::Index j = 0; j < 3; ++j)
-          at.compliance(i, j) += pivots.col(i).dot(pivots.col(j));
+      forward(slot(t), at.half.data(), at.half.rows(), 3);
+      for (Eigen::Index k = row(front.first); k < row(front.first + front.pivots); ++k) {
+        for (Eigen::Index i = 0; i < 3; ++i) {
+          for (Eigen::Index j = 0; j < 3; ++j) at.compliance(i, j) += at.half(k, i) * at.half(k, j);
+        }
       }
     }
   }
@@ -195,20 +197,21 @@ class multifrontal {
     }
     for (auto it = of.waiting.rbegin(); it != of.waiting.rend(); ++it) {
       const elimination_front& front = tree_.fronts[slot(*it)];
-      auto pivots = of.u.segment(3 * front.first, 3 * front.pivots);
-      if (std::binary_search(at.path.begin(), at.path.end(), *it)) {
-        pivots.noalias() = at.half.middleRows(3 * front.first, 3 * front.pivots).lazyProduct(force);
-      } else {
-        pivots.setZero();
+      const bool on_path = std::binary_search(at.path.begin(), at.path.end(), *it);
+      for (Eigen::Index k = row(front.first); k < row(front.first + front.pivots); ++k) {
+        of.u[k] = !on_path ? 0.0
+                           : at.half(k, 0) * force[0] + at.half(k, 1) * force[1] +
+                                 at.half(k, 2) * force[2];
       }
-      backward(slot(*it), of.u, below_);
+      backward(slot(*it), of.u.data());
       of.solved.add(*it);
     }
     return of.u.segment<3>(row(position));
   }
 
  private:
-  static constexpr Eigen::Index panel = 192;  ///< columns that are eliminated at once
+  /// Columns that are eliminated at once, and rows that subtract() packs: 295 kB, which a second cache holds.
+  static constexpr Eigen::Index panel = 192;
 
   template <class Integer>
   [[nodiscard]] static constexpr Eigen::Index row(Integer position) noexcept {
@@ -251,7 +254,8 @@ class multifrontal {
     factor_.assign(count, {});
     std::vector<Eigen::MatrixXd> left(count);  // the update matrix of each front for its parent
     std::vector<int> local(node_at_.size());   // place of a position in the present front
-    const Eigen::VectorXd diagonal = stiffness.diagonal();
+    std::vector<double> diagonal(3 * node_at_.size());  // of K, in the order of elimination
+    std::vector<double> packed;
     factor_result result{.smallest_pivot = std::numeric_limits<double>::infinity()};
     course way{tell, tree_.operations};
     for (std::size_t t = 0; t < count; ++t) {
@@ -262,24 +266,24 @@ class multifrontal {
       const Eigen::Index p = row(front.pivots), u = row(front.bound.size());
       factor_[t].setZero(p + u, p);
       left[t].setZero(u, u);
-      fill(t, stiffness, local);
+      fill(t, stiffness, local, diagonal);
       for (const int child : front.children) {
         extend(t, child, left[slot(child)], left[t], local);
         left[slot(child)].resize(0, 0);
       }
-      if (!factorise_front(factor_[t], left[t], way, result)) return result;
+      if (!factorise_front(factor_[t], left[t], packed, way, result)) return result;
       for (Eigen::Index k = 0; k < p; ++k) {
-        const Eigen::Index at = row(node_at_[slot(front.first) + slot(static_cast<int>(k / 3))]);
-        const double pivot = factor_[t](k, k) * factor_[t](k, k) / diagonal[at + k % 3];
+        const auto at = static_cast<std::size_t>(row(front.first) + k);
+        const double pivot = factor_[t](k, k) * factor_[t](k, k) / diagonal[at];
         if (!(pivot >= result.smallest_pivot)) result.smallest_pivot = pivot;
       }
     }
     return result;
   }
 
-  /// Copies the columns of K that are eliminated in front t, from their diagonals down.
+  /// Copies the columns of K that are eliminated in front t, from their diagonals down, and the diagonals.
   void fill(std::size_t t, const Eigen::SparseMatrix<double>& stiffness,
-            const std::vector<int>& local) {
+            const std::vector<int>& local, std::vector<double>& diagonal) {
     const elimination_front& front = tree_.fronts[t];
     for (int k = 0; k < front.pivots; ++k) {
       for (Eigen::Index c = 0; c < 3; ++c) {
@@ -289,6 +293,8 @@ class multifrontal {
           if (position < front.first + k) continue;
           factor_[t](row(local[slot(position)]) + it.row() % 3, row(k) + c) = it.value();
         }
+        diagonal[static_cast<std::size_t>(row(front.first + k) + c)] =
+            factor_[t](row(k) + c, row(k) + c);
       }
     }
   }
@@ -304,45 +310,124 @@ class multifrontal {
       Eigen::MatrixXd& target = is_pivot ? factor_[t] : left;
       const int above = is_pivot ? 0 : pivots;
       for (std::size_t i = j; i < bound.size(); ++i) {
-        target.block<3, 3>(row(local[slot(bound[i])] - above), row(to - above)) +=
-            from.block<3, 3>(row(i), row(j));
+        for (Eigen::Index c = 0; c < 3; ++c) {
+          const double* const part = &from(row(i), row(j) + c);
+          double* const sum = &target(row(local[slot(bound[i])] - above), row(to - above) + c);
+          for (int k = 0; k < 3; ++k) sum[k] += part[k];
+        }
       }
     }
   }
 
-  /// a ← a − b cᵀ, where a begins in row and column j of the front, and b and c are the rows of a and its columns in
-  /// columns k to k + count of L. (All products of blocks are this one: another kind is half a second of compilation.)
-  static void subtract(Eigen::Block<Eigen::MatrixXd> a, Eigen::MatrixXd& l, Eigen::Index j,
-                       Eigen::Index k, Eigen::Index count) {
-    a.noalias() -= l.block(j, k, a.rows(), count) * l.block(j, k, a.cols(), count).transpose();
+  /// Rows of two packets of the processor, or of one of AVX-512: the sums of subtract_tile() stay in registers.
+  static constexpr int tile = EIGEN_MAX_STATIC_ALIGN_BYTES >= 32 ? 8 : 4;
+  using rows_of_tile = Eigen::Array<double, tile, 1>;
+
+  /// a ← a − b cᵀ of up to `tile` rows and 4 columns. Column k of b and row k of c begin at b + k `stride` and c + 4 k;
+  /// b has `tile` rows and, unless a has one column, c has 4 columns, however few of them a has.
+  static void subtract_tile(double* a, Eigen::Index a_stride, Eigen::Index rows,
+                            Eigen::Index columns, const double* b, Eigen::Index stride,
+                            const double* c, Eigen::Index depth) {
+    rows_of_tile s0 = rows_of_tile::Zero(), s1 = s0, s2 = s0, s3 = s0;
+    if (columns == 1) {
+      for (Eigen::Index k = 0; k < depth; ++k) {
+        s0 += Eigen::Map<const rows_of_tile>(b + k * stride) * c[4 * k];
+      }
+    } else {
+      for (Eigen::Index k = 0; k < depth; ++k, b += stride, c += 4) {
+        const rows_of_tile x = Eigen::Map<const rows_of_tile>(b);
+        s0 += x * c[0];
+        s1 += x * c[1];
+        s2 += x * c[2];
+        s3 += x * c[3];
+      }
+    }
+    const auto take = [&](const rows_of_tile& sum) {
+      if (rows == tile) {
+        Eigen::Map<rows_of_tile> to(a);
+        to -= sum;
+      } else {
+        for (Eigen::Index i = 0; i < rows; ++i) a[i] -= sum[i];
+      }
+      a += a_stride;
+    };
+    take(s0);
+    if (columns > 1) take(s1);
+    if (columns > 2) take(s2);
+    if (columns > 3) take(s3);
+  }
+
+  /// The same for any number of rows, of which b has no more than a.
+  static void subtract_rows(double* a, Eigen::Index a_stride, Eigen::Index rows,
+                            Eigen::Index columns, const double* b, Eigen::Index stride,
+                            const double* c, Eigen::Index depth) {
+    for (; rows >= tile; rows -= tile, a += tile, b += tile) {
+      subtract_tile(a, a_stride, tile, columns, b, stride, c, depth);
+    }
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      for (Eigen::Index k = 0; k < depth; ++k) {
+        for (Eigen::Index i = 0; i < rows; ++i) {
+          a[j * a_stride + i] -= b[k * stride + i] * c[4 * k + j];
+        }
+      }
+    }
+  }
+
+  /// a ← a − b cᵀ on and below the diagonal, where a begins in row and column j of the front, and b and c are the rows
+  /// of a and its columns in columns k to k + count of L. Above the diagonal a is left undefined.
+  static void subtract(Eigen::Block<Eigen::MatrixXd> a, const Eigen::MatrixXd& l, Eigen::Index j,
+                       Eigen::Index k, Eigen::Index count, std::vector<double>& packed) {
+    packed.resize(static_cast<std::size_t>((panel + 4) * panel));
+    double *const b = packed.data(), *const c = b + panel * panel;
+    const auto pack = [&](double* to, Eigen::Index first, Eigen::Index wide) {
+      const Eigen::Index some = (std::min)(wide, a.rows() - first);
+      for (Eigen::Index i = 0; i < count; ++i, to += wide) {
+        std::fill(std::copy_n(&l(j + first, k + i), some, to), to + wide, 0.0);
+      }
+    };
+    for (Eigen::Index top = 0; top < a.rows(); top += panel) {
+      const Eigen::Index end = (std::min)(top + panel, a.rows());
+      for (Eigen::Index i = top; i < end; i += tile) pack(b + (i - top) * count, i, tile);
+      for (Eigen::Index column = 0; column < (std::min)(end, a.cols()); column += 4) {
+        pack(c, column, 4);
+        for (Eigen::Index i = (std::max)(top, column / tile * tile); i < end; i += tile) {
+          subtract_tile(&a(i, column), a.outerStride(), (std::min<Eigen::Index>)(tile, end - i),
+                        (std::min<Eigen::Index>)(4, a.cols() - column), b + (i - top) * count, tile,
+                        c, count);
+        }
+      }
+    }
   }
 
   /// Columns k to k + count of K, with all rows below, become those of L: the left half, then the right one. Returns
   /// false if the matrix is not positive definite. Above the diagonal they are left undefined.
-  static bool factorise_columns(Eigen::MatrixXd& l, Eigen::Index k, Eigen::Index count) {
-    const Eigen::Index half = count / 2, next = k + half, rows = l.rows();
-    if (count > 12) {
-      if (!factorise_columns(l, k, half)) return false;
-      subtract(l.block(next, next, rows - next, count - half), l, next, k, half);
-      return factorise_columns(l, next, count - half);
+  static bool factorise_columns(Eigen::MatrixXd& l, Eigen::Index k, Eigen::Index count,
+                                std::vector<double>& packed) {
+    const Eigen::Index half = (count + 7) / 8 * 4, next = k + half, rows = l.rows();
+    if (count > 4) {
+      if (!factorise_columns(l, k, half, packed)) return false;
+      subtract(l.block(next, next, rows - next, count - half), l, next, k, half, packed);
+      return factorise_columns(l, next, count - half, packed);
     }
+    std::array<double, 12> across{};
     for (Eigen::Index j = k; j < k + count; ++j) {
-      auto column = l.col(j).tail(rows - j);
-      for (Eigen::Index i = k; i < j; ++i) column -= l(j, i) * l.col(i).tail(rows - j);
-      if (!(column(0) > 0.0)) return false;
-      column /= std::sqrt(column(0));
+      for (Eigen::Index i = k; i < j; ++i) across[static_cast<std::size_t>(4 * (i - k))] = l(j, i);
+      subtract_rows(&l(j, j), 0, rows - j, 1, &l(j, k), rows, across.data(), j - k);
+      if (!(l(j, j) > 0.0)) return false;
+      const double scale = 1.0 / std::sqrt(l(j, j));
+      for (Eigen::Index r = j; r < rows; ++r) l(r, j) *= scale;
     }
     return true;
   }
 
   /// Factorises the pivots and the bound below them, panel by panel, and subtracts their part from `left`. Returns
   /// false if it was stopped or the matrix is not positive definite.
-  static bool factorise_front(Eigen::MatrixXd& l, Eigen::MatrixXd& left, course& way,
-                              factor_result& result) {
+  static bool factorise_front(Eigen::MatrixXd& l, Eigen::MatrixXd& left,
+                              std::vector<double>& packed, course& way, factor_result& result) {
     const Eigen::Index rows = l.rows(), pivots = l.cols();
     for (Eigen::Index k = 0; k < pivots; k += panel) {
       const Eigen::Index width = (std::min)(panel, pivots - k);
-      if (!factorise_columns(l, k, width)) {
+      if (!factorise_columns(l, k, width, packed)) {
         result.smallest_pivot = 0.0;
         return false;
       }
@@ -354,12 +439,12 @@ class multifrontal {
       if (k + width == rows) return done(k);
       for (Eigen::Index j = k + width; j < pivots; j += panel) {
         const Eigen::Index columns = (std::min)(panel, pivots - j);
-        subtract(l.block(j, j, rows - j, columns), l, j, k, width);
+        subtract(l.block(j, j, rows - j, columns), l, j, k, width, packed);
         if (!done(j)) return false;
       }
       for (Eigen::Index j = pivots; j < rows; j += panel) {
         const Eigen::Index columns = (std::min)(panel, rows - j);
-        subtract(left.block(j - pivots, j - pivots, rows - j, columns), l, j, k, width);
+        subtract(left.block(j - pivots, j - pivots, rows - j, columns), l, j, k, width, packed);
         if (!done(j)) return false;
       }
     }
@@ -367,53 +452,91 @@ class multifrontal {
   }
 
   // ----------------------------------------------------------------------------------- solving
-  /// x of the pivots of front t ← L⁻¹x; its part is subtracted from the later nodes.
-  void forward(std::size_t t, Eigen::VectorXd& x, Eigen::VectorXd& below) const {
-    const elimination_front& front = tree_.fronts[t];
-    const Eigen::MatrixXd& l = factor_[t];
-    auto pivots = x.segment(row(front.first), l.cols());
-    l.topRows(l.cols()).triangularView<Eigen::Lower>().solveInPlace(pivots);
-    auto taken = below.head(l.rows() - l.cols());
-    taken.noalias() = l.bottomRows(taken.size()) * pivots;
-    for (std::size_t i = 0; i < front.bound.size(); ++i) {
-      x.segment<3>(row(front.bound[i])) -= taken.segment<3>(row(i));
-    }
-  }
-  /// x of the pivots of front t ← L⁻ᵀ(x − the part of the later nodes), which are solved already.
-  void backward(std::size_t t, Eigen::VectorXd& x, Eigen::VectorXd& below) const {
-    const elimination_front& front = tree_.fronts[t];
-    const Eigen::MatrixXd& l = factor_[t];
-    auto pivots = x.segment(row(front.first), l.cols());
-    auto later = below.head(l.rows() - l.cols());
-    for (std::size_t i = 0; i < front.bound.size(); ++i) {
-      later.segment<3>(row(i)) = x.segment<3>(row(front.bound[i]));
-    }
-    pivots.noalias() -= l.bottomRows(later.size()).transpose() * later;
-    l.topRows(l.cols()).triangularView<Eigen::Lower>().transpose().solveInPlace(pivots);
-  }
-  /// forward() of three columns. It reads L once and, unlike Eigen's matrix products, does not allocate.
-  void forward_three(std::size_t t, Eigen::Matrix<double, Eigen::Dynamic, 3>& x) {
-    constexpr Eigen::Index step = 16, slab = 192;  // a slab of L is 24 kB, in the first cache
+  /// x of the pivots of front t ← L⁻¹x; its part is subtracted from the later nodes. x has one column or three, of
+  /// `size` rows. It reads L once and does not allocate.
+  void forward(std::size_t t, double* x, Eigen::Index size, Eigen::Index columns) {
+    constexpr Eigen::Index step = 16;
     const elimination_front& front = tree_.fronts[t];
     const Eigen::MatrixXd& l = factor_[t];
     const Eigen::Index rows = l.rows(), pivots = l.cols();
-    three_.topRows(pivots) = x.middleRows(row(front.first), pivots);
-    three_.middleRows(pivots, rows - pivots).setZero();
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      std::copy_n(x + c * size + row(front.first), pivots, &below_(0, c));
+      std::fill_n(&below_(0, c) + pivots, rows - pivots, 0.0);
+    }
+    std::array<double, 4 * step> solved{};  // row by row, as subtract_tile() wants it
     for (Eigen::Index k = 0; k < pivots; k += step) {
-      const Eigen::Index width = (std::min)(step, pivots - k);
-      for (Eigen::Index c = 0; c < 3; ++c) {
-        auto some = three_.col(c).segment(k, width);
-        l.block(k, k, width, width).triangularView<Eigen::Lower>().solveInPlace(some);
+      const Eigen::Index end = (std::min)(k + step, pivots);
+      for (Eigen::Index c = 0; c < columns; ++c) {
+        for (Eigen::Index j = k; j < end; ++j) {
+          double sum = below_(j, c);
+          for (Eigen::Index i = k; i < j; ++i) sum -= l(j, i) * below_(i, c);
+          below_(j, c) = solved[static_cast<std::size_t>(4 * (j - k) + c)] = sum / l(j, j);
+        }
       }
-      for (Eigen::Index r = k + width; r < rows; r += slab) {
-        const Eigen::Index height = (std::min)(slab, rows - r);
-        three_.middleRows(r, height) -=
-            l.block(r, k, height, width).lazyProduct(three_.middleRows(k, width));
+      subtract_rows(below_.data() + end, below_.rows(), rows - end, columns,
+                    l.data() + k * rows + end, rows, solved.data(), end - k);
+    }
+    for (Eigen::Index c = 0; c < columns; ++c, x += size) {
+      std::copy_n(&below_(0, c), pivots, x + row(front.first));
+      for (std::size_t i = 0; i < front.bound.size(); ++i) {
+        const double* const part = &below_(pivots + row(i), c);
+        for (int q = 0; q < 3; ++q) x[row(front.bound[i]) + q] += part[q];
       }
     }
-    x.middleRows(row(front.first), pivots) = three_.topRows(pivots);
+  }
+  /// x of the pivots of front t ← L⁻ᵀ(x − the part of the later nodes), which are solved already.
+  void backward(std::size_t t, double* x) {
+    const elimination_front& front = tree_.fronts[t];
+    const Eigen::MatrixXd& l = factor_[t];
+    const Eigen::Index rows = l.rows(), pivots = l.cols();
+    double* const y = below_.data();
+    std::copy_n(x + row(front.first), pivots, y);
     for (std::size_t i = 0; i < front.bound.size(); ++i) {
-      x.middleRows<3>(row(front.bound[i])) += three_.middleRows<3>(pivots + row(i));
+      std::copy_n(x + row(front.bound[i]), 3, y + pivots + row(i));
+    }
+    for (Eigen::Index end = pivots; end > 0;) {  // up to eight columns at once
+      const Eigen::Index begin = (std::max<Eigen::Index>)(0, end - 8);
+      std::array<double, 8> sums{};
+      subtract_dots(sums, l.data() + begin * rows + end, rows, y + end, rows - end, end - begin);
+      for (Eigen::Index k = end; k-- > begin;) {
+        double sum = y[k] + sums[static_cast<std::size_t>(k - begin)];
+        for (Eigen::Index r = end; --r > k;) sum -= l(r, k) * y[r];  // the newest one last
+        y[k] = sum / l(k, k);
+      }
+      end = begin;
+    }
+    std::copy_n(y, pivots, x + row(front.first));
+  }
+  /// Subtracts the products of up to eight columns a, of `rows` rows, with x: eight streams from memory are faster than
+  /// four.
+  static void subtract_dots(std::array<double, 8>& from, const double* a, Eigen::Index stride,
+                            const double* x, Eigen::Index rows, Eigen::Index columns) {
+    using packet = Eigen::Array<double, tile / 2, 1>;
+    using some = Eigen::Map<const packet>;
+    Eigen::Index r = 0;
+    if (columns == 8) {
+      packet s0 = packet::Zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+      const double* const b = a + 4 * stride;
+      for (; r + tile / 2 <= rows; r += tile / 2) {
+        const packet y = some(x + r);
+        s0 += y * some(a + r);
+        s1 += y * some(a + stride + r);
+        s2 += y * some(a + 2 * stride + r);
+        s3 += y * some(a + 3 * stride + r);
+        s4 += y * some(b + r);
+        s5 += y * some(b + stride + r);
+        s6 += y * some(b + 2 * stride + r);
+        s7 += y * some(b + 3 * stride + r);
+      }
+      const std::array<packet, 8> sums{s0, s1, s2, s3, s4, s5, s6, s7};
+      for (std::size_t c = 0; c < 8; ++c) {
+        for (Eigen::Index i = 0; i < tile / 2; ++i) from[c] -= sums[c][i];
+      }
+    }
+    for (; r < rows; ++r) {
+      for (Eigen::Index c = 0; c < columns; ++c) {
+        from[static_cast<std::size_t>(c)] -= a[c * stride + r] * x[r];
+      }
     }
   }
 
@@ -422,8 +545,7 @@ class multifrontal {
   std::vector<Eigen::MatrixXd> factor_;  ///< L of each front, the bound below the pivots
   bool factorised_ = false;
   Eigen::VectorXd work_;
-  Eigen::VectorXd below_;                           ///< scratch, rows of the largest front
-  Eigen::Matrix<double, Eigen::Dynamic, 3> three_;  ///< scratch, rows of the largest front
+  Eigen::Matrix<double, Eigen::Dynamic, 3> below_;  ///< scratch, rows of the largest front
 };
 
 }  // namespace environment
