@@ -10,6 +10,7 @@
 
 #include <passive_haptics/base/language.hpp>
 
+#include <concepts>
 #include <cstdio>
 #include <cstdlib>
 #include <locale>
@@ -22,13 +23,29 @@ namespace passive_haptics {
 inline namespace v0 {
 namespace environment {
 
+// These are cold, so that a user's compiler does not inline them.
+[[gnu::cold, gnu::noinline]] inline void append(std::string& text, std::string_view part) {
+  text += part;
+}
+template <class Part>
+requires(!std::convertible_to<const Part&, std::string_view>)
+    [[gnu::cold, gnu::noinline]] void append(std::string& text, const Part& part) {
+  if constexpr (std::integral<Part> && sizeof(Part) > 1) {
+    text += std::to_string(part);
+  } else {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    stream << part;
+    text += stream.str();
+  }
+}
+
 /// Joins the parts to one text. Numbers are written in the "C" locale, whatever locale the application has set.
 template <class... Parts>
-[[nodiscard]] std::string sentence(const Parts&... parts) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  (text << ... << parts);
-  return text.str();
+[[nodiscard, gnu::cold, gnu::noinline]] std::string sentence(const Parts&... parts) {
+  std::string text;
+  (append(text, parts), ...);
+  return text;
 }
 
 /// A mesh that cannot be used. what() is complete: "<where>: <what is wrong>; <what to do>".
@@ -40,7 +57,7 @@ class mesh_error : public std::runtime_error {
 
 /// Throws the error; a program compiled without exceptions ends with its text.
 template <class Error>
-[[noreturn]] void refuse(const Error& error) {
+[[noreturn, gnu::cold, gnu::noinline]] void refuse(const Error& error) {
 #if defined(__cpp_exceptions)
   throw error;
 #else
@@ -51,7 +68,7 @@ template <class Error>
 
 /// Refuses an argument with a std::invalid_argument of these parts.
 template <class... Parts>
-[[noreturn]] void refuse_argument(const Parts&... parts) {
+[[noreturn, gnu::cold, gnu::noinline]] void refuse_argument(const Parts&... parts) {
   refuse(std::invalid_argument(sentence(parts...)));
 }
 
