@@ -115,16 +115,6 @@ template <class Surface>
   return turn;
 }
 
-/// aᵀ C b.
-[[nodiscard]] inline double across(const Eigen::Matrix3d& C, const Eigen::Vector3d& a,
-                                   const Eigen::Vector3d& b) {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    for (Eigen::Index j = 0; j < 3; ++j) sum += a[i] * C(i, j) * b[j];
-  }
-  return sum;
-}
-
 /// C turned with its plane, the shortest way from one normal to another.
 [[nodiscard]] inline Eigen::Matrix3d turned(const Eigen::Matrix3d& curvature,
                                             const Eigen::Vector3d& from,

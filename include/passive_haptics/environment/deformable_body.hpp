@@ -242,9 +242,9 @@ class basic_deformable_body {
     }
     // With barycentric shares one solution gives both the compliance and the response to the load.
     if (options_.split == force_split::barycentric) {
-      return n.dot(solid_.press(t.nodes, on.weights) * n);
+      return across(solid_.press(t.nodes, on.weights), n, n);
     }
-    const double give = n.dot(solid_.compliance(t.nodes, on.weights) * n);
+    const double give = across(solid_.compliance(t.nodes, on.weights), n, n);
     solid_.press(t.nodes, force_shares(options_.split, shape, on.weights));
     return give;
   }

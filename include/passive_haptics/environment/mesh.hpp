@@ -13,6 +13,7 @@
 
 #include <passive_haptics/base/language.hpp>
 #include <passive_haptics/environment/refuse.hpp>
+#include <passive_haptics/environment/triangle_weights.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -55,7 +56,10 @@ struct mesh_fault {
   const auto node = [&](std::size_t corner) -> const Eigen::Vector3d& {
     return mesh.nodes.at(static_cast<std::size_t>(tetrahedron[corner]));
   };
-  return (node(1) - node(0)).cross(node(2) - node(0)).dot(node(3) - node(0)) / 6.0;
+  const passive_haptics::mesh::triple a = triple_of(node(0));
+  const passive_haptics::mesh::triple b = triple_of(node(1)), c = triple_of(node(2)),
+                                      d = triple_of(node(3));
+  return passive_haptics::mesh::dot(passive_haptics::mesh::cross(b - a, c - a), d - a) / 6.0;
 }
 
 /// V/L³ with L the longest edge: 0.118 for a regular element, below flat_element for a flat one.
@@ -64,9 +68,11 @@ struct mesh_fault {
   double longest = 0.0;
   for (const int a : tetrahedron) {
     for (const int b : tetrahedron) {
-      const auto edge =
-          mesh.nodes.at(static_cast<std::size_t>(a)) - mesh.nodes.at(static_cast<std::size_t>(b));
-      longest = (std::max)(longest, edge.norm());
+      const passive_haptics::mesh::triple from =
+          triple_of(mesh.nodes.at(static_cast<std::size_t>(a)));
+      const passive_haptics::mesh::triple to =
+          triple_of(mesh.nodes.at(static_cast<std::size_t>(b)));
+      longest = (std::max)(longest, passive_haptics::mesh::length(to - from));
     }
   }
   return signed_volume(mesh, tetrahedron) / (longest * longest * longest);
@@ -93,8 +99,9 @@ struct element_face {
       element_face f{{element[corner[0]], element[corner[1]], element[corner[2]]},
                      {},
                      static_cast<int>(all.size())};
-      f.nodes = f.key;
-      std::rotate(f.nodes.begin(), std::min_element(f.nodes.begin(), f.nodes.end()), f.nodes.end());
+      const std::size_t first =
+          f.key[0] < f.key[1] ? (f.key[0] < f.key[2] ? 0 : 2) : (f.key[1] < f.key[2] ? 1 : 2);
+      f.nodes = {f.key[first], f.key[(first + 1) % 3], f.key[(first + 2) % 3]};
       std::sort(f.key.begin(), f.key.end());
       all.push_back(f);
     }
@@ -141,12 +148,12 @@ inline constexpr double flat_element = 1e-9;  ///< an element of a relative volu
     const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(i)];
     if (!x.allFinite()) {
       return mesh_fault{.node = i,
-                        .problem = sentence("is not finite: ", x.transpose()),
+                        .problem = sentence("is not finite: ", x[0], " ", x[1], " ", x[2]),
                         .remedy = "mend its coordinates"};
     }
   }
 
-  std::vector<bool> used(mesh.nodes.size(), false);
+  std::vector<char> used(mesh.nodes.size(), 0);
   std::size_t inverted = 0;
   int first_inverted = -1;
   for (int e = 0; e < static_cast<int>(mesh.tetrahedra.size()); ++e) {
@@ -157,7 +164,7 @@ inline constexpr double flat_element = 1e-9;  ///< an element of a relative volu
                           .problem = sentence("names node ", node, " of ", count, " nodes"),
                           .remedy = "node numbers count from 0"};
       }
-      used[static_cast<std::size_t>(node)] = true;
+      used[static_cast<std::size_t>(node)] = 1;
     }
     auto key = tetrahedron;
     std::sort(key.begin(), key.end());
@@ -186,7 +193,7 @@ inline constexpr double flat_element = 1e-9;  ///< an element of a relative volu
         .problem = sentence("is inverted, as are ", inverted, " of ", mesh.tetrahedra.size()),
         .remedy = "swap two of its nodes if the order is wrong, else mesh the volume again"};
   }
-  if (const auto loose = std::find(used.begin(), used.end(), false); loose != used.end()) {
+  if (const auto loose = std::find(used.begin(), used.end(), 0); loose != used.end()) {
     return mesh_fault{.node = static_cast<int>(loose - used.begin()),
                       .problem = "belongs to no tetrahedron",
                       .remedy = "remove it: nothing holds it in place"};
@@ -208,7 +215,12 @@ inline void check(const tetrahedral_mesh& mesh, std::string_view name = "mesh") 
 /// The smallest box along the axes that holds every node [m].
 [[nodiscard]] inline Eigen::AlignedBox3d bounds(const tetrahedral_mesh& mesh) {
   Eigen::AlignedBox3d box;
-  for (const auto& node : mesh.nodes) box.extend(node);
+  for (const auto& node : mesh.nodes) {
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      box.min()[i] = (std::min)(box.min()[i], node[i]);
+      box.max()[i] = (std::max)(box.max()[i], node[i]);
+    }
+  }
   return box;
 }
 

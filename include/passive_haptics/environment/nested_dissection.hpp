@@ -16,7 +16,6 @@
 #include <passive_haptics/environment/node_graph.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cstddef>
@@ -90,10 +89,18 @@ class dissection {
 
   void split(std::vector<int> nodes) {
     if (nodes.size() <= slot(leaf_)) return eliminate(std::move(nodes));
-    Eigen::AlignedBox3d box;
-    for (const int i : nodes) box.extend(graph_.points[slot(i)]);
     Eigen::Index axis = 0;
-    box.sizes().maxCoeff(&axis);
+    double longest = -1.0;
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      double low = graph_.points[slot(nodes[0])][a], high = low;
+      for (const int i : nodes) {
+        low = (std::min)(low, graph_.points[slot(i)][a]);
+        high = (std::max)(high, graph_.points[slot(i)][a]);
+      }
+      if (!(high - low > longest)) continue;
+      longest = high - low;
+      axis = a;
+    }
     const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
     std::nth_element(nodes.begin(), middle, nodes.end(), [&](int a, int b) {
       const double left = graph_.points[slot(a)][axis], right = graph_.points[slot(b)][axis];

@@ -10,7 +10,6 @@
 #include <passive_haptics/environment/mesh.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cstddef>
@@ -52,14 +51,17 @@ struct connected_parts {
 /// a line, 0 if three are not on a line. A point closer to a line than 1e-6 of their extent counts as on it.
 [[nodiscard]] inline int rigid_modes_left(std::span<const Eigen::Vector3d> held) {
   if (held.empty()) return 6;
-  Eigen::Vector3d along = Eigen::Vector3d::Zero();  // from the first to the one farthest from it
+  const auto from_first = [&](const Eigen::Vector3d& x) {
+    return triple_of(x) - triple_of(held[0]);
+  };
+  mesh::triple along;  // from the first to the one farthest from it
   for (const auto& x : held) {
-    if ((x - held[0]).squaredNorm() > along.squaredNorm()) along = x - held[0];
+    if (squared(from_first(x)) > squared(along)) along = from_first(x);
   }
-  if (along.isZero(0.0)) return 3;
-  const double extent = along.norm();
+  if (along == mesh::triple{}) return 3;
+  const double extent = length(along);
   const bool on_line = std::all_of(held.begin(), held.end(), [&](const Eigen::Vector3d& x) {
-    return (x - held[0]).cross(along / extent).norm() <= 1e-6 * extent;
+    return length(cross(from_first(x), along * (1.0 / extent))) <= 1e-6 * extent;
   });
   return on_line ? 1 : 0;
 }

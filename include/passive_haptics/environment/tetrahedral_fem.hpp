@@ -81,9 +81,11 @@ class point_load {
       column.setZero();
       for (std::size_t i = 0; i < nodes.size(); ++i) column[3 * nodes[i] + c] += weights[i];
       solver.solve(column);
-      compliance_.col(c).setZero();
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        compliance_.col(c) += weights[i] * column.template segment<3>(3 * nodes[i]);
+      for (int r = 0; r < 3; ++r) {
+        compliance_(r, c) = 0.0;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+          compliance_(r, c) += weights[i] * column[3 * nodes[i] + r];
+        }
       }
     }
     return compliance_;
@@ -91,7 +93,9 @@ class point_load {
   void load(Solver& /*solver*/, const Eigen::Vector3d& force) { force_ = force; }
   [[nodiscard]] Eigen::Vector3d displacement(Solver& /*solver*/, int node) const {
     Eigen::Vector3d u = Eigen::Vector3d::Zero();
-    for (int c = 0; c < 3; ++c) u += columns_[slot(c)].template segment<3>(3 * node) * force_[c];
+    for (int c = 0; c < 3; ++c) {
+      for (int r = 0; r < 3; ++r) u[r] += columns_[slot(c)][3 * node + r] * force_[c];
+    }
     return u;
   }
 
@@ -205,7 +209,7 @@ class basic_tetrahedral_fem {
   /// nᵀCn [m/N], along the unit vector n.
   [[nodiscard]] double compliance(const std::array<int, 3>& nodes, const Eigen::Vector3d& weights,
                                   const Eigen::Vector3d& n) {
-    return n.dot(compliance(nodes, weights) * n);
+    return across(compliance(nodes, weights), n, n);
   }
   /// K = 1/(nᵀCn) [N/m]; infinite where all three nodes are fixed.
   [[nodiscard]] double stiffness(const std::array<int, 3>& nodes, const Eigen::Vector3d& weights,

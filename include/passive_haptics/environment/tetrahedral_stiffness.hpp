@@ -13,7 +13,6 @@
 #include <passive_haptics/environment/node_graph.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
@@ -53,17 +52,13 @@ inline void check(const material& m) {
 /// Gradients of the four shape functions [1/m]: g_a is the inward area vector of the face opposite a, over 3V.
 [[nodiscard]] inline std::array<Eigen::Vector3d, 4> shape_gradients(
     const tetrahedral_mesh& mesh, const std::array<int, 4>& tetrahedron) {
-  const auto& origin = mesh.nodes[static_cast<std::size_t>(tetrahedron[0])];
-  const auto edge = [&](std::size_t k) -> Eigen::Vector3d {
-    return mesh.nodes[static_cast<std::size_t>(tetrahedron[k])] - origin;
-  };
-  const double volume6 = 6.0 * signed_volume(mesh, tetrahedron);
-  std::array<Eigen::Vector3d, 4> g;
-  g[1] = edge(2).cross(edge(3)) / volume6;
-  g[2] = edge(3).cross(edge(1)) / volume6;
-  g[3] = edge(1).cross(edge(2)) / volume6;
-  g[0] = -(g[1] + g[2] + g[3]);
-  return g;
+  const auto node = [&](std::size_t k) { return triple_of(mesh.nodes[slot(tetrahedron[k])]); };
+  const auto origin = node(0);
+  const auto a = node(1) - origin, b = node(2) - origin, c = node(3) - origin;
+  const double per_volume6 = 1.0 / (6.0 * signed_volume(mesh, tetrahedron));
+  const auto one = cross(b, c) * per_volume6, two = cross(c, a) * per_volume6,
+             three = cross(a, b) * per_volume6;
+  return {vector_of((one + two + three) * -1.0), vector_of(one), vector_of(two), vector_of(three)};
 }
 
 /// The numbers of the nodes in the reduced system: 3·result[node] is the first of the three rows of a free
@@ -112,13 +107,19 @@ inline void check(const material& m) {
   }
   result.outerIndexPtr()[3 * size] = next;
   std::fill_n(result.valuePtr(), next, 0.0);
-  const auto add_block = [&](int row, int column, const Eigen::Matrix3d& block) {
+  // The block of nodes whose gradients are a and b, times `volume`.
+  const auto add_block = [&](int row, int column, double volume, const Eigen::Vector3d& a,
+                             const Eigen::Vector3d& b) {
+    const double across = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     const auto beside = graph.neighbours_of(column);
     auto place = std::lower_bound(beside.begin(), beside.end(), row) - beside.begin();
     if (row > column) ++place;  // the node itself is among them
     for (int j = 0; j < 3; ++j) {
       double* const values = result.valuePtr() + result.outerIndexPtr()[3 * column + j] + 3 * place;
-      for (int i = 0; i < 3; ++i) values[i] += block(i, j);
+      for (int i = 0; i < 3; ++i) {
+        values[i] += volume * (m.lame() * a[i] * b[j] + m.shear() * b[i] * a[j] +
+                               (i == j ? m.shear() * across : 0.0));
+      }
     }
   };
   for (const auto& tetrahedron : mesh.tetrahedra) {
@@ -128,10 +129,7 @@ inline void check(const material& m) {
       for (std::size_t b = 0; b < 4; ++b) {
         const int row = number[slot(tetrahedron[a])], column = number[slot(tetrahedron[b])];
         if (row < 0 || column < 0) continue;
-        add_block(
-            row, column,
-            volume * (m.lame() * g[a] * g[b].transpose() + m.shear() * g[b] * g[a].transpose() +
-                      m.shear() * g[a].dot(g[b]) * Eigen::Matrix3d::Identity()));
+        add_block(row, column, volume, g[a], g[b]);
       }
     }
   }

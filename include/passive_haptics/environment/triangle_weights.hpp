@@ -37,6 +37,16 @@ using triangle = std::array<Eigen::Vector3d, 3>;  ///< corners [m], counter-cloc
   return {triple_of(t[0]), triple_of(t[1]), triple_of(t[2])};
 }
 
+/// aᵀ C b.
+[[nodiscard]] inline double across(const Eigen::Matrix3d& C, const Eigen::Vector3d& a,
+                                   const Eigen::Vector3d& b) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) sum += a[i] * C(i, j) * b[j];
+  }
+  return sum;
+}
+
 /// ½ (b − a)×(c − a) [m²]: it is along the normal, and its length is the area.
 [[nodiscard]] inline mesh::triple area_of(const mesh::corners& t) noexcept {
   return mesh::cross(t[1] - t[0], t[2] - t[0]) * 0.5;
