@@ -7,7 +7,8 @@
 //   displacement   u of a node under a force at that point, over the fronts above THAT node
 //
 // J. W. H. Liu, "The multifrontal method for sparse matrix solution", SIAM Review 34(1), 1992. One thread factorises.
-// All products are those of subtract_tile(): Eigen's take a user's compiler longer than the rest of this header.
+// All products but those of columns() are subtract_tile()'s: with Eigen's a program with finite elements takes a third
+// longer to compile.
 
 #include <passive_haptics/environment/marks.hpp>
 #include <passive_haptics/environment/nested_dissection.hpp>
@@ -251,7 +252,7 @@ class multifrontal {
 
   factor_result eliminate(const Eigen::SparseMatrix<double>& stiffness, const on_progress& tell) {
     const std::size_t count = tree_.fronts.size();
-    factor_.assign(count, {});
+    factor_ = std::vector<Eigen::MatrixXd>(count);
     std::vector<Eigen::MatrixXd> left(count);  // the update matrix of each front for its parent
     std::vector<int> local(node_at_.size());   // place of a position in the present front
     std::vector<double> diagonal(3 * node_at_.size());  // of K, in the order of elimination
@@ -264,8 +265,8 @@ class multifrontal {
       int next = front.pivots;
       for (const int position : front.bound) local[slot(position)] = next++;
       const Eigen::Index p = row(front.pivots), u = row(front.bound.size());
-      factor_[t].setZero(p + u, p);
-      left[t].setZero(u, u);
+      clear(factor_[t], p + u, p);
+      clear(left[t], u, u);
       fill(t, stiffness, local, diagonal);
       for (const int child : front.children) {
         extend(t, child, left[slot(child)], left[t], local);
@@ -279,6 +280,11 @@ class multifrontal {
       }
     }
     return result;
+  }
+
+  static void clear(Eigen::MatrixXd& m, Eigen::Index rows, Eigen::Index columns) {
+    m.resize(rows, columns);
+    std::fill_n(m.data(), rows * columns, 0.0);
   }
 
   /// Copies the columns of K that are eliminated in front t, from their diagonals down, and the diagonals.
@@ -373,27 +379,30 @@ class multifrontal {
     }
   }
 
-  /// a ← a − b cᵀ on and below the diagonal, where a begins in row and column j of the front, and b and c are the rows
-  /// of a and its columns in columns k to k + count of L. Above the diagonal a is left undefined.
-  static void subtract(Eigen::Block<Eigen::MatrixXd> a, const Eigen::MatrixXd& l, Eigen::Index j,
-                       Eigen::Index k, Eigen::Index count, std::vector<double>& packed) {
+  /// a ← a − b cᵀ on and below the diagonal of the `columns` first columns, where a begins in row and column j of the
+  /// front, and b and c are the rows of a and its columns in columns k to k + count of L. Above the diagonal a is left
+  /// undefined.
+  static void subtract(double* a, Eigen::Index a_stride, Eigen::Index columns,
+                       const Eigen::MatrixXd& l, Eigen::Index j, Eigen::Index k, Eigen::Index count,
+                       std::vector<double>& packed) {
     packed.resize(static_cast<std::size_t>((panel + 4) * panel));
     double *const b = packed.data(), *const c = b + panel * panel;
+    const Eigen::Index rows = l.rows() - j;
     const auto pack = [&](double* to, Eigen::Index first, Eigen::Index wide) {
-      const Eigen::Index some = (std::min)(wide, a.rows() - first);
+      const Eigen::Index some = (std::min)(wide, rows - first);
       for (Eigen::Index i = 0; i < count; ++i, to += wide) {
         std::fill(std::copy_n(&l(j + first, k + i), some, to), to + wide, 0.0);
       }
     };
-    for (Eigen::Index top = 0; top < a.rows(); top += panel) {
-      const Eigen::Index end = (std::min)(top + panel, a.rows());
+    for (Eigen::Index top = 0; top < rows; top += panel) {
+      const Eigen::Index end = (std::min)(top + panel, rows);
       for (Eigen::Index i = top; i < end; i += tile) pack(b + (i - top) * count, i, tile);
-      for (Eigen::Index column = 0; column < (std::min)(end, a.cols()); column += 4) {
+      for (Eigen::Index column = 0; column < (std::min)(end, columns); column += 4) {
         pack(c, column, 4);
         for (Eigen::Index i = (std::max)(top, column / tile * tile); i < end; i += tile) {
-          subtract_tile(&a(i, column), a.outerStride(), (std::min<Eigen::Index>)(tile, end - i),
-                        (std::min<Eigen::Index>)(4, a.cols() - column), b + (i - top) * count, tile,
-                        c, count);
+          subtract_tile(
+              a + column * a_stride + i, a_stride, (std::min<Eigen::Index>)(tile, end - i),
+              (std::min<Eigen::Index>)(4, columns - column), b + (i - top) * count, tile, c, count);
         }
       }
     }
@@ -406,7 +415,7 @@ class multifrontal {
     const Eigen::Index half = (count + 7) / 8 * 4, next = k + half, rows = l.rows();
     if (count > 4) {
       if (!factorise_columns(l, k, half, packed)) return false;
-      subtract(l.block(next, next, rows - next, count - half), l, next, k, half, packed);
+      subtract(&l(next, next), rows, count - half, l, next, k, half, packed);
       return factorise_columns(l, next, count - half, packed);
     }
     std::array<double, 12> across{};
@@ -439,12 +448,12 @@ class multifrontal {
       if (k + width == rows) return done(k);
       for (Eigen::Index j = k + width; j < pivots; j += panel) {
         const Eigen::Index columns = (std::min)(panel, pivots - j);
-        subtract(l.block(j, j, rows - j, columns), l, j, k, width, packed);
+        subtract(&l(j, j), rows, columns, l, j, k, width, packed);
         if (!done(j)) return false;
       }
       for (Eigen::Index j = pivots; j < rows; j += panel) {
         const Eigen::Index columns = (std::min)(panel, rows - j);
-        subtract(left.block(j - pivots, j - pivots, rows - j, columns), l, j, k, width, packed);
+        subtract(&left(j - pivots, j - pivots), left.rows(), columns, l, j, k, width, packed);
         if (!done(j)) return false;
       }
     }
