@@ -331,6 +331,30 @@ TEST_CASE("a mesh of which the news say how old they are is felt where it is by 
   CHECK(std::abs(ahead(true) - 15e-5) < 1e-9);
 }
 
+TEST_CASE("a mesh that goes back and forth is followed by all of longest_way", "[mesh]") {
+  const auto share_of_a_tick = [](double phase) {  // of the way between two news, which take 20 ms
+    const body b = plate();
+    ph::mesh::surface s(b.triangles, b.nodes);
+    ph::mesh::proxy ball({.radius = 5e-4});
+    REQUIRE(ball.touch(s));
+    double before = 0.0, share = 1.0;
+    for (int k = 0; k < 800; ++k) {
+      if (k % 20 == 0) {
+        auto nodes = b.nodes;
+        for (auto& p : nodes) p.z += 1e-4 * std::sin(phase * (k / 20));
+        REQUIRE(s.update(nodes));
+      }
+      ball.step({0.003, 0.002, std::max(0.02 - 1e-4 * k, -0.002)}, T);
+      if (k > 600 && ball.shown() > before) share = std::min(share, ball.shown() - before);
+      before = ball.shown();
+    }
+    ball.let_go();
+    return share;
+  };
+  CHECK(std::abs(share_of_a_tick(1.8) - 1.0 / 50.0) < 1e-9);  // it could be foreseen as well
+  CHECK(share_of_a_tick(0.3) > 1.0 / 25.0);
+}
+
 TEST_CASE("a proxy's parameters are refused by name", "[mesh]") {
   CHECK_FALSE(ph::mesh::proxy_parameters{}.check());
   CHECK(std::string(ph::mesh::proxy_parameters{.radius = 0.0}.check().parameter) == "radius");
