@@ -142,12 +142,12 @@ class settled_force::on : private part_at<given_force, P> {
   constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
     const double settles = parameters().most_stiffness(static_cast<double>(T), 0, late);
     const double steps = static_cast<double>(stiffest_), s = static_cast<double>(seen_.shown);
-    const double most = kernels::smaller(settles, steps);
+    const double least = kernels::smaller(settles, steps);
     const auto why = settles <= steps ? softened_by::mass_and_tick : softened_by::encoder_steps;
     const bool shapes = e.asked > 0.0;  // the force of a surface
     if (shapes && !softens_) return;
     if (!shapes) e.asked = e.shown = std::numeric_limits<double>::infinity();
-    e.soften(s < 1.0 ? (shapes ? s * e.shown : 0.75 * most) : most, why);
+    e.soften(s < 1.0 ? (shapes ? s * e.shown : 0.75 * least) : least, why);
     if (!shapes && s < 1.0) e.asked = e.shown / s;
   }
   constexpr void reset() noexcept {

@@ -490,7 +490,7 @@ struct contact_state {
   typename Space::scalar depth;         ///< depth in the local model, ≤ 0 outside [m]
   typename Space::scalar target_depth;  ///< depth in the environment's newest constraint [m]
   typename Space::scalar local_force;   ///< force of the law at `depth`, along `normal` [N]
-  bool target_changed;                  ///< a new constraint arrived since the last tick
+  bool target_changed = false;          ///< a new constraint arrived since the last tick
   typename Space::vector velocity = Space::zero();  ///< of the device, if a shaper needs it [m/s]
 };
 
