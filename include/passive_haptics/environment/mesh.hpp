@@ -215,12 +215,7 @@ inline void check(const tetrahedral_mesh& mesh, std::string_view name = "mesh") 
 /// The smallest box along the axes that holds every node [m].
 [[nodiscard]] inline Eigen::AlignedBox3d bounds(const tetrahedral_mesh& mesh) {
   Eigen::AlignedBox3d box;
-  for (const auto& node : mesh.nodes) {
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      box.min()[i] = (std::min)(box.min()[i], node[i]);
-      box.max()[i] = (std::max)(box.max()[i], node[i]);
-    }
-  }
+  for (const auto& node : mesh.nodes) box.extend(node);
   return box;
 }
 
