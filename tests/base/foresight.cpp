@@ -132,6 +132,27 @@ TEST_CASE("one bad update costs no foresight later", "[base]") {
   CHECK(error < 1.2);  // of 1, no more than without any foresight
 }
 
+TEST_CASE("an update beyond all numbers costs no foresight later either", "[base][fault]") {
+  const auto sees_again = [](auto absurd) {
+    using scalar = decltype(absurd);
+    told<scalar> next;
+    scalar foreseen{}, error{}, all{};
+    for (int n = 0; n < 200; ++n) {
+      const scalar way = std::sin(scalar(0.4) * scalar(n));
+      if (n > 60) {
+        error += (foreseen - way) * (foreseen - way);
+        all += way * way;
+      }
+      foreseen = next(n == 30 ? absurd : way);
+    }
+    return std::sqrt(error / all) < scalar(0.6) * std::sin(scalar(0.4));
+  };
+  CHECK(sees_again(1e200));
+  CHECK(sees_again(1e30F));
+  CHECK(sees_again(1e100));
+  CHECK(sees_again(1e12F));
+}
+
 TEST_CASE("no news make a foresight that is no number", "[base][fault]") {
   constexpr double most = std::numeric_limits<double>::max();
   constexpr double inf = std::numeric_limits<double>::infinity();

@@ -8,10 +8,10 @@
 //              besides (Σ |d'ₙ₋₁|² + Σ |d'ₙ₋₂|²) ((α − 1)² + β²)/50, which keeps them apart
 //     a = (3R − 1)/2R ≥ 0,   R² the share of Σ |d'|² that they explain, times 2 (1 + α) where α < −1/2
 //
-// A steady motion is foreseen, α = 1 and β = 0, and so is a sine of the phase θ between news, α = 2 cos θ and β = −1. For
-// what jumps, for what begins and for noise a is 0, and so it is for a sine that is told less than three times a period.
-// By d' one bad update costs no truth later, and nothing is foreseen faster than it went: Σ |d'|²/4 is twice the mean.
-// Source: autoregression of second order (Yule 1927), a and d' ours; docs/design/contacts.md § 6.
+// A steady motion is foreseen, α = 1 and β = 0, and nearly so a sine of the phase θ between news, α = 2 cos θ, β = −1. For
+// what jumps and for what begins a is 0, for noise it is small, and it is 0 for a sine that is told less than three times
+// a period. By d' one bad update costs no truth later, and nothing is foreseen faster than it went: Σ |d'|²/4 is twice
+// the mean. Source: autoregression of second order (Yule 1927), a and d' ours; docs/design/contacts.md § 6.
 
 #include <passive_haptics/base/kernels.hpp>
 
@@ -40,8 +40,10 @@ class foresight {
   /// d̂ₙ₊₁ = last() dₙ + before() dₙ₋₁.
   [[nodiscard]] constexpr Scalar last() const noexcept { return alpha_; }
   [[nodiscard]] constexpr Scalar before() const noexcept { return beta_; }
-  /// a, 0 if nothing is foreseen.
-  [[nodiscard]] constexpr Scalar share() const noexcept { return share_; }
+  /// a, 0 if nothing is foreseen; −1 where goes_back() advises against it.
+  [[nodiscard]] constexpr Scalar share() const noexcept {
+    return goes_back() ? Scalar(-1) : share_;
+  }
   /// True if most of dₙ₋₁ is gone back again, as what yields to a force that it was told late may swing: Σ dₙ·dₙ₋₁ is
   /// below −Σ |dₙ₋₁|²/10, where news count for 0.7 of the next.
   [[nodiscard]] constexpr bool goes_back() const noexcept { return back_ < gone_ / Scalar(-10); }

@@ -402,8 +402,7 @@ class proxy {
       p.sees.hear(squared(way), dot(way, p.told_way), dot(way, p.way_before));
       p.way_before = std::exchange(p.told_way, way);
       p.pose_news.hear();
-      const double steady = p.sees.goes_back() ? -1.0 : p.sees.share();
-      const double times = 1.0 + news->late;
+      const double steady = p.sees.share(), times = 1.0 + news->late;
       const bool foreseen = placed_ && steady > 0.0 && p.pose_news.are_due(dt);
       p.goal = foreseen ? onwards(news->where, p.told, p.sees.last() * times, p.told_before,
                                   p.sees.before() * times)

@@ -84,7 +84,7 @@ struct shape {
   std::vector<box> boxes;
   std::vector<triple> normals;  ///< of a smooth mesh (smooth.hpp)
   detail::bulge bulge;
-  double steady = 0.0;  ///< share of the news that is foreseen; −1 if they go back
+  double steady = 0.0;  ///< share() of the news (base/foresight.hpp)
 };
 
 /// A pose, and its age when it was told, in units of the time since the one before.
@@ -465,7 +465,7 @@ class surface {
       }
       sees_.hear(own, next, second);
     }
-    there.steady = sees_.goes_back() ? -1.0 : sees_.share();
+    there.steady = sees_.share();
     shapes.publish_told();
     if (!(there.steady > 0.0)) {
       shapes.publish_as_told();
