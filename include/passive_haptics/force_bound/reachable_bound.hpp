@@ -55,6 +55,13 @@ template <class State, class Left = reckoned_now>
   scalar most = kernels::reachable_force_bound(
       credit, state.damping.per_tick(desired, state.longest_tick),
       bound.template reach<State::latency + 1>(desired, force, force, state));
+  if constexpr (State::latency > 0 && State::exact && !State::damping_type::rubs) {
+    // Where the damper pays for all of it, W is f²/4B for every j, so each takes its share, or they would take turns.
+    const scalar each = (state.energy - state.held_back()) / scalar(State::latency + 1);
+    most = kernels::smaller(most, kernels::reachable_force_bound(
+                                      each, state.damping.per_tick(desired, state.longest_tick),
+                                      bound.template reach<1>(desired, force, force, state)));
+  }
   if constexpr (State::damping_type::rubs) {
     if (credit < scalar(0)) return scalar(0);  // a debt allows no force, not even c
     most = (state.damping.friction(desired) + most) *
@@ -242,7 +249,15 @@ class basic_reachable_work_bound<Inertia>::on {
       if (W <= kernels::spendable(credit)) return scalar(1);
       const scalar norm = inertia_.norm(f);
       if (!(norm > scalar(0))) return scalar(1);
-      return kernels::reachable_share(credit, W, reach<State::latency + 1>(f, norm, norm, state));
+      const scalar all =
+          kernels::reachable_share(credit, W, reach<State::latency + 1>(f, norm, norm, state));
+      if constexpr (State::latency > 0 && State::exact) {
+        const scalar each = state.energy / scalar(State::latency + 1);  // as in covered()
+        return kernels::smaller(all,
+                                kernels::reachable_share(each, W, reach<1>(f, norm, norm, state)));
+      } else {
+        return all;
+      }
     };
     if constexpr (detail::differs_by_axis<typename State::damping_type, P>) {
       return detail::nearest_of<P>(
