@@ -283,6 +283,56 @@ TEST_CASE("a mesh that pushes a hand stops before the ledger is used up", "[mesh
   CHECK(least >= -1e-12);
 }
 
+TEST_CASE("a mesh that jumps onto a hand is felt there at a limited rate", "[mesh]") {
+  const body b = plate();
+  for (const bool by_pose : {false, true}) {
+    for (const double way : {0.05, 0.3, 3.0}) {
+      ph::mesh::surface s(b.triangles, b.nodes);
+      auto port = port_of(1000, 0.1, reachable(0.1));
+      REQUIRE(port.source().touch(s));
+      device dev({.mass = 0.1, .damping = 0.2, .start = vector(0.003, 0.002, 0.004)},
+                 drawn(vector(0.003, 0.002, -0.01), 9, 200, 2));
+      vector force = vector::Zero();
+      auto sample = dev.exchange(force);
+      double step = 0.0, most = 0.0;
+      for (int n = 1; n < 5000; ++n) {
+        auto nodes = b.nodes;
+        const double up = n < 2000 ? 0.0 : way;
+        for (triple& p : nodes) p.z += up;
+        if (n % 33 == 0 && n < 2500) {
+          REQUIRE((by_pose ? s.update(ph::mesh::pose{.position = {0, 0, up}}) : s.update(nodes)));
+        }
+        const vector last = force;
+        force = port.tick(sample).force;
+        if (n > 1900) step = std::max(step, (force - last).norm());
+        most = std::max(most, force.norm());
+        sample = dev.exchange(force);
+      }
+      INFO(by_pose << ", by " << way << " m: " << step << " N");
+      CHECK(step < 0.7);
+      CHECK(most > 3.0);
+      CHECK(dev.meter().minimum() >= -1e-12);
+      port.source().let_go();
+    }
+  }
+}
+
+TEST_CASE("a device that begins at a mesh is told why it feels nothing, until it is clear",
+          "[mesh]") {
+  const body b = plate();
+  ph::mesh::surface s(b.triangles, b.nodes);
+  auto port = port_of(1000, 0.1, reachable(0.1));
+  REQUIRE(port.source().touch(s));
+  CHECK(port.explain().now == ph::softened_by::nothing);
+  for (int n = 0; n < 5; ++n) {
+    CHECK(port.tick(vector(0, 0, 2e-4), ph::seconds{T}).what == ph::event::started_inside);
+    CHECK(port.explain().now == ph::softened_by::started_inside);
+  }
+  CHECK(port.tick(vector(0, 0, 0.002), ph::seconds{T}).what == ph::event::nominal);
+  CHECK(port.tick(vector(0, 0, 2e-4), ph::seconds{T}).what == ph::event::nominal);
+  CHECK(port.explain().now != ph::softened_by::started_inside);
+}
+
 TEST_CASE("a mesh contact states and refuses its parameters, and lives without a mesh", "[mesh]") {
   CHECK(std::string(ph::mesh_contact{}.check().parameter) == "mass");
   CHECK(

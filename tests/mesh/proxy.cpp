@@ -232,7 +232,7 @@ TEST_CASE("a pose moves a mesh of any size at once, and carries the ball", "[mes
 
 namespace {
 
-/// A ball pressed into a plate that is told, every `period` ticks, where told(tick) [m] has it, for 4 s and then no more.
+/// A ball pressed into a plate that is told, in ticks that are due, where told(tick) [m] has it, for 4 s and then no more.
 struct followed_plate {
   double off = 0.0;                ///< mean square of where it is felt less where it is [m²]
   double bare = 0.0;               ///< the same of where it was told [m²]
@@ -240,7 +240,7 @@ struct followed_plate {
   double step = 0.0;               ///< the largest way of it in a tick [m]
   double at_last = 0.0, last = 0;  ///< where it is felt, and told, 0.4 s after the last news [m]
 };
-followed_plate follow_plate(bool by_pose, int period, auto told) {
+followed_plate follow_plate_when(bool by_pose, auto due, auto told) {
   const body b = plate();
   ph::mesh::surface s(b.triangles, b.nodes);
   ph::mesh::proxy ball({.radius = 5e-4});
@@ -248,7 +248,7 @@ followed_plate follow_plate(bool by_pose, int period, auto told) {
   followed_plate seen;
   double before = 0.0;
   for (int k = 0; k < 4400; ++k) {
-    if (k % period == 0 && k < 4000) {
+    if (due(k) && k < 4000) {
       seen.last = told(k);
       auto nodes = b.nodes;
       for (triple& p : nodes) p.z += seen.last;
@@ -269,6 +269,11 @@ followed_plate follow_plate(bool by_pose, int period, auto told) {
   ball.let_go();
   return seen;
 }
+/// The same, told every `period` ticks.
+followed_plate follow_plate(bool by_pose, int period, auto told) {
+  return follow_plate_when(
+      by_pose, [=](int k) { return k % period == 0; }, told);
+}
 
 }  // namespace
 
@@ -285,6 +290,32 @@ TEST_CASE(
       CHECK(std::abs(seen.at_last - seen.last) < 1e-9);
     }
     CHECK(std::sqrt(follow_plate(by_pose, 1, heaved).off) < 1e-6);
+  }
+}
+
+TEST_CASE("a mesh whose news come unevenly goes on steadily, and poses by the time between them",
+          "[mesh]") {
+  for (const auto& [way, phase] : {std::pair{0.002, 6.9e-3}, {0.005, 1.9e-3}}) {
+    const auto heaved = [&](int k) { return way * std::sin(phase * k); };
+    for (const bool by_pose : {false, true}) {
+      for (const double uneven : {0.15, 0.3, 0.6}) {
+        std::mt19937 random(3);
+        std::uniform_real_distribution<> any(1.0 - uneven, 1.0 + uneven);
+        int next = 0;
+        const auto due = [&](int k) {
+          if (k < next) return false;
+          next = k + int(33.0 * any(random));
+          return true;
+        };
+        const auto seen = follow_plate_when(by_pose, due, heaved);
+        INFO(by_pose << ", uneven by " << uneven << ": off by " << std::sqrt(seen.off) << " of "
+                     << std::sqrt(seen.bare) << " m, step " << seen.step << " m");
+        const double share = std::sqrt(seen.off / seen.bare);
+        CHECK(share < (by_pose ? 0.2 + 0.4 * uneven : 0.8));
+        CHECK(seen.step < 3.5 * way * phase);  // [m]; as it moves by itself, and a half is made up
+        CHECK(std::abs(seen.at_last - seen.last) < 1e-9);
+      }
+    }
   }
 }
 

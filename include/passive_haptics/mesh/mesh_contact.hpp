@@ -17,7 +17,8 @@
 // (contact/swing.hpp), because a damper against the hand's own motion is an error of the force. On a mesh at rest
 // −K (p − x) is the gradient of ½K|p − x|², is no steeper than K, and the ball moves only so that this energy falls.
 // The source promises nothing about the energy at the port; the bound behind it does. A mesh that pushes a hand does so
-// by what the ledger pays for (port_state::paid_way). One of which no news come stays where it is.
+// by what the ledger pays for (port_state::paid_way), and one that jumps by 0.2 m/s, and 50 N/s for what is left. One of
+// which no news come stays where it is. A device that begins nearer than r to a mesh is told so by event::started_inside.
 //
 // Along the surface, of a triangle with μ and c (mesh/material.hpp), t how far the ball is held back and v_t the speed
 // beside the surface there:
@@ -88,7 +89,10 @@ class mesh_contact::on {
     return spring_.settles(elsewhere_.stiffness);
   }
   /// Forgets which side was touched, but keeps the mesh.
-  constexpr void reset() noexcept { ball_.reset(); }
+  constexpr void reset() noexcept {
+    ball_.reset();
+    inside_ = false;
+  }
 
   /// Touches this mesh from now on; it must outlive the port. Call it from the haptic thread. It returns false if 64
   /// fingers touch the mesh already.
@@ -110,6 +114,7 @@ class mesh_contact::on {
     const double asked = ball_.felt(elsewhere_).stiffness;
     e.asked = e.shown = asked;
     e.soften(spring_.sampled(asked).stiffness, spring_.softener(asked));
+    if (inside_) e.now = softened_by::started_inside;
     if (ball_.placed() && ball_.pressed().count > 0) e.depth = mesh::length(ball_.pressed().way);
   }
 
@@ -146,7 +151,9 @@ class mesh_contact::on {
     const vector x = motion.position;
     ball_.step(to_triple(x), dt, felt_.friction);
     const mesh::support& pressed = ball_.pressed();
-    if (!ball_.placed() || pressed.count == 0) {
+    inside_ = !ball_.placed();
+    if (inside_) what = detail::worse_yet(what, event::started_inside);
+    if (inside_ || pressed.count == 0) {
       presses_ = false;
       behind_ = 0.0;
       pressed_by_ = {};
@@ -200,15 +207,19 @@ class mesh_contact::on {
             static_cast<double>(P::component(v, 2))};
   }
   /// The share of the depth [m] that is felt: the surface that is felt goes outwards with the mesh by `most` [m] in a tick,
-  /// and what it stays behind it makes up for by border_rate, or when the mesh comes back.
+  /// by jump_speed where what moves it is no steady motion, and what it stays behind it makes up for by border_rate, or
+  /// when the mesh comes back.
   [[nodiscard]] double share_felt(double depth, double most, double dt) noexcept {
     if (!(depth > 0.0)) return 1.0;
     const mesh::support& pressed = ball_.pressed();
     const mesh::triple n = ball_.push() * (1.0 / depth);
     double out = mesh::dot(n, ball_.went(pressed.of[0]));
-    for (std::size_t j = 1; j < static_cast<std::size_t>(pressed.count); ++j) {
+    bool steady = true;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(pressed.count); ++j) {
       out = (std::max)(out, mesh::dot(n, ball_.went(pressed.of[j])));
+      steady = steady && ball_.goes_steadily(pressed.of[j]);
     }
+    if (!steady) most = (std::min)(most, jump_speed * dt);
     const double left = most - (std::max)(out, 0.0), rate = border_rate * dt / felt_.stiffness;
     behind_ += (std::min)(out, 0.0) - (std::min)(left, rate);
     behind_ = kernels::clamped(behind_, 0.0, depth);
@@ -264,6 +275,7 @@ class mesh_contact::on {
   }
 
   static constexpr double border_rate = 50.0;  ///< [N/s]
+  static constexpr double jump_speed = 0.2;    ///< [m/s]
 
   proxy_spring::at<double> spring_;
   mesh::material elsewhere_;     ///< where a mesh does not say; its friction is the ball's
@@ -271,6 +283,7 @@ class mesh_contact::on {
   double most_viscosity_ = 0.0;  ///< m/2T [N·s/m]
   sampled_spring<double> sampled_{};
   bool presses_ = false;       ///< it did in the last tick
+  bool inside_ = false;        ///< the device was not clear of the meshes by then
   double behind_ = 0.0;        ///< how far the surface that is felt lies below the mesh [m]
   mesh::triple pressed_by_{};  ///< the force of the last tick, without what rubs [N]
   swing<double> swing_;

@@ -189,6 +189,11 @@ class proxy {
     };
     return in_world(p.done, p.shown) - in_world(p.done_before, p.shown_before);
   }
+  /// True if what half-space i is of goes steadily, so that its way is foreseen (base/foresight.hpp).
+  [[nodiscard]] bool goes_steadily(int i) const noexcept {
+    const part& p = parts_[slot(planes_[slot(i)].mesh)];
+    return p.done == p.done_before ? p.sees.share() > 0.0 : p.news.to().steady > 0.0;
+  }
   /// The triangle that was closest in the last step, −1 before the first, and its mesh.
   [[nodiscard]] int nearest() const noexcept {
     return meshes_ > 0 ? parts_[slot(beside_)].nearest : -1;
@@ -217,14 +222,23 @@ class proxy {
 
   /// When news come.
   struct timing {
-    double age = 1.0;     ///< of the last ones [s]
-    double period = 1.0;  ///< between those and the ones before [s]
-    void hear() noexcept { period = std::exchange(age, 0.0); }
+    static constexpr double rarest = 0.15;  ///< [s]
+    double age = 1.0;                       ///< of the last ones [s]
+    double period = 1.0, before = 1.0;  ///< between those and the ones before, and before that [s]
+    double mean = 1.0;                  ///< of the last few periods [s]
+    double longest = 1.0;               ///< of them, as long as it is not long ago [s]
+    void hear() noexcept {
+      before = std::exchange(period, std::exchange(age, 0.0));
+      const bool other = mean > 2.0 * period || period > 2.0 * mean;
+      mean = other ? period : mean + 0.25 * (period - mean);
+      longest = (std::max)(period, longest + 0.2 * (period - longest));
+    }
     /// Until the next are due [s]; who is late has half a period at least.
     [[nodiscard]] double left() const noexcept { return (std::max)(period - age, 0.5 * period); }
     /// True if the next are due before long, but not in the next two ticks, so that their place is worth foreseeing.
+    /// News that come unevenly are late when they are later than those before were.
     [[nodiscard]] bool are_due(double dt) const noexcept {
-      return period > 2.5 * dt && period < 0.15 && age < 1.5 * period;
+      return period > 2.5 * dt && period < rarest && age < 1.5 * (std::min)(longest, rarest);
     }
   };
   /// One mesh, and how far its shape and its pose have come on their way to the newest ones.
@@ -235,7 +249,7 @@ class proxy {
     timing shape_news, pose_news;
     int newest = -1;                  ///< number of the newest shape
     pose told{}, told_before{};       ///< the newest pose, which `goal` may be ahead of
-    triple told_way{}, way_before{};  ///< by which they moved what is at the ball [m]
+    triple told_way{}, way_before{};  ///< the speed at which they moved what is at the ball [m/s]
     foresight<double> sees;           ///< of poses
     double pose_done = 1.0;
     int stuck = 0;  ///< ticks for which the mesh waits; < 0: it goes back
@@ -398,19 +412,20 @@ class proxy {
   void hear_pose(part& p, double dt) noexcept {
     p.pose_news.age += dt;
     if (const auto* news = p.news.take_pose()) {
-      const triple way = moved_by(p, p.told, news->where);
+      p.pose_news.hear();
+      const timing& when = p.pose_news;
+      const triple way = moved_by(p, p.told, news->where) * (1.0 / when.period);
       p.sees.hear(squared(way), dot(way, p.told_way), dot(way, p.way_before));
       p.way_before = std::exchange(p.told_way, way);
-      p.pose_news.hear();
-      const double steady = p.sees.share(), times = 1.0 + news->late;
-      const bool foreseen = placed_ && steady > 0.0 && p.pose_news.are_due(dt);
-      p.goal = foreseen ? onwards(news->where, p.told, p.sees.last() * times, p.told_before,
-                                  p.sees.before() * times)
+      const double steady = p.sees.share(), times = (1.0 + news->late) * when.mean;
+      const bool foreseen = placed_ && steady > 0.0 && when.are_due(dt);
+      p.goal = foreseen ? onwards(news->where, p.told, p.sees.last() * times / when.period,
+                                  p.told_before, p.sees.before() * times / when.before)
                         : news->where;
       p.told_before = std::exchange(p.told, news->where);
       p.came_from = placed_ ? p.shown : p.goal;
       const double distance = is_pressed(p) ? length(moved_by(p, p.shown, p.goal)) : 0.0;
-      p.pose_way = way_of(p.pose_news.left(), distance, steady, dt);
+      p.pose_way = way_of(foreseen ? when.mean : when.left(), distance, steady, dt);
       p.pose_done = 0.0;
     } else if (p.pose_done >= 1.0 && !(p.goal == p.told) && !p.pose_news.are_due(dt)) {
       p.came_from = p.shown;

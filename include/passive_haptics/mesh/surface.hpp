@@ -493,8 +493,8 @@ class surface {
 
   using problems = std::vector<detail::normal_problem>;
   std::unique_ptr<detail::world> world_;
-  std::size_t count_;  ///< number of nodes
-  clock::time_point last_{};
+  std::size_t count_;                                    ///< number of nodes
+  clock::time_point last_ = (clock::time_point::min)();  ///< a clock may begin after an age
   double late_ = 0.0;  ///< age of the news over the time since the last ones
   std::string fault_;
   std::vector<triple> way_, way_before_;  ///< of each node by the last news, and those before [m]
