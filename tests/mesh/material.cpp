@@ -3,6 +3,7 @@
 #include "mesh/shapes.hpp"
 #include <passive_haptics/mesh.hpp>
 
+#include <random>
 #include <string>
 
 using namespace meshes;
@@ -107,6 +108,50 @@ TEST_CASE("each triangle shows its own stiffness, and a border between two is no
   CHECK_THAT(f(2), WithinRel(1.6, 1e-9));
   CHECK_THAT(f(0), WithinRel(-0.48, 1e-9));
   CHECK_THAT(port.explain().asked, WithinRel(1600.0, 1e-9));
+}
+
+TEST_CASE("a ball on edges between two materials shows one of them, not both by turns", "[mesh]") {
+  // A rough sheet, 250 and 1000 N/m by turns, and balls larger than its triangles, which trembles by 1 um as a hand does.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<> any(-1e-3, 1e-3);
+  body b;
+  const int n = 40;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      const double x = 0.0025 * (i - n / 2) + 0.3 * any(random);
+      const double y = 0.0025 * (j - n / 2) + 0.3 * any(random);
+      b.nodes.push_back({x, y, any(random)});
+    }
+  }
+  ph::mesh::made_of stuff{.materials = {{.stiffness = 1000.0}, {.stiffness = 250.0}}, .of = {}};
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i;
+      b.triangles.push_back({a, a + 1, a + n + 2});
+      b.triangles.push_back({a, a + n + 2, a + n + 1});
+      stuff.of.push_back(std::uint8_t((i + j) % 2));
+      stuff.of.push_back(std::uint8_t((i + j + 1) % 2));
+    }
+  }
+  for (const double radius : {5e-4, 2e-3, 5e-3, 1e-2}) {
+    ph::mesh::surface s(b.triangles, b.nodes, stuff);
+    ph::passive_port port{
+        scene{}, ph::mesh_contact{.spring = {.mass = 0.1}, .proxy = {.radius = radius}},
+        ph::reduced_energy{.damping = 0.1}, ph::no_bound{}, ph::loop_limits{.longest_tick = T}};
+    REQUIRE(port.source().touch(s));
+    double step = 0.0;
+    vector last = vector::Zero();
+    for (int k = 0; k < 4000; ++k) {
+      const double z = std::max(0.02 - 1e-4 * k, radius - 0.002) + 1e-6 * std::sin(0.06 * k);
+      const vector f = port.tick(vector(0.0011, 0.0007, z), ph::seconds{T}).force;
+      if (k > 1000) step = std::max(step, (f - last).norm());
+      last = f;
+    }
+    INFO(radius << " m: " << step << " N");
+    CHECK(step < 2e-3);
+    CHECK(last.norm() > 0.3);
+    port.source().let_go();
+  }
 }
 
 TEST_CASE("a material that changes under the finger is followed by 0.05 N a tick", "[mesh]") {
