@@ -114,7 +114,14 @@ class rigid_reachable_bound::on {
     }
     if (W <= kernels::spendable(credit) || !(norm > scalar(0))) return share{known};
     const scalar most = reach(wrench, norm, before, all, state) + later;
-    return share{known * kernels::reachable_share(credit, W, most)};
+    scalar allowed = kernels::reachable_share(credit, W, most);
+    if constexpr (State::latency >
+                  0) {  // its share, or commands would take turns: see reachable_bound
+      const scalar each = state.energy / scalar(State::latency + 1);
+      allowed = kernels::smaller(
+          allowed, kernels::reachable_share(each, W, reach(wrench, norm, norm, all, state)));
+    }
+    return share{known * allowed};
   }
 
   /// The most work [J] that w can have done in a time `dt` [s] without samples, and the part of it that the end poses
