@@ -423,3 +423,30 @@ TEST_CASE("what rests on a smooth mesh, on a crease of it or in its hollow is qu
     }
   }
 }
+
+TEST_CASE("half-spaces that a stopped ball lies beyond and that do not press do not turn its force",
+          "[mesh]") {
+  // A ball of 10 um in a cleft of a smooth star, whose lift leaves it no room, so that it is stopped where it is.
+  const body b = star();
+  const std::pair<vector, vector> ways[] = {
+      {{0.0723355, 0.0661603, 0.0197581}, {0.0125831, 0.0129292, -0.0160423}},
+      {{-0.0284324, 0.0338262, 0.0897072}, {-0.0139003, -0.0149357, -0.0175497}}};
+  for (const auto& [start, to] : ways) {
+    ph::mesh::surface s(b.triangles, b.nodes, {}, ph::mesh::smooth{});
+    auto port = ph::make_mesh_touch<scene>(
+        ph::exact_device{.mass = 0.3, .damping = 0.1, .force_limit = 20, .longest_tick = T},
+        ph::known_hand{10.0}, {.stiffness = 2700, .proxy = {.radius = 1e-5}});
+    REQUIRE(port.source().touch(s));
+    sim::device<scene, sim::impedance_hand<scene>> dev(
+        {.mass = 0.3, .damping = 0.2, .start = start},
+        {.stiffness = 400, .damping = 4, .limit = 10, .target = to});
+    sim::quiet_judge<scene> judge;
+    const auto seen = sim::run(dev, port, 6500, sim::idle, sim::idle,
+                               [&](auto& now) { show(judge, port.source().ball(), now); });
+    INFO(judge.figures().force << " N, " << judge.figures().step << " N");
+    CHECK(judge.quiet());
+    CHECK(judge.since() <= 5.0);
+    CHECK(seen.largest_force > 0.5);
+    port.source().let_go();
+  }
+}

@@ -179,7 +179,10 @@ class mesh_contact::on {
     for (std::size_t j = 0; j < static_cast<std::size_t>(pressed.count); ++j) {
       share[static_cast<std::size_t>(pressed.of[j])] = pressed.share[j];
     }
+    // A ball that was stopped on its way may lie beyond half-spaces that do not press, which are not to turn the force.
+    const mesh::triple push = ball_.push() * part;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      if (!(share[i] > 0.0)) wish[i] = (std::min)(wish[i], mesh::dot(n[i], push));
       const double lead = -felt.settling * mesh::dot(n[i], swings);
       wish[i] += (std::min)(lead, (inward_limit - 1) * share[i] * part);
     }
