@@ -252,7 +252,7 @@ TEST_CASE("a normal that news go on turning is felt as it is by now, not as it w
       CAPTURE(hertz, each);
       const felt smooth = stroked(ph::eased{ph::spring{}}, turning, hertz, each);
       const felt bare = stroked(ph::spring{}, ph::turn_at_once{}, hertz, each);
-      CHECK(smooth.rms < 0.25 * bare.rms);
+      CHECK(smooth.rms < 0.12 * bare.rms);
       CHECK(smooth.largest_step < 0.02);
       CHECK(bare.largest_step > 0.03);
       // The control: news that are not taken on are late by the time between them, turned or not.

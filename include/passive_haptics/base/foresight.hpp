@@ -20,6 +20,14 @@
 namespace passive_haptics {
 inline namespace v0 {
 
+/// a of an R² [1]: 1 of what is explained, 0 up to R = 1/3.
+template <class Scalar>
+[[nodiscard]] constexpr Scalar foreseeable(Scalar explained) noexcept {
+  if (!(explained > Scalar(1) / Scalar(9))) return Scalar(0);
+  const Scalar R = kernels::smaller(kernels::square_root(explained), Scalar(1));
+  return (Scalar(3) * R - Scalar(1)) / (Scalar(2) * R);
+}
+
 template <class Scalar>
 class foresight {
  public:
@@ -78,11 +86,8 @@ class foresight {
     const Scalar missed = squares_ + alpha * (alpha * older_ - Scalar(2) * next_) +
                           beta * (beta * oldest_ - Scalar(2) * second_) +
                           Scalar(2) * alpha * beta * next_before_;
-    const Scalar explained = one - missed / squares_;
-    if (!(explained > one / Scalar(9))) return;
-    const Scalar R = kernels::smaller(kernels::square_root(explained), one);
     const Scalar often = kernels::clamped(Scalar(2) * (one + alpha), Scalar(0), one);
-    const Scalar share = often * (Scalar(3) * R - one) / (Scalar(2) * R);
+    const Scalar share = often * foreseeable(one - missed / squares_);
     if (!(share > Scalar(0))) return;
     share_ = share;
     alpha_ = share * alpha * last_.part;

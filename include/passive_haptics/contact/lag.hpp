@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // The surface that is felt (the own one) follows the updates of the newest one at a limited rate, so that the force
-// does not step. The device's own motion is never limited. With d [m] the depth in the newest surface,
+// does not step. The device's own motion is never limited. With d [m] the depth in the newest surface, which bends as its
+// planes have shown (bending.hpp),
 //
 //     own depth = d − ℓ + p
 //     update     the own depth is kept: the lag ℓ [m] takes the jump of d, and the lead p [m] is 0

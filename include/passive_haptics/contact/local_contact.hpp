@@ -7,6 +7,7 @@
 //             both      n_VE                                                            at depth f/K
 
 #include <passive_haptics/base/no_unique_address.hpp>
+#include <passive_haptics/contact/bending.hpp>
 #include <passive_haptics/contact/lag.hpp>
 #include <passive_haptics/contact/shaped.hpp>
 
@@ -155,6 +156,7 @@ class local_contact {
     detail::restart(supply_);
     detail::restart(law_);
     lag_ = {};
+    bend_ = {};
     if constexpr (eases) law_.let_go();
   }
 
@@ -247,7 +249,7 @@ class local_contact {
     using state = std::remove_cvref_t<decltype(port)>;
     const vector here = motion.position;
     const auto newest = supply_.target().at(here);
-    const scalar depth = depth_in_own(newest.depth, here, port);
+    const scalar depth = depth_in_own(newest, here, port);
     const scalar weight = presence(depth, port.dt, what);
     const bool behind = weight > scalar(0) && depth > scalar(0);
     const bool in_target = behind && newest.covered();
@@ -268,8 +270,8 @@ class local_contact {
     }
 
     const auto own = in_own(here, depth, in_target && !from_the_side);
-    const vector goal = newest.outward();
-    const vector normal = turned(goal, own.touched, here, depth, port.dt);
+    const vector goal = bend_.turned(newest.outward(), here);
+    const vector normal = turned(goal, own.touched, here, depth, port);
     const scalar speed = damped_speed(motion.along(normal), in_target, port.dt);
     scalar felt = in_target ? depth : scalar(0);
     scalar asked = in_target ? weight * law_.force(felt, speed) : scalar(0);
@@ -281,8 +283,12 @@ class local_contact {
     const vector desired = Space::scaled(normal, asked);
     vector wanted = desired;
     if constexpr (detail::is_shaped<Law, Space>) {
-      contact_state<Space> contact{normal,       supply_.target().stiffness,      own.depth,
-                                   newest.depth, local_force(before, own, speed), fresh()};
+      contact_state<Space> contact{normal,
+                                   supply_.target().stiffness,
+                                   own.depth,
+                                   depth_in(newest, here),
+                                   local_force(before, own, speed),
+                                   fresh()};
       if constexpr (Law::needs_velocity) contact.velocity = detail::velocity_of<Space>(motion);
       wanted = detail::applied<Space>(law_.shapers(), desired, contact, port).force;
       if constexpr (!shapers_reduce<state>()) {
@@ -292,8 +298,16 @@ class local_contact {
         }
       }
     }
-    return {wanted, false, desired, own.touched, in_target && (lags() || !(normal == goal)),
-            weight, felt,  speed,   here,        normal};
+    return {wanted,
+            false,
+            desired,
+            own.touched,
+            in_target && (lags() || bend_.is_curved() || !(normal == goal)),
+            weight,
+            felt,
+            speed,
+            here,
+            normal};
   }
 
   /// Moves the local model to the depth of the bounded force.
@@ -338,6 +352,11 @@ class local_contact {
 
  private:
   static constexpr bool eases = Supply::moves && detail::eases_news<law_type>;
+  static constexpr bool bends = eases && Space::dof > 1 && requires(constraint_type plane) {
+    requires constraint_type::kind == surface_kind::flat;
+    plane.point;
+    plane.normal;
+  };
   template <int>
   struct none {};  ///< one for each member that is left out, so that it takes no bytes
   /// The law for a surface of K [N/m].
@@ -402,17 +421,23 @@ class local_contact {
     }
     return outwards;
   }
+  /// The depth of x in the newest surface [m], which bends as far as that is known.
+  [[nodiscard, gnu::always_inline]] constexpr scalar depth_in(const auto& newest,
+                                                              const vector& x) const noexcept {
+    return newest.depth - bend_.sag(newest.outward(), x);
+  }
   /// The depth of x in the own surface [m]: the newest one or, if updates are eased, the one that follows it.
   [[nodiscard, gnu::always_inline]] constexpr scalar depth_in_own(
-      scalar now, [[maybe_unused]] const vector& x, [[maybe_unused]] const auto& port) noexcept {
+      const auto& newest, [[maybe_unused]] const vector& x,
+      [[maybe_unused]] const auto& port) noexcept {
     if constexpr (eases) {
       lag_.grow_older(port.dt);
       if (fresh() || lags()) [[unlikely]]
-        return depth_behind(now, x, port);
+        return depth_behind(newest, x, port);
     }
-    return now;
+    return depth_in(newest, x);
   }
-  [[nodiscard, gnu::noinline]] constexpr scalar depth_behind(scalar now, const vector& x,
+  [[nodiscard, gnu::noinline]] constexpr scalar depth_behind(const auto& newest, const vector& x,
                                                              const auto& port) noexcept {
     const scalar force = Space::norm(vector(port.held));
     if (!lag_.settled()) {
@@ -420,32 +445,44 @@ class local_contact {
       lag_.follow(port.dt, port.paid_way(force, scalar(1e-4), scalar(0.05), spent));
     }
     if (lag_.silent()) turn_.stop();
-    if (fresh()) hear(now, x, port);
-    const scalar own = now - lag_.offset();
+    if (fresh()) hear(newest, x, port);
+    const scalar now = depth_in(newest, x), own = now - lag_.offset();
     if (own > scalar(0) || now > scalar(0)) return own;
     turn_.stop();
     lag_.let_go();  // neither is touched, so no force can step
     return now;
   }
   /// Takes an update; a pressed contact keeps its force, but not if a wall of one dimension is on the other side now.
-  constexpr void hear(scalar now, const vector& x, const auto& port) noexcept {
+  constexpr void hear(const auto& newest, const vector& x, const auto& port) noexcept {
     const auto was = shown_.at(x);
-    const vector outward = supply_.target().at(x).outward();
-    const scalar counted = supply_.last_weight();
-    const bool turned_over = Space::dof == 1 && !(Space::dot(outward, was.outward()) > scalar(0));
+    const scalar was_deep = depth_in(was, x);
+    const vector was_outward = bend_.turned(was.outward(), x);
+    const vector way = x - vector(std::exchange(heard_at_, x));
+    const scalar counted = supply_.last_weight(), took = lag_.between(told_.age);
+    const bool turned_over =
+        Space::dof == 1 && !(Space::dot(newest.outward(), was_outward) > scalar(0));
     const bool known = counted > scalar(0) && was.covered() && !turned_over;
+    if constexpr (bends) {
+      if (known) {
+        bend_.hear(shown_, supply_.target(), x, way, told_.age / took);
+      } else {
+        bend_ = {};
+      }
+    }
+    const scalar now = depth_in(newest, x);
+    const vector outward = bend_.turned(newest.outward(), x);
     const law_type before = law_;
     adopt(port.longest_tick, std::remove_cvref_t<decltype(port)>::latency);
     const scalar compliance = law_.depth(scalar(1), scalar(0));
-    scalar own = known ? was.depth - lag_.offset() : scalar(0);
+    scalar own = known ? was_deep - lag_.offset() : scalar(0);
     const bool as_stiff = before.depth(scalar(1), scalar(0)) == compliance;
     if (own > scalar(0) && !(as_stiff && counted == scalar(1)))
       own = law_.depth(counted * before.force(own, scalar(0)), scalar(0));
-    turn_.hear(known ? vector(outward - was.outward()) : Space::zero(), lag_.between(told_.age));
+    turn_.hear(known ? vector(outward - was_outward) : Space::zero(), took);
     const bool knows = told_.velocity.has_value();
-    lag_.hear(own, now, known ? now - was.depth : scalar(0), compliance, law_.pace(),
+    lag_.hear(own, now, known ? now - was_deep : scalar(0), compliance, law_.pace(),
               {knows ? Space::dot(vector(*told_.velocity), outward) : scalar(0), told_.age, knows,
-               Space::norm(vector(x - vector(std::exchange(heard_at_, x))))});
+               Space::norm(way)});
     told_ = {};
   }
   /// The factor of a contact that fades, whose force also falls at a limited rate if the law is eased.
@@ -486,18 +523,19 @@ class local_contact {
   [[nodiscard, gnu::always_inline]] constexpr vector turned(const vector& goal, bool touched,
                                                             const vector& x,
                                                             [[maybe_unused]] scalar depth,
-                                                            scalar dt) const noexcept {
+                                                            const auto& port) const noexcept {
     if constexpr (Supply::moves) {
       if (touched && !supply_.together()) {
         vector own = supply_.local().at(x).outward(), towards = goal;
         if constexpr (eases) {
+          own = bend_.onwards(own, port.travel);
           towards = turn_.turned(goal, lag_.taken_on());
-          if (lag_.taking_on()) own = turn_.turned(own, dt);
+          if (lag_.taking_on()) own = turn_.turned(own, port.dt);
           if constexpr (requires { normals_.rate(); }) {
-            return normals_.step_by(own, towards, gentle_turn(depth, dt));
+            return normals_.step_by(own, towards, gentle_turn(depth, port.dt));
           }
         }
-        return normals_.step(own, towards, dt);
+        return normals_.step(own, towards, port.dt);
       }
     }
     return goal;
@@ -528,6 +566,7 @@ class local_contact {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<Supply::moves, bool, none<0>> beside_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, lag<scalar>, none<1>> lag_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, turning<Space>, none<2>> turn_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS bending<Space, bends> bend_{};
   /// The target of the last tick, to compare with an update.
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, constraint_type, none<3>> shown_{};
   /// The stated motion of the newest target, until the next tick takes it.
