@@ -18,7 +18,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
-template <class Space, bool = true>
+template <class Space>
 class bending {
  public:
   using scalar = typename Space::scalar;
@@ -91,17 +91,6 @@ class bending {
   scalar squares_{}, both_{};    ///< Σ |Δp|² [m²], Σ Δn·Δp [m]
   scalar fits_{}, curvature_{};  ///< κ with a = 1, κ [1/m]
   bool is_touched_ = true;       ///< p is the point that is touched
-};
-
-/// Nothing bends in one dimension, nor where the surface tells its curvature itself.
-template <class Space>
-struct bending<Space, false> {
-  static constexpr bool is_curved() noexcept { return false; }
-  static constexpr auto sag(const auto& /*normal*/, const auto& /*x*/) noexcept {
-    return typename Space::scalar(0);
-  }
-  static constexpr auto turned(auto normal, const auto& /*x*/) noexcept { return normal; }
-  static constexpr auto onwards(auto normal, const auto& /*way*/) noexcept { return normal; }
 };
 
 }  // namespace v0

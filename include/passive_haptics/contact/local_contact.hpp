@@ -156,7 +156,7 @@ class local_contact {
     detail::restart(supply_);
     detail::restart(law_);
     lag_ = {};
-    bend_ = {};
+    if constexpr (bends) bend_ = {};
     if constexpr (eases) law_.let_go();
   }
 
@@ -270,7 +270,7 @@ class local_contact {
     }
 
     const auto own = in_own(here, depth, in_target && !from_the_side);
-    const vector goal = bend_.turned(newest.outward(), here);
+    const vector goal = outward_in(newest, here);
     const vector normal = turned(goal, own.touched, here, depth, port);
     const scalar speed = damped_speed(motion.along(normal), in_target, port.dt);
     scalar felt = in_target ? depth : scalar(0);
@@ -302,7 +302,7 @@ class local_contact {
             false,
             desired,
             own.touched,
-            in_target && (lags() || bend_.is_curved() || !(normal == goal)),
+            in_target && (lags() || is_curved() || !(normal == goal)),
             weight,
             felt,
             speed,
@@ -421,10 +421,16 @@ class local_contact {
     }
     return outwards;
   }
-  /// The depth of x in the newest surface [m], which bends as far as that is known.
-  [[nodiscard, gnu::always_inline]] constexpr scalar depth_in(const auto& newest,
-                                                              const vector& x) const noexcept {
-    return newest.depth - bend_.sag(newest.outward(), x);
+  /// The depth of x in the newest surface [m], which bends as far as that is known, and its normal there.
+  [[nodiscard, gnu::always_inline]] constexpr scalar depth_in(
+      const auto& newest, [[maybe_unused]] const vector& x) const noexcept {
+    if constexpr (bends) return newest.depth - bend_.sag(newest.outward(), x);
+    return newest.depth;
+  }
+  [[nodiscard, gnu::always_inline]] constexpr vector outward_in(
+      const auto& newest, [[maybe_unused]] const vector& x) const noexcept {
+    if constexpr (bends) return bend_.turned(newest.outward(), x);
+    return newest.outward();
   }
   /// The depth of x in the own surface [m]: the newest one or, if updates are eased, the one that follows it.
   [[nodiscard, gnu::always_inline]] constexpr scalar depth_in_own(
@@ -456,7 +462,7 @@ class local_contact {
   constexpr void hear(const auto& newest, const vector& x, const auto& port) noexcept {
     const auto was = shown_.at(x);
     const scalar was_deep = depth_in(was, x);
-    const vector was_outward = bend_.turned(was.outward(), x);
+    const vector was_outward = outward_in(was, x);
     const vector way = x - vector(std::exchange(heard_at_, x));
     const scalar counted = supply_.last_weight(), took = lag_.between(told_.age);
     const bool turned_over =
@@ -470,7 +476,7 @@ class local_contact {
       }
     }
     const scalar now = depth_in(newest, x);
-    const vector outward = bend_.turned(newest.outward(), x);
+    const vector outward = outward_in(newest, x);
     const law_type before = law_;
     adopt(port.longest_tick, std::remove_cvref_t<decltype(port)>::latency);
     const scalar compliance = law_.depth(scalar(1), scalar(0));
@@ -495,6 +501,10 @@ class local_contact {
       }
     }
     return weight;
+  }
+  [[nodiscard]] constexpr bool is_curved() const noexcept {
+    if constexpr (bends) return bend_.is_curved();
+    return false;
   }
   [[nodiscard]] constexpr bool lags() const noexcept {
     if constexpr (eases) return !lag_.settled() || !turn_.still();
@@ -528,7 +538,7 @@ class local_contact {
       if (touched && !supply_.together()) {
         vector own = supply_.local().at(x).outward(), towards = goal;
         if constexpr (eases) {
-          own = bend_.onwards(own, port.travel);
+          if constexpr (bends) own = bend_.onwards(own, port.travel);
           towards = turn_.turned(goal, lag_.taken_on());
           if (lag_.taking_on()) own = turn_.turned(own, port.dt);
           if constexpr (requires { normals_.rate(); }) {
@@ -566,7 +576,7 @@ class local_contact {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<Supply::moves, bool, none<0>> beside_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, lag<scalar>, none<1>> lag_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, turning<Space>, none<2>> turn_{};
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS bending<Space, bends> bend_{};
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<bends, bending<Space>, none<7>> bend_{};
   /// The target of the last tick, to compare with an update.
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, constraint_type, none<3>> shown_{};
   /// The stated motion of the newest target, until the next tick takes it.

@@ -138,7 +138,7 @@ class proxy {
     const double moved = length(own - device_);
     double carried = 0.0;
     std::array<half_space_of, 3> before;  // NOLINT(*-member-init): read below `pressed` only
-    const std::size_t pressed = slot(pressed_.count);
+    const std::size_t pressed = (std::min)(slot(pressed_.count), before.size());
     for (std::size_t i = 0; i < pressed; ++i) before[i] = planes_[slot(pressed_.of[i])];
     device_ = own;
     if (follows()) carried = follow(dt);
