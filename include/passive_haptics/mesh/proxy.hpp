@@ -137,15 +137,18 @@ class proxy {
     }
     const double moved = length(own - device_);
     double carried = 0.0;
-    std::array<half_space_of, 3> before;  // NOLINT(*-member-init): read below `pressed` only
+    std::array<held_by, 3> before{};
     const std::size_t pressed = (std::min)(slot(pressed_.count), before.size());
-    for (std::size_t i = 0; i < pressed; ++i) before[i] = planes_[slot(pressed_.of[i])];
+    for (std::size_t i = 0; i < pressed; ++i) {
+      const half_space_of& h = planes_[slot(pressed_.of[i])];
+      before[i] = {h.mesh, h.triangle};
+    }
     device_ = own;
     if (follows()) carried = follow(dt);
     beside_device_ = stick(friction);
     approach(own + beside_device_, 1.25 * (moved + carried) + 0.125 * rule_.radius,
              3.0 * (moved + carried) + 0.5 * rule_.radius);
-    stay_on(std::span(before).first(pressed));
+    stay_on(std::span<const held_by>(before).first(pressed));
   }
 
   /// Where the ball is, in the world [m].
@@ -671,16 +674,19 @@ class proxy {
     const double far_off = length(along), most = mu * deep;
     return far_off > most ? along * (most / far_off) : along;
   }
+  struct held_by {
+    int mesh = 0, triangle = 0;
+  };
   /// At an edge rounding chooses the triangle that presses. Where the mesh has materials, one of those that pressed before
   /// stays the one, as long as it has the point that is touched.
-  void stay_on(std::span<const half_space_of> before) noexcept {
+  void stay_on(std::span<const held_by> before) noexcept {
     const double same = 1e-9 * rule_.radius;
     for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
       half_space_of& h = planes_[slot(pressed_.of[i])];
       const part& p = parts_[slot(h.mesh)];
       if (p.news.made(h.triangle) == nullptr) continue;
       const triple touched = point_at(now(p).triangle(h.triangle), h.weights);
-      for (const half_space_of& b : before) {
+      for (const held_by& b : before) {
         if (b.mesh != h.mesh || b.triangle == h.triangle) continue;
         const found f = on(now(p).triangle(b.triangle), b.triangle, touched);
         if (!(f.distance <= same)) continue;
