@@ -295,6 +295,7 @@ TEST_CASE("a mesh that jumps onto a hand is felt there at a limited rate", "[mes
       vector force = vector::Zero();
       auto sample = dev.exchange(force);
       double step = 0.0, most = 0.0;
+      int followed = 0;
       for (int n = 1; n < 5000; ++n) {
         auto nodes = b.nodes;
         const double up = n < 2000 ? 0.0 : way;
@@ -307,7 +308,13 @@ TEST_CASE("a mesh that jumps onto a hand is felt there at a limited rate", "[mes
         if (n > 1900) step = std::max(step, (force - last).norm());
         most = std::max(most, force.norm());
         sample = dev.exchange(force);
+        const auto said = port.explain();
+        followed += said.now == ph::softened_by::news ? 1 : 0;
+        if (n < 4500) continue;
+        REQUIRE(said.force < 0.5 * said.shown * said.depth);  // it has stopped far below
+        REQUIRE(said.now == ph::softened_by::ledger);
       }
+      CHECK(followed > 0);
       INFO(by_pose << ", by " << way << " m: " << step << " N");
       CHECK(step < 0.7);
       CHECK(most > 3.0);

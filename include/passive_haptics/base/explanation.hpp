@@ -30,7 +30,7 @@ enum class softened_by : std::uint8_t {
   news,     ///< the surface moved, or appeared around the device: force follows at a limited rate
   silence,  ///< no update within stale_after, or release(): the contact fades
   motors,   ///< the force has reached the motors' limit
-  ledger,   ///< the energy E1 covers no larger force
+  ledger,   ///< the energy E1 covers no larger force, or no further way of a surface that has moved
   started_inside,  ///< in contact from the start, with no energy in the ledger
   forces_off,      ///< enable_forces(false) was called
 };

@@ -114,6 +114,7 @@ class mesh_contact::on {
     const double asked = ball_.felt(elsewhere_).stiffness;
     e.asked = e.shown = asked;
     e.soften(spring_.sampled(asked).stiffness, spring_.softener(asked));
+    if (behind_ > 0.0) e.now = softened_by::news;
     if (inside_) e.now = softened_by::started_inside;
     if (ball_.placed() && ball_.pressed().count > 0) e.depth = mesh::length(ball_.pressed().way);
   }

@@ -239,7 +239,14 @@ class passive_port {
     if constexpr (!Observer::exact) e.floor = e.shown * static_cast<double>(travel_error());
     // A tick that asks for nothing where nothing stays nothing is not bounded, so is_cut_ is that of the tick before.
     const bool cut = is_cut_ && !(zero_stays_zero && e.depth == 0.0 && e.force == 0.0);
-    if (cut && e.now == softened_by::nothing) e.now = softened_by::ledger;
+    // A surface that follows news waits at 0.1 mm of what the ledger pays for (port_state::paid_way).
+    bool waits = cut;
+    if constexpr (Bound::traits.needs_ledger) {
+      waits = waits || (e.force > 0.0 && !(static_cast<double>(energy()) > 1.1e-4 * e.force));
+    }
+    if (e.now == softened_by::news ? waits : cut && e.now == softened_by::nothing) {
+      e.now = softened_by::ledger;
+    }
     if (!cut && e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth) e.now = softened_by::nothing;
     const bool asks = cut || e.depth > 0.0;
     if (asks && !(e.force > 0.0) && !(energy() > scalar(0))) e.now = softened_by::started_inside;
