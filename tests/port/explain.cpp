@@ -294,6 +294,46 @@ TEST_CASE("a surface that comes onto a hand waits for the ledger, and explain() 
         });
 }
 
+TEST_CASE("a gentle press shows the stiffness from 8 K F T^2/m on, and less of it below",
+          "[port]") {
+  // The share of what explain() says that a hand of 200 N/m feels, which comes at 2.5 mm/s and presses by `newtons`.
+  const auto share = [](ph::exact_device d, double states, double K, double newtons) {
+    auto touch = ph::make_touch<d1>(d, {.force = states});
+    REQUIRE(touch.update(wall(K)));
+    sim::device<d1, sim::impedance_hand<d1>> dev(
+        {.mass = d.mass, .damping = d.damping, .start = 0.01},
+        {.stiffness = 200.0, .damping = 2.0, .limit = 5.0});
+    auto sample = dev.exchange(0.0);
+    for (int n = 0; n < 8000; ++n) {
+      const double way = std::min(n / 4000.0, 1.0);
+      dev.hand().target = 0.01 * (1.0 - way) - way * newtons / 200.0;
+      sample = dev.exchange(touch.tick(sample).force);
+    }
+    const auto said = touch.explain();
+    CHECK((said.now == softened_by::ledger) == (said.force < 0.95 * said.shown * said.depth));
+    return said.force / (said.shown * said.depth);
+  };
+  ph::exact_device light = grip;
+  light.damping = 0.03;
+  for (const double mass : {0.05, 0.1, 0.3}) {
+    for (const double K : {1000.0, 3000.0, 10000.0}) {
+      for (const double F : {5.0, 15.0}) {
+        light.mass = mass;
+        const double shown = std::min(K, 0.095 * mass / 1e-6), f = shown * F * 1e-6 / mass;
+        if (8.0 * f > 4.5) continue;
+        CAPTURE(mass, K, F);
+        CHECK(share(light, F, K, 8.0 * f) > 0.9);
+      }
+    }
+  }
+  light.mass = 0.05;
+  CHECK(share(light, 5.0, 10000.0, 0.2) < 0.2);
+  light.mass = 0.1;
+  const double told_well = share(light, 5.0, 3000.0, 0.45);
+  CHECK(told_well > 0.9);
+  CHECK(share(light, 15.0, 3000.0, 0.45) < 0.3 * told_well);
+}
+
 TEST_CASE("explain() of a set is about the contact that presses most", "[port][contacts]") {
   ph::passive_port corner{
       d3{},
