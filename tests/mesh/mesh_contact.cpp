@@ -329,6 +329,7 @@ TEST_CASE("a device that begins at a mesh is told why it feels nothing, until it
   const body b = plate();
   ph::mesh::surface s(b.triangles, b.nodes);
   auto port = port_of(1000, 0.1, reachable(0.1));
+  CHECK(std::string(port.explain().because()).find("source().touch()") != std::string::npos);
   REQUIRE(port.source().touch(s));
   CHECK(port.explain().now == ph::softened_by::nothing);
   for (int n = 0; n < 5; ++n) {

@@ -22,7 +22,7 @@ enum class softened_by : std::uint8_t {
   nothing,
   parameters,        ///< a parameter is out of its range: force zero
   refuted,           ///< the motion has refuted a stated parameter: force zero until reset()
-  no_surface,        ///< no surface was set by update(), or release() ended it
+  no_surface,        ///< no surface was told by update() or touch(), or release() ended it
   mass_and_tick,     ///< κ m/T², the largest stiffness at which a sampled mass settles (§ 9)
   damping_and_tick,  ///< 2b/((k + 1) T), a strict bound's limit for an empty ledger (L4)
   encoder_steps,     ///< the stiffness whose encoder steps dry friction and damping pay for
@@ -70,7 +70,7 @@ struct explanation {
         "The surface is shown as it is.",
         "A parameter is out of its range, so the force is zero: check() names it.",
         "The motion has refuted what was stated, as the event says: mend that, and reset().",
-        "There is no surface: update() tells one.",
+        "There is no surface: tell one by update(), or a mesh by source().touch().",
         "A mass that is sampled every T can be held with so much and no more, and it grows with "
         "m/T^2: a faster loop, a longest tick that is no longer than it has to be, or a heavier "
         "grip raises it.",
