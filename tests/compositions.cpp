@@ -6,6 +6,8 @@
 #include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/friction_elastic.hpp>
 
+#include <string>
+
 using Catch::Matchers::WithinRel;
 namespace sim = ph::simulation;
 
@@ -253,6 +255,12 @@ TEST_CASE("a composition refuses a device or a hand that cannot be, with the nam
   CHECK(refused(ph::make_touch<d1>(falcon, ph::known_hand{})) == "hand_force");
   CHECK(refused(ph::make_guard<d1>(falcon, ph::known_hand{})) == "hand_force");
   CHECK(ph::make_touch<d1>(falcon, ph::known_hand{.force = -5.0}).check().value == -5.0);
+  const auto none = [](const auto& port) {  // the value is named, and that more is asked for
+    return port.check().value == 0.0 && std::string(port.check().remedy) == "stated, finite, > 0 N";
+  };
+  CHECK(none(ph::make_touch<d1>(falcon, ph::known_hand{.force = 0.0})));
+  CHECK(none(ph::make_guard<d1>(falcon, ph::trusted_hand{})));
+  CHECK(none(ph::make_touch<ph::space<float, 1>>(falcon, ph::known_hand{})));
   CHECK_FALSE(refused(ph::make_touch<d1>(without(&ph::exact_device::force_limit), hand)).empty());
   CHECK_FALSE(
       refused(ph::make_guard<d1>(without(&ph::exact_device::force_limit), ph::any_hand)).empty());

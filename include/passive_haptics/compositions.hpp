@@ -71,6 +71,9 @@ inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
 [[nodiscard]] constexpr double stated(double x) noexcept {
   return x != 0.0 ? x : unstated;
 }
+[[nodiscard]] constexpr double stated(const known_hand& hand) noexcept {
+  return hand.force != 0.0 ? hand.force : no_hand;
+}
 
 // The ledger, the motors' limit and the motion estimator of each kind of device.
 [[nodiscard]] constexpr reduced_energy ledger_of(const exact_device& d) noexcept {
@@ -128,7 +131,7 @@ inline constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
   return ledger_of(d);
 }
 [[nodiscard]] constexpr reachable_bound reach_of(const auto& d, const known_hand& hand) noexcept {
-  return {.mass = d.mass, .hand_force = stated(hand.force)};
+  return {.mass = d.mass, .hand_force = stated(hand)};
 }
 [[nodiscard]] constexpr auto bounds_of(const auto& d, const known_hand& hand) noexcept {
   return bound_chain{watched{reach_of(d, hand)}, motors_of(d)};

@@ -38,6 +38,14 @@ inline constexpr double no_limit = std::numeric_limits<double>::infinity();
   return x >= 0.0 && kernels::is_finite(x);
 }
 
+/// Stands for the force of a hand that was left out, which is refused as 0 N where 0 N may be stated.
+inline constexpr double no_hand = -0x1p100;
+[[nodiscard]] constexpr parameter_fault fault_of_hand(double force) noexcept {
+  if (force == no_hand) return {"hand_force", 0.0, "stated, finite, > 0 N"};
+  if (!not_negative(force)) return {"hand_force", force, "stated, finite, ≥ 0 N"};
+  return {};
+}
+
 /// Converts a parameter to the scalar S. A finite number stays finite and a nonzero one does not become zero, so
 /// a value that check() has passed is still in its range.
 template <real S>

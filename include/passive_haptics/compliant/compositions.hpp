@@ -36,7 +36,7 @@ template <int Late, int N>
 [[nodiscard]] constexpr modelled_reach<N, Late> bound_of(const auto& d,
                                                          const chain_transmission<N>& t,
                                                          const known_hand& hand) noexcept {
-  return {t.device, stated(hand.force), t.friction, d.longest_tick, t.tolerance, t.loss_tolerance};
+  return {t.device, stated(hand), t.friction, d.longest_tick, t.tolerance, t.loss_tolerance};
 }
 /// The same, and the motors' limit.
 template <class Limits>

@@ -47,7 +47,7 @@ struct modelled_reach {
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (const auto fault = device.check()) return fault;
-    if (!detail::not_negative(hand_force)) return {"hand_force", hand_force, "finite and ≥ 0 N"};
+    if (const auto fault = detail::fault_of_hand(hand_force)) return fault;
     if (!detail::not_negative(friction)) return {"friction", friction, "finite and ≥ 0 N"};
     if (!detail::positive(tick)) return {"tick", tick, "finite and > 0 s"};
     if (!(tolerance >= 0.0 && tolerance <= 0.3)) {

@@ -105,9 +105,7 @@ struct reachable_bound {
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
     if (!detail::positive(mass)) return {"mass", mass, "finite and > 0 kg"};
-    if (!detail::not_negative(hand_force))
-      return {"hand_force", hand_force, "stated, finite, ≥ 0 N"};
-    return {};
+    return detail::fault_of_hand(hand_force);
   }
   template <port Space>
   class on;
