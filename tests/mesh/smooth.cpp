@@ -304,7 +304,7 @@ TEST_CASE("creases of a smooth mesh stay sharp, and flat faces as they are", "[m
 TEST_CASE("what a smooth mesh cannot be made of is refused, and what is odd in it has facets",
           "[mesh]") {
   const body b = sphere(2, R);
-  CHECK_THROWS_WITH(ph::mesh::surface(b.triangles, b.nodes, {}, ph::mesh::smooth{.crease = 0.0}),
+  CHECK_THROWS_WITH(ph::mesh::surface(b.triangles, b.nodes, ph::mesh::smooth{.crease = 0.0}),
                     Contains("crease") && Contains("in (0, 1.2] rad"));
   CHECK_THROWS_WITH(
       ph::mesh::surface(b.triangles, b.nodes, {}, ph::mesh::smooth{.crease = std::nan("")}),

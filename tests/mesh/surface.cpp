@@ -28,6 +28,22 @@ TEST_CASE("what is no mesh is refused by a sentence that names it", "[mesh]") {
             .empty());
 }
 
+TEST_CASE("nodes with x, y and z are taken as they are", "[mesh]") {
+  struct place {
+    float x, y, z;
+  };
+  std::vector<place> places{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  ph::mesh::surface s({{0, 1, 2}}, places);
+  ph::mesh::surface round({{0, 1, 2}}, places, ph::mesh::smooth{});
+  ph::mesh::proxy ball({.radius = 5e-4});
+  REQUIRE(ball.touch(s));
+  for (int k = 0; k < 50; ++k) ball.step({0.2, 0.3, 0.01 - 4e-4 * k}, T);
+  CHECK_THAT(ball.place().z, Catch::Matchers::WithinAbs(5e-4, 1e-9));
+  places[1].y = std::nanf("");
+  CHECK_FALSE(s.update(places));
+  CHECK_THAT(s.fault(), Contains("node 1 at (1, nan, 0) m is not finite"));
+}
+
 TEST_CASE("news that are no news leave the last good mesh under the finger", "[mesh]") {
   const body b = plate();
   ph::mesh::surface s(b.triangles, b.nodes);

@@ -61,6 +61,7 @@ class mesh_contact::on {
   using vector = typename P::effort;
   using result_type = tick_result<P>;
   static constexpr bool asks_for_numbers = true;
+  static constexpr bool touches_meshes = true;
   static_assert(detail::has_geometry<P> && P::dof == 3,
                 "passive_haptics: a mesh is touched in a space of three dimensions");
 

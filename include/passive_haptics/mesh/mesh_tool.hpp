@@ -71,6 +71,7 @@ class mesh_tool<Points>::on {
   using finger = mesh_contact::on<space>;
   using result_type = tick_result<Body>;
   static constexpr bool asks_for_numbers = false;  // a sum may overflow
+  static constexpr bool touches_meshes = true;
 
   constexpr explicit on(const mesh_tool& p) noexcept
       : on(p, std::make_index_sequence<std::size_t{Points}>{}) {}

@@ -7,7 +7,7 @@
 //     organ.update(pose);                            // slow thread, where the whole of it has moved
 //     ph::mesh::surface knee(triangles, nodes, {.materials = {bone, skin}, .of = of_triangle});
 //     knee.update(ph::mesh::made_of{.materials = {bone, callus}, .of = of_triangle});
-//     ph::mesh::surface ball(triangles, nodes, {}, ph::mesh::smooth{.crease = 0.7});  // smooth.hpp
+//     ph::mesh::surface ball(triangles, nodes, ph::mesh::smooth{.crease = 0.7});  // smooth.hpp
 //
 // The slow thread copies the nodes and fits the boxes of the tree. Each finger takes the newest shape as soon as it
 // has arrived at the one that it took before, and no thread waits for another (news.hpp). No side is the outside: a
@@ -26,6 +26,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -37,6 +38,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -94,14 +96,28 @@ struct told_pose {
 };
 
 namespace detail {
-/// The nodes of any container whose elements have [0], [1] and [2].
+/// The nodes of any container whose elements have [0], [1] and [2], or x, y and z.
 template <class Nodes>
 [[nodiscard]] triple node_of(const Nodes& nodes, std::size_t i) {
-  if constexpr (requires { triple(nodes[i]); }) {
+  using node = std::remove_cvref_t<decltype(nodes[i])>;
+  if constexpr (std::convertible_to<node, triple>) {
     return nodes[i];
-  } else {
+  } else if constexpr (requires(const node& p) { static_cast<double>(p[2]); }) {
     return {static_cast<double>(nodes[i][0]), static_cast<double>(nodes[i][1]),
             static_cast<double>(nodes[i][2])};
+  } else {
+    constexpr bool has_names = requires(const node& p) {
+      static_cast<double>(p.x + p.y + p.z);
+    };
+    static_assert(has_names,
+                  "passive_haptics: each node of a mesh has three numbers: give a std::vector of "
+                  "std::array<double, 3>, Eigen::Vector3d or of what has x, y and z");
+    if constexpr (has_names) {
+      return {static_cast<double>(nodes[i].x), static_cast<double>(nodes[i].y),
+              static_cast<double>(nodes[i].z)};
+    } else {
+      return {};
+    }
   }
 }
 
@@ -186,6 +202,18 @@ class surface {
       : world_(made(std::move(triangles), nodes, stuff)), count_(nodes.size()) {
     if (rounded) smoothen(*rounded, nodes);
     publish(nodes, std::move(stuff));
+  }
+  template <class Nodes, std::same_as<smooth> Smooth>
+  surface(std::vector<triangle> triangles, const Nodes& nodes, const Smooth& rounded)
+      : surface(std::move(triangles), nodes, made_of{}, rounded) {}
+  /// Does not compile: triangles of another type.
+  template <class Triangles, class Nodes, class... Rest>
+  requires(!std::convertible_to<const Triangles&, std::vector<triangle>>)
+      surface(const Triangles& /*triangles*/, const Nodes& nodes, const Rest&... rest)
+      : surface(std::vector<triangle>(), nodes, rest...) {
+    static_assert(!std::same_as<Triangles, Triangles>,
+                  "passive_haptics: the triangles of a mesh are a std::vector of "
+                  "mesh::triangle, each three node numbers as int");
   }
   surface(const surface&) = delete;
   surface& operator=(const surface&) = delete;

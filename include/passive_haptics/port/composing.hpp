@@ -183,6 +183,14 @@ concept says_what_it_holds = requires(const Part p, const Effort f) {
   { p.can_hold(f) } -> std::same_as<bool>;
 };
 
+/// The compile-time error of a port that is given a mesh, or the nodes of one.
+template <class Mesh>
+constexpr void refuse_mesh() noexcept {
+  static_assert(!std::same_as<Mesh, Mesh>,
+                "passive_haptics: the source of a port touches a mesh, and its surface moves it: "
+                "port.source().touch(surface), and surface.update(nodes)");
+}
+
 /// Calls explain() of a part, if it has one.
 template <class Part, class... Facts>
 constexpr void explain(const Part& part, explanation& e, const Facts&... facts) noexcept {

@@ -222,6 +222,16 @@ class passive_port {
     return tick(device_sample<P>{});
   }
 
+  /// Do not compile: a mesh is for the source, and its nodes are for its surface.
+  template <class Mesh, class Own = source_type>
+  requires(Own::touches_meshes) constexpr void touch(const Mesh& /*mesh*/) noexcept {
+    detail::refuse_mesh<Mesh>();
+  }
+  template <class Nodes, class Own = source_type>
+  requires(Own::touches_meshes) constexpr void update(const Nodes& /*nodes*/) noexcept {
+    detail::refuse_mesh<Nodes>();
+  }
+
   /// The displayed stiffness of the surface, its reason, and the reason for a smaller last force.
   template <class Own = source_type>
   requires requires(const Own s, explanation e, pose x, scalar T) { s.explain(e, x, T, 0); }
