@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
     std::puts(fault.c_str());
     return 1;
   }
+  if (const auto slip = ph::mesh::surface::doubt(m.nodes); !slip.empty()) std::puts(slip.c_str());
   ph::mesh::surface organ(m.triangles, m.nodes);
 
   auto touch = ph::make_mesh_touch<scene>(

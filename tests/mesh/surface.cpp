@@ -28,6 +28,16 @@ TEST_CASE("what is no mesh is refused by a sentence that names it", "[mesh]") {
             .empty());
 }
 
+TEST_CASE("a mesh that was told in millimetres is doubted", "[mesh]") {
+  const body b = plate();
+  CHECK(ph::mesh::surface::doubt(b.nodes).empty());
+  auto nodes = b.nodes;
+  for (triple& p : nodes) p = p * 1e3;
+  CHECK(ph::mesh::surface::check(b.triangles, nodes).empty());
+  CHECK_THAT(ph::mesh::surface::doubt(nodes),
+             Contains("it is 100 m wide") && Contains("millimetres"));
+}
+
 TEST_CASE("nodes with x, y and z are taken as they are", "[mesh]") {
   struct place {
     float x, y, z;

@@ -176,6 +176,19 @@ class surface {
     return {};
   }
 
+  /// What is possible for a mesh and almost surely a slip, as millimetres for metres, or an empty text.
+  template <class Nodes>
+  [[nodiscard]] static std::string doubt(const Nodes& nodes) {
+    double widest = 0.0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const triple off = detail::node_of(nodes, i) - detail::node_of(nodes, 0);
+      for (const double way : {off.x, off.y, off.z}) widest = (std::max)(widest, std::fabs(way));
+    }
+    if (!(widest > 10.0)) return {};
+    return "mesh: it is " + std::to_string(static_cast<int>((std::min)(widest, 1e9))) +
+           " m wide, so a finger may meet nothing of it; give metres, not millimetres";
+  }
+
   /// The same for a number of triangles.
   [[nodiscard]] static std::string check_count(std::size_t triangles) {
     if (triangles == 0) {
