@@ -47,10 +47,13 @@ class bending {
   /// An update of a contact: the planes before and now, the device at x after its way [m] since the one before, and the
   /// age of the news over the time between them.
   constexpr void hear(const auto& before, const auto& now, const vector& x, const vector& way,
-                      scalar ages) noexcept {
+                      scalar took, scalar age) noexcept {
     const vector normal = now.normal, turn = normal - vector(before.normal);
-    const scalar moved = Space::norm(way);
-    const scalar usual = kernels::larger(moved, moved_);
+    const vector old = way_;
+    const scalar moved = Space::norm(way), before_moved = Space::norm(old);
+    const scalar usual = kernels::larger(moved, before_moved);
+    const scalar ages = scalar(2) * age / (took + took_);
+    const vector since_asked = (way + old) * (kernels::smaller(ages, scalar(4)) / scalar(2));
     const scalar off = Space::norm(beside(normal, Space::difference(x, now.point)));
     is_touched_ = off <= (scalar(2) + ages) * usual * scalar(is_touched_ ? 2 : 1);
     const vector further = is_touched_ ? Space::difference(now.point, before.point) : way;
@@ -63,13 +66,14 @@ class bending {
     fits_ = squares_ > scalar(0) ? both_ / squares_ : scalar(0);
     curvature_ = turns_ > scalar(0) ? fits_ * foreseeable(scalar(1) - missed_ / turns_) : scalar(0);
     if (!kernels::is_finite(missed_ + squares_ + curvature_)) *this = {};
+    most_ = scalar(2) * usual + (is_touched_ ? off : Space::norm(since_asked));
     if (is_touched_) {
       base_ = now.point;
     } else {
-      base_ = x;
+      base_ = vector(x - since_asked);
     }
-    most_ = scalar(2) * usual + (is_touched_ ? off : scalar(0));
-    moved_ = moved;
+    way_ = way;
+    took_ = took;
   }
 
  private:
@@ -86,7 +90,8 @@ class bending {
 
   typename Space::coordinates base_ = Space::zero();  ///< p [m]
   scalar most_{};                ///< the largest |s| up to which the surface bends [m]
-  scalar moved_{};               ///< |way| of the device before the last update [m]
+  typename Space::coordinates way_ = Space::zero();  ///< of the device before the last update [m]
+  scalar took_{};                ///< and the time of it [s]
   scalar turns_{}, missed_{};    ///< Σ |Δn|², and Σ |Δn − κ Δp|² by the κ of the time
   scalar squares_{}, both_{};    ///< Σ |Δp|² [m²], Σ Δn·Δp [m]
   scalar fits_{}, curvature_{};  ///< κ with a = 1, κ [1/m]

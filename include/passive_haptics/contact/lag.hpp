@@ -150,6 +150,8 @@ class lag {
   /// True if no update has come for twice the usual time.
   [[nodiscard]] constexpr bool silent() const noexcept { return since_ > Scalar(2) * ahead_; }
 
+  /// The time since the last update [s].
+  [[nodiscard]] constexpr Scalar since() const noexcept { return since_; }
   /// Adds dt [s] to that time.
   constexpr void grow_older(Scalar dt) noexcept { since_ += dt; }
   /// Moves ℓ and p on by one tick of dt [s], and the own surface outwards by `most` [m] at most.

@@ -470,7 +470,7 @@ class local_contact {
     const bool known = counted > scalar(0) && was.covered() && !turned_over;
     if constexpr (bends) {
       if (known) {
-        bend_.hear(shown_, supply_.target(), x, way, told_.age / took);
+        bend_.hear(shown_, supply_.target(), x, way, lag_.since(), told_.age);
       } else {
         bend_ = {};
       }
