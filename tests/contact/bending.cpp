@@ -29,7 +29,7 @@ struct told {
   int heard = 0;
 
   void operator()(const plane& now, const vector& at, double ages = 0.0) {
-    if (heard++ > 0) seen.hear(last, now, at, vector(at - x), ages);
+    if (heard++ > 0) seen.hear(last, now, at, vector(at - x), 0.01, 0.01 * ages);
     last = now;
     x = at;
   }
@@ -174,8 +174,10 @@ TEST_CASE("a surface bends no farther than what was seen of it, and forgets what
 
 namespace {
 /// A bowl of 50 mm and 800 N/m, told ten times a second, `late` [s] late, under a device that strokes it to and fro.
+/// `elsewhere`: by a point of the plane that is not the one touched; `motion`: what is told of it.
 template <class Surface>
-double error_in_bowl(double late) {
+double error_in_bowl(double late, bool elsewhere = false, const ph::surface_motion<volume>& motion = {},
+                     int bursts = 1) {
   auto touch = ph::make_touch<volume, Surface>(
       {.mass = 0.1, .damping = 0.03, .force_limit = 9.0, .longest_tick = 1e-3},
       ph::known_hand{.force = 5.0});
@@ -185,19 +187,21 @@ double error_in_bowl(double late) {
     return vector(r * std::sin(u), r * std::sin(v),
                   -r * std::sqrt(1.0 - std::pow(std::sin(u), 2) - std::pow(std::sin(v), 2)));
   };
-  const auto bowl = [](const vector& x) {
+  const auto bowl = [elsewhere](const vector& x) {
     const vector inward = -x.normalized();
     Surface s{};
     s.point = vector(-0.05 * inward);
     s.normal = inward;
     s.stiffness = 800.0;
     if constexpr (requires { s.thickness; }) s.thickness = 0.02;
+    const vector other(0.1, 0.05, -0.2);
+    if (elsewhere) s.point = vector(other + inward * inward.dot(vector(vector(s.point) - other)));
     return s;
   };
   double sum = 0.0;
   for (int n = 0; n < 4000; ++n) {
     const double t = 1e-3 * n;
-    if (n % 100 == 0) REQUIRE(touch.update(bowl(at(std::max(0.0, t - late)))));
+    if (n % 100 < bursts) REQUIRE(touch.update(bowl(at(std::max(0.0, t - late))), motion));
     const auto tick = touch.tick(at(t), ph::seconds{1e-3});
     CHECK(tick.energy >= 0.0);
     const vector truth = 800.0 * std::max(0.0, at(t).norm() - 0.05) * -at(t).normalized();
@@ -214,5 +218,16 @@ TEST_CASE("a bowl told by its planes ten times a second is felt as a bowl", "[co
     INFO(late << " s late");
     CHECK(error_in_bowl<plane>(late) < most);
     CHECK(error_in_bowl<ph::quadric<volume>>(late) > flat);
+  }
+}
+
+TEST_CASE("late planes of any point are bent from where the device was, if their age is told", "[contact]") {
+  const vector still = vector::Zero();
+  for (const double late : {0.02, 0.05}) {
+    INFO(late << " s late");
+    CHECK(error_in_bowl<plane>(late, true, {.age = late}) < 0.06);
+    CHECK(error_in_bowl<plane>(late, true, {.velocity = still, .age = late}) < 0.06);
+    CHECK(error_in_bowl<plane>(late, true, {.age = late}, 2) < 0.06);
+    CHECK(error_in_bowl<plane>(late, true) > 0.3);  // as it was
   }
 }

@@ -9,7 +9,8 @@
 // n and p are the normal and the point of the newest plane, d [m] is the depth of x in it, and Δ the change between
 // updates. p is the point that is touched: if it is farther off in the plane than the device can have moved since the
 // surface was asked, |s| > (2 + age/P) times the larger of its last two ways, or twice as much if it was taken for it so
-// far, the place of the device at the update stands for p, and its way for Δp. Beyond |s| at the update and twice the larger way
+// far, the place of the device when the surface was asked stands for p, as its last two ways and the age tell it, and its
+// way for Δp. P is the mean time of the last two ways. Beyond |s| at the update and twice the larger way
 // the surface goes straight on. So an edge, noise and a plane that turns by itself bend nothing. Source: ours;
 // docs/design/contacts.md § 6.
 
@@ -44,8 +45,8 @@ class bending {
     return is_curved() ? tilted(normal, beside(normal, way)) : normal;
   }
 
-  /// An update of a contact: the planes before and now, the device at x after its way [m] since the one before, and the
-  /// age of the news over the time between them.
+  /// An update of a contact: the planes before and now, the device at x after its way [m] since the one before, the time
+  /// that it took, and the age of the news [s].
   constexpr void hear(const auto& before, const auto& now, const vector& x, const vector& way,
                       scalar took, scalar age) noexcept {
     const vector normal = now.normal, turn = normal - vector(before.normal);
