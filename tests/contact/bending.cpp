@@ -231,3 +231,22 @@ TEST_CASE("late planes of any point are bent from where the device was, if their
     CHECK(error_in_bowl<plane>(late, true) > 0.3);  // as it was
   }
 }
+
+TEST_CASE("a point of the plane beside the one touched does not lift a surface off the finger", "[contact]") {
+  // The point of each plane straight below the finger, on a slope: the ball would have fallen away by κ|s|²/2 there.
+  told ball;
+  double flat = 0.0, bent = 0.0;
+  for (int n = 0; n < 40; ++n) {
+    const double angle = 0.4 + 2.0 * tremor(n);
+    plane p = on_ball(0.0165, angle);
+    const vector normal = p.normal, x = (0.0165 - 3e-3) * normal;
+    const double up = normal.dot(vector(vector(p.point) - x)) / normal.z();
+    p.point = vector(x + vector(0, 0, up));
+    ball(p, x);
+    if (n < 8) continue;
+    flat = std::max(flat, std::abs(p.at(x).depth - 3e-3));
+    bent = std::max(bent, std::abs(p.at(x).depth - ball.seen.sag(normal, x) - 3e-3));
+  }
+  CHECK(flat < 1e-12);
+  CHECK(bent < 1e-5);
+}

@@ -10,7 +10,8 @@
 // updates. p is the point that is touched: if it is farther off in the plane than the device can have moved since the
 // surface was asked, |s| > (2 + age/P) times the larger of its last two ways, or twice as much if it was taken for it so
 // far, the place of the device when the surface was asked stands for p, as its last two ways and the age tell it, and its
-// way for Δp. P is the mean time of the last two ways. Beyond |s| at the update and twice the larger way
+// way for Δp. P is the mean time of the last two ways. The place of the device stands for p also where the planes say
+// that p strays from the surface: Δp·n is −s·Δn then, so Σ (Δp·n)² > Σ |s|²|Δn|²/2. Beyond |s| at the update and twice the larger way
 // the surface goes straight on. So an edge, noise and a plane that turns by itself bend nothing. Source: ours;
 // docs/design/contacts.md § 6.
 
@@ -66,9 +67,14 @@ class bending {
     both_ = keeps * both_ + both;
     fits_ = squares_ > scalar(0) ? both_ / squares_ : scalar(0);
     curvature_ = turns_ > scalar(0) ? fits_ * foreseeable(scalar(1) - missed_ / turns_) : scalar(0);
-    if (!kernels::is_finite(missed_ + squares_ + curvature_)) *this = {};
-    most_ = scalar(2) * usual + (is_touched_ ? off : Space::norm(since_asked));
-    if (is_touched_) {
+    if (!kernels::is_finite(missed_ + squares_ + curvature_ + strays_ + may_stray_)) *this = {};
+    const scalar beyond = Space::dot(Space::difference(now.point, before.point),
+                                     vector(normal + vector(before.normal))) / scalar(2);
+    strays_ = keeps * strays_ + beyond * beyond;
+    may_stray_ = keeps * may_stray_ + off * off * turns;
+    const bool is_on = is_touched_ && scalar(2) * strays_ <= may_stray_;
+    most_ = scalar(2) * usual + (is_on ? off : Space::norm(since_asked));
+    if (is_on) {
       base_ = now.point;
     } else {
       base_ = vector(x - since_asked);
@@ -94,6 +100,7 @@ class bending {
   typename Space::coordinates way_ = Space::zero();  ///< of the device before the last update [m]
   scalar took_{};                ///< and the time of it [s]
   scalar turns_{}, missed_{};    ///< Σ |Δn|², and Σ |Δn − κ Δp|² by the κ of the time
+  scalar strays_{}, may_stray_{};  ///< Σ (Δp·n)² [m²], and Σ |s|²|Δn|², which it is if p is not the point touched
   scalar squares_{}, both_{};    ///< Σ |Δp|² [m²], Σ Δn·Δp [m]
   scalar fits_{}, curvature_{};  ///< κ with a = 1, κ [1/m]
   bool is_touched_ = true;       ///< p is the point that is touched
