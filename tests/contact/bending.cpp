@@ -176,8 +176,8 @@ namespace {
 /// A bowl of 50 mm and 800 N/m, told ten times a second, `late` [s] late, under a device that strokes it to and fro.
 /// `elsewhere`: by a point of the plane that is not the one touched; `motion`: what is told of it.
 template <class Surface>
-double error_in_bowl(double late, bool elsewhere = false, const ph::surface_motion<volume>& motion = {},
-                     int bursts = 1) {
+double error_in_bowl(double late, bool elsewhere = false,
+                     const ph::surface_motion<volume>& motion = {}, int bursts = 1) {
   auto touch = ph::make_touch<volume, Surface>(
       {.mass = 0.1, .damping = 0.03, .force_limit = 9.0, .longest_tick = 1e-3},
       ph::known_hand{.force = 5.0});
@@ -221,7 +221,8 @@ TEST_CASE("a bowl told by its planes ten times a second is felt as a bowl", "[co
   }
 }
 
-TEST_CASE("late planes of any point are bent from where the device was, if their age is told", "[contact]") {
+TEST_CASE("late planes of any point are bent from where the device was, if their age is told",
+          "[contact]") {
   const vector still = vector::Zero();
   for (const double late : {0.02, 0.05}) {
     INFO(late << " s late");
@@ -232,7 +233,8 @@ TEST_CASE("late planes of any point are bent from where the device was, if their
   }
 }
 
-TEST_CASE("a point of the plane beside the one touched does not lift a surface off the finger", "[contact]") {
+TEST_CASE("a point of the plane beside the one touched does not lift a surface off the finger",
+          "[contact]") {
   // The point of each plane straight below the finger, on a slope: the ball would have fallen away by κ|s|²/2 there.
   told ball;
   double flat = 0.0, bent = 0.0;

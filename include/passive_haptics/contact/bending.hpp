@@ -7,13 +7,15 @@
 //     a = (3R − 1)/2R ≥ 0,       1 − R² the share of Σ |Δn|² that the κ of their time, with a = 1, did not foresee
 //
 // n and p are the normal and the point of the newest plane, d [m] is the depth of x in it, and Δ the change between
-// updates. p is the point that is touched: if it is farther off in the plane than the device can have moved since the
-// surface was asked, |s| > (2 + age/P) times the larger of its last two ways, or twice as much if it was taken for it so
-// far, the place of the device when the surface was asked stands for p, as its last two ways and the age tell it, and its
-// way for Δp. P is the mean time of the last two ways. The place of the device stands for p also where the planes say
-// that p strays from the surface: Δp·n is −s·Δn then, so Σ (Δp·n)² > Σ |s|²|Δn|²/2. Beyond |s| at the update and twice the larger way
-// the surface goes straight on. So an edge, noise and a plane that turns by itself bend nothing. Source: ours;
-// docs/design/contacts.md § 6.
+// updates. p is the point that is touched, unless
+//
+//     |s| > (2 + age/P) times the larger of the device's last two ways, or twice that if p was taken for it so far
+//     Σ (Δp·n − s·Δn)² < Σ (s·Δn)²/30,   as a point goes that lies beside the one touched
+//
+// Then the place of the device when the surface was asked stands for p, as its last two ways and the age tell it, and in
+// the first case its way for Δp. P [s] is the mean time of those ways. The surface goes straight on beyond the |s| of the
+// update and twice the larger way. So an edge, noise and a plane that turns by itself bend nothing.
+// Source: ours; docs/design/contacts.md § 6.
 
 #include <passive_haptics/base/foresight.hpp>
 
@@ -51,39 +53,45 @@ class bending {
   constexpr void hear(const auto& before, const auto& now, const vector& x, const vector& way,
                       scalar took, scalar age) noexcept {
     const vector normal = now.normal, turn = normal - vector(before.normal);
-    const vector old = way_;
-    const scalar moved = Space::norm(way), before_moved = Space::norm(old);
-    const scalar usual = kernels::larger(moved, before_moved);
+    const vector off = Space::difference(x, now.point), old = way_;
+    const vector shift = Space::difference(now.point, before.point);
+    const scalar beside_it = Space::norm(beside(normal, off));
+    const scalar usual = kernels::larger(Space::norm(way), Space::norm(old));
     const scalar ages = scalar(2) * age / (took + took_);
-    const vector since_asked = (way + old) * (kernels::smaller(ages, scalar(4)) / scalar(2));
-    const scalar off = Space::norm(beside(normal, Space::difference(x, now.point)));
-    is_touched_ = off <= (scalar(2) + ages) * usual * scalar(is_touched_ ? 2 : 1);
-    const vector further = is_touched_ ? Space::difference(now.point, before.point) : way;
-    const scalar keeps = scalar(7) / scalar(8), square = Space::dot(further, further),
-                 both = Space::dot(turn, further), turns = Space::dot(turn, turn);
-    missed_ = keeps * missed_ + turns + fits_ * (fits_ * square - scalar(2) * both);
-    turns_ = keeps * turns_ + turns;
-    squares_ = keeps * squares_ + square;
-    both_ = keeps * both_ + both;
-    fits_ = squares_ > scalar(0) ? both_ / squares_ : scalar(0);
-    curvature_ = turns_ > scalar(0) ? fits_ * foreseeable(scalar(1) - missed_ / turns_) : scalar(0);
-    if (!kernels::is_finite(missed_ + squares_ + curvature_ + strays_ + may_stray_)) *this = {};
-    const scalar beyond = Space::dot(Space::difference(now.point, before.point),
-                                     vector(normal + vector(before.normal))) / scalar(2);
-    strays_ = keeps * strays_ + beyond * beyond;
-    may_stray_ = keeps * may_stray_ + off * off * turns;
-    const bool is_on = is_touched_ && scalar(2) * strays_ <= may_stray_;
-    most_ = scalar(2) * usual + (is_on ? off : Space::norm(since_asked));
-    if (is_on) {
+    is_near_ = beside_it <= (scalar(2) + ages) * usual * scalar(is_near_ ? 2 : 1);
+    fit(turn, is_near_ ? shift : way);
+
+    const scalar strayed = Space::dot(turn, off);
+    const scalar rose = Space::dot(shift, vector(normal + vector(before.normal))) / scalar(2);
+    not_so_ = keeps * not_so_ + (rose - strayed) * (rose - strayed);
+    strays_ = keeps * strays_ + strayed * strayed;
+    if (!kernels::is_finite(missed_ + squares_ + curvature_ + not_so_ + strays_)) *this = {};
+    if (is_near_ && !(scalar(30) * not_so_ < strays_)) {
       base_ = now.point;
+      most_ = scalar(2) * usual + beside_it;
     } else {
-      base_ = vector(x - since_asked);
+      const vector since = (way + old) * (kernels::smaller(ages, scalar(4)) / scalar(2));
+      base_ = vector(x - since);
+      most_ = scalar(2) * usual + Space::norm(since);
     }
     way_ = way;
     took_ = took;
   }
 
  private:
+  static constexpr scalar keeps = scalar(7) / scalar(8);
+
+  /// Takes Δn and Δp.
+  constexpr void fit(const vector& turn, const vector& shift) noexcept {
+    const scalar turns = Space::dot(turn, turn), both = Space::dot(turn, shift),
+                 square = Space::dot(shift, shift);
+    missed_ = keeps * missed_ + turns + fits_ * (fits_ * square - scalar(2) * both);
+    turns_ = keeps * turns_ + turns;
+    squares_ = keeps * squares_ + square;
+    both_ = keeps * both_ + both;
+    fits_ = squares_ > scalar(0) ? both_ / squares_ : scalar(0);
+    curvature_ = turns_ > scalar(0) ? fits_ * foreseeable(scalar(1) - missed_ / turns_) : scalar(0);
+  }
   [[nodiscard]] constexpr vector from_base(const vector& x) const noexcept {
     return Space::difference(x, base_);
   }
@@ -95,15 +103,15 @@ class bending {
     return further / Space::norm(further);
   }
 
-  typename Space::coordinates base_ = Space::zero();  ///< p [m]
+  typename Space::coordinates base_ = Space::zero();  ///< p, or what stands for it [m]
+  typename Space::coordinates way_ = Space::zero();   ///< of the device before the last update [m]
+  scalar took_{};                                     ///< the time of it [s]
   scalar most_{};                ///< the largest |s| up to which the surface bends [m]
-  typename Space::coordinates way_ = Space::zero();  ///< of the device before the last update [m]
-  scalar took_{};                ///< and the time of it [s]
   scalar turns_{}, missed_{};    ///< Σ |Δn|², and Σ |Δn − κ Δp|² by the κ of the time
-  scalar strays_{}, may_stray_{};  ///< Σ (Δp·n)² [m²], and Σ |s|²|Δn|², which it is if p is not the point touched
   scalar squares_{}, both_{};    ///< Σ |Δp|² [m²], Σ Δn·Δp [m]
+  scalar strays_{}, not_so_{};   ///< Σ (s·Δn)², Σ (Δp·n − s·Δn)² [m²]
   scalar fits_{}, curvature_{};  ///< κ with a = 1, κ [1/m]
-  bool is_touched_ = true;       ///< p is the point that is touched
+  bool is_near_ = true;          ///< p is as near as the point touched is
 };
 
 }  // namespace v0
