@@ -38,7 +38,7 @@ struct half_space {
   using vector = typename Space::vector;
   static constexpr surface_kind kind = surface_kind::flat;
 
-  typename Space::coordinates point{};   ///< p, of the surface; the point touched, if it is curved [m]
+  typename Space::coordinates point{};  ///< p, of the surface; the one touched, if it is curved [m]
   typename Space::coordinates normal{};  ///< n, outward, any length but zero
   scalar stiffness{};                    ///< K [N/m], > 0
 
