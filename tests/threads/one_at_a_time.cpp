@@ -158,11 +158,11 @@ TEST_CASE("threads that tick one port in turns, or each its own, are not found",
 
 TEST_CASE("news of a surface during the call of another thread are found", "[threads]") {
   // The first call never ends here: a port whose tick is on its way looks like that to all others.
-  using touch = ph::touch<scene>;
-  class stuck : public touch {
+  using model = ph::touch<scene>;
+  class stuck : public model {
    public:
     stuck()
-        : touch(ph::make_touch<scene>({.mass = 0.1, .damping = 0.03, .force_limit = 9.0},
+        : model(ph::make_touch<scene>({.mass = 0.1, .damping = 0.03, .force_limit = 9.0},
                                       {.force = 5.0})) {}
     void news_meanwhile() {
       [[maybe_unused]] const auto on_its_way = this->one_call();

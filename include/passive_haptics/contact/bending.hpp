@@ -10,7 +10,7 @@
 // updates. p is the point that is touched, unless
 //
 //     |s| > (2 + age/P) times the larger of the device's last two ways, or twice that if p was taken for it so far
-//     Σ (Δp·n − s·Δn)² < Σ (s·Δn)²/30,   as a point goes that lies beside the one touched
+//     Σ (Δp·n − s·Δn)² < Σ (s·Δn)²/64,   as a point goes that lies beside the one touched
 //
 // Then the place of the device when the surface was asked stands for p, as its last two ways and the age tell it, and in
 // the first case its way for Δp. P [s] is the mean time of those ways. The surface goes straight on beyond the |s| of the
@@ -66,7 +66,7 @@ class bending {
     not_so_ = keeps * not_so_ + (rose - strayed) * (rose - strayed);
     strays_ = keeps * strays_ + strayed * strayed;
     if (!kernels::is_finite(missed_ + squares_ + curvature_ + not_so_ + strays_)) *this = {};
-    if (is_near_ && !(scalar(30) * not_so_ < strays_)) {
+    if (is_near_ && !(scalar(64) * not_so_ < strays_)) {
       base_ = now.point;
       most_ = scalar(2) * usual + beside_it;
     } else {
