@@ -29,23 +29,21 @@ class bending {
   using vector = typename Space::vector;
 
   [[nodiscard]] constexpr bool is_curved() const noexcept { return curvature_ != scalar(0); }
-  /// What the surface has fallen away by at x from the plane of that normal [m]; below 0 in a hollow.
-  [[nodiscard]] constexpr scalar sag(const vector& normal, const vector& x) const noexcept {
-    if (!is_curved()) return scalar(0);
-    const scalar s = Space::norm(beside(normal, from_base(x)));
-    const scalar bent = kernels::smaller(s, most_);
-    return curvature_ * bent * (s - bent / scalar(2));
-  }
-  /// The normal at x.
-  [[nodiscard]] constexpr vector turned(const vector& normal, const vector& x) const noexcept {
-    if (!is_curved()) return normal;
-    const vector s = beside(normal, from_base(x));
-    const scalar size = Space::norm(s);
-    return tilted(normal, size > most_ ? vector(s * (most_ / size)) : s);
+  /// What the surface has fallen away by from the plane of that normal at x [m], below 0 in a hollow, and its normal there.
+  struct bent {
+    scalar sag;
+    vector normal;
+  };
+  [[nodiscard]] constexpr bent at(const vector& normal, const vector& x) const noexcept {
+    if (!is_curved()) return {scalar(0), normal};
+    const vector s = beside(normal, Space::difference(x, base_));
+    const scalar size = Space::norm(s), part = size > most_ ? most_ / size : scalar(1);
+    return {curvature_ * part * size * (size - part * size / scalar(2)),
+            tilted(normal, s, part * curvature_)};
   }
   /// A normal after a way of the device [m].
   [[nodiscard]] constexpr vector onwards(const vector& normal, const vector& way) const noexcept {
-    return is_curved() ? tilted(normal, beside(normal, way)) : normal;
+    return is_curved() ? tilted(normal, beside(normal, way), curvature_) : normal;
   }
 
   /// An update of a contact: the planes before and now, the device at x after its way [m] since the one before, the time
@@ -92,14 +90,12 @@ class bending {
     fits_ = squares_ > scalar(0) ? both_ / squares_ : scalar(0);
     curvature_ = turns_ > scalar(0) ? fits_ * foreseeable(scalar(1) - missed_ / turns_) : scalar(0);
   }
-  [[nodiscard]] constexpr vector from_base(const vector& x) const noexcept {
-    return Space::difference(x, base_);
-  }
   [[nodiscard]] static constexpr vector beside(const vector& normal, const vector& way) noexcept {
     return way - normal * Space::dot(way, normal);
   }
-  [[nodiscard]] constexpr vector tilted(const vector& normal, const vector& s) const noexcept {
-    const vector further = normal + s * curvature_;
+  [[nodiscard]] static constexpr vector tilted(const vector& normal, const vector& s,
+                                               scalar curvature) noexcept {
+    const vector further = normal + s * curvature;
     return further / Space::norm(further);
   }
 

@@ -248,8 +248,10 @@ class local_contact {
                                                           event& what) noexcept {
     using state = std::remove_cvref_t<decltype(port)>;
     const vector here = motion.position;
-    const auto newest = supply_.target().at(here);
-    const scalar depth = depth_in_own(newest, here, port);
+    const auto told = supply_.target().at(here);
+    if constexpr (eases) pursue(told, here, port);
+    const auto newest = as_it_bends(told, here);
+    const scalar depth = depth_in_own(newest.depth);
     const scalar weight = presence(depth, port.dt, what);
     const bool behind = weight > scalar(0) && depth > scalar(0);
     const bool in_target = behind && newest.covered();
@@ -270,7 +272,7 @@ class local_contact {
     }
 
     const auto own = in_own(here, depth, in_target && !from_the_side);
-    const vector goal = outward_in(newest, here);
+    const vector goal = newest.outward();
     const vector normal = turned(goal, own.touched, here, depth, port);
     const scalar speed = damped_speed(motion.along(normal), in_target, port.dt);
     scalar felt = in_target ? depth : scalar(0);
@@ -283,12 +285,8 @@ class local_contact {
     const vector desired = Space::scaled(normal, asked);
     vector wanted = desired;
     if constexpr (detail::is_shaped<Law, Space>) {
-      contact_state<Space> contact{normal,
-                                   supply_.target().stiffness,
-                                   own.depth,
-                                   depth_in(newest, here),
-                                   local_force(before, own, speed),
-                                   fresh()};
+      contact_state<Space> contact{normal,       supply_.target().stiffness,      own.depth,
+                                   newest.depth, local_force(before, own, speed), fresh()};
       if constexpr (Law::needs_velocity) contact.velocity = detail::velocity_of<Space>(motion);
       wanted = detail::applied<Space>(law_.shapers(), desired, contact, port).force;
       if constexpr (!shapers_reduce<state>()) {
@@ -421,52 +419,59 @@ class local_contact {
     }
     return outwards;
   }
-  /// The depth of x in the newest surface [m], which bends as far as that is known, and its normal there.
-  [[nodiscard, gnu::always_inline]] constexpr scalar depth_in(
-      const auto& newest, [[maybe_unused]] const vector& x) const noexcept {
-    if constexpr (bends) return newest.depth - bend_.sag(newest.outward(), x);
-    return newest.depth;
-  }
-  [[nodiscard, gnu::always_inline]] constexpr vector outward_in(
-      const auto& newest, [[maybe_unused]] const vector& x) const noexcept {
-    if constexpr (bends) return bend_.turned(newest.outward(), x);
-    return newest.outward();
-  }
-  /// The depth of x in the own surface [m]: the newest one or, if updates are eased, the one that follows it.
-  [[nodiscard, gnu::always_inline]] constexpr scalar depth_in_own(
-      const auto& newest, [[maybe_unused]] const vector& x,
-      [[maybe_unused]] const auto& port) noexcept {
-    if constexpr (eases) {
-      lag_.grow_older(port.dt);
-      if (fresh() || lags()) [[unlikely]]
-        return depth_behind(newest, x, port);
+  /// What a plane told is at x, as far as it is known to bend; any other surface is what it is.
+  struct bent_plane {
+    scalar depth;  ///< [m]
+    vector normal;
+    [[nodiscard]] constexpr const vector& outward() const noexcept { return normal; }
+    [[nodiscard]] static constexpr bool covered() noexcept { return true; }
+  };
+  [[nodiscard, gnu::always_inline]] constexpr auto as_it_bends(
+      const auto& told, [[maybe_unused]] const vector& x) const noexcept {
+    if constexpr (bends) {
+      const auto bent = bend_.at(told.outward(), x);
+      return bent_plane{told.depth - bent.sag, bent.normal};
+    } else {
+      return told;
     }
-    return depth_in(newest, x);
   }
-  [[nodiscard, gnu::noinline]] constexpr scalar depth_behind(const auto& newest, const vector& x,
-                                                             const auto& port) noexcept {
+  /// Moves the own surface on by a tick, and takes an update.
+  [[gnu::always_inline]] constexpr void pursue(const auto& told, const vector& x,
+                                               const auto& port) noexcept {
+    lag_.grow_older(port.dt);
+    if (fresh() || lags()) [[unlikely]]
+      follow(told, x, port);
+  }
+  [[gnu::noinline]] constexpr void follow(const auto& told, const vector& x,
+                                          const auto& port) noexcept {
     const scalar force = Space::norm(vector(port.held));
     if (!lag_.settled()) {
       const scalar spent = Space::work(port.held, port.travel).joules;
       lag_.follow(port.dt, port.paid_way(force, scalar(1e-4), scalar(0.05), spent));
     }
     if (lag_.silent()) turn_.stop();
-    if (fresh()) hear(newest, x, port);
-    const scalar now = depth_in(newest, x), own = now - lag_.offset();
-    if (own > scalar(0) || now > scalar(0)) return own;
-    turn_.stop();
-    lag_.let_go();  // neither is touched, so no force can step
+    if (fresh()) hear(told, x, port);
+  }
+  /// The depth in the own surface [m], for that in the newest one.
+  [[nodiscard, gnu::always_inline]] constexpr scalar depth_in_own(scalar now) noexcept {
+    if constexpr (eases) {
+      if (lags()) [[unlikely]] {
+        const scalar own = now - lag_.offset();
+        if (own > scalar(0) || now > scalar(0)) return own;
+        turn_.stop();
+        lag_.let_go();  // neither is touched, so no force can step
+      }
+    }
     return now;
   }
   /// Takes an update; a pressed contact keeps its force, but not if a wall of one dimension is on the other side now.
-  constexpr void hear(const auto& newest, const vector& x, const auto& port) noexcept {
-    const auto was = shown_.at(x);
-    const scalar was_deep = depth_in(was, x);
-    const vector was_outward = outward_in(was, x);
+  constexpr void hear(const auto& told, const vector& x, const auto& port) noexcept {
+    const auto was = as_it_bends(shown_.at(x), x);
+    const vector was_outward = was.outward();
     const vector way = x - vector(std::exchange(heard_at_, x));
     const scalar counted = supply_.last_weight(), took = lag_.between(told_.age);
     const bool turned_over =
-        Space::dof == 1 && !(Space::dot(newest.outward(), was_outward) > scalar(0));
+        Space::dof == 1 && !(Space::dot(told.outward(), was_outward) > scalar(0));
     const bool known = counted > scalar(0) && was.covered() && !turned_over;
     if constexpr (bends) {
       if (known) {
@@ -475,18 +480,19 @@ class local_contact {
         bend_ = {};
       }
     }
-    const scalar now = depth_in(newest, x);
-    const vector outward = outward_in(newest, x);
+    const auto newest = as_it_bends(told, x);
+    const vector outward = newest.outward();
     const law_type before = law_;
     adopt(port.longest_tick, std::remove_cvref_t<decltype(port)>::latency);
     const scalar compliance = law_.depth(scalar(1), scalar(0));
-    scalar own = known ? was_deep - lag_.offset() : scalar(0);
+    scalar own = known ? was.depth - lag_.offset() : scalar(0);
     const bool as_stiff = before.depth(scalar(1), scalar(0)) == compliance;
     if (own > scalar(0) && !(as_stiff && counted == scalar(1)))
       own = law_.depth(counted * before.force(own, scalar(0)), scalar(0));
     turn_.hear(known ? vector(outward - was_outward) : Space::zero(), took);
     const bool knows = told_.velocity.has_value();
-    lag_.hear(own, now, known ? now - was_deep : scalar(0), compliance, law_.pace(),
+    lag_.hear(own, newest.depth, known ? newest.depth - was.depth : scalar(0), compliance,
+              law_.pace(),
               {knows ? Space::dot(vector(*told_.velocity), outward) : scalar(0), told_.age, knows,
                Space::norm(way)});
     told_ = {};
