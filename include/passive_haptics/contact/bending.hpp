@@ -22,6 +22,7 @@
 namespace passive_haptics {
 inline namespace v0 {
 
+/// The bend of the surface of one contact. Normals are unit vectors; what is no finite number makes it flat, once.
 template <class Space>
 class bending {
  public:
