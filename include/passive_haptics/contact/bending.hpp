@@ -62,8 +62,8 @@ class bending {
 
     const scalar strayed = Space::dot(turn, off);
     const scalar rose = Space::dot(shift, vector(normal + vector(before.normal))) / scalar(2);
-    not_so_ = keeps * not_so_ + (rose - strayed) * (rose - strayed);
-    strays_ = keeps * strays_ + strayed * strayed;
+    not_so_ = keeps() * not_so_ + (rose - strayed) * (rose - strayed);
+    strays_ = keeps() * strays_ + strayed * strayed;
     if (!kernels::is_finite(missed_ + squares_ + curvature_ + not_so_ + strays_)) *this = {};
     if (is_near_ && !(scalar(64) * not_so_ < strays_)) {
       base_ = now.point;
@@ -78,16 +78,16 @@ class bending {
   }
 
  private:
-  static constexpr scalar keeps = scalar(7) / scalar(8);
+  static constexpr scalar keeps() noexcept { return scalar(7) / scalar(8); }
 
   /// Takes Δn and Δp.
   constexpr void fit(const vector& turn, const vector& shift) noexcept {
     const scalar turns = Space::dot(turn, turn), both = Space::dot(turn, shift),
                  square = Space::dot(shift, shift);
-    missed_ = keeps * missed_ + turns + fits_ * (fits_ * square - scalar(2) * both);
-    turns_ = keeps * turns_ + turns;
-    squares_ = keeps * squares_ + square;
-    both_ = keeps * both_ + both;
+    missed_ = keeps() * missed_ + turns + fits_ * (fits_ * square - scalar(2) * both);
+    turns_ = keeps() * turns_ + turns;
+    squares_ = keeps() * squares_ + square;
+    both_ = keeps() * both_ + both;
     fits_ = squares_ > scalar(0) ? both_ / squares_ : scalar(0);
     curvature_ = turns_ > scalar(0) ? fits_ * foreseeable(scalar(1) - missed_ / turns_) : scalar(0);
   }
