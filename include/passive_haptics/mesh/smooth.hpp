@@ -2,7 +2,7 @@
 #pragma once
 // Facets that are felt as the smooth surface which their nodes were taken from.
 //
-//     ph::mesh::surface organ(triangles, nodes, ph::mesh::smooth{});                // creases from 0.7 rad on
+//     ph::mesh::surface organ(triangles, nodes, ph::mesh::smooth{});  // creases from 0.7 rad on
 //
 // Each corner i of a triangle at p_i has a unit normal n_i, one for all triangles round its node up to the next creases,
 // and the triangle has a rounded surface s over it. With barycentric b in the plane of the triangle
