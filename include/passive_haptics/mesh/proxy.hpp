@@ -27,7 +27,7 @@
 
 #include <passive_haptics/base/parameter.hpp>
 #include <passive_haptics/mesh/free_region.hpp>
-#include <passive_haptics/mesh/surface.hpp>
+#include <passive_haptics/mesh/moving_mesh.hpp>
 
 namespace passive_haptics {
 inline namespace v0 {
@@ -86,8 +86,7 @@ class proxy {
       fresh.told_before = fresh.told = fresh.goal = fresh.shown = there->where;
     }
     reframe([&] { parts_[slot(meshes_++)] = fresh; });
-    const int last = meshes_ - 1;
-    placed_ &= !(at_ == device_ && closest(fresh, last, at_, rule_.radius).triangle >= 0);
+    placed_ &= !(at_ == device_ && now(fresh).closest(at_, rule_.radius, -1).triangle >= 0);
     return true;
   }
   /// Touches no surface any more.
@@ -188,18 +187,11 @@ class proxy {
   [[nodiscard]] triple went(int i) const noexcept {
     const half_space_of& h = planes_[slot(i)];
     const part& p = parts_[slot(h.mesh)];
-    if (p.done == p.done_before && p.shown == p.shown_before) return {};
-    const auto in_world = [&](double done, const pose& where) {
-      const view v{&p.news.mesh(),  &p.news.from(), &p.news.to(), done,
-                   !p.news.moves(), true,           where};
-      return point_at(v.triangle(h.triangle), h.weights);
-    };
-    return in_world(p.done, p.shown) - in_world(p.done_before, p.shown_before);
+    return p.moved() ? p.went(h.triangle, h.weights) : triple{};
   }
   /// True if what half-space i is of goes steadily, so that its way is foreseen (base/foresight.hpp).
   [[nodiscard]] bool goes_steadily(int i) const noexcept {
-    const part& p = parts_[slot(planes_[slot(i)].mesh)];
-    return p.done == p.done_before ? p.sees.share() > 0.0 : p.news.to().steady > 0.0;
+    return parts_[slot(planes_[slot(i)].mesh)].goes_steadily();
   }
   /// The triangle that was closest in the last step, −1 before the first, and its mesh.
   [[nodiscard]] int nearest() const noexcept {
@@ -219,7 +211,7 @@ class proxy {
   /// The distance of the ball's centre from the closest triangle [m]; for tests, it looks anew.
   [[nodiscard]] double clearance() const noexcept {
     double least = box::infinity;
-    for (const part& p : parts()) least = closest(p, 0, at_, least).distance;
+    for (const part& p : parts()) least = now(p).closest(at_, least, p.nearest).distance;
     return least;
   }
 
@@ -227,51 +219,10 @@ class proxy {
   static constexpr int most_near = 48, most_rounds = 3;
   static constexpr std::size_t slot(int i) noexcept { return static_cast<std::size_t>(i); }
 
-  /// When news come.
-  struct timing {
-    static constexpr double rarest = 0.15;  ///< [s]
-    double age = 1.0;                       ///< of the last ones [s]
-    double period = 1.0, before = 1.0;  ///< between those and the ones before, and before that [s]
-    double mean = 1.0;                  ///< of the last few periods [s]
-    double longest = 1.0;               ///< of them, as long as it is not long ago [s]
-    void hear() noexcept {
-      before = std::exchange(period, std::exchange(age, 0.0));
-      const bool other = mean > 2.0 * period || period > 2.0 * mean;
-      mean = other ? period : mean + 0.25 * (period - mean);
-      longest = (std::max)(period, longest + 0.2 * (period - longest));
-    }
-    /// Until the next are due [s]; who is late has half a period at least.
-    [[nodiscard]] double left() const noexcept { return (std::max)(period - age, 0.5 * period); }
-    /// True if the next are due before long, but not in the next two ticks, so that their place is worth foreseeing.
-    /// News that come unevenly are late when they are later than those before were.
-    [[nodiscard]] bool are_due(double dt) const noexcept {
-      return period > 2.5 * dt && period < rarest && age < 1.5 * (std::min)(longest, rarest);
-    }
-  };
-  /// One mesh, and how far its shape and its pose have come on their way to the newest ones.
-  struct part {
-    surface::reader news;
-    double done = 1.0, done_before = 1.0;      ///< of the way between the shapes; in the last tick
-    double shape_way = 1e-3, pose_way = 1e-3;  ///< [s]
-    timing shape_news, pose_news;
-    int newest = -1;                  ///< number of the newest shape
-    pose told{}, told_before{};       ///< the newest pose, which `goal` may be ahead of
-    triple told_way{}, way_before{};  ///< the speed at which they moved what is at the ball [m/s]
-    foresight<double> sees;           ///< of poses
-    double pose_done = 1.0;
-    int stuck = 0;  ///< ticks for which the mesh waits; < 0: it goes back
-    pose came_from{}, goal{}, shown{}, shown_before{};
-    int nearest = -1;
-    // of this tick:
-    double wanted = 0.0;   ///< share of the way between the shapes
-    pose aim{};            ///< where it is to be at the end
-    double through = 1.0;  ///< of both, what is done
-    double done_at_first = 1.0;
-    pose shown_at_first{};
+  using part = detail::moving_mesh;
+  using view = detail::view;
+  using found = detail::found;
 
-    [[nodiscard]] bool turns() const noexcept { return !(aim == shown_at_first); }
-    [[nodiscard]] bool goes() const noexcept { return through < 1.0; }
-  };
   [[nodiscard]] std::span<part> parts() noexcept { return std::span(parts_).first(slot(meshes_)); }
   [[nodiscard]] std::span<const part> parts() const noexcept {
     return std::span(parts_).first(slot(meshes_));
@@ -297,208 +248,31 @@ class proxy {
     beside_device_ = {};
   }
 
-  /// A mesh on its way from one shape to another, at a pose in the frame that is looked from.
-  struct view {
-    const detail::world* of;
-    const shape *from, *to;
-    double done;
-    bool still;
-    bool apart = false;  ///< in a frame of its own
-    pose where{};
-
-    [[nodiscard]] triple node(int i) const noexcept {
-      const triple& b = to->nodes[slot(i)];
-      return still ? b : between(from->nodes[slot(i)], b, done);
-    }
-    [[nodiscard]] corners triangle(int i) const noexcept {
-      const auto& t = of->triangles[slot(i)];
-      corners c{node(t[0]), node(t[1]), node(t[2])};
-      if (apart) {
-        for (triple& p : c) p = where.out(p) + where.position;
-      }
-      return c;
-    }
-    [[nodiscard]] triple in(const triple& p) const noexcept {
-      return apart ? where.in(p - where.position) : p;
-    }
-    // In its own frame.
-    [[nodiscard]] corners normals(int i) const noexcept {  // linear in between, as the nodes are
-      corners n;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t its = slot(of->smooth.normal[slot(i)][k]);
-        n[k] = still ? to->normals[its] : between(from->normals[its], to->normals[its], done);
-      }
-      return n;
-    }
-    [[nodiscard]] detail::bulge bulge() const noexcept {
-      const detail::bulge &a = from->bulge, &b = to->bulge;
-      const auto mean = [&](double u, double v) { return u + (v - u) * done; };
-      if (still) return b;
-      return {mean(a.out, b.out), mean(a.in, b.in), mean(a.least_cosine, b.least_cosine)};
-    }
-    /// Box i at the present share of the way. It holds the moved nodes, because each node and each bound go the same
-    /// share of their ways, and no node is beyond its bound at either end.
-    [[nodiscard]] box around(int i) const noexcept {
-      const box& b = to->boxes[slot(i)];
-      if (still) return b;
-      const box& a = from->boxes[slot(i)];
-      return {between(a.low, b.low, done), between(a.high, b.high, done)};
-    }
-    [[nodiscard]] double squared_distance(int i, const triple& p) const noexcept {
-      return around(i).squared_distance(p);
-    }
-  };
-  [[nodiscard]] view at_share(const part& p, double done, const pose& where) const noexcept {
-    return {&p.news.mesh(), &p.news.from(),  &p.news.to(),
-            done,           !p.news.moves(), !alone() && !(where == pose{}),
-            where};
-  }
-  [[nodiscard]] view now(const part& p) const noexcept { return at_share(p, p.done, p.shown); }
-  /// When that much of what it is to do in this tick is done.
-  [[nodiscard]] view later(const part& p, double through) const noexcept {
-    return at_share(p, p.done_at_first + through * p.wanted, pose_at(p, through));
-  }
-  [[nodiscard]] static pose pose_at(const part& p, double through) noexcept {
-    if (!p.turns()) return p.shown_at_first;
-    return through < 1.0 ? between(p.shown_at_first, p.aim, through) : p.aim;
-  }
-
-  struct found {
-    double distance = box::infinity;  ///< [m]
-    int triangle = -1;
-    triple weights;
-    triple point;
-    int mesh = 0;
-  };
-  [[nodiscard]] static found on(const corners& t, int i, const triple& p) noexcept {
-    found f;
-    f.triangle = i;
-    f.weights = closest_weights(t, p);
-    f.point = point_at(t, f.weights);
-    f.distance = length(f.point - p);
-    return f;
-  }
-  /// The closest point of a mesh, if it is within `reach` [m].
-  [[nodiscard]] found closest(const part& of, int mesh, const triple& p,
-                              double reach) const noexcept {
-    const view v = now(of);
-    found best;
-    best.distance = reach;
-    const auto better = [&](int t) {
-      found f = on(v.triangle(t), t, p);
-      if (!(f.distance < best.distance)) return;
-      f.mesh = mesh;
-      best = f;
-    };
-    if (of.nearest >= 0) better(of.nearest);
-    const triple own = v.in(p);
-    v.of->tree.walk([&](int b) { return v.squared_distance(b, own); },
-                    [&](double d2) { return d2 < best.distance * best.distance; }, better);
-    return best;
-  }
-
-  // -------------------------------------------------------------------------------------------- news
-  /// Takes the news of the slow thread. While they come steadily, the goal is where the mesh will be when the next are
-  /// due; when those do not come, it is what was told.
-  void hear(part& p, double dt) noexcept {
-    p.shown_before = p.shown;
-    p.news.take_materials();
-    hear_pose(p, dt);
-    hear_shape(p, dt);
-    p.done_before = p.done;
-    p.wanted = 0.0;
-    if (p.news.moves()) {
-      p.wanted = dt / p.shape_way;
-      p.wanted = p.stuck < 0 ? -(std::min)(p.wanted, p.done) : (std::min)(p.wanted, 1.0 - p.done);
-    }
-    p.through = p.news.moves() || !(p.aim == p.shown) ? 0.0 : 1.0;
-    p.done_at_first = p.done;
-    p.shown_at_first = p.shown;
-  }
-  /// The pose of a single mesh is shown at once; among several it is a motion, which may have to wait.
-  void hear_pose(part& p, double dt) noexcept {
-    p.pose_news.age += dt;
-    if (const auto* news = p.news.take_pose()) {
-      p.pose_news.hear();
-      const timing& when = p.pose_news;
-      const triple way = moved_by(p, p.told, news->where) * (1.0 / when.period);
-      p.sees.hear(squared(way), dot(way, p.told_way), dot(way, p.way_before));
-      p.way_before = std::exchange(p.told_way, way);
-      const double steady = p.sees.share(), times = (1.0 + news->late) * when.mean;
-      const bool foreseen = placed_ && steady > 0.0 && when.are_due(dt);
-      p.goal = foreseen ? onwards(news->where, p.told, p.sees.last() * times / when.period,
-                                  p.told_before, p.sees.before() * times / when.before)
-                        : news->where;
-      p.told_before = std::exchange(p.told, news->where);
-      p.came_from = placed_ ? p.shown : p.goal;
-      const double distance = is_pressed(p) ? length(moved_by(p, p.shown, p.goal)) : 0.0;
-      p.pose_way = way_of(foreseen ? when.mean : when.left(), distance, steady, dt);
-      p.pose_done = 0.0;
-    } else if (p.pose_done >= 1.0 && !(p.goal == p.told) && !p.pose_news.are_due(dt)) {
-      p.came_from = p.shown;
-      p.goal = p.told;
-      p.pose_done = 0.0;
-    }
-    p.aim = p.shown;
-    if (p.pose_done < 1.0) {
-      p.pose_done = (std::min)(1.0, p.pose_done + dt / p.pose_way);
-      p.aim = p.pose_done < 1.0 ? between(p.came_from, p.goal, p.pose_done) : p.goal;
-    }
-    if (alone() || !placed_) p.shown = p.aim;
-  }
-  /// The way to a new shape begins when the last way is done.
-  void hear_shape(part& p, double dt) noexcept {
-    p.shape_news.age += dt;
-    if (std::exchange(p.newest, p.news.newest()) != p.newest) p.shape_news.hear();
-    if (p.news.moves() && p.done >= 1.0) {
-      p.news.arrive();
-    } else if (p.news.moves() && p.done <= 0.0 && p.stuck < 0) {  // it has gone back
-      p.news.turn_back();
-      p.done = 1.0;
-    }
-    if (p.news.moves()) return;
-    p.stuck = 0;
-    if (!p.news.go(p.shape_news.are_due(dt))) return;
-    p.done = 0.0;
-    p.shape_way = way_of(p.shape_news.left(), touched_way(p), p.news.to().steady, dt);
-  }
-  /// The time [s] for a way that moves what is touched by `distance` [m]: what is `left` until the next news, more for
-  /// what is not steady, and all that may be taken for what swings to and fro from one to the next.
-  [[nodiscard]] double way_of(double left, double distance, double steady,
-                              double dt) const noexcept {
-    if (steady < 0.0) return (std::max)(rule_.longest_way, dt);
-    const double asked = (std::max)(left, distance * (1.0 - steady) / rule_.news_speed);
-    const double most = steady > 0.0 ? (std::max)(left, rule_.longest_way) : rule_.longest_way;
-    return (std::max)((std::min)(asked, most), dt);
-  }
-  /// True if the half-space is one of a triangle of this mesh.
-  [[nodiscard]] bool is_of(const half_space_of& h, const part& p) const noexcept {
-    return &parts_[slot(h.mesh)] == &p;
-  }
-  [[nodiscard]] bool is_pressed(const part& p) const noexcept {
-    for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
-      if (is_of(planes_[slot(pressed_.of[i])], p)) return true;
-    }
-    return false;
-  }
-  /// By how much the way from one pose to another moves what is at the ball now [m].
-  [[nodiscard]] triple moved_by(const part& p, const pose& from, const pose& to) const noexcept {
-    const triple own = p.shown.in(place() - p.shown.position);
-    return to.out(own) + to.position - from.out(own) - from.position;
-  }
-  [[nodiscard]] double touched_way(const part& p) const noexcept {
-    double most = 0.0;
-    for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
-      const half_space_of& h = planes_[slot(pressed_.of[i])];
-      if (!is_of(h, p)) continue;
-      const triple from = point_at(at_share(p, 0.0, p.shown).triangle(h.triangle), h.weights);
-      const triple to = point_at(at_share(p, 1.0, p.shown).triangle(h.triangle), h.weights);
-      most = (std::max)(most, length(to - from));
-    }
-    return most;
-  }
+  [[nodiscard]] view now(const part& p) const noexcept { return p.now(!alone()); }
 
   // ----------------------------------------------------------------------------- the meshes' motion
+  void hear(part& p, double dt) noexcept {
+    const auto presses = [&](std::size_t i) {
+      return &parts_[slot(planes_[slot(pressed_.of[i])].mesh)] == &p;
+    };
+    bool pressed = false;
+    for (std::size_t i = 0; i < slot(pressed_.count); ++i) pressed = pressed || presses(i);
+    const detail::touching_ball ball{place(), placed_,          alone(),
+                                     pressed, rule_.news_speed, rule_.longest_way};
+    p.hear(dt, ball, [&] {
+      double most = 0.0;
+      for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
+        if (!presses(i)) continue;
+        const half_space_of& h = planes_[slot(pressed_.of[i])];
+        const triple from =
+            point_at(p.at_share(0.0, p.shown, !alone()).triangle(h.triangle), h.weights);
+        const triple to =
+            point_at(p.at_share(1.0, p.shown, !alone()).triangle(h.triangle), h.weights);
+        most = (std::max)(most, length(to - from));
+      }
+      return most;
+    });
+  }
   [[nodiscard]] bool follows() const noexcept {
     for (const part& p : parts()) {
       if (p.goes()) return true;
@@ -507,8 +281,7 @@ class proxy {
   }
   /// Advances all meshes by one tick on their ways to the newest shapes and poses; returns how far they carried the
   /// ball [m]. First they go together, twice, so that the ball can make room; then each that could not go with the
-  /// others tries by itself. A mesh that would crush the ball waits. A shape that has waited for `patience` ticks goes
-  /// back if there are newer news, because those may leave room.
+  /// others tries by itself. A mesh that would crush the ball waits.
   [[gnu::noinline]] double follow(double dt) noexcept {
     double carried = 0.0;
     int going = 0;
@@ -519,21 +292,8 @@ class proxy {
         if (parts_[slot(m)].goes()) carried += go(&parts_[slot(m)]);
       }
     }
-    for (part& p : parts()) settle(p, dt);
+    for (part& p : parts()) p.settle(dt);
     return carried;
-  }
-  void settle(part& p, double dt) noexcept {
-    if (p.goes() && p.turns()) {  // the rest of the way begins here
-      p.came_from = p.shown;
-      p.pose_way = (std::max)((1.0 - p.pose_done) * p.pose_way, dt);
-      p.pose_done = 0.0;
-    }
-    if (!p.news.moves()) return;
-    if (!p.goes() && p.wanted > 0.0 && 1.0 - p.done < 1e-9) p.done = 1.0;
-    if (p.stuck >= 0) {
-      p.stuck = p.through < 0.01 ? p.stuck + 1 : 0;
-      if (p.stuck > patience && p.news.has_news()) p.stuck = -1;
-    }
   }
   /// True for this one mesh or, if it is null, for every mesh that is on its way.
   [[nodiscard]] static bool takes_part(const part& p, const part* one) noexcept {
@@ -553,10 +313,7 @@ class proxy {
     at_ = at_ + w * part_of;
     for (part& p : parts()) {
       if (!takes_part(p, one)) continue;
-      p.through = part_of < 1.0 ? p.through + (1.0 - p.through) * part_of : 1.0;
-      if (1.0 - p.through <= 1e-6) p.through = 1.0;
-      p.done = p.done_at_first + p.through * p.wanted;
-      p.shown = pose_at(p, p.through);
+      p.go(part_of);
     }
     return length(w) * part_of + (part_of < 1.0 ? make_room() : 0.0);
   }
@@ -569,7 +326,7 @@ class proxy {
       const half_space_of& h = planes_[slot(pressed_.of[i])];
       const part& p = parts_[slot(h.mesh)];
       if (takes_part(p, one)) {
-        way[i] = point_at(later(p, 1.0).triangle(h.triangle), h.weights) -
+        way[i] = point_at(p.later(1.0, !alone()).triangle(h.triangle), h.weights) -
                  point_at(now(p).triangle(h.triangle), h.weights);
       }
       if (pressed_.share[i] > pressed_.share[most]) most = i;
@@ -601,7 +358,7 @@ class proxy {
       const bool goes = takes_part(p, one);
       if (!goes && w == triple{}) continue;
       const view before = now(p);
-      const view after = goes ? later(p, p.through + (1.0 - p.through) * share) : before;
+      const view after = goes ? p.later(p.through + (1.0 - p.through) * share, !alone()) : before;
       const triple own = before.in(at_);
       // A branch that turns: its points go by what its middle goes and by what half its size turns.
       const bool turns = goes && p.turns();
@@ -626,7 +383,7 @@ class proxy {
   }
   void limit(const corners& a, const corners& b, const triple& w, double least,
              double& safe) const noexcept {
-    const found f = on(a, 0, at_);
+    const found f = detail::closest_on(a, 0, at_);
     const std::array<triple, 3> u{b[0] - a[0] - w, b[1] - a[1] - w, b[2] - a[2] - w};
     const double fastest =
         kernels::square_root((std::max)({squared(u[0]), squared(u[1]), squared(u[2])}));
@@ -688,7 +445,7 @@ class proxy {
       const triple touched = point_at(now(p).triangle(h.triangle), h.weights);
       for (const held_by& b : before) {
         if (b.mesh != h.mesh || b.triangle == h.triangle) continue;
-        const found f = on(now(p).triangle(b.triangle), b.triangle, touched);
+        const found f = detail::closest_on(now(p).triangle(b.triangle), b.triangle, touched);
         if (!(f.distance <= same)) continue;
         h.triangle = b.triangle;
         h.weights = f.weights;
@@ -702,7 +459,7 @@ class proxy {
     bool clear = true;
     for (part& p : parts()) {
       if (p.news.moves()) p.done = (std::min)(1.0, p.done + dt / p.shape_way);
-      clear = clear && closest(p, 0, x, rule_.radius).triangle < 0;
+      clear = clear && now(p).closest(x, rule_.radius, p.nearest).triangle < 0;
     }
     if (!clear) return;
     at_ = x;
@@ -790,10 +547,12 @@ class proxy {
     found first;
     first.distance = r + reach;
     for (int m = 0; m < meshes_; ++m) {
-      const found f = closest(parts_[slot(m)], m, at_, first.distance);
+      part& p = parts_[slot(m)];
+      found f = now(p).closest(at_, first.distance, p.nearest);
       if (f.triangle < 0) continue;
+      f.mesh = m;
       first = f;
-      parts_[slot(m)].nearest = f.triangle;
+      p.nearest = f.triangle;
     }
     if (first.triangle < 0) return;
     beside_ = first.mesh;
@@ -840,7 +599,7 @@ class proxy {
           if (t == first.triangle && mesh == first.mesh) return;
           const corners c = v.triangle(t);
           if (lies_behind(c, 0, tiny())) return;
-          found f = on(c, t, at_);
+          found f = detail::closest_on(c, t, at_);
           if (!(f.distance < farthest)) return;
           f.mesh = mesh;
           keep_closest(f, beside, have, farthest);
@@ -921,7 +680,7 @@ class proxy {
                     [&](double d2) { return d2 < farthest * farthest; },
                     [&](int t) {
                       const corners p = v.triangle(t);
-                      const found f = on(p, t, ball);
+                      const found f = detail::closest_on(p, t, ball);
                       if (!(f.distance < farthest) || !is_over(p, ball - f.point)) return;
                       keep_closest(f, beside, have, farthest);
                     });
@@ -983,7 +742,6 @@ class proxy {
   }
 
   static constexpr int most_feet = 8;  ///< of a mesh
-  static constexpr int patience = 50;  ///< ticks for which news that would crush the ball wait
 
   proxy_parameters rule_{};
   std::array<part, std::size_t{most_meshes}> parts_{};
