@@ -7,8 +7,7 @@
 //             both      n_VE                                                            at depth f/K
 
 #include <passive_haptics/base/no_unique_address.hpp>
-#include <passive_haptics/contact/bending.hpp>
-#include <passive_haptics/contact/lag.hpp>
+#include <passive_haptics/contact/own_surface.hpp>
 #include <passive_haptics/contact/shaped.hpp>
 
 #include <utility>
@@ -155,14 +154,13 @@ class local_contact {
   constexpr void reset() noexcept {
     detail::restart(supply_);
     detail::restart(law_);
-    lag_ = {};
-    if constexpr (bends) bend_ = {};
+    own_.reset();
     if constexpr (eases) law_.let_go();
   }
 
   /// Recomputes the displayed stiffness for a new T [s], latency or parameter.
   constexpr void adopt(scalar longest_tick, int late) noexcept {
-    if constexpr (eases) slack_ = longest_tick;
+    own_.adopt(longest_tick);
     if (supply_.target().stiffness > scalar(0))
       detail::tell(law_, supply_.target().stiffness, longest_tick, late);
   }
@@ -180,7 +178,7 @@ class local_contact {
     if constexpr (Supply::moves) fades = supply_.weight() < scalar(1);
     const law_type law = law_for(K, T, late);
     detail::explain_surface(e, supply_.target(), x, scalar(1) / law.depth(scalar(1), scalar(0)),
-                            softener(law), lags(), fades);
+                            softener(law), own_.lags(), fades);
     if constexpr (detail::is_shaped<Law, Space>) detail::explain(law.shapers(), e, x, T, late);
   }
 
@@ -196,25 +194,19 @@ class local_contact {
   /// Takes the environment's newest constraint. Returns false if it is unusable; then the last good one stays.
   template <class Owner = Supply>
   requires(Owner::moves) constexpr bool update(const constraint_type& next) noexcept {
-    if constexpr (eases) {
-      if (!supply_.changed()) shown_ = supply_.target();
-      told_ = {};
-    }
+    if constexpr (eases) own_.expect(supply_.target(), supply_.changed());
     return supply_.update(next);
   }
   /// The same, with the surface's velocity and age. What is not finite, or older than the last update, is refused.
   template <class Owner = Supply>
   requires(Owner::moves&& detail::eases_news<part_at<Law, Space>>) constexpr bool update(
       const constraint_type& next, const surface_motion<Space>& how) noexcept {
-    // An update may come just before or after a tick, so ages are compared with a slack of one.
-    const bool younger =
-        supply_.changed() ? how.age <= told_.age + slack_ : lag_.follows(how.age, slack_);
-    if (!how.is_usable() || (supply_.published() && !younger)) {
+    if (!own_.accepts(how, supply_.published(), supply_.changed())) {
       supply_.refuse();
       return false;
     }
     if (!update(next)) return false;
-    told_ = how;
+    own_.state(how);
     return true;
   }
   /// Removes the surface: the contact fades as with stale data, and ends.
@@ -250,8 +242,8 @@ class local_contact {
     const vector here = motion.position;
     const auto told = supply_.target().at(here);
     if constexpr (eases) pursue(told, here, port);
-    const auto newest = as_it_bends(told, here);
-    const scalar depth = depth_in_own(newest.depth);
+    const auto newest = own_.newest(told, here);
+    const scalar depth = own_.depth(newest.depth);
     const scalar weight = presence(depth, port.dt, what);
     const bool behind = weight > scalar(0) && depth > scalar(0);
     const bool in_target = behind && newest.covered();
@@ -300,7 +292,7 @@ class local_contact {
             false,
             desired,
             own.touched,
-            in_target && (lags() || is_curved() || !(normal == goal)),
+            in_target && (own_.lags() || own_.is_curved() || !(normal == goal)),
             weight,
             felt,
             speed,
@@ -344,19 +336,13 @@ class local_contact {
       supply_.grow_older(dt);
       if (port.what == event::forces_off) supply_.vanish();
     }
-    if constexpr (eases) lag_.grow_older(dt);
+    own_.grow_older(dt);
     return {port.force, scalar(0), port.energy, port.what, false};
   }
 
  private:
   static constexpr bool eases = Supply::moves && detail::eases_news<law_type>;
-  static constexpr bool bends = eases && Space::dof > 1 && requires(constraint_type plane) {
-    requires constraint_type::kind == surface_kind::flat;
-    plane.point;
-    plane.normal;
-  };
-  template <int>
-  struct none {};  ///< one for each member that is left out, so that it takes no bytes
+  struct none {};  ///< in place of a member that is left out, so that it takes no bytes
   /// The law for a surface of K [N/m].
   [[nodiscard]] constexpr law_type law_for(scalar K, scalar T, int late) const noexcept {
     law_type law = law_;
@@ -419,83 +405,20 @@ class local_contact {
     }
     return outwards;
   }
-  /// What a plane told is at x, as far as it is known to bend; any other surface is what it is.
-  struct bent_plane {
-    scalar depth;  ///< [m]
-    vector normal;
-    [[nodiscard]] constexpr const vector& outward() const noexcept { return normal; }
-    [[nodiscard]] static constexpr bool covered() noexcept { return true; }
-  };
-  [[nodiscard, gnu::always_inline]] constexpr auto as_it_bends(
-      const auto& told, [[maybe_unused]] const vector& x) const noexcept {
-    if constexpr (bends) {
-      const auto bent = bend_.at(told.outward(), x);
-      return bent_plane{told.depth - bent.sag, bent.normal};
-    } else {
-      return told;
-    }
-  }
   /// Moves the own surface on by a tick, and takes an update.
   [[gnu::always_inline]] constexpr void pursue(const auto& told, const vector& x,
                                                const auto& port) noexcept {
-    lag_.grow_older(port.dt);
-    if (fresh() || lags()) [[unlikely]]
+    own_.grow_older(port.dt);
+    if (fresh() || own_.lags()) [[unlikely]]
       follow(told, x, port);
   }
   [[gnu::noinline]] constexpr void follow(const auto& told, const vector& x,
                                           const auto& port) noexcept {
-    const scalar force = Space::norm(vector(port.held));
-    if (!lag_.settled()) {
-      const scalar spent = Space::work(port.held, port.travel).joules;
-      lag_.follow(port.dt, port.paid_way(force, scalar(1e-4), scalar(0.05), spent));
-    }
-    if (lag_.silent()) turn_.stop();
-    if (fresh()) hear(told, x, port);
-  }
-  /// The depth in the own surface [m], for that in the newest one.
-  [[nodiscard, gnu::always_inline]] constexpr scalar depth_in_own(scalar now) noexcept {
-    if constexpr (eases) {
-      if (lags()) [[unlikely]] {
-        const scalar own = now - lag_.offset();
-        if (own > scalar(0) || now > scalar(0)) return own;
-        turn_.stop();
-        lag_.let_go();  // neither is touched, so no force can step
-      }
-    }
-    return now;
-  }
-  /// Takes an update; a pressed contact keeps its force, but not if a wall of one dimension is on the other side now.
-  constexpr void hear(const auto& told, const vector& x, const auto& port) noexcept {
-    const auto was = as_it_bends(shown_.at(x), x);
-    const vector was_outward = was.outward();
-    const vector way = x - vector(std::exchange(heard_at_, x));
-    const scalar counted = supply_.last_weight(), took = lag_.between(told_.age);
-    const bool turned_over =
-        Space::dof == 1 && !(Space::dot(told.outward(), was_outward) > scalar(0));
-    const bool known = counted > scalar(0) && was.covered() && !turned_over;
-    if constexpr (bends) {
-      if (known) {
-        bend_.hear(shown_, supply_.target(), x, way, lag_.since(), told_.age);
-      } else {
-        bend_ = {};
-      }
-    }
-    const auto newest = as_it_bends(told, x);
-    const vector outward = newest.outward();
+    own_.follow(port);
+    if (!fresh()) return;
     const law_type before = law_;
     adopt(port.longest_tick, std::remove_cvref_t<decltype(port)>::latency);
-    const scalar compliance = law_.depth(scalar(1), scalar(0));
-    scalar own = known ? was.depth - lag_.offset() : scalar(0);
-    const bool as_stiff = before.depth(scalar(1), scalar(0)) == compliance;
-    if (own > scalar(0) && !(as_stiff && counted == scalar(1)))
-      own = law_.depth(counted * before.force(own, scalar(0)), scalar(0));
-    turn_.hear(known ? vector(outward - was_outward) : Space::zero(), took);
-    const bool knows = told_.velocity.has_value();
-    lag_.hear(own, newest.depth, known ? newest.depth - was.depth : scalar(0), compliance,
-              law_.pace(),
-              {knows ? Space::dot(vector(*told_.velocity), outward) : scalar(0), told_.age, knows,
-               Space::norm(way)});
-    told_ = {};
+    own_.hear(supply_.target(), told, x, supply_.last_weight(), before, law_);
   }
   /// The factor of a contact that fades, whose force also falls at a limited rate if the law is eased.
   [[nodiscard, gnu::noinline]] constexpr scalar faded(scalar weight, [[maybe_unused]] scalar depth,
@@ -507,14 +430,6 @@ class local_contact {
       }
     }
     return weight;
-  }
-  [[nodiscard]] constexpr bool is_curved() const noexcept {
-    if constexpr (bends) return bend_.is_curved();
-    return false;
-  }
-  [[nodiscard]] constexpr bool lags() const noexcept {
-    if constexpr (eases) return !lag_.settled() || !turn_.still();
-    return false;
   }
 
   /// The depth of x in the local model, and whether it is touched there.
@@ -544,9 +459,7 @@ class local_contact {
       if (touched && !supply_.together()) {
         vector own = supply_.local().at(x).outward(), towards = goal;
         if constexpr (eases) {
-          if constexpr (bends) own = bend_.onwards(own, port.travel);
-          towards = turn_.turned(goal, lag_.taken_on());
-          if (lag_.taking_on()) own = turn_.turned(own, port.dt);
+          own_.take_on(own, towards, port.travel, port.dt);
           if constexpr (requires { normals_.rate(); }) {
             return normals_.step_by(own, towards, gentle_turn(depth, port.dt));
           }
@@ -579,19 +492,9 @@ class local_contact {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS normals_type normals_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS law_type law_;
   /// x was behind the surface, but outside its edges; this is needed for a supply that moves only.
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<Supply::moves, bool, none<0>> beside_{};
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, lag<scalar>, none<1>> lag_{};
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, turning<Space>, none<2>> turn_{};
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<bends, bending<Space>, none<7>> bend_{};
-  /// The target of the last tick, to compare with an update.
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, constraint_type, none<3>> shown_{};
-  /// The stated motion of the newest target, until the next tick takes it.
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, surface_motion<Space>, none<4>>
-      told_{};
-  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<eases, scalar, none<5>> slack_{};  ///< T [s]
+  PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS std::conditional_t<Supply::moves, bool, none> beside_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
-  std::conditional_t<eases, typename Space::coordinates, none<6>>
-      heard_at_{};  ///< x at the last update [m]
+  std::conditional_t<eases, own_surface<Space, constraint_type>, surface_as_told<Space>> own_;
 };
 
 /// The space is that of the constraint.
