@@ -450,3 +450,41 @@ TEST_CASE("half-spaces that a stopped ball lies beyond and that do not press do 
     port.source().let_go();
   }
 }
+
+TEST_CASE("a ball that is larger than the hollows of a smooth mesh comes to rest in them",
+          "[mesh][long]") {
+  // Hollows and knobs in turn, 10 mm apart; the tightest radius of a hollow is 2 mm.
+  body b;
+  constexpr int side = 61;
+  for (int i = 0; i < side * side; ++i) {
+    const double x = 1e-3 * (i % side - 30), y = 1e-3 * (i / side - 30), k = 2 * pi / 0.01;
+    b.nodes.push_back({x, y, 0.00127 * std::cos(k * x) * std::cos(k * y)});
+    if (i % side == 0 || i < side) continue;
+    b.triangles.push_back({i - side - 1, i - side, i});
+    b.triangles.push_back({i - side - 1, i, i - 1});
+  }
+  ph::mesh::surface s(b.triangles, b.nodes, {}, rounded);
+  for (const double radius : {0.0005, 0.0015, 0.003, 0.006}) {
+    for (const double stiffness : {500.0, 2000.0, 9000.0}) {
+      for (const vector& to : {vector(1e-3, 2e-3, -4e-3), vector(4e-3, -3e-3, -8e-3)}) {
+        auto port = ph::make_mesh_touch<scene>(
+            ph::exact_device{.mass = 0.2, .damping = 0.2, .force_limit = 20, .longest_tick = T},
+            ph::known_hand{10.0}, {.stiffness = stiffness, .proxy = {.radius = radius}});
+        REQUIRE(port.source().touch(s));
+        sim::device<scene, sim::impedance_hand<scene>> dev(
+            {.mass = 0.2, .damping = 0.2, .start = {1e-3, 1e-3, 0.003 + 1.4 * radius}},
+            {.stiffness = 400, .damping = 5, .limit = 10, .target = to});
+        sim::quiet_judge<scene> judge;
+        const auto seen = sim::run(dev, port, 6500, sim::idle, sim::idle,
+                                   [&](auto& now) { show(judge, port.source().ball(), now); });
+        INFO(radius << " m, " << stiffness << " N/m, to " << to.transpose() << ": "
+                    << judge.figures().force << " N, " << judge.figures().step << " N");
+        CHECK(judge.quiet());
+        CHECK(judge.since() <= 5.0);
+        CHECK(seen.least_energy >= -1e-12);
+        CHECK(seen.largest_force > 0.5);
+        port.source().let_go();
+      }
+    }
+  }
+}

@@ -18,7 +18,8 @@
 //           triangle at the distance d moves by less than d − r/2 relative to the ball, it stays r/2 away or more. A
 //           triangle that would move farther waits for the next tick.
 // With friction the ball is drawn to a place beside the device (stick()), by the same two. On a smooth mesh the ball
-// has half-spaces of the rounded surface besides (smooth.hpp); they only hold it farther off.
+// has half-spaces of the rounded surface besides (smooth.hpp); they only hold it farther off, and while the device
+// rests none of them rises over the ball, so that it rests in a hollow that it is too large for, too.
 // So the distance of the ball's centre from every triangle stays > 0 whatever news come, and the ball passes through
 // nothing. No test of an edge, a side or a crossing is made whose result rounding could turn.
 //
@@ -55,7 +56,7 @@ struct proxy_parameters {
 
 class proxy {
  public:
-  static constexpr int most_planes = 16, most_meshes = 8;
+  static constexpr int most_planes = 20, most_meshes = 8;
 
   proxy() noexcept = default;
   explicit proxy(const proxy_parameters& p) noexcept : rule_(p) {}
@@ -136,18 +137,18 @@ class proxy {
     }
     const double moved = length(own - device_);
     double carried = 0.0;
-    std::array<held_by, 3> before{};
-    const std::size_t pressed = (std::min)(slot(pressed_.count), before.size());
-    for (std::size_t i = 0; i < pressed; ++i) {
-      const half_space_of& h = planes_[slot(pressed_.of[i])];
-      before[i] = {h.mesh, h.triangle};
-    }
+    const std::array<held_by, 3> before = holding(0);
+    const triple was = at_;
     device_ = own;
+    // A convex surface rises over a tangent by less than the square; the rest is for what the ball has sunk before.
+    rise_ = (0.02 + 0.5 * moved / rule_.radius) * moved;
+    went_along_ = {};
     if (follows()) carried = follow(dt);
+    went_along_ = at_ - was;
     beside_device_ = stick(friction);
     approach(own + beside_device_, 1.25 * (moved + carried) + 0.125 * rule_.radius,
              3.0 * (moved + carried) + 0.5 * rule_.radius);
-    stay_on(std::span<const held_by>(before).first(pressed));
+    stay_on(before);
   }
 
   /// Where the ball is, in the world [m].
@@ -216,7 +217,7 @@ class proxy {
   }
 
  private:
-  static constexpr int most_near = 48, most_rounds = 3;
+  static constexpr int most_facets = 15, most_near = 48, most_rounds = 3;
   static constexpr std::size_t slot(int i) noexcept { return static_cast<std::size_t>(i); }
 
   using part = detail::moving_mesh;
@@ -432,11 +433,20 @@ class proxy {
     return far_off > most ? along * (most / far_off) : along;
   }
   struct held_by {
-    int mesh = 0, triangle = 0;
+    int mesh = -1, triangle = 0;
   };
+  /// The triangles of the half-spaces that press, of those from number `first` on.
+  [[nodiscard]] std::array<held_by, 3> holding(int first) const noexcept {
+    std::array<held_by, 3> all{};
+    for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
+      const half_space_of& h = planes_[slot(pressed_.of[i])];
+      if (pressed_.of[i] >= first) all[i] = {h.mesh, h.triangle};
+    }
+    return all;
+  }
   /// At an edge rounding chooses the triangle that presses. Where the mesh has materials, one of those that pressed before
   /// stays the one, as long as it has the point that is touched.
-  void stay_on(std::span<const held_by> before) noexcept {
+  void stay_on(const std::array<held_by, 3>& before) noexcept {
     const double same = 1e-9 * rule_.radius;
     for (std::size_t i = 0; i < slot(pressed_.count); ++i) {
       half_space_of& h = planes_[slot(pressed_.of[i])];
@@ -478,10 +488,11 @@ class proxy {
   /// Moves the ball towards x inside the half-spaces of all that is within `reach` [m], by `reach` at most; returns
   /// how far it went [m].
   [[gnu::noinline]] double round_to(const triple& x, double reach) noexcept {
+    const std::array<held_by, 3> before = holding(facets_);
     collect(reach);
     facets_ = count_;
     for (int m = 0; m < meshes_; ++m) {
-      if (!parts_[slot(m)].news.mesh().smooth.none()) round_off(m, x);
+      if (!parts_[slot(m)].news.mesh().smooth.none()) round_off(m, x, before);
     }
     const double r = rule_.radius, slack = 1e-9 * r;
     const auto normal = [&](int i) { return planes_[slot(i)].normal; };
@@ -572,7 +583,7 @@ class proxy {
       bool hidden = false;
       for (int i = 0; i < count_ && !hidden; ++i) hidden = lies_behind(t, i, allowed);
       if (hidden) continue;
-      if (count_ == most_planes - 1) {  // the last one is for stop_at
+      if (count_ == most_facets) {  // the others are for feet, and the last one for stop_at
         reach_ = (std::max)(f.distance - r, 0.0);
         return;
       }
@@ -664,9 +675,17 @@ class proxy {
   }
 
   /// Adds the half-spaces of the rounded surface (smooth.hpp) at the feet of x over the triangles nearby that the ball
-  /// is above of, the closest first. Those of the facets stay, so the ball only stops earlier.
-  [[gnu::noinline]] void round_off(int mesh, const triple& x) noexcept {
-    view v = now(parts_[slot(mesh)]);
+  /// is above of, the closest first. Those of the facets stay, so the ball only stops earlier. What pressed `before` comes
+  /// first of all, so that a wall is felt as long as it has a foot, even when the ball is nearer to another one.
+  ///
+  /// Where the ball does not fit into a hollow, x has feet on several walls, which come and go as it moves by little. So
+  /// no half-space rises over the ball by more than a share of the device's way in this tick and what the mesh went
+  /// beside the ball. When all rest the ball is in all of them, so each tick shortens |p − x|, and it comes to rest.
+  [[gnu::noinline]] void round_off(int mesh, const triple& x,
+                                   const std::array<held_by, 3>& before) noexcept {
+    const part& its = parts_[slot(mesh)];
+    const bool moves = its.moved();
+    view v = now(its);
     const bool apart = std::exchange(v.apart, false);
     const pose where = apart ? v.where : pose{};
     const triple ball = apart ? where.in(at_ - where.position) : at_;
@@ -684,25 +703,38 @@ class proxy {
                       if (!(f.distance < farthest) || !is_over(p, ball - f.point)) return;
                       keep_closest(f, beside, have, farthest);
                     });
+    int front = 0;
+    for (const held_by& h : before) {
+      if (h.mesh != mesh) continue;
+      int k = front;
+      while (k < have && beside[slot(k)].triangle != h.triangle) ++k;
+      if (k == have) {
+        have = (std::min)(have + 1, most_feet);
+        k = have - 1;
+        beside[slot(k)] = detail::closest_on(v.triangle(h.triangle), h.triangle, ball);
+      }
+      for (; k > front; --k) std::swap(beside[slot(k)], beside[slot(k - 1)]);
+      ++front;
+    }
     std::array<triple, most_feet> known;  // normals in the mesh's own frame
     const int first = count_;
     for (int k = 0; k < have && count_ < most_planes - 1; ++k) {
       const found& f = beside[slot(k)];
       const corners p = v.triangle(f.triangle);
-      bool seen_through = false, hidden = false;
-      for (int i = 0; i < k && !seen_through; ++i) {
-        const corners q = v.triangle(beside[slot(i)].triangle);
-        const triple up = cross(q[1] - q[0], q[2] - q[0]);
-        const double low = dot(up, f.point - q[0]), high = dot(up, ball - q[0]);
-        seen_through = high > 0.0 ? low < -1e-6 * high : low > -1e-6 * high;
-      }
-      for (int i = first; i < count_ && !hidden; ++i) {
+      bool skipped = false;  // it lies behind a half-space of these, or beyond a triangle
+      for (int i = first; i < count_ && !skipped; ++i) {
         const triple& n = known[slot(i - first)];
         const double most =
             base_[slot(i)] - dot(planes_[slot(i)].normal, where.position) + behind();
-        hidden = dot(n, p[0]) <= most && dot(n, p[1]) <= most && dot(n, p[2]) <= most;
+        skipped = dot(n, p[0]) <= most && dot(n, p[1]) <= most && dot(n, p[2]) <= most;
       }
-      if (seen_through || hidden) continue;
+      for (int i = 0; i < k && !skipped; ++i) {
+        const corners q = v.triangle(beside[slot(i)].triangle);
+        const triple up = cross(q[1] - q[0], q[2] - q[0]);
+        const double low = dot(up, f.point - q[0]), high = dot(up, ball - q[0]);
+        skipped = high > 0.0 ? low < -1e-6 * high : low > -1e-6 * high;
+      }
+      if (skipped) continue;
       detail::foot foot;  // NOLINT(*-member-init): written where it is found
       if (!detail::find_foot(
               v.of->smooth, [&](int i) { return v.triangle(i); },
@@ -714,11 +746,24 @@ class proxy {
       const double side = dot(cross(p[1] - p[0], p[2] - p[0]), ball - f.point) > 0.0 ? 1.0 : -1.0;
       if (!(side * dot(foot.normal, off) > 0.0)) continue;  // it is the other side of a fold
       if (dot(foot.beyond, off) > 0.0) continue;            // the ball goes over a sharp edge
-      known[slot(count_ - first)] = foot.normal * side;
-      const triple n = where.out(foot.normal * side);
+      const triple own = foot.normal * side;
+      bool twice = false;
+      for (int i = first; i < count_ && !twice; ++i) {
+        twice = squared(known[slot(i - first)] - own) < 1e-12;
+      }
+      if (twice) continue;
+      known[slot(count_ - first)] = own;
+      const triple n = where.out(own);
       base_[slot(count_)] = foot.level * side + dot(n, where.position);
-      planes_[slot(count_)] = {n, base_[slot(count_)] + bulge.lift(side, r) + r, foot.triangle,
-                               foot.weights, mesh};
+      triple beside_ball{};  // how far what has the foot went beside the ball
+      if (moves) {
+        const view last = its.at_share(its.done_before, its.shown_before, !alone());
+        beside_ball = point_at(now(its).triangle(foot.triangle), foot.weights) -
+                      point_at(last.triangle(foot.triangle), foot.weights);
+      }
+      const double most = dot(n, at_) + rise_ + length(beside_ball - went_along_);
+      const double level = base_[slot(count_)] + bulge.lift(side, r) + r;
+      planes_[slot(count_)] = {n, (std::min)(level, most), foot.triangle, foot.weights, mesh};
       ++count_;
     }
   }
@@ -728,14 +773,15 @@ class proxy {
     const double above = dot(n, way);
     return above * above > 0.25 * squared(n) * squared(way);
   }
-  /// The device or, if it lies deeper below the ball than half of the radius of curvature, a point that does not: beyond
-  /// the centre of curvature there is no foot.
+  /// The device or, if it lies deeper below the ball than half of the radius of curvature of a surface that is bent away
+  /// from the ball, a point that does not: beyond the centre of curvature there is no foot.
   [[nodiscard]] static triple before_focus(const corners& p, const corners& n, const triple& ball,
                                            const triple& device) noexcept {
+    const double above = dot(cross(p[1] - p[0], p[2] - p[0]), ball - p[0]);
     double bent = 0.0;  // squared
     for (std::size_t k = 0; k < 3; ++k) {
-      const double edge = squared(p[(k + 1) % 3] - p[k]);
-      if (edge > 0.0) bent = (std::max)(bent, squared(n[(k + 1) % 3] - n[k]) / edge);
+      const triple edge = p[(k + 1) % 3] - p[k], turn = n[(k + 1) % 3] - n[k];
+      if (dot(turn, edge) * above > 0.0) bent = (std::max)(bent, squared(turn) / squared(edge));
     }
     const double deep = squared(device - ball) * bent;
     return deep > 0.25 ? between(ball, device, 0.5 / kernels::square_root(deep)) : device;
@@ -752,8 +798,10 @@ class proxy {
   triple device_{};         ///< the device there [m]
   triple beside_device_{};  ///< what friction holds the ball back by [m]
   int count_ = 0;
-  int facets_ = 0;      ///< those of triangles; they are the first
-  double reach_ = 0.0;  ///< how far the half-spaces count [m]
+  int facets_ = 0;       ///< those of triangles; they are the first
+  double reach_ = 0.0;   ///< how far the half-spaces count [m]
+  double rise_ = 0.0;    ///< by how much those of a rounded surface may come over the ball [m]
+  triple went_along_{};  ///< the ball's way with the meshes in this tick [m]
   std::array<half_space_of, most_planes> planes_{};
   std::array<double, most_planes> base_{};  ///< level of the farthest corner [m]
   support pressed_{};
