@@ -61,6 +61,7 @@ struct slow_slot {
   double lag = 0.0, speed = 0.0, hurry = 1.0, pressed = 0.0, age = 0.0;
   ph::stick_slip::bristle<d3> bristle{};
   vec normal = vec::Zero(), before = vec::Zero(), place = vec::Zero();  ///< `before`: the target's
+  bool owed = false;  ///< it has pressed since the news that are being made up for
 };
 
 class slow_set {
@@ -80,6 +81,7 @@ class slow_set {
     REQUIRE(told.prepare());
     slow_slot& s = slots_[static_cast<std::size_t>(i)];
     begin_news();
+    s.owed = s.owed && s.state != slow_slot::none;
     const auto show = [told](const vec& x) {
       const auto here = told.at(x);
       shown what{here.depth, here.outward(), here.outward(), here.covered()};
@@ -109,6 +111,7 @@ class slow_set {
   void release(int i) {
     slow_slot& s = slots_[static_cast<std::size_t>(i)];
     begin_news();
+    s.owed = false;
     s.state = s.pressed > 0.0 ? slow_slot::leaving : slow_slot::none;
   }
   void set(const ph::pursuit& pace) {
@@ -302,7 +305,8 @@ class slow_set {
   }
   void begin_news(bool any = false) {
     owes_ = true;
-    for (const auto& s : slots_) {
+    for (auto& s : slots_) {
+      s.owed = s.owed || s.pressed > 0.0;
       if ((any || s.pressed > 0.0) && s.spring.stiffness > stiffest_.stiffness)
         stiffest_ = s.spring;
     }
@@ -313,18 +317,35 @@ class slow_set {
       if (s.state != slow_slot::none) s.spring = rule_.sampled(s.stiffness);
     }
   }
-  /// While there are news to make up for, the force changes by R dt + 2K (|Δx| + τ|Δx − Δx before|/dt) at most.
+  /// While there are news to make up for, the force changes by R dt + 2K (|Δx| + τ|Δx − Δx before|/dt) at most, but
+  /// along the force by −K (Δx + τ (Δx − Δx before)/dt).
   vec eased(const vec& wanted, const vec& way, double dt, bool chases) {
     if (!owes_ && !chased_ && !chases) return wanted;
     begin_news(!owes_ && !chased_);
-    const double most =
-        pace_.force_rate * dt +
-        2.0 * stiffest_.stiffness * (way.norm() + stiffest_.settling * (way - moved_).norm() / dt);
-    const vec step = wanted - asked_;
+    vec beside = way, change = way - moved_, middle = asked_;
+    double most = pace_.force_rate * dt;
+    const bool there = std::any_of(slots_.begin(), slots_.end(), [&](const slow_slot& s) {
+      return s.owed && (s.state == slow_slot::there || s.state == slow_slot::expected) &&
+             s.normal.dot(asked_) > 0.0;
+    });
+    if (there) {
+      const vec n = asked_.normalized();
+      const double along = n.dot(way) + stiffest_.settling / dt * n.dot(change);
+      const double left = asked_.norm() - stiffest_.stiffness * along;
+      middle = n * std::max(0.0, left);
+      most += std::max(0.0, -left);
+      beside -= n.dot(way) * n;
+      change -= n.dot(change) * n;
+    }
+    most += 2.0 * stiffest_.stiffness * (beside.norm() + stiffest_.settling * change.norm() / dt);
+    const vec step = wanted - middle;
     owes_ = step.norm() > most;
     chased_ = chases;
-    if (!owes_ && !chases) stiffest_ = {};
-    return owes_ ? vec(asked_ + step * (most / step.norm())) : wanted;
+    if (!owes_ && !chases) {
+      stiffest_ = {};
+      for (auto& s : slots_) s.owed = false;
+    }
+    return owes_ ? vec(middle + step * (most / step.norm())) : wanted;
   }
 
   ph::stick_slip::on<d3> friction_;
@@ -469,6 +490,7 @@ TEST_CASE("a set presses as its slow and plain definition does, whatever it is s
   const ph::pursuit usual{}, forgets{.speed = 0.02, .catch_up = 0.1, .stale_after = 0.15};
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     compare<1, 0, 0>(seed, spring, usual, all);
+    compare<3, 0, 0>(seed, spring, usual, all);
     compare<2, 1, 1>(seed, spring, usual, all);
     compare<2, 1, 1>(seed, spring, usual, all, {});
     compare<2, 1, 1>(seed, weak, forgets, all, {});

@@ -64,10 +64,13 @@ class contact_engine {
   struct slot_of : pursued<Surface, space_type> {
     PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS point_type point{};
     bool asleep = false;  ///< out of reach until all slots are evaluated again
+    bool owed = false;    ///< it has pressed since the news that are being made up for
   };
   using all_slots = slot_room<slot_of, Slots...>;
   /// With more than four slots, those out of reach are not evaluated in every tick.
   static constexpr bool naps = all_slots::capacity > 4 && frame::naps;
+  /// True if what the surfaces answer to a motion along their push is known: of a point, not of a tool that turns.
+  static constexpr bool holds_against = std::same_as<row, vector>;
 
  public:
   using scalar = typename Port::scalar;
@@ -104,7 +107,10 @@ class contact_engine {
   /// True if a surface of K [N/m] comes to rest at its displayed stiffness (settles() in sampled_spring.hpp).
   [[nodiscard]] constexpr bool settles(scalar K) const noexcept { return spring_.settles(K); }
   constexpr void reset() noexcept {
-    slots_.for_each([](auto& slot, std::size_t) { slot.reset(); });
+    slots_.for_each([](auto& slot, std::size_t) {
+      slot.reset();
+      slot.owed = false;
+    });
     let_go();
     asked_ = moved_ = Port::zero();
     steepest_ = {};
@@ -115,7 +121,10 @@ class contact_engine {
   template <class Surface = first_kind>
   constexpr void release(int i) noexcept {
     news();
-    slots_.template visit<Surface>(i, [](auto& slot) { slot.release(); });
+    slots_.template visit<Surface>(i, [](auto& slot) {
+      slot.release();
+      slot.owed = false;
+    });
   }
   /// Slot i of that kind, 0 ≤ i < Count, with its newest surface, its lag ℓ and its λ.
   template <class Surface = first_kind>
@@ -199,7 +208,7 @@ class contact_engine {
       all.deepest = scalar(0);
       all.chases = true;  // what comes back then is news, too
     }
-    const row way = now.moved();
+    const row way = moved(now, port.dt);
     if (told_ || chased_ || all.chases) [[unlikely]]
       wanted = eased(wanted, way, all.chases, port.dt);
     moved_ = way;
@@ -237,6 +246,7 @@ class contact_engine {
     news_taken<scalar> taken;
     news();
     slots_.template visit<Surface>(i, [&](auto& slot) {
+      slot.owed = slot.owed && slot.taken();
       taken.taken =
           frame::is_point(point) && slot.update(next, frame::place(last_, slot.point),
                                                 frame::place(last_, point), spring_, pace_);
@@ -362,25 +372,61 @@ class contact_engine {
   /// Begins an update: the force is no steeper than the stiffest contact that presses, or is there if `any`, from now on.
   [[gnu::noinline]] constexpr void news(bool any = false) noexcept {
     told_ = true;
-    slots_.for_each([&](const auto& slot, std::size_t) {
+    slots_.for_each([&](auto& slot, std::size_t) {
       const bool counts = any || slot.pressed() > scalar(0);
+      slot.owed = slot.owed || slot.pressed() > scalar(0);
       if (counts && slot.spring().stiffness > steepest_.stiffness) steepest_ = slot.spring();
     });
   }
-  /// While updates are followed, the desired effort changes by at most R dt plus the effect of the device's motion.
+  /// The motion of the device in this tick; where its answer is reckoned with, by the velocity that the damper reads.
+  [[nodiscard]] static constexpr row moved(const auto& now, [[maybe_unused]] scalar dt) noexcept {
+    if constexpr (holds_against) {
+      return velocity_of<space_type>(now.motion) * dt;
+    } else {
+      return now.moved();
+    }
+  }
+  /// True if a surface that has made what is asked is still there, if farther off.
+  [[nodiscard]] constexpr bool still_there() noexcept {
+    bool is = false;
+    slots_.for_each([&](const auto& slot, std::size_t) {
+      is = is || (slot.owed && slot.taken() && !slot.ends() &&
+                  space_type::dot(slot.normal(), vector(asked_)) > scalar(0));
+    });
+    return is;
+  }
+  /// While updates are followed, the desired effort changes by at most R dt plus the effect of the device's motion. What
+  /// surfaces answer to a motion u along their push is known, −K u, and holds against it; of what is across it, and of a
+  /// tool, only its size is. By size alone a device that gives way would explain the news that made it do so.
   [[gnu::noinline]] constexpr row eased(const row& wanted, const row& way, bool chases,
                                         scalar dt) noexcept {
     news(!told_ && !chased_);  // what recedes by itself may have pressed until now
-    const row change = way - row(moved_);
-    const scalar explained =
-        scalar(2) * steepest_.stiffness *
-        (frame::stretch(spring_, way) + steepest_.settling / dt * frame::stretch(spring_, change));
-    const row step = wanted - row(asked_);
+    const scalar lead = steepest_.settling / dt;
+    row beside = way, change = way - row(moved_), middle = asked_;
+    scalar explained(0);
+    if constexpr (holds_against) {
+      const scalar size = frame::size(spring_, middle);
+      if (size > scalar(0) && still_there()) {
+        const row push = middle * (scalar(1) / size);
+        const scalar u = space_type::dot(beside, push), du = space_type::dot(change, push);
+        beside = beside - row(push * u);
+        change = change - row(push * du);
+        const scalar left = size - steepest_.stiffness * (u + lead * du);
+        middle = push * kernels::larger(left, scalar(0));
+        explained = kernels::larger(-left, scalar(0));  // what is braked has no more to give
+      }
+    }
+    explained += scalar(2) * steepest_.stiffness *
+                 (frame::stretch(spring_, beside) + lead * frame::stretch(spring_, change));
+    const row step = wanted - middle;
     const scalar size = frame::size(spring_, step), most = pace_.news(dt) + explained;
     told_ = size > most;
     chased_ = chases;  // its last step is in the next tick
-    if (!told_ && !chases) steepest_ = {};
-    return told_ ? row(row(asked_) + row(step * (most / size))) : wanted;
+    if (!told_ && !chases) {
+      steepest_ = {};
+      slots_.for_each([](auto& slot, std::size_t) { slot.owed = false; });
+    }
+    return told_ ? row(middle + row(step * (most / size))) : wanted;
   }
   /// Returns no force, and drops the state of all contacts.
   constexpr void let_go() noexcept {

@@ -177,6 +177,10 @@ class pursued {
 
   [[nodiscard]] constexpr bool taken() const noexcept { return state_ != state::empty; }
   [[nodiscard]] constexpr bool stale() const noexcept { return state_ == state::stale; }
+  /// True if the contact recedes because its surface was released or is stale.
+  [[nodiscard]] constexpr bool ends() const noexcept {
+    return state_ == state::leaving || state_ == state::stale;
+  }
   [[nodiscard]] constexpr const Surface& target() const noexcept { return target_; }
   [[nodiscard]] constexpr scalar lag() const noexcept { return lag_; }  ///< ℓ [m]
   /// The speed at which ℓ falls [m/s].
