@@ -198,6 +198,15 @@ constexpr void fit(proxy_spring& spring, const auto& d, double most) noexcept {
   const pursuit turned{.speed = 0.5, .force_rate = 5.5 * d.force_limit};  // [rad/s], [N·m/s]
   return contact_set{spring, d.rotary ? turned : pursuit{}, room...};
 }
+/// A force of the user's own, as stiff as the device and its dry friction bear in a loop `late` ticks late.
+[[nodiscard]] constexpr settled_force guard_of(const auto& d, const auto& hand, int late) noexcept {
+  const double budget = budget_of(d, hand, late);
+  const double most = kernels::smaller(budget, d.rotary ? 50.0 * d.force_limit : 40e3);
+  return {.mass = d.mass,
+          .damping_fraction = braking(d, most, most / 40.0),
+          .force_limit = d.force_limit,
+          .most = budget};
+}
 /// The port of a source that was made for this device.
 template <class Space, class Limits>
 [[nodiscard]] constexpr auto port_of(const auto& source, const auto& d, const auto& hand,
@@ -243,13 +252,8 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
 template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
           detail::stated_hand Hand = known_hand>
 [[nodiscard]] constexpr auto make_guard(const Device& device, const Hand& hand) noexcept {
-  const double budget = detail::budget_of(device, hand, Limits::latency);
-  const double most = kernels::smaller(budget, device.rotary ? 50.0 * device.force_limit : 40e3);
-  const settled_force source{.mass = device.mass,
-                             .damping_fraction = detail::braking(device, most, most / 40.0),
-                             .force_limit = device.force_limit,
-                             .most = budget};
-  return detail::port_of<Space, Limits>(source, device, hand, detail::bounds_of(device, hand));
+  return detail::port_of<Space, Limits>(detail::guard_of(device, hand, Limits::latency), device,
+                                        hand, detail::bounds_of(device, hand));
 }
 
 // The types that they return, for members of a class.

@@ -108,7 +108,7 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
 [[nodiscard]] constexpr auto make_guard(const Device& device, const Transmission& transmission,
                                         const known_hand& hand) noexcept {
   const Device seen = detail::seen_through(device, transmission);
-  const settled_force source{.mass = seen.mass, .force_limit = seen.force_limit};
+  const auto source = detail::guard_of(seen, hand, Limits::latency);
   return detail::port_of<Space, Limits>(source, seen, hand,
                                         detail::bounds_through<Limits>(seen, transmission, hand));
 }
