@@ -324,6 +324,44 @@ TEST_CASE("a mesh that jumps onto a hand is felt there at a limited rate", "[mes
   }
 }
 
+TEST_CASE("a mesh that takes the place of the one that is pressed is felt on", "[mesh]") {
+  // A sphere of another topology every 40 ms, its facets up to 0.4 mm apart from those before; and one touched again.
+  for (const bool again : {false, true}) {
+    for (const double K : {1000.0, 4000.0}) {
+      std::vector<std::unique_ptr<ph::mesh::surface>> levels;
+      for (const int level : {3, 4}) {
+        const body b = sphere(level, 0.05);
+        levels.push_back(std::make_unique<ph::mesh::surface>(b.triangles, b.nodes));
+      }
+      auto port = port_of(K, 0.1, reachable(0.1));
+      REQUIRE(port.source().touch(*levels[0]));
+      device dev({.mass = 0.1, .start = vector(0.01, 0.02, 0.06)},
+                 drawn(vector(0.01, 0.02, 0.03), 5));
+      double step = 0.0, least = 1e9, last = 0.0;
+      const auto seen = sim::run(
+          dev, port, 3000,
+          [&](auto& now) {
+            if (now.tick % 40 == 0) {
+              REQUIRE(port.source().touch(*levels[again ? 0 : now.tick / 40 % levels.size()]));
+            }
+          },
+          sim::idle,
+          [&](auto& now) {
+            const double force = now.force.norm(), before = std::exchange(last, force);
+            if (now.tick < 1000) return;
+            step = std::max(step, std::abs(force - before));
+            least = std::min(least, force);
+          });
+      INFO(again << ", " << K << " N/m: steps " << step << " N, least " << least << " N");
+      CHECK(step < (again ? 1e-5 : 0.06));  // 50 N/s
+      CHECK(least > 3.0);
+      CHECK(seen.least_energy >= -1e-12);
+      CHECK(port.source().ball().meshes() == 1);
+      port.source().let_go();
+    }
+  }
+}
+
 TEST_CASE("a device that begins at a mesh is told why it feels nothing, until it is clear",
           "[mesh]") {
   const body b = plate();

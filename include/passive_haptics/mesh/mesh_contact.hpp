@@ -95,8 +95,9 @@ class mesh_contact::on {
     inside_ = false;
   }
 
-  /// Touches this mesh from now on; it must outlive the port. Call it from the haptic thread. It returns false if 64
-  /// fingers touch the mesh already.
+  /// Touches this mesh from now on, and no other; it must outlive the port. Call it from the haptic thread. One that takes
+  /// the place of what is pressed, within r of it, is felt on without a step. It returns false if 64 fingers touch the
+  /// mesh already.
   bool touch(const mesh::surface& s) noexcept { return ball_.touch(s); }
   /// Touches this mesh as well (mesh/proxy.hpp). It returns false if 64 fingers touch it, or if eight are touched.
   bool also_touch(const mesh::surface& s) noexcept { return ball_.also_touch(s); }
@@ -157,7 +158,7 @@ class mesh_contact::on {
     if (inside_) what = detail::worse_yet(what, event::started_inside);
     if (inside_ || pressed.count == 0) {
       presses_ = false;
-      behind_ = 0.0;
+      behind_ = felt_depth_ = 0.0;
       pressed_by_ = {};
       swing_.stop();
       return free;
@@ -213,7 +214,7 @@ class mesh_contact::on {
   }
   /// The share of the depth [m] that is felt: the surface that is felt goes outwards with the mesh by `most` [m] in a tick,
   /// by jump_speed where what moves it is no steady motion, and what it stays behind it makes up for by border_rate, or
-  /// when the mesh comes back.
+  /// when the mesh comes back. Where other meshes are touched what was felt goes on, and is made up for likewise.
   [[nodiscard]] double share_felt(double depth, double most, double dt) noexcept {
     if (!(depth > 0.0)) return 1.0;
     const mesh::support& pressed = ball_.pressed();
@@ -226,9 +227,15 @@ class mesh_contact::on {
     }
     if (!steady) most = (std::min)(most, jump_speed * dt);
     const double left = most - (std::max)(out, 0.0), rate = border_rate * dt / felt_.stiffness;
-    behind_ += (std::min)(out, 0.0) - (std::min)(left, rate);
-    behind_ = kernels::clamped(behind_, 0.0, depth);
-    return 1.0 - behind_ / depth;
+    if (ball_.touches_others()) behind_ = (std::max)(depth - felt_depth_, -depth);
+    if (behind_ < 0.0) {
+      behind_ = (std::max)((std::min)(behind_ + rate, 0.0), -depth);
+    } else {
+      behind_ += (std::min)(out, 0.0) - (std::min)(left, rate);
+      behind_ = kernels::clamped(behind_, 0.0, depth);
+    }
+    felt_depth_ = depth - behind_;
+    return felt_depth_ / depth;
   }
   /// v without what is no swing along the way on which the ball is held off (contact/swing.hpp).
   [[nodiscard]] mesh::triple swinging(const mesh::triple& v, double depth, double dt) noexcept {
@@ -290,6 +297,7 @@ class mesh_contact::on {
   bool presses_ = false;       ///< it did in the last tick
   bool inside_ = false;        ///< the device was not clear of the meshes by then
   double behind_ = 0.0;        ///< how far the surface that is felt lies below the mesh [m]
+  double felt_depth_ = 0.0;    ///< the depth less that, in the last tick [m]
   mesh::triple pressed_by_{};  ///< the force of the last tick, without what rubs [N]
   swing<double> swing_;
   mesh::proxy ball_;

@@ -66,21 +66,28 @@ class proxy {
     if (!p.check()) rule_ = p;
   }
 
-  /// Touches this surface from now on; it must outlive the proxy. A surface has 64 places, and a proxy that ends must
-  /// call let_go(), or its place stays taken. It returns false, and nothing is touched, if no place is left, or if
-  /// check() refuses the parameters.
+  /// Touches this surface from now on, and no other; it must outlive the proxy. What is pressed keeps its side if the
+  /// surface that takes its place lies within r of it: a finer mesh, or one of another topology. A surface has 64
+  /// places, and a proxy that ends must call let_go(), or its place stays taken. It returns false, and nothing is
+  /// touched, if no place is left, or if check() refuses the parameters.
   bool touch(const surface& s) noexcept {
-    let_go();
-    return also_touch(s);
+    if (!touches(s)) {
+      if (meshes_ == most_meshes) let_go();
+      if (!also_touch(s)) {
+        let_go();
+        return false;
+      }
+    }
+    for (int m = meshes_; m-- > 0;) {
+      if (!parts_[slot(m)].news.reads(s)) leave(m);
+    }
+    return true;
   }
   /// Touches this surface as well, where it is now. Each has its own pose and news, and where they meet all of them
   /// hold the ball; what it presses keeps its side. It returns false if most_meshes are touched, if the surface has no
   /// place left or is touched already, or if check() refuses the parameters.
   bool also_touch(const surface& s) noexcept {
-    for (const part& p : parts()) {
-      if (p.news.reads(s)) return false;
-    }
-    if (meshes_ == most_meshes || rule_.check()) return false;
+    if (touches(s) || meshes_ == most_meshes || rule_.check()) return false;
     part fresh;
     if (!fresh.news.join(s)) return false;
     if (const auto* there = fresh.news.take_pose()) {
@@ -101,14 +108,8 @@ class proxy {
   }
   /// Touches this surface no more, and the others as before.
   void let_go(const surface& s) noexcept {
-    for (int m = 0; m < meshes_; ++m) {
-      if (!parts_[slot(m)].news.reads(s)) continue;
-      parts_[slot(m)].news.leave();
-      reframe([&] {
-        for (int k = m; k + 1 < meshes_; ++k) parts_[slot(k)] = parts_[slot(k + 1)];
-        parts_[slot(--meshes_)] = {};
-      });
-      beside_ = 0;
+    for (int m = meshes_; m-- > 0;) {
+      if (parts_[slot(m)].news.reads(s)) leave(m);
     }
     if (meshes_ == 0) reset();
   }
@@ -120,6 +121,12 @@ class proxy {
     beside_device_ = {};
   }
   [[nodiscard]] bool touching() const noexcept { return meshes_ > 0; }
+  [[nodiscard]] bool touches(const surface& s) const noexcept {
+    return std::any_of(parts().begin(), parts().end(),
+                       [&s](const part& p) { return p.news.reads(s); });
+  }
+  /// True if a mesh came or went before the last step.
+  [[nodiscard]] bool touches_others() const noexcept { return others_; }
   [[nodiscard]] int meshes() const noexcept { return meshes_; }
   /// True if the device has been clear of the surfaces once since the reset. Until then the ball has no side and
   /// holds nothing off.
@@ -129,6 +136,7 @@ class proxy {
   /// nothing. `friction` ≥ 0 is a μ in place of those of the triangles: of who follows their changes at a limited rate.
   [[gnu::noinline]] void step(const triple& x, double dt, double friction = -1.0) noexcept {
     if (meshes_ == 0 || !is_finite(x) || !(squared(x) < 1e12) || !(dt > 0.0)) return;
+    others_ = std::exchange(reframed_, false);
     for (part& p : parts()) hear(p, dt);
     const triple own = seen(x);
     if (!placed_) {
@@ -238,10 +246,20 @@ class proxy {
   [[nodiscard]] triple seen(const triple& x) const noexcept {
     return frame().in(x - frame().position);
   }
+  /// Mesh m is touched no more.
+  void leave(int m) noexcept {
+    parts_[slot(m)].news.leave();
+    reframe([&] {
+      for (int k = m; k + 1 < meshes_; ++k) parts_[slot(k)] = parts_[slot(k + 1)];
+      parts_[slot(--meshes_)] = {};
+    });
+    beside_ = 0;
+  }
   /// Lets meshes come or go by `change`, while the ball keeps its place in the world.
   void reframe(auto change) noexcept {
     const triple ball = place(), device = frame().out(device_) + frame().position;
     change();
+    reframed_ = true;
     at_ = seen(ball);
     device_ = seen(device);
     count_ = 0;
@@ -794,9 +812,10 @@ class proxy {
   int meshes_ = 0;
   int beside_ = 0;  ///< the mesh that is closest
   bool placed_ = false;
-  triple at_{};             ///< the ball in frame() [m]
-  triple device_{};         ///< the device there [m]
-  triple beside_device_{};  ///< what friction holds the ball back by [m]
+  bool reframed_ = false, others_ = false;  ///< meshes came or went since, before the last step
+  triple at_{};                             ///< the ball in frame() [m]
+  triple device_{};                         ///< the device there [m]
+  triple beside_device_{};                  ///< what friction holds the ball back by [m]
   int count_ = 0;
   int facets_ = 0;       ///< those of triangles; they are the first
   double reach_ = 0.0;   ///< how far the half-spaces count [m]

@@ -240,7 +240,7 @@ class surface {
   bool update(const Nodes& nodes) {
     if (nodes.size() != count_) {
       fault_ = "mesh: news of " + std::to_string(nodes.size()) + " nodes for a mesh of " +
-               std::to_string(count_) + "; another topology is another mesh::surface";
+               std::to_string(count_) + "; make another mesh::surface of them and touch() it";
       return false;
     }
     if (std::string fault = not_finite(nodes); !fault.empty()) {
