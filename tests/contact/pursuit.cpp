@@ -197,7 +197,7 @@ class slow_set {
                                  k * s.spring.settling, dt);
     }
     all.force = eased(all.force, way, dt, chases);
-    moved_ = way;
+    speed_ = way / dt;
     asked_ = all.force;
     last_ = x;
     return all;
@@ -317,12 +317,12 @@ class slow_set {
       if (s.state != slow_slot::none) s.spring = rule_.sampled(s.stiffness);
     }
   }
-  /// While there are news to make up for, the force changes by R dt + 2K (|Δx| + τ|Δx − Δx before|/dt) at most, but
-  /// along the force by −K (Δx + τ (Δx − Δx before)/dt).
+  /// While there are news to make up for, the force changes by R dt + 2K (|Δx| + τ|Δv|) at most, but
+  /// along the force by −K (Δx + τ Δv).
   vec eased(const vec& wanted, const vec& way, double dt, bool chases) {
     if (!owes_ && !chased_ && !chases) return wanted;
     begin_news(!owes_ && !chased_);
-    vec beside = way, change = way - moved_, middle = asked_;
+    vec beside = way, change = way - speed_ * dt, middle = asked_;
     double most = pace_.force_rate * dt;
     const bool there = std::any_of(slots_.begin(), slots_.end(), [&](const slow_slot& s) {
       return s.owed && (s.state == slow_slot::there || s.state == slow_slot::expected) &&
@@ -354,7 +354,7 @@ class slow_set {
   ph::pursuit pace_;
   ph::proxy_spring spring_;
   ph::sampled_spring<double> stiffest_{};
-  vec last_ = vec::Zero(), moved_ = vec::Zero(), asked_ = vec::Zero();
+  vec last_ = vec::Zero(), speed_ = vec::Zero(), asked_ = vec::Zero();
   bool owes_ = false, chased_ = false, refused_ = false, placed_ = false;
 };
 

@@ -208,7 +208,7 @@ class contact_engine {
       all.deepest = scalar(0);
       all.chases = true;  // what comes back then is news, too
     }
-    const row way = moved(now, port.dt);
+    const row way = motion_of(now);
     if (told_ || chased_ || all.chases) [[unlikely]]
       wanted = eased(wanted, way, all.chases, port.dt);
     moved_ = way;
@@ -378,10 +378,10 @@ class contact_engine {
       if (counts && slot.spring().stiffness > steepest_.stiffness) steepest_ = slot.spring();
     });
   }
-  /// The motion of the device in this tick; where its answer is reckoned with, by the velocity that the damper reads.
-  [[nodiscard]] static constexpr row moved(const auto& now, [[maybe_unused]] scalar dt) noexcept {
+  /// The motion in a tick: of a point the velocity that its damper reads [m/s], of a tool its way [m], [rad].
+  [[nodiscard]] static constexpr row motion_of(const auto& now) noexcept {
     if constexpr (holds_against) {
-      return velocity_of<space_type>(now.motion) * dt;
+      return velocity_of<space_type>(now.motion);
     } else {
       return now.moved();
     }
@@ -403,6 +403,10 @@ class contact_engine {
     news(!told_ && !chased_);  // what recedes by itself may have pressed until now
     const scalar lead = steepest_.settling / dt;
     row beside = way, change = way - row(moved_), middle = asked_;
+    if constexpr (holds_against) {
+      beside = beside * dt;
+      change = change * dt;
+    }
     scalar explained(0);
     if constexpr (holds_against) {
       const scalar size = frame::size(spring_, middle);
@@ -451,7 +455,7 @@ class contact_engine {
   std::conditional_t<rubs, stick_slip::on<space_type>, no_friction> friction_;
   typename frame::stored last_{};         ///< last pose of the device
   typename Port::stored_effort asked_{};  ///< desired effort of the last tick [N], [N·m]
-  typename Port::stored_effort moved_{};  ///< motion of the last tick [m], [rad]
+  typename Port::stored_effort moved_{};  ///< motion_of() the last tick
   sampled_spring<scalar> steepest_{};     ///< stiffest contact that pressed since the update
   bool rests_ = true;                     ///< no contact pressed in the last tick
   bool told_ = false;                     ///< an update is still being followed
