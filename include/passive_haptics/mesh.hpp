@@ -10,6 +10,7 @@
 //                                              usable alone, for a renderer, an engine, another language
 //   mesh/mesh_contact.hpp   mesh_contact       the same as the source of a port, with spring and damper
 //   mesh/mesh_tool.hpp      mesh_tool          a tool that turns, with several such points; not included here
+//   mesh/through_transmission.hpp              make_mesh_touch behind a cable that gives; not included here
 //
 // Collisions between bodies are not included. docs/design/meshes.md has proofs and measurements.
 
