@@ -14,7 +14,7 @@ namespace ph = passive_haptics;
 using scene = ph::space<double, 3>;
 using vector = scene::vector;
 using plane = ph::half_space<scene>;
-using sheet_touch = page::any_touch<scene, 1, 9728>;
+using sheet_touch = page::any_touch<scene, 1, 9984>;
 
 constexpr int across = 30;                   // strips
 constexpr double wide = 0.12, thin = 0.002;  // [m]
