@@ -68,4 +68,6 @@ TEST_CASE("a rotor heavier than the device, or a chain that is none, is refused"
   none.device.springs[0] = -1.0;
   CHECK(std::string(ph::make_touch<d1>(arm, none, person).check().parameter) == "springs");
   CHECK(ph::make_touch<d1>(arm, cable, {.force = -1.0}).check().value == -1.0);
+  CHECK(std::string(ph::any_transmission{.rotor = -1.0}.check().parameter) == "rotor");
+  CHECK(ph::make_touch<d1>(arm, ph::any_transmission{.rotor = 0.3}, person).check());
 }

@@ -63,13 +63,15 @@ TEST_CASE("a mesh that is felt through a cable gives out nothing, and rests", "[
       CHECK(seen.least >= -1e-9);
       CHECK(seen.quiet);
     };
-    held(ph::make_mesh_touch<scene>(arm, ph::any_transmission{}, person, shape));
+    held(ph::make_mesh_touch<scene>(arm, ph::any_transmission{.rotor = 0.03}, person, stiff));
     held(ph::make_mesh_touch<scene>(arm, belt, person, shape));
     held(ph::make_mesh_touch<scene>(arm, cable, person, shape));
     lost =
         std::min(lost, knead(ph::make_mesh_touch<scene>(arm, person, stiff), s, 3.0, period).least);
   }
   CHECK(lost < -1e-3);  // told that all of it moves with the encoder
+  const auto loud = ph::make_mesh_touch<scene>(arm, ph::any_transmission{}, person, stiff);
+  CHECK_FALSE(knead(loud, s, 3.0, 5).quiet);  // its spring is designed for all of it
   auto heavy = belt;
   heavy.rotor = 0.3;
   CHECK(std::string(ph::make_mesh_touch<scene>(arm, heavy, person).check().parameter) == "mass");

@@ -45,8 +45,8 @@ template <class Limits>
   return bound_chain{bound_of<Limits::latency>(d, transmission, hand), motors_of(d)};
 }
 /// The mass [kg] for which the contact law is designed: the mass that moves with the encoder within a tick.
-[[nodiscard]] constexpr double rotor_of(const auto& d, const any_transmission& /*t*/) noexcept {
-  return d.mass;
+[[nodiscard]] constexpr double rotor_of(const auto& d, const any_transmission& t) noexcept {
+  return t.rotor == 0.0 ? d.mass : t.rotor;
 }
 [[nodiscard]] constexpr double rotor_of(const auto& /*d*/,
                                         const observed_transmission& t) noexcept {

@@ -3,7 +3,7 @@
 // The known numbers of a compliant transmission between the motor, with its encoder, and the hand. The device's own `mass` is
 // still that of everything the hand feels.
 //
-//   any_transmission       nothing is known: strict, and soft while the ledger is empty
+//   any_transmission       nothing need be known: strict, and soft while the ledger is empty
 //   observed_transmission  the rotor's mass, and the rate limit of the force on it         jitter, any number of modes
 //   chain_transmission<N>  every mass, spring and damper, within 3 %                        equal ticks, stiffest
 
@@ -14,7 +14,14 @@ namespace passive_haptics {
 inline namespace v0 {
 
 struct any_transmission {
-  [[nodiscard]] constexpr parameter_fault check() const noexcept { return {}; }
+  /// Lower bound of the mass that moves rigidly with the encoder [kg]; 0: all of it. Springs and dampers are designed for
+  /// it. The energy does not rest on it, but on a rotor that is lighter a wall that the ledger lets be stiff may ring.
+  double rotor{};
+
+  [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::not_negative(rotor)) return {"rotor", rotor, "finite and ≥ 0 kg"};
+    return {};
+  }
 };
 
 struct observed_transmission {
