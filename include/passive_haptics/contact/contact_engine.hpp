@@ -402,11 +402,8 @@ class contact_engine {
                                         scalar dt) noexcept {
     news(!told_ && !chased_);  // what recedes by itself may have pressed until now
     const scalar lead = steepest_.settling / dt;
-    row beside = way, change = way - row(moved_), middle = asked_;
-    if constexpr (holds_against) {
-      beside = beside * dt;
-      change = change * dt;
-    }
+    const scalar each = holds_against ? dt : scalar(1);
+    row beside = way * each, change = row(way - row(moved_)) * each, middle = asked_;
     scalar explained(0);
     if constexpr (holds_against) {
       const scalar size = frame::size(spring_, middle);
