@@ -128,7 +128,7 @@ TEMPLATE_TEST_CASE_SIG(
 
 TEMPLATE_TEST_CASE_SIG("what observed_reach bounds at an empty ledger rests in a hand",
                        "[compliant][observed_reach]", ((int Late), Late), 0, 1, 2) {
-  // Without j f T²/2m in the reach two of these ring for ever.
+  // Without (3j − 1) f T²/4m in the reach two of these ring for ever.
   sim::random_source random(3);
   int still = 0;
   for (int i = 0; i < 48; ++i) {

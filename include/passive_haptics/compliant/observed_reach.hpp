@@ -18,7 +18,7 @@ inline namespace v0 {
 /// and while |dg/dt| ≤ R [N/s], the travel along f in the next tick is for equal ticks at most
 ///     δ(1) = V₀T + T²/m ((f + h)/2 − f̂ + m a + R T + 2 c)       (ours; any ticks: docs/design/mathematics.md § 14)
 /// with h the force held in the last tick and c the dry friction. This is the formula of reachable_bound with the measured
-/// force instead of the largest one. To δ(j) j f T²/2m is added: else an empty ledger, which lets out E1/δ(j), would be a
+/// force instead of the largest one. To δ(j) (3j − 1) f T²/4m is added: else an empty ledger, which lets out E1/δ(j), would be a
 /// spring of f/δ(j) that is too stiff for j ticks. If |g| ≤ G is stated as well, the smaller of both reaches counts.
 ///
 /// Passive (E1 ≥ 0) under ALL of these:
@@ -111,7 +111,8 @@ class observed_reach::on {
       const scalar T = state.longest_tick,
                    slewed = by_slew(J, h, along(state.travel), along(effort(travel_)),
                                     along(effort(held_)), state);
-      nearest = kernels::smaller(nearest, slewed + scalar(J) * last * T * T / (scalar(2) * m_));
+      nearest =
+          kernels::smaller(nearest, slewed + scalar(3 * J - 1) * last * T * T / (scalar(4) * m_));
     }
     return nearest;
   }
