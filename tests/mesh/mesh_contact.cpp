@@ -362,6 +362,41 @@ TEST_CASE("a mesh that takes the place of the one that is pressed is felt on", "
   }
 }
 
+TEST_CASE("a mesh that takes the place of one that leans otherwise turns the force without a step",
+          "[mesh]") {
+  for (const double lean : {0.02, 0.1}) {
+    const body flat = plate();
+    body leans = flat;
+    for (triple& p : leans.nodes) p = turned(p, lean);
+    const ph::mesh::surface one(flat.triangles, flat.nodes), other(leans.triangles, leans.nodes);
+    auto port = port_of(2000, 0.1, reachable(0.1));
+    REQUIRE(port.source().touch(one));
+    device dev({.mass = 0.1, .damping = 0.1, .start = vector(0, 0.001, 0.01)},
+               drawn(vector(0, 0.001, -0.004), 9, 3000, 30));
+    double step = 0.0, beside = 0.0;
+    vector last = vector::Zero();
+    const auto seen = sim::run(
+        dev, port, 3000,
+        [&](auto& now) {
+          if (now.tick >= 1000 && now.tick % 100 == 0) {
+            REQUIRE(port.source().touch(now.tick % 200 == 0 ? other : one));
+          }
+        },
+        sim::idle,
+        [&](auto& now) {
+          const vector force = now.force, before = std::exchange(last, force);
+          if (now.tick < 1000) return;
+          step = std::max(step, (force - before).norm());
+          beside = std::max(beside, std::abs(force.y() / force.z()));
+        });
+    INFO(lean << ": steps " << step << " N, " << beside << " beside");
+    CHECK(step < 0.12);                                     // 0.49 N where it turned at once
+    CHECK(beside == Approx(std::tan(lean)).epsilon(0.02));  // it arrives
+    CHECK(seen.least_energy >= -1e-12);
+    port.source().let_go();
+  }
+}
+
 TEST_CASE("a device that begins at a mesh is told why it feels nothing, until it is clear",
           "[mesh]") {
   const body b = plate();

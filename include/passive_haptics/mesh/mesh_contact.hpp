@@ -159,7 +159,7 @@ class mesh_contact::on {
     if (inside_ || pressed.count == 0) {
       presses_ = false;
       behind_ = felt_depth_ = 0.0;
-      pressed_by_ = {};
+      pressed_by_ = turned_ = {};
       swing_.stop();
       return free;
     }
@@ -199,6 +199,7 @@ class mesh_contact::on {
       const auto i = static_cast<std::size_t>(by.of[j]);
       f = f + n[i] * (by.share[j] * felt.stiffness);
     }
+    f = turning(f, dt);
     pressed_by_ = f;
     if (is.friction > 0.0 || is.viscosity > 0.0) {
       f = f + along(is, felt, f, v, dt);
@@ -236,6 +237,22 @@ class mesh_contact::on {
     }
     felt_depth_ = depth - behind_;
     return felt_depth_ / depth;
+  }
+  /// The force f turned by what is left of where other meshes have turned it to; that is made up for by border_rate.
+  [[nodiscard]] mesh::triple turning(const mesh::triple& f, double dt) noexcept {
+    const double size = mesh::length(f), last = mesh::length(pressed_by_);
+    const bool other = ball_.touches_others() && last > 0.0;
+    if (!(size > 0.0) || !(other || mesh::squared(turned_) > 0.0)) {
+      turned_ = {};
+      return f;
+    }
+    const mesh::triple n = f * (1.0 / size);
+    if (other) turned_ = pressed_by_ * (1.0 / last) - n;
+    const double left = mesh::length(turned_), most = border_rate * dt / size;
+    turned_ = left > most ? turned_ * (1.0 - most / left) : mesh::triple{};
+    const mesh::triple felt = n + turned_;
+    const double along = mesh::length(felt);
+    return along > 0.1 ? felt * (size / along) : f;
   }
   /// v without what is no swing along the way on which the ball is held off (contact/swing.hpp).
   [[nodiscard]] mesh::triple swinging(const mesh::triple& v, double depth, double dt) noexcept {
@@ -299,6 +316,7 @@ class mesh_contact::on {
   double behind_ = 0.0;        ///< how far the surface that is felt lies below the mesh [m]
   double felt_depth_ = 0.0;    ///< the depth less that, in the last tick [m]
   mesh::triple pressed_by_{};  ///< the force of the last tick, without what rubs [N]
+  mesh::triple turned_{};      ///< by how much its direction is not yet that of the meshes
   swing<double> swing_;
   mesh::proxy ball_;
 };

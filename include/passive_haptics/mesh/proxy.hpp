@@ -125,8 +125,8 @@ class proxy {
     return std::any_of(parts().begin(), parts().end(),
                        [&s](const part& p) { return p.news.reads(s); });
   }
-  /// True if a mesh came or went before the last step.
-  [[nodiscard]] bool touches_others() const noexcept { return others_; }
+  /// True if a mesh came or went before the last step, or shortly before and the ball was on its way to where it rests.
+  [[nodiscard]] bool touches_others() const noexcept { return others_ > 0; }
   [[nodiscard]] int meshes() const noexcept { return meshes_; }
   /// True if the device has been clear of the surfaces once since the reset. Until then the ball has no side and
   /// holds nothing off.
@@ -136,7 +136,7 @@ class proxy {
   /// nothing. `friction` ≥ 0 is a μ in place of those of the triangles: of who follows their changes at a limited rate.
   [[gnu::noinline]] void step(const triple& x, double dt, double friction = -1.0) noexcept {
     if (meshes_ == 0 || !is_finite(x) || !(squared(x) < 1e12) || !(dt > 0.0)) return;
-    others_ = std::exchange(reframed_, false);
+    others_ = std::exchange(reframed_, false) ? ticks_to_arrive : others_ - (others_ > 0 ? 1 : 0);
     for (part& p : parts()) hear(p, dt);
     const triple own = seen(x);
     if (!placed_) {
@@ -154,8 +154,12 @@ class proxy {
     if (follows()) carried = follow(dt);
     went_along_ = at_ - was;
     beside_device_ = stick(friction);
+    const triple from = at_;
     approach(own + beside_device_, 1.25 * (moved + carried) + 0.125 * rule_.radius,
              3.0 * (moved + carried) + 0.5 * rule_.radius);
+    if (!(length(at_ - from) > 2.0 * (moved + carried) + 1e-3 * rule_.radius)) {
+      others_ = (std::min)(others_, 1);
+    }
     stay_on(before);
   }
 
@@ -225,6 +229,7 @@ class proxy {
   }
 
  private:
+  static constexpr int ticks_to_arrive = 8;  ///< for where the ball rests when meshes came or went
   static constexpr int most_facets = 15, most_near = 48, most_rounds = 3;
   static constexpr std::size_t slot(int i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -812,10 +817,11 @@ class proxy {
   int meshes_ = 0;
   int beside_ = 0;  ///< the mesh that is closest
   bool placed_ = false;
-  bool reframed_ = false, others_ = false;  ///< meshes came or went since, before the last step
-  triple at_{};                             ///< the ball in frame() [m]
-  triple device_{};                         ///< the device there [m]
-  triple beside_device_{};                  ///< what friction holds the ball back by [m]
+  bool reframed_ = false;   ///< meshes came or went since the last step
+  int others_ = 0;          ///< ticks in which the ball may still be on its way
+  triple at_{};             ///< the ball in frame() [m]
+  triple device_{};         ///< the device there [m]
+  triple beside_device_{};  ///< what friction holds the ball back by [m]
   int count_ = 0;
   int facets_ = 0;       ///< those of triangles; they are the first
   double reach_ = 0.0;   ///< how far the half-spaces count [m]
