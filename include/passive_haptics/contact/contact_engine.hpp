@@ -69,8 +69,8 @@ class contact_engine {
   using all_slots = slot_room<slot_of, Slots...>;
   /// With more than four slots, those out of reach are not evaluated in every tick.
   static constexpr bool naps = all_slots::capacity > 4 && frame::naps;
-  /// True if what the surfaces answer to a motion along their push is known: of a point, not of a tool that turns.
-  static constexpr bool holds_against = std::same_as<row, vector>;
+  /// True for the contacts of a point, false for those of a tool that turns.
+  static constexpr bool is_point = std::same_as<row, vector>;
 
  public:
   using scalar = typename Port::scalar;
@@ -295,6 +295,10 @@ class contact_engine {
                         event& what) noexcept {
     const scalar dt = port.dt;
     const bool rests = rests_;
+    [[maybe_unused]] scalar together(0);
+    if constexpr (!is_point) {
+      slots_.for_each([&](const auto& slot, std::size_t) { together += slot.pressed(); });
+    }
     [[maybe_unused]] const scalar slept = time_to_look(now, dt);
     slots_.for_each([&](auto& slot, std::size_t i) {
       if (!slot.taken()) return;
@@ -313,7 +317,9 @@ class contact_engine {
       };
       const auto way = [&] { return space_type::norm(now.travel(slot.point, here)); };
       felt_surface<space_type> own;
-      if (!slot.follow(here.position, along, port, rests, unfelt, way, pace_, own)) return;
+      // The points of a tool share a load, and what the ledger pays for: each for itself would spend all of it.
+      const scalar pays = is_point ? slot.pressed() : together;
+      if (!slot.follow(here.position, along, port, pays, rests, unfelt, way, pace_, own)) return;
       if (!own.is_finite()) [[unlikely]] {
         what = unusable(what);
         return;
@@ -380,7 +386,7 @@ class contact_engine {
   }
   /// The motion in a tick: of a point the velocity that its damper reads [m/s], of a tool its way [m], [rad].
   [[nodiscard]] static constexpr row motion_of(const auto& now) noexcept {
-    if constexpr (holds_against) {
+    if constexpr (is_point) {
       return velocity_of<space_type>(now.motion);
     } else {
       return now.moved();
@@ -391,31 +397,32 @@ class contact_engine {
     bool is = false;
     slots_.for_each([&](const auto& slot, std::size_t) {
       is = is || (slot.owed && slot.taken() && !slot.ends() &&
-                  space_type::dot(slot.normal(), vector(asked_)) > scalar(0));
+                  space_type::dot(slot.normal(), frame::pushes(asked_)) > scalar(0));
     });
     return is;
   }
-  /// While updates are followed, the desired effort changes by at most R dt plus the effect of the device's motion. What
-  /// surfaces answer to a motion u along their push is known, −K u, and holds against it; of what is across it, and of a
-  /// tool, only its size is. By size alone a device that gives way would explain the news that made it do so.
+  /// While updates are followed, the desired effort w changes by at most R dt plus the effect of the device's motion. What
+  /// surfaces answer to a motion x along their push is known, −k u with u = w·x/|w| and k = |w|²/(w·C w), and holds against
+  /// it; of what is across it, x − C w k u/|w|, only its size is. By size alone a device that gives way would explain the
+  /// news that made it do so.
   [[gnu::noinline]] constexpr row eased(const row& wanted, const row& way, bool chases,
                                         scalar dt) noexcept {
     news(!told_ && !chased_);  // what recedes by itself may have pressed until now
     const scalar lead = steepest_.settling / dt;
-    const scalar each = holds_against ? dt : scalar(1);
+    const scalar each = is_point ? dt : scalar(1);
     row beside = way * each, change = row(way - row(moved_)) * each, middle = asked_;
     scalar explained(0);
-    if constexpr (holds_against) {
-      const scalar size = frame::size(spring_, middle);
-      if (size > scalar(0) && still_there()) {
-        const row push = middle * (scalar(1) / size);
-        const scalar u = space_type::dot(beside, push), du = space_type::dot(change, push);
-        beside = beside - row(push * u);
-        change = change - row(push * du);
-        const scalar left = size - steepest_.stiffness * (u + lead * du);
-        middle = push * kernels::larger(left, scalar(0));
-        explained = kernels::larger(-left, scalar(0));  // what is braked has no more to give
-      }
+    const scalar pushed = frame::size(spring_, middle);
+    if (pushed > scalar(0) && still_there()) {
+      const row push = middle * (scalar(1) / pushed);
+      const row yields = frame::yields(spring_, push, steepest_.compliance);
+      const scalar k = scalar(1) / frame::power(push, yields);
+      const scalar u = frame::power(push, beside), du = frame::power(push, change);
+      beside = beside - row(yields * (k * u));
+      change = change - row(yields * (k * du));
+      const scalar left = pushed - k * (u + lead * du);
+      middle = push * kernels::larger(left, scalar(0));
+      explained = kernels::larger(-left, scalar(0));  // what is braked has no more to give
     }
     explained += scalar(2) * steepest_.stiffness *
                  (frame::stretch(spring_, beside) + lead * frame::stretch(spring_, change));

@@ -97,6 +97,14 @@ struct point_frame {
   [[nodiscard]] static constexpr scalar size(const auto& /*spring*/, const row& force) noexcept {
     return kernels::square_root(Space::dot(force, force));
   }
+  [[nodiscard]] static constexpr row yields(const auto& /*spring*/, const row& push,
+                                            scalar compliance) noexcept {
+    return push * compliance;
+  }
+  [[nodiscard]] static constexpr scalar power(const row& push, const row& way) noexcept {
+    return space::dot(push, way);
+  }
+  [[nodiscard]] static constexpr row pushes(const row& push) noexcept { return push; }
   [[nodiscard]] static constexpr scalar stretch(const auto& /*spring*/, const row& way) noexcept {
     return kernels::square_root(Space::dot(way, way));
   }

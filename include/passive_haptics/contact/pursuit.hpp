@@ -203,14 +203,13 @@ class pursued {
   }
 
   /// Updates the slot for a tick with the device at x, and writes its own surface into `own`; returns false if it is
-  /// empty or ends. `along`(n) is the outward speed of the device [m/s], `rests` is true if no contact pressed in the
-  /// last tick, and `unfelt`(push) is the largest depth [m] at which a contact with that push has λ = 0 beside the
-  /// others. `way`() is the distance that the contact has moved in the tick [m].
-  [[nodiscard, gnu::always_inline]] constexpr bool follow(const vector& x, const auto& along,
-                                                          const auto& port, bool rests,
-                                                          const auto& unfelt, const auto& way,
-                                                          const pursuit::on<Space>& pace,
-                                                          felt& own) noexcept {
+  /// empty or ends. `along`(n) is the outward speed of the device [m/s], `against` the force that an own surface which
+  /// goes outwards does work against [N], `rests` is true if no contact pressed in the last tick, and `unfelt`(push) is the
+  /// largest depth [m] at which a contact with that push has λ = 0 beside the others. `way`() is the distance that the
+  /// contact has moved in the tick [m].
+  [[nodiscard, gnu::always_inline]] constexpr bool follow(
+      const vector& x, const auto& along, const auto& port, scalar against, bool rests,
+      const auto& unfelt, const auto& way, const pursuit::on<Space>& pace, felt& own) noexcept {
     const scalar dt = port.dt;
     const auto shown = target_.at(x);
     own.normal = own.push = shown.outward();
@@ -229,7 +228,7 @@ class pursued {
       }
     }
     scalar step = speed_ * dt;
-    if (lag_ > scalar(0)) step = kernels::smaller(step, pace.paid_way(pressed_, port));
+    if (lag_ > scalar(0)) step = kernels::smaller(step, pace.paid_way(against, port));
     const scalar lag = ends ? lag_ + pace.receding(along(own.normal), dt) : shortened(lag_, step);
     const vector goal = own.normal;
     const vector before = normal_;

@@ -189,6 +189,17 @@ struct body_frame {
   [[nodiscard]] static proxy<Spring> coupling(const Spring& spring) noexcept {
     return {spring, scalar(1) - spring.softness()};
   }
+  /// The motion to which a handle gives way by a wrench of one newton, C w, at a compliance [m/N].
+  [[nodiscard]] static row yields(const auto& spring, const row& wrench,
+                                  scalar compliance) noexcept {
+    return Body::join(Body::linear(wrench) * compliance,
+                      Body::angular(wrench) * spring.yield(compliance));
+  }
+  [[nodiscard]] static scalar power(const row& wrench, const row& way) noexcept {
+    return space::dot(Body::linear(wrench), Body::linear(way)) +
+           space::dot(Body::angular(wrench), Body::angular(way));
+  }
+  [[nodiscard]] static vector pushes(const row& wrench) noexcept { return Body::linear(wrench); }
   /// The size of a wrench [N], a torque counted as torque/ℓ.
   [[nodiscard]] static scalar size(const auto& spring, const row& wrench) noexcept {
     const vector turning = Body::angular(wrench) * (scalar(1) / spring.lever());
