@@ -31,6 +31,7 @@ auto tool_of(double K, const ph::rigid_device& stated = facts) {
 
 struct outcome {
   double least_energy = 0.0, largest = 0.0, deepest = 0.0;
+  double step = 0.0;              ///< of the force, after a second [N]
   int through = 0, pressing = 0;  ///< pressing: the most points at once
   int device_through = 0;         ///< of the handle's points themselves, which nothing holds
   sim::quiet_judge<handle> judge;
@@ -42,6 +43,7 @@ outcome run(auto port, const moving& m, const vector& start, auto to, int ticks)
   REQUIRE(port.source().touch(s));
   sim::rigid_device dev({}, {start, {}}, vector(0.5, 0.3, 0.2));
   outcome seen;
+  vector last = vector::Zero();
   std::array<double, box.size()> round{}, device_round{};
   std::array<witness, box.size()> watch;
   for (int n = 0; n < ticks; ++n) {
@@ -79,6 +81,8 @@ outcome run(auto port, const moving& m, const vector& start, auto to, int ticks)
     seen.pressing = std::max(seen.pressing, int(rows.size()));
     seen.largest = std::max(seen.largest, handle::linear(out.force).norm());
     seen.deepest = std::max(seen.deepest, out.depth);
+    const vector force = handle::linear(out.force), before = std::exchange(last, force);
+    if (n > 1000) seen.step = std::max(seen.step, (force - before).norm());
     (void)dev.exchange(out.force);
     seen.least_energy = std::min(seen.least_energy, dev.energy());
   }
@@ -118,6 +122,22 @@ TEST_CASE("no point of a tool goes through a mesh that moves, and no joule comes
   }
   CHECK(bare < -1e-3);  // without a bound they give out energy
   CHECK(device_through > 100);
+}
+
+TEST_CASE("the points of a tool share what the ledger pays for when a mesh heaves", "[mesh]") {
+  for (const double K : {600.0, 1500.0}) {
+    const moving heaves{"plate that heaves", plate(), shaken({0, 0, 0.002}, 2.5)};
+    const auto seen = run(
+        tool_of(K), heaves, vector(0.002, 0.001, 0.02),
+        [](int n, const auto& /*x*/) {
+          return vector(0.002, 0.001, 0.02 - 0.027 * std::min(n / 600.0, 1.0));
+        },
+        4000);
+    INFO(K << " N/m: steps " << seen.step << " N, least " << seen.least_energy << " J");
+    CHECK(seen.pressing > 3);
+    CHECK(seen.step < 0.4);  // 0.56 and 0.68 N where each spends all of it
+    CHECK(seen.least_energy >= -1e-12);
+  }
 }
 
 TEST_CASE("a tool that rests on a mesh by many points is quiet, if its inertia is what is stated",

@@ -126,13 +126,27 @@ class mesh_contact::on {
     bool nothing;
     scalar depth;  ///< |p − x| [m]
   };
+  /// What surfaces that go outwards do work against, of all contacts that share a ledger.
+  struct load {
+    double force = 0.0;  ///< Σ |f| [N]
+    double spent = 0.0;  ///< what the hand took in the last tick [J]
+  };
+  void add_to(load& all, const auto& motion, double dt) const noexcept {
+    all.force += mesh::length(pressed_by_);
+    all.spent += mesh::dot(pressed_by_, to_triple(detail::velocity_of<P>(motion))) * dt;
+  }
   template <bool Shortcut>
   [[nodiscard]] request ask(const auto& motion, const auto& port, event& what) noexcept {
-    const double dt = static_cast<double>(port.dt);
-    const double spent = mesh::dot(pressed_by_, to_triple(detail::velocity_of<P>(motion))) * dt;
-    const scalar most = port.paid_way(static_cast<scalar>(mesh::length(pressed_by_)), scalar(1e-4),
-                                      scalar(0.05), static_cast<scalar>(spent));
-    return asked(motion, dt, static_cast<double>(most), what);
+    load own;
+    add_to(own, motion, static_cast<double>(port.dt));
+    return ask(motion, port, what, own);
+  }
+  /// The same for one of several contacts, with the load of all.
+  [[nodiscard]] request ask(const auto& motion, const auto& port, event& what,
+                            const load& all) noexcept {
+    const scalar most = port.paid_way(static_cast<scalar>(all.force), scalar(1e-4), scalar(0.05),
+                                      static_cast<scalar>(all.spent));
+    return asked(motion, static_cast<double>(port.dt), static_cast<double>(most), what);
   }
   [[nodiscard]] constexpr result_type answered(const request& r,
                                                const port_result<P>& port) const noexcept {

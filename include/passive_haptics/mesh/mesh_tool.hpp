@@ -141,10 +141,17 @@ class mesh_tool<Points>::on {
     const vector at = motion.position.position, way = Body::linear(port.travel),
                  turning = Body::angular(port.travel);
     request all{Body::zero(), true, scalar(0)};
+    const auto motion_of = [&](const vector& r) {
+      return moved{at + r, way + space::cross(turning, r), port.dt};
+    };
+    // The points share what the ledger pays for: each for itself would spend all of it.
+    typename finger::load load;
+    each([&](const finger& one, int k) {
+      one.add_to(load, motion_of(arm(turn, k)), static_cast<double>(port.dt));
+    });
     each([&](finger& one, int k) {
       const vector r = arm(turn, k);
-      const moved now{at + r, way + space::cross(turning, r), port.dt};
-      const auto asked = one.template ask<false>(now, port, what);
+      const auto asked = one.ask(motion_of(r), port, what, load);
       if (asked.nothing) return;
       all.wanted = all.wanted + Body::join(asked.wanted, space::cross(r, asked.wanted));
       all.nothing = false;
