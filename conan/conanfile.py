@@ -15,7 +15,7 @@ from conan.tools.files import copy, load, rmdir
 
 
 # The companions above the core, and what of each other they bring along: CMakeLists.txt has the same.
-COMPANIONS = {"knob": [], "compliant": [], "published": [], "mesh": [], "environment": ["mesh"], "simulation": [],
+COMPANIONS = {"knob": [], "compliant": [], "published": [], "mesh": ["compliant"], "environment": ["mesh"], "simulation": [],
               "two_port": [], "remote": [], "runner": [], "identification": [], "falcon": ["runner"],
               "adapters": ["identification"],
               "identification": ["knob"]}
