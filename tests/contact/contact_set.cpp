@@ -295,39 +295,37 @@ TEST_CASE("news under a hand that gives way step by no more than under one that 
           "[contact_set]") {
   using hand = sim::impedance_hand<d3>;
   using room = ph::slots<ph::half_space<d3>, 3>;
-  for (const double m : {0.05, 0.1, 0.3, 1.0}) {  // [kg]
-    for (const double k : {400.0, 1000.0}) {      // of the hand [N/m]
-      for (const double jump : {-3e-3, -1e-3, 1e-3}) {
-        const auto steps = [&](auto port) {
-          const auto tell = [&](double z) {
-            port.source().update(0, ph::half_space<d3>{{0, 0, z}, d3::vector::UnitZ(), 4000.0});
-          };
-          tell(0.0);
-          sim::device<d3, hand> device{
-              {.mass = m, .damping = 0.1, .start = {0.0, 0.0, 5e-3}},
-              {.stiffness = k, .damping = 2.0 * std::sqrt(k * m), .limit = 9.0}};
-          device.hand().target = {0.0, 0.0, -5.0 / k - 2e-3};
-          auto sample = device.exchange(d3::vector::Zero());
-          d3::vector last = d3::vector::Zero();
-          double step = 0.0;
-          for (int n = 0; n < 3500; ++n) {
-            if (n == 2000) tell(jump);
-            const d3::vector force = port.tick(sample).force;
-            if (n >= 2000) step = std::max(step, (force - last).norm());
-            last = force;
-            sample = device.exchange(force);
-          }
-          CAPTURE(m, k, jump);
-          CHECK(step <= 50.0 * T + 2e-3);  // R dt; 0.92 N where the way explains what the news did
-          CHECK(last.z() == Approx(4000.0 * (jump - device.position().z())).epsilon(0.01));
-          CHECK(device.meter().minimum() >= -1e-12);
+  for (const double m : {0.05, 0.3}) {        // [kg]
+    for (const double k : {400.0, 1000.0}) {  // of the hand [N/m]
+      constexpr double jump = -3e-3;          // [m]
+      const auto steps = [&](auto port) {
+        const auto tell = [&](double z) {
+          port.source().update(0, ph::half_space<d3>{{0, 0, z}, d3::vector::UnitZ(), 4000.0});
         };
-        const ph::exact_device stated{.mass = m, .damping = 0.1, .force_limit = 20.0};
-        steps(ph::make_contacts<d3>(stated, {.force = 9.0}, room{}));
-        steps(ph::make_contacts<d3>(stated, {.force = 9.0}, ph::stick_slip{}, room{}));
-        steps(
-            ph::make_contacts<d3>(stated, {.force = 9.0}, room{}, ph::slots<ph::sphere<d3>, 1>{}));
-      }
+        tell(0.0);
+        sim::device<d3, hand> device{
+            {.mass = m, .damping = 0.1, .start = {0.0, 0.0, 5e-3}},
+            {.stiffness = k, .damping = 2.0 * std::sqrt(k * m), .limit = 9.0}};
+        device.hand().target = {0.0, 0.0, -5.0 / k - 2e-3};
+        auto sample = device.exchange(d3::vector::Zero());
+        d3::vector last = d3::vector::Zero();
+        double step = 0.0;
+        for (int n = 0; n < 2500; ++n) {
+          if (n == 1500) tell(jump);
+          const d3::vector force = port.tick(sample).force;
+          if (n >= 1500) step = std::max(step, (force - last).norm());
+          last = force;
+          sample = device.exchange(force);
+        }
+        CAPTURE(m, k, jump);
+        CHECK(step <= 50.0 * T + 2e-3);  // R dt; 0.92 N where the way explains what the news did
+        CHECK(last.z() == Approx(4000.0 * (jump - device.position().z())).epsilon(0.01));
+        CHECK(device.meter().minimum() >= -1e-12);
+      };
+      const ph::exact_device stated{.mass = m, .damping = 0.1, .force_limit = 20.0};
+      steps(ph::make_contacts<d3>(stated, {.force = 9.0}, room{}));
+      steps(ph::make_contacts<d3>(stated, {.force = 9.0}, ph::stick_slip{}, room{}));
+      steps(ph::make_contacts<d3>(stated, {.force = 9.0}, room{}, ph::slots<ph::sphere<d3>, 1>{}));
     }
   }
 }

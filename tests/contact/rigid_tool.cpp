@@ -455,51 +455,49 @@ TEST_CASE("one late tick does not drop a peg, nor shake it", "[rigid_tool][fault
 TEST_CASE("a tool that gives way to news is stepped by no more than they may change the force",
           "[rigid_tool]") {
   constexpr double length = 0.06, k = 400.0;
-  for (const double m : {0.05, 0.15, 0.5}) {
-    for (const int points : {1, 3, 8}) {
-      for (const double jump : {-3e-3, -1e-3, 1e-3}) {
-        const double inertia = 1e-4 * m / 0.15;
-        ph::simulation::rigid_device device({.mass = m,
-                                             .moments = {inertia, 1.5 * inertia, 1.2 * inertia},
-                                             .linear_damping = {0.1, 0.1, 0.1},
-                                             .angular_damping = {2e-4, 2e-4, 2e-4}},
-                                            {vector(0, 0, length + 0.005), {}});
-        auto port =
-            ph::make_tool({.inertia = {.mass = m, .least = inertia, .spread = 2.0 * inertia},
-                           .damping = {.linear = 0.1, .angular = 2e-4},
-                           .damping_most = {.linear = 0.2, .angular = 4e-4},
-                           .force_limit = 20,
-                           .torque_limit = 1},
-                          {.force = 9, .torque = 0.4}, ph::slots<plane, 8>{});
-        const auto tell = [&](double z) {
-          for (int i = 0; i < points; ++i) {
-            const double a = 2.0 * 3.14159265 * i / points, far = points > 1 ? 0.02 : 0.0;
-            REQUIRE(port.source().update(i, vector(far * std::cos(a), far * std::sin(a), -length),
-                                         plane{vector(0, 0, z), vector(0, 0, 1), 4000}));
-          }
-        };
-        tell(0.0);
-        auto sample = device.exchange(body::zero());
-        vector last = vector::Zero();
-        double step = 0.0;
-        for (int n = 0; n < 5000; ++n) {
-          if (n == 3000) tell(jump);
-          const auto force = port.tick(sample).force;
-          if (n >= 3000) step = std::max(step, (vector(body::linear(force)) - last).norm());
-          last = body::linear(force);
-          const vector goal(0, 0, length - 2e-3 - 5.0 / k);
-          vector held = k * (goal - vector(device.at().position)) -
-                        std::sqrt(k * m) * vector(device.velocity());
-          if (held.norm() > 9.0) held *= 9.0 / held.norm();
-          const vector turns = ph::rotation::log(device.at().orientation) * -4.0 -
-                               vector(device.rate()) * 2.0 * std::sqrt(inertia);
-          device.push(body::join(held, turns));
-          sample = device.exchange(force);
+  for (const double m : {0.05, 0.5}) {
+    for (const int points : {1, 3}) {
+      constexpr double jump = -3e-3;  // [m]
+      const double inertia = 1e-4 * m / 0.15;
+      ph::simulation::rigid_device device({.mass = m,
+                                           .moments = {inertia, 1.5 * inertia, 1.2 * inertia},
+                                           .linear_damping = {0.1, 0.1, 0.1},
+                                           .angular_damping = {2e-4, 2e-4, 2e-4}},
+                                          {vector(0, 0, length + 0.005), {}});
+      auto port = ph::make_tool({.inertia = {.mass = m, .least = inertia, .spread = 2.0 * inertia},
+                                 .damping = {.linear = 0.1, .angular = 2e-4},
+                                 .damping_most = {.linear = 0.2, .angular = 4e-4},
+                                 .force_limit = 20,
+                                 .torque_limit = 1},
+                                {.force = 9, .torque = 0.4}, ph::slots<plane, 8>{});
+      const auto tell = [&](double z) {
+        for (int i = 0; i < points; ++i) {
+          const double a = 2.0 * 3.14159265 * i / points, far = points > 1 ? 0.02 : 0.0;
+          REQUIRE(port.source().update(i, vector(far * std::cos(a), far * std::sin(a), -length),
+                                       plane{vector(0, 0, z), vector(0, 0, 1), 4000}));
         }
-        CAPTURE(m, points, jump);
-        CHECK(step < 0.06);  // R dt; 2 N where the way explains what the news did
-        CHECK(device.energy() >= -1e-12);
+      };
+      tell(0.0);
+      auto sample = device.exchange(body::zero());
+      vector last = vector::Zero();
+      double step = 0.0;
+      for (int n = 0; n < 2500; ++n) {
+        if (n == 1500) tell(jump);
+        const auto force = port.tick(sample).force;
+        if (n >= 1500) step = std::max(step, (vector(body::linear(force)) - last).norm());
+        last = body::linear(force);
+        const vector goal(0, 0, length - 2e-3 - 5.0 / k);
+        vector held = k * (goal - vector(device.at().position)) -
+                      std::sqrt(k * m) * vector(device.velocity());
+        if (held.norm() > 9.0) held *= 9.0 / held.norm();
+        const vector turns = ph::rotation::log(device.at().orientation) * -4.0 -
+                             vector(device.rate()) * 2.0 * std::sqrt(inertia);
+        device.push(body::join(held, turns));
+        sample = device.exchange(force);
       }
+      CAPTURE(m, points, jump);
+      CHECK(step < 0.06);  // R dt; 2 N where the way explains what the news did
+      CHECK(device.energy() >= -1e-12);
     }
   }
 }
