@@ -18,8 +18,8 @@ inline namespace v0 {
 /// and while |dg/dt| ≤ R [N/s], the travel along f in the next tick is for equal ticks at most
 ///     δ(1) = V₀T + T²/m ((f + h)/2 − f̂ + m a + R T + 2 c)       (ours; any ticks: docs/design/mathematics.md § 14)
 /// with h the force held in the last tick and c the dry friction. This is the formula of reachable_bound with the measured
-/// force instead of the largest one. To δ(j) (3j − 1) f T²/4m is added: else an empty ledger, which lets out E1/δ(j), would be a
-/// spring of f/δ(j) that is too stiff for j ticks. If |g| ≤ G is stated as well, the smaller of both reaches counts.
+/// force instead of the largest one. (3j − 1) f T²/4m is added to δ(j): else an empty ledger, which lets out E1/δ(j), would
+/// be a spring of f/δ(j) that is too stiff for j ticks. If |g| ≤ G is stated as well, the smaller of both reaches counts.
 ///
 /// Passive (E1 ≥ 0) under ALL of these:
 ///   - the mass that moves rigidly with the encoder, m, is the same in every direction and between `mass` and `mass_above`;

@@ -64,13 +64,10 @@ class contact_engine {
   struct slot_of : pursued<Surface, space_type> {
     PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS point_type point{};
     bool asleep = false;  ///< out of reach until all slots are evaluated again
-    bool owed = false;    ///< it has pressed since the news that are being made up for
   };
   using all_slots = slot_room<slot_of, Slots...>;
   /// With more than four slots, those out of reach are not evaluated in every tick.
   static constexpr bool naps = all_slots::capacity > 4 && frame::naps;
-  /// True for the contacts of a point, false for those of a tool that turns.
-  static constexpr bool is_point = std::same_as<row, vector>;
 
  public:
   using scalar = typename Port::scalar;
@@ -107,10 +104,7 @@ class contact_engine {
   /// True if a surface of K [N/m] comes to rest at its displayed stiffness (settles() in sampled_spring.hpp).
   [[nodiscard]] constexpr bool settles(scalar K) const noexcept { return spring_.settles(K); }
   constexpr void reset() noexcept {
-    slots_.for_each([](auto& slot, std::size_t) {
-      slot.reset();
-      slot.owed = false;
-    });
+    slots_.for_each([](auto& slot, std::size_t) { slot.reset(); });
     let_go();
     asked_ = moved_ = Port::zero();
     steepest_ = {};
@@ -121,10 +115,7 @@ class contact_engine {
   template <class Surface = first_kind>
   constexpr void release(int i) noexcept {
     news();
-    slots_.template visit<Surface>(i, [](auto& slot) {
-      slot.release();
-      slot.owed = false;
-    });
+    slots_.template visit<Surface>(i, [](auto& slot) { slot.release(); });
   }
   /// Slot i of that kind, 0 ≤ i < Count, with its newest surface, its lag ℓ and its λ.
   template <class Surface = first_kind>
@@ -208,7 +199,7 @@ class contact_engine {
       all.deepest = scalar(0);
       all.chases = true;  // what comes back then is news, too
     }
-    const row way = motion_of(now);
+    const row way = now.moved();
     if (told_ || chased_ || all.chases) [[unlikely]]
       wanted = eased(wanted, way, all.chases, port.dt);
     moved_ = way;
@@ -246,7 +237,6 @@ class contact_engine {
     news_taken<scalar> taken;
     news();
     slots_.template visit<Surface>(i, [&](auto& slot) {
-      slot.owed = slot.owed && slot.taken();
       taken.taken =
           frame::is_point(point) && slot.update(next, frame::place(last_, slot.point),
                                                 frame::place(last_, point), spring_, pace_);
@@ -296,7 +286,7 @@ class contact_engine {
     const scalar dt = port.dt;
     const bool rests = rests_;
     [[maybe_unused]] scalar together(0);
-    if constexpr (!is_point) {
+    if constexpr (frame::shares_load) {
       slots_.for_each([&](const auto& slot, std::size_t) { together += slot.pressed(); });
     }
     [[maybe_unused]] const scalar slept = time_to_look(now, dt);
@@ -317,8 +307,7 @@ class contact_engine {
       };
       const auto way = [&] { return space_type::norm(now.travel(slot.point, here)); };
       felt_surface<space_type> own;
-      // The points of a tool share a load, and what the ledger pays for: each for itself would spend all of it.
-      const scalar pays = is_point ? slot.pressed() : together;
+      const scalar pays = frame::shares_load ? together : slot.pressed();
       if (!slot.follow(here.position, along, port, pays, rests, unfelt, way, pace_, own)) return;
       if (!own.is_finite()) [[unlikely]] {
         what = unusable(what);
@@ -380,24 +369,15 @@ class contact_engine {
     told_ = true;
     slots_.for_each([&](auto& slot, std::size_t) {
       const bool counts = any || slot.pressed() > scalar(0);
-      slot.owed = slot.owed || slot.pressed() > scalar(0);
+      slot.owe();
       if (counts && slot.spring().stiffness > steepest_.stiffness) steepest_ = slot.spring();
     });
-  }
-  /// The motion in a tick: of a point the velocity that its damper reads [m/s], of a tool its way [m], [rad].
-  [[nodiscard]] static constexpr row motion_of(const auto& now) noexcept {
-    if constexpr (is_point) {
-      return velocity_of<space_type>(now.motion);
-    } else {
-      return now.moved();
-    }
   }
   /// True if a surface that has made what is asked is still there, if farther off.
   [[nodiscard]] constexpr bool still_there() noexcept {
     bool is = false;
     slots_.for_each([&](const auto& slot, std::size_t) {
-      is = is || (slot.owed && slot.taken() && !slot.ends() &&
-                  space_type::dot(slot.normal(), frame::pushes(asked_)) > scalar(0));
+      is = is || (slot.owes() && space_type::dot(slot.normal(), frame::pushes(asked_)) > scalar(0));
     });
     return is;
   }
@@ -409,8 +389,8 @@ class contact_engine {
                                         scalar dt) noexcept {
     news(!told_ && !chased_);  // what recedes by itself may have pressed until now
     const scalar lead = steepest_.settling / dt;
-    const scalar each = is_point ? dt : scalar(1);
-    row beside = way * each, change = row(way - row(moved_)) * each, middle = asked_;
+    row beside = frame::way_of(way, dt), change = frame::way_of(way - row(moved_), dt),
+        middle = asked_;
     scalar explained(0);
     const scalar pushed = frame::size(spring_, middle);
     if (pushed > scalar(0) && still_there()) {
@@ -432,7 +412,7 @@ class contact_engine {
     chased_ = chases;  // its last step is in the next tick
     if (!told_ && !chases) {
       steepest_ = {};
-      slots_.for_each([](auto& slot, std::size_t) { slot.owed = false; });
+      slots_.for_each([](auto& slot, std::size_t) { slot.owe_nothing(); });
     }
     return told_ ? row(middle + row(step * (most / size))) : wanted;
   }
@@ -459,7 +439,7 @@ class contact_engine {
   std::conditional_t<rubs, stick_slip::on<space_type>, no_friction> friction_;
   typename frame::stored last_{};         ///< last pose of the device
   typename Port::stored_effort asked_{};  ///< desired effort of the last tick [N], [N·m]
-  typename Port::stored_effort moved_{};  ///< motion_of() the last tick
+  typename Port::stored_effort moved_{};  ///< moved() of the last tick
   sampled_spring<scalar> steepest_{};     ///< stiffest contact that pressed since the update
   bool rests_ = true;                     ///< no contact pressed in the last tick
   bool told_ = false;                     ///< an update is still being followed

@@ -36,7 +36,7 @@ struct point_frame {
   using row = vector;
   struct point {};
   using stored = typename Space::coordinates;
-  static constexpr bool naps = true;
+  static constexpr bool naps = true, shares_load = false;
 
   /// The distance of the device from a former position [m].
   [[nodiscard]] static constexpr scalar apart(const auto& now, const stored& was) noexcept {
@@ -68,7 +68,8 @@ struct point_frame {
     [[nodiscard]] constexpr row row_of(const spot& /*s*/, const vector& n) const noexcept {
       return n;
     }
-    [[nodiscard]] constexpr row moved() const noexcept { return travelled; }
+    /// The motion in a tick, as the velocity that the damper reads [m/s]; way_of() has the way of it [m].
+    [[nodiscard]] constexpr row moved() const noexcept { return velocity_of<Space>(motion); }
     [[nodiscard]] constexpr stored place() const noexcept { return x; }
   };
   template <class Motion>
@@ -93,6 +94,9 @@ struct point_frame {
   };
   [[nodiscard]] static constexpr proxy coupling(const auto& spring) noexcept {
     return {scalar(1) - spring.softness()};
+  }
+  [[nodiscard]] static constexpr row way_of(const row& moved, scalar dt) noexcept {
+    return moved * dt;
   }
   [[nodiscard]] static constexpr scalar size(const auto& /*spring*/, const row& force) noexcept {
     return kernels::square_root(Space::dot(force, force));

@@ -142,6 +142,7 @@ class pursued {
   /// the last good one. A pressed contact keeps its force; any other one is treated as new.
   constexpr bool update(Surface next, const vector& was, const vector& here, const auto& rule,
                         const pursuit::on<Space>& pace) noexcept {
+    owes_ = owes_ && taken();
     if (!next.prepare()) return false;
     const auto spring = rule.sampled(next.stiffness);
     if (pressed_ > scalar(0)) {
@@ -167,6 +168,7 @@ class pursued {
   }
   /// Removes the surface; a pressed one recedes until λ = 0.
   constexpr void release() noexcept {
+    owes_ = false;
     state_ = pressed_ > scalar(0) ? state::leaving : state::empty;
   }
   constexpr void reset() noexcept { *this = {}; }
@@ -177,10 +179,10 @@ class pursued {
 
   [[nodiscard]] constexpr bool taken() const noexcept { return state_ != state::empty; }
   [[nodiscard]] constexpr bool stale() const noexcept { return state_ == state::stale; }
-  /// True if the contact recedes because its surface was released or is stale.
-  [[nodiscard]] constexpr bool ends() const noexcept {
-    return state_ == state::leaving || state_ == state::stale;
-  }
+  /// Notes whether it presses, until owe_nothing(). owes(): it has, and its surface is still there, if farther off.
+  constexpr void owe() noexcept { owes_ = owes_ || pressed_ > scalar(0); }
+  constexpr void owe_nothing() noexcept { owes_ = false; }
+  [[nodiscard]] constexpr bool owes() const noexcept { return owes_ && taken() && !is_ending(); }
   [[nodiscard]] constexpr const Surface& target() const noexcept { return target_; }
   [[nodiscard]] constexpr scalar lag() const noexcept { return lag_; }  ///< ℓ [m]
   /// The speed at which ℓ falls [m/s].
@@ -192,7 +194,7 @@ class pursued {
 
   /// Ends a contact with λ = 0: the slot becomes empty, or expects the surface to cover the device again.
   constexpr bool vanish() noexcept {
-    if (state_ == state::leaving || state_ == state::stale) state_ = state::empty;
+    if (is_ending()) state_ = state::empty;
     if (state_ == state::there) expect(anything);
     return false;
   }
@@ -215,7 +217,7 @@ class pursued {
     own.normal = own.push = shown.outward();
     if constexpr (detail::says_push<decltype(shown)>) own.push = shown.push();
     own.depth = shown.depth;
-    const bool ends = state_ == state::leaving || state_ == state::stale || !shown.covered();
+    const bool ends = is_ending() || !shown.covered();
     if (!own.is_finite()) [[unlikely]] {
       return true;  // the caller checks is_finite() again
     }
@@ -254,6 +256,11 @@ class pursued {
 
  private:
   enum class state : std::uint8_t { empty, expected, there, leaving, stale };
+
+  /// True if it recedes because its surface was released or is stale.
+  [[nodiscard]] constexpr bool is_ending() const noexcept {
+    return state_ == state::leaving || state_ == state::stale;
+  }
 
   /// |Δx|/r, the largest turn of a normal over an edge since the last tick [rad].
   [[nodiscard]] constexpr scalar turn_of_way(
@@ -335,6 +342,7 @@ class pursued {
   scalar pressed_{};  ///< λ in the last tick [N]
   scalar age_{};      ///< time since the last update [s]
   state state_ = state::empty;
+  bool owes_ = false;  ///< it has pressed since the news that are being made up for
 };
 
 }  // namespace v0

@@ -127,6 +127,8 @@ struct body_frame {
   using point = stored_vector<scalar, 3>;  ///< in the frame of the handle [m]
   using stored = typename Body::stored_pose;
   static constexpr bool naps = false;  ///< because a turn moves points far from the handle quickly
+  /// The points share a load, and what the ledger pays for: each for itself would spend all of it.
+  static constexpr bool shares_load = true;
 
   [[nodiscard]] static bool is_point(const point& p) noexcept { return space::is_finite(p); }
   [[nodiscard]] static vector place(const stored& was, const point& p) noexcept {
@@ -189,6 +191,7 @@ struct body_frame {
   [[nodiscard]] static proxy<Spring> coupling(const Spring& spring) noexcept {
     return {spring, scalar(1) - spring.softness()};
   }
+  [[nodiscard]] static row way_of(const row& moved, scalar /*dt*/) noexcept { return moved; }
   /// The motion to which a handle gives way by a wrench of one newton, C w, at a compliance [m/N].
   [[nodiscard]] static row yields(const auto& spring, const row& wrench,
                                   scalar compliance) noexcept {
