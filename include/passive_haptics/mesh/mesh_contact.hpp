@@ -254,14 +254,14 @@ class mesh_contact::on {
   }
   /// The force f turned by what is left of where other meshes have turned it to; that is made up for by border_rate.
   [[nodiscard]] mesh::triple turning(const mesh::triple& f, double dt) noexcept {
-    const double size = mesh::length(f), last = mesh::length(pressed_by_);
-    const bool other = ball_.touches_others() && last > 0.0;
-    if (!(size > 0.0) || !(other || mesh::squared(turned_) > 0.0)) {
+    const bool other = ball_.touches_others() && mesh::squared(pressed_by_) > 0.0;
+    const double size = other || mesh::squared(turned_) > 0.0 ? mesh::length(f) : 0.0;
+    if (!(size > 0.0)) {
       turned_ = {};
       return f;
     }
     const mesh::triple n = f * (1.0 / size);
-    if (other) turned_ = pressed_by_ * (1.0 / last) - n;
+    if (other) turned_ = pressed_by_ * (1.0 / mesh::length(pressed_by_)) - n;
     const double left = mesh::length(turned_), most = border_rate * dt / size;
     turned_ = left > most ? turned_ * (1.0 - most / left) : mesh::triple{};
     const mesh::triple felt = n + turned_;

@@ -141,17 +141,20 @@ class mesh_tool<Points>::on {
     const vector at = motion.position.position, way = Body::linear(port.travel),
                  turning = Body::angular(port.travel);
     request all{Body::zero(), true, scalar(0)};
-    const auto motion_of = [&](const vector& r) {
+    std::array<vector, std::size_t{Points}> arms;  // NOLINT(*-member-init): read where `each` goes
+    const auto motion_of = [&](int k) {
+      const vector& r = arms[static_cast<std::size_t>(k)];
       return moved{at + r, way + space::cross(turning, r), port.dt};
     };
     // The points share what the ledger pays for: each for itself would spend all of it.
     typename finger::load load;
     each([&](const finger& one, int k) {
-      one.add_to(load, motion_of(arm(turn, k)), static_cast<double>(port.dt));
+      arms[static_cast<std::size_t>(k)] = arm(turn, k);
+      one.add_to(load, motion_of(k), static_cast<double>(port.dt));
     });
     each([&](finger& one, int k) {
-      const vector r = arm(turn, k);
-      const auto asked = one.ask(motion_of(r), port, what, load);
+      const vector& r = arms[static_cast<std::size_t>(k)];
+      const auto asked = one.ask(motion_of(k), port, what, load);
       if (asked.nothing) return;
       all.wanted = all.wanted + Body::join(asked.wanted, space::cross(r, asked.wanted));
       all.nothing = false;

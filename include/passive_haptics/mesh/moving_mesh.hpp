@@ -184,11 +184,8 @@ struct moving_mesh {
   }
   /// Where a point of a triangle is now, and where it was before the last tick, in the world [m].
   [[nodiscard]] triple went(int triangle, const triple& weights) const noexcept {
-    const auto in_world = [&](double share, const pose& where) {
-      const view v{&news.mesh(), &news.from(), &news.to(), share, !news.moves(), true, where};
-      return point_at(v.triangle(triangle), weights);
-    };
-    return in_world(done, shown) - in_world(done_before, shown_before);
+    return point_at(now(true).triangle(triangle), weights) -
+           point_at(at_share(done_before, shown_before, true).triangle(triangle), weights);
   }
 
   /// Takes the news of the slow thread. touched_way() is by how much the way from one shape to the other moves what is

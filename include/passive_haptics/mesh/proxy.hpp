@@ -136,7 +136,7 @@ class proxy {
   /// nothing. `friction` ≥ 0 is a μ in place of those of the triangles: of who follows their changes at a limited rate.
   [[gnu::noinline]] void step(const triple& x, double dt, double friction = -1.0) noexcept {
     if (meshes_ == 0 || !is_finite(x) || !(squared(x) < 1e12) || !(dt > 0.0)) return;
-    others_ = std::exchange(reframed_, false) ? ticks_to_arrive : others_ - (others_ > 0 ? 1 : 0);
+    others_ = (std::max)(others_ - 1, 0);
     for (part& p : parts()) hear(p, dt);
     const triple own = seen(x);
     if (!placed_) {
@@ -264,7 +264,7 @@ class proxy {
   void reframe(auto change) noexcept {
     const triple ball = place(), device = frame().out(device_) + frame().position;
     change();
-    reframed_ = true;
+    others_ = ticks_to_arrive + 1;
     at_ = seen(ball);
     device_ = seen(device);
     count_ = 0;
@@ -817,7 +817,6 @@ class proxy {
   int meshes_ = 0;
   int beside_ = 0;  ///< the mesh that is closest
   bool placed_ = false;
-  bool reframed_ = false;   ///< meshes came or went since the last step
   int others_ = 0;          ///< ticks in which the ball may still be on its way
   triple at_{};             ///< the ball in frame() [m]
   triple device_{};         ///< the device there [m]
