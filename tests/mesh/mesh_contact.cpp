@@ -342,7 +342,8 @@ TEST_CASE("a mesh that takes the place of the one that is pressed is felt on", "
           dev, port, 3000,
           [&](auto& now) {
             if (now.tick % 40 == 0) {
-              REQUIRE(port.source().touch(*levels[again ? 0 : now.tick / 40 % levels.size()]));
+              REQUIRE(port.source().touch(
+                  *levels[again ? 0U : static_cast<std::size_t>(now.tick / 40) % levels.size()]));
             }
           },
           sim::idle,
