@@ -295,8 +295,8 @@ TEST_CASE(
 
 TEST_CASE("a mesh whose news come unevenly goes on steadily, and poses by the time between them",
           "[mesh]") {
-  for (const auto& [way, phase] : {std::pair{0.002, 6.9e-3}, {0.005, 1.9e-3}}) {
-    const auto heaved = [&](int k) { return way * std::sin(phase * k); };
+  for (const auto& heave : {std::pair{0.002, 6.9e-3}, {0.005, 1.9e-3}}) {
+    const auto heaved = [&](int k) { return heave.first * std::sin(heave.second * k); };
     for (const bool by_pose : {false, true}) {
       for (const double uneven : {0.15, 0.3, 0.6}) {
         std::mt19937 random(3);
@@ -312,7 +312,8 @@ TEST_CASE("a mesh whose news come unevenly goes on steadily, and poses by the ti
                      << std::sqrt(seen.bare) << " m, step " << seen.step << " m");
         const double share = std::sqrt(seen.off / seen.bare);
         CHECK(share < (by_pose ? 0.2 + 0.4 * uneven : 0.8));
-        CHECK(seen.step < 3.5 * way * phase);  // [m]; as it moves by itself, and a half is made up
+        // A step is what it moves by itself [m], and a half of that is made up for.
+        CHECK(seen.step < 3.5 * heave.first * heave.second);
         CHECK(std::abs(seen.at_last - seen.last) < 1e-9);
       }
     }
