@@ -56,6 +56,23 @@ struct chain {
           damping};
 }
 
+/// The frequency of the free resonance of two masses, or an upper bound of all those of a longer chain [Hz], by
+/// Gershgorin's circles:  (2πf)² ≤ max over e of k_e (1/m_e + 1/m_{e+1}) + √(k_e k_{e−1})/m_e + √(k_e k_{e+1})/m_{e+1}
+template <int N>
+[[nodiscard]] constexpr double fastest_mode(const chain<N>& c) noexcept {
+  double most = 0.0;
+  for (std::size_t e = 0; e + 1 < std::size_t{N}; ++e) {
+    const double k = c.springs[e];
+    double square = k / c.masses[e] + k / c.masses[e + 1];
+    if (e > 0) square += kernels::square_root(k * c.springs[e - 1]) / c.masses[e];
+    if (e + 2 < std::size_t{N}) {
+      square += kernels::square_root(k * c.springs[e + 1]) / c.masses[e + 1];
+    }
+    most = kernels::larger(most, square);
+  }
+  return kernels::square_root(most) / (2.0 * std::numbers::pi);
+}
+
 namespace detail {
 
 /// The coefficients of s for one part of one coming tick: s = Σ travels·Δx + Σ forces·f, newest first, after the coming

@@ -64,6 +64,25 @@ template <class Device, class Transmission>
   d.mass = rotor <= d.mass * 1.05 ? rotor : unstated;
   return d;
 }
+[[nodiscard]] constexpr double fastest_of(const any_transmission& /*t*/) noexcept {
+  return 0.0;
+}
+[[nodiscard]] constexpr double fastest_of(const observed_transmission& t) noexcept {
+  return t.fastest_mode;
+}
+template <int N>
+[[nodiscard]] constexpr double fastest_of(const chain_transmission<N>& t) noexcept {
+  return v0::fastest_mode(t.device);
+}
+/// The device for whose mass the spring and the damper of surfaces are designed: half of the rotor's, if it may swing
+/// faster than 3/(16 (k + 1) T) [Hz] in a loop k = `late` > 0 ticks late, where both feed what they are to damp. Half as
+/// steep they feed less than most transmissions lose (docs/design/settling.md, measured).
+template <class Device, class Transmission>
+[[nodiscard]] constexpr Device for_surfaces(Device seen, const Transmission& t, int late) noexcept {
+  const double turns = fastest_of(t) * (1 + late) * seen.longest_tick;
+  if (late > 0 && !(turns > 0.0 && turns <= 3.0 / 16.0)) seen.mass /= 2.0;
+  return seen;
+}
 
 /// Satisfied by a transmission that has a bound for a device and a hand.
 template <class T>
@@ -81,14 +100,15 @@ template <class Space, class Constraint = half_space<Space>, class Limits = loop
                                         const known_hand& hand, double turn_rate = 2.0) noexcept {
   const Device seen = detail::seen_through(device, transmission);
   const double most = detail::budget_of(seen, hand, Limits::latency);
-  return local_model{Space{},
-                     followed<Constraint>{},
-                     turn_limited{.rate = turn_rate},
-                     detail::law_of(seen, hand, most),
-                     detail::sums_of(seen, hand),
-                     detail::bounds_through<Limits>(seen, transmission, hand),
-                     detail::limits_of<Limits>(seen),
-                     detail::eyes_of_touch(seen, most)};
+  return local_model{
+      Space{},
+      followed<Constraint>{},
+      turn_limited{.rate = turn_rate},
+      detail::law_of(detail::for_surfaces(seen, transmission, Limits::latency), hand, most),
+      detail::sums_of(seen, hand),
+      detail::bounds_through<Limits>(seen, transmission, hand),
+      detail::limits_of<Limits>(seen),
+      detail::eyes_of_touch(seen, most)};
 }
 
 /// Several surfaces in slots, as in compositions.hpp.
@@ -97,7 +117,8 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
 [[nodiscard]] constexpr auto make_contacts(const Device& device, const Transmission& transmission,
                                            const known_hand& hand, const Room&... room) noexcept {
   const Device seen = detail::seen_through(device, transmission);
-  const auto source = detail::set_of(seen, hand, Limits::latency, room...);
+  const auto source = detail::set_of(detail::for_surfaces(seen, transmission, Limits::latency),
+                                     hand, Limits::latency, room...);
   return detail::port_of<Space, Limits>(source, seen, hand,
                                         detail::bounds_through<Limits>(seen, transmission, hand));
 }

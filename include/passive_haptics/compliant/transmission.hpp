@@ -31,8 +31,14 @@ struct observed_transmission {
   double pull = detail::no_limit;  ///< largest force on it without dry friction [N]
   double damping_above{};          ///< upper bound of the rotor's damping [N·s/m]
   double friction{};               ///< largest dry friction of the rotor [N]
+  /// Upper bound of the frequencies at which the handle swings on the rotor [Hz]; 0: unknown. The energy does not rest on
+  /// it, but below 3/(16 (k + 1) T), in a loop k > 0 ticks late, walls are shown twice as stiff.
+  double fastest_mode{};
 
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
+    if (!detail::not_negative(fastest_mode)) {
+      return {"fastest_mode", fastest_mode, "finite and ≥ 0 Hz"};
+    }
     return observed_reach{rotor, rotor_above, slew, friction, damping_above, pull}.check();
   }
 };

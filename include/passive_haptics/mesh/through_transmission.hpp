@@ -18,7 +18,8 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
                                              const known_hand& hand,
                                              mesh_contact shape = {}) noexcept {
   const Device seen = detail::seen_through(device, transmission);
-  detail::fit(shape.spring, seen, detail::budget_of(seen, hand, Limits::latency));
+  detail::fit(shape.spring, detail::for_surfaces(seen, transmission, Limits::latency),
+              detail::budget_of(seen, hand, Limits::latency));
   return detail::port_of<Space, Limits>(shape, seen, hand,
                                         detail::bounds_through<Limits>(seen, transmission, hand));
 }
