@@ -6,8 +6,10 @@
 #include <passive_haptics/contact/contact_set.hpp>
 #include <passive_haptics/contact/virtual_coupling.hpp>
 #include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/hand.hpp>
 #include <passive_haptics/simulation/presets.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -497,4 +499,40 @@ TEST_CASE("the floor of a force on encoders is the stiffness times what a positi
   (void)wall.tick(0.01, 1ms);
   CHECK(wall.explain().floor == wall.explain().shown * wall.observer().travel_error());
   CHECK(wall.explain().floor >= 0.01);
+}
+
+TEST_CASE("the floor of a force that the ledger limits is that of the bound's own spring",
+          "[explain]") {
+  // Pressed by what the ledger pays for, a step of the encoder is felt as up to 1.3 N, where K q is 0.15.
+  constexpr double q = 5e-5, K = 3000.0;
+  for (const double load : {1.0, 3.0}) {
+    auto port =
+        ph::make_contacts<d1>(ph::encoder_device{.mass = 0.1,
+                                                 .damping = 0.5,
+                                                 .friction = 0.3,
+                                                 .presliding = 1e-5,
+                                                 .quantum = q,
+                                                 .force_limit = 9.0,
+                                                 .longest_tick = 1e-3},
+                              ph::known_hand{.force = 5.0}, ph::slots<ph::half_space<d1>, 2>{});
+    REQUIRE(port.source().update(0, {0.0, 1.0, K}));
+    sim::device_parameters<d1> p{.mass = 0.1, .damping = 0.5, .friction = 0.3, .quantum = q};
+    p.start = -0.001;  // inside, so little has been paid
+    p.load = -load;
+    sim::device<d1, sim::impedance_hand<d1>> device(p, {.stiffness = 100.0, .damping = 1.0});
+    auto sample = device.exchange(0.0);
+    for (int n = 0; n < 6000; ++n) sample = device.exchange(port.tick(sample).force);
+    const auto said = port.explain();
+    REQUIRE(said.now == softened_by::ledger);
+    const auto force_at = [&](double further) {
+      auto copy = port;
+      auto there = sample;
+      there.position += further;
+      return copy.tick(there).force;
+    };
+    const double step = std::max(force_at(-q) - force_at(0.0), force_at(0.0) - force_at(q));
+    CAPTURE(load, step, said.floor);
+    CHECK(step > 3.0 * K * q);
+    CHECK(step < 1.2 * said.floor);
+  }
 }

@@ -246,7 +246,6 @@ class passive_port {
     e.force = static_cast<double>(detail::force_in<P>(guard_.commanded().front()));
     source_.explain(e, where(), limits_.longest_tick, latency);
     detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
-    if constexpr (!Observer::exact) e.floor = e.shown * static_cast<double>(travel_error());
     // A tick that asks for nothing where nothing stays nothing is not bounded, so is_cut_ is that of the tick before.
     const bool cut = is_cut_ && !(zero_stays_zero && e.depth == 0.0 && e.force == 0.0);
     // A surface that follows news waits at 0.1 mm of what the ledger pays for (port_state::paid_way).
@@ -260,6 +259,13 @@ class passive_port {
     if (!cut && e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth) e.now = softened_by::nothing;
     const bool asks = cut || e.depth > 0.0;
     if (asks && !(e.force > 0.0) && !(energy() > scalar(0))) e.now = softened_by::started_inside;
+    if constexpr (!Observer::exact) {
+      double steepest = e.shown;
+      if (e.now == softened_by::ledger && energy() > scalar(0)) {  // f/δ, where f δ = E1
+        steepest = kernels::larger(steepest, e.force * e.force / static_cast<double>(energy()));
+      }
+      e.floor = steepest * static_cast<double>(travel_error());
+    }
     return e;
   }
 
