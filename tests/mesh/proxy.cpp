@@ -320,6 +320,47 @@ TEST_CASE("a mesh whose news come unevenly goes on steadily, and poses by the ti
   }
 }
 
+TEST_CASE("news that come at once because those before were late are no faster motion", "[mesh]") {
+  // Every other shape of a plate that heaves by 1 mm comes 1 ms before the next one, or all of them 35 to 65 ms late.
+  const auto heaved = [](int k) { return 0.001 * std::sin(6.9e-3 * k); };
+  for (const bool by_pose : {false, true}) {
+    for (const int period : {33, 17, 10}) {
+      for (const bool at_random : {false, true}) {
+        std::mt19937 random(5);
+        std::uniform_int_distribution<> any(35, 65);
+        std::vector<int> told(4400, -1);  // the newest news in each tick, and when they were true
+        for (int k = 0, last = 0; k < 4400; k += period) {
+          const int late = at_random ? any(random) : (k / period) % 2 == 0 ? period - 1 : 0;
+          last = std::max(last, k + late);
+          if (last < 4400) told[std::size_t(last)] = k;
+        }
+        const auto when = [&](int k) { return told[std::size_t(k)]; };
+        const body b = plate();
+        ph::mesh::surface s(b.triangles, b.nodes);
+        ph::mesh::proxy ball({.radius = 5e-4});
+        REQUIRE(ball.touch(s));
+        double before = 0.0, step = 0.0;
+        for (int k = 0; k < 4400; ++k) {
+          if (when(k) >= 0) {
+            const double z = heaved(when(k));
+            auto nodes = b.nodes;
+            for (triple& p : nodes) p.z += z;
+            REQUIRE(
+                (by_pose ? s.update(ph::mesh::pose{.position = {0.0, 0.0, z}}) : s.update(nodes)));
+          }
+          ball.step({0.003, 0.002, std::max(0.02 - 1e-4 * k, -0.02)}, T);
+          const double felt = ball.place().z;
+          if (k >= 1000) step = std::max(step, std::abs(felt - before));
+          before = felt;
+        }
+        ball.let_go();
+        INFO(by_pose << ", every " << period << " ms, at random " << at_random);
+        CHECK(step < 6e-5);  // [m]; up to 4.4e-4 where the time since the last ones alone counts
+      }
+    }
+  }
+}
+
 TEST_CASE("news that jump, tremble or come seldom are not felt beyond where they were told",
           "[mesh]") {
   for (const bool by_pose : {false, true}) {

@@ -23,19 +23,24 @@ struct timing {
   double age = 1.0;                       ///< of the last ones [s]
   double period = 1.0, before = 1.0;  ///< between those and the ones before, and before that [s]
   double mean = 1.0;                  ///< of the last few periods [s]
-  double longest = 1.0;               ///< of them, as long as it is not long ago [s]
+  double longest = rarest;  ///< of them, as long as it is not long ago, `rarest` at most [s]
+  /// News that come at once, because those before were late, are no faster motion: they count as if they had taken half
+  /// of the longest period.
   void hear() noexcept {
-    before = std::exchange(period, std::exchange(age, 0.0));
+    const double since = std::exchange(age, 0.0), usual = (std::min)(since, rarest);
+    longest = (std::max)(usual, longest + 0.2 * (usual - longest));
+    before = std::exchange(period, (std::max)(since, 0.5 * longest));
     const bool other = mean > 2.0 * period || period > 2.0 * mean;
     mean = other ? period : mean + 0.25 * (period - mean);
-    longest = (std::max)(period, longest + 0.2 * (period - longest));
   }
-  /// Until the next are due [s]; who is late has half a period at least.
-  [[nodiscard]] double left() const noexcept { return (std::max)(period - age, 0.5 * period); }
+  /// Until the next are due [s]; who is late has half a period at least, the longest one of the last few.
+  [[nodiscard]] double left() const noexcept {
+    return (std::max)(period - age, 0.5 * (std::max)(period, longest));
+  }
   /// True if the next are due before long, but not in the next two ticks, so that their place is worth foreseeing.
   /// News that come unevenly are late when they are later than those before were.
   [[nodiscard]] bool are_due(double dt) const noexcept {
-    return period > 2.5 * dt && period < rarest && age < 1.5 * (std::min)(longest, rarest);
+    return period > 2.5 * dt && period < rarest && age < 1.5 * longest;
   }
 };
 
