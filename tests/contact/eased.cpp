@@ -100,6 +100,39 @@ TEST_CASE("news of a surface that heaves do not step, and nothing of it is lost"
         0.03);
 }
 
+TEST_CASE("news that come at once because those before were late do not step either", "[contact]") {
+  // Every other one comes 1 ms before the next.
+  const auto heaving = [](int n) { return 1e-3 * std::sin(6.911504e-3 * n); };  // 1.1 Hz
+  for (const int period : {100, 33, 17, 10}) {
+    const auto told_late = [&](const auto& law) {
+      auto model = touching(law);
+      felt result;
+      for (int n = 0; n < 8000; ++n) {
+        const int odd = n % (2 * period);
+        const bool both = odd == period - 1 || odd == period;
+        if (both) {
+          REQUIRE(model.update({heaving(odd == period ? n : n - period + 1), 1.0, 2000.0}));
+        }
+        const double force = model.tick(-2e-3, 1ms).force;
+        const double truth = 2000.0 * (2e-3 + heaving(n));
+        if (n >= 2000) {
+          result.largest_step = std::max(result.largest_step, std::abs(force - result.last));
+          result.rms += (force - truth) * (force - truth) / 6000;
+        }
+        result.last = force;
+      }
+      result.rms = std::sqrt(result.rms);
+      return result;
+    };
+    const felt smooth = told_late(ph::eased{damper});
+    const felt stepping = told_late(damper);  // the control
+    INFO(period << " ms: " << smooth.largest_step << " N, off by " << smooth.rms << " of "
+                << stepping.rms << " N");
+    CHECK(smooth.largest_step < 0.02);  // 0.13 to 0.49 N by the time since the last ones alone
+    CHECK(smooth.rms < (period == 100 ? 1.25 : 0.8) * stepping.rms);
+  }
+}
+
 TEST_CASE("what is told of a surface is shown within a second", "[contact]") {
   const double K = GENERATE(500.0, 2000.0, 8000.0);
   const auto off = [&](const auto& height, const auto& stiffness) {

@@ -183,9 +183,12 @@ class lag {
   [[nodiscard]] constexpr bool follows(Scalar age, Scalar slack) const noexcept {
     return age <= since_ + told_age_ + slack;
   }
-  /// The time between the instants of the last update and of one of that age [s].
+  /// The time between the instants of the last update and of one of that age [s]. Updates that state neither age nor speed
+  /// and come at once, because those before were late, are no faster motion: they took half of the longest of late.
   [[nodiscard]] constexpr Scalar between(Scalar age) const noexcept {
-    return kernels::larger(kernels::larger(since_ + told_age_ - age, since_ / Scalar(2)),
+    const bool stated = age > Scalar(0) || told_age_ > Scalar(0) || knows_;
+    const Scalar least = stated ? since_ : kernels::larger(since_, longest_);
+    return kernels::larger(kernels::larger(since_ + told_age_ - age, least / Scalar(2)),
                            kernels::rounding<Scalar>());
   }
   /// An update: `now` is the depth in it, `moved` its displacement at the device, and `own` the own depth so far or at
@@ -193,6 +196,8 @@ class lag {
   constexpr void hear(Scalar own, Scalar now, Scalar moved, Scalar compliance,
                       const news_pace::at<Scalar>& pace, const account& told = {}) noexcept {
     const Scalar took = between(told.age);
+    const Scalar usual = kernels::smaller(since_, pace.longest() / Scalar(2));
+    longest_ = kernels::larger(usual, longest_ + (usual - longest_) / Scalar(5));
     expect(moved / took, compliance, pace, told);
     const Scalar interval =
         kernels::smaller(kernels::larger(since_, kernels::rounding<Scalar>()), pace.longest());
@@ -252,6 +257,7 @@ class lag {
   going_on<Scalar> steady_;
   Scalar usual_{}, ahead_{};   ///< P, and the time for which p grows [s]
   Scalar since_{};             ///< time since the last update [s]
+  Scalar longest_{};           ///< such a time, the longest one that is not long ago [s]
   Scalar age_{}, told_age_{};  ///< age of the last update, compensated and stated [s]
   Scalar gains_{};             ///< u̇ [m/s²]
   Scalar its_{}, fastest_{};   ///< last stated speed used, larger one of the last two [m/s]
