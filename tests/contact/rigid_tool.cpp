@@ -69,6 +69,38 @@ TEMPLATE_TEST_CASE("a point of a tool presses with its force and its torque", "[
   CHECK(said.now == ph::softened_by::nothing);
 }
 
+TEST_CASE(
+    "explain() says when the motors of a tool, or its damping, hold no larger force or torque",
+    "[rigid_tool]") {
+  const auto pressed = [](double angular_damping, double force_limit, double torque_limit) {
+    auto port = ph::make_tool({.inertia = {.mass = 0.06, .least = 2e-4, .spread = 1e-6},
+                               .damping = {.linear = 0.03, .angular = angular_damping},
+                               .damping_most = {.linear = 0.06, .angular = 2 * angular_damping},
+                               .force_limit = force_limit,
+                               .torque_limit = torque_limit,
+                               .lever = 0.05},
+                              {.force = 7, .torque = 0.3}, ph::slots<plane, 1>{});
+    REQUIRE_FALSE(port.check());
+    REQUIRE(port.source().update(0, {0, 0, -0.05}, plane{{0, 0, -0.05}, {1, 0, 0}, 3000.0}));
+    for (int n = 0; n < 1500; ++n) {
+      (void)port.tick({vector(1e-3 - 6e-3 * std::min(n / 1000.0, 1.0), 0, 0), {}}, ph::seconds{T});
+    }
+    return port.explain();
+  };
+  const auto by_force = pressed(1e-3, 2.0, 0.5);
+  CHECK(by_force.now == ph::softened_by::motors);
+  CHECK_THAT(by_force.force, WithinRel(2.0, 1e-9));
+  const auto by_torque = pressed(1e-3, 9.0, 0.05);
+  CHECK(by_torque.now == ph::softened_by::motors);
+  CHECK_THAT(by_torque.torque, WithinRel(0.05, 1e-9));
+  const auto by_damping = pressed(2e-5, 9.0, 0.5);  // 4b_ω/T, lemma C
+  CHECK(by_damping.now == ph::softened_by::damping_and_tick);
+  CHECK_THAT(by_damping.torque, WithinRel(0.08, 1e-9));
+  const auto whole = pressed(1e-3, 9.0, 0.5);
+  CHECK(whole.now == ph::softened_by::nothing);
+  CHECK_THAT(whole.torque, WithinRel(0.05 * whole.force, 1e-9));
+}
+
 TEST_CASE("explain() says whether the lever of a tool gives or its inertia", "[rigid_tool]") {
   const auto why = [](const ph::tool_spring& spring, const vector& at, double K) {
     ph::passive_port port{ph::rigid_body<double>{},

@@ -24,7 +24,7 @@ enum class softened_by : std::uint8_t {
   refuted,           ///< the motion has refuted a stated parameter: force zero until reset()
   no_surface,        ///< no surface was told by update() or touch(), or release() ended it
   mass_and_tick,     ///< κ m/T², the largest stiffness at which a sampled mass settles (§ 9)
-  damping_and_tick,  ///< 2b/((k + 1) T), a strict bound's limit for an empty ledger (L4)
+  damping_and_tick,  ///< 2b/((k + 1) T), strict, from an empty ledger (L4); a torque: 4b_ω/T
   encoder_steps,     ///< the stiffness whose encoder steps dry friction and damping pay for
   coupling,          ///< the law's own spring stands in series with the surface
   news,     ///< the surface moved, or appeared around the device: force follows at a limited rate
@@ -51,6 +51,7 @@ struct explanation {
   double depth{};  ///< penetration into the world's surface at the last sample [m]; 0 outside
   double force{};  ///< the last commanded force [N]
   softened_by now = softened_by::nothing;  ///< why `force` is less than `shown` times `depth`
+  double torque{};             ///< of a handle that turns, the last commanded torque [N·m]; else 0
   const char* crossings = "";  ///< of known_crossings, whether they pay here, and why; else empty
 
   /// Lowers `shown` to `most` [N/m] if it is larger by more than a float may round, and notes the reason.
@@ -64,6 +65,11 @@ struct explanation {
     const bool asks = shown * depth > most || !(asked < std::numeric_limits<double>::infinity());
     if (asks && force > 0.95 * most) now = softened_by::motors;
   }
+  /// The same of a tool, by its force or its torque, of which the point that is explained may give a part; `most` and
+  /// `most_torque` are the limits [N], [N·m].
+  constexpr void saturate(double most, double most_torque) noexcept {
+    if (force > 0.95 * most || torque > 0.95 * most_torque) now = softened_by::motors;
+  }
   /// One sentence on what limits the force now, or else the stiffness, and what would raise it.
   [[nodiscard]] constexpr const char* because() const noexcept {
     constexpr const char* sentences[] = {
@@ -74,8 +80,9 @@ struct explanation {
         "A mass that is sampled every T can be held with so much and no more, and it grows with "
         "m/T^2: a faster loop, a longest tick that is no longer than it has to be, or a heavier "
         "grip raises it.",
-        "So much is sure under a strict bound, from an empty ledger: more damping or a shorter "
-        "longest tick raises it, and reachable_bound, where mass and hand are known.",
+        "So much is sure of this damping and tick, of a force under a strict bound from an empty "
+        "ledger, and of any torque: more damping or a shorter longest tick raises it, and of a "
+        "force reachable_bound, where mass and hand are known.",
         "Dry friction and damping pay for no more on these steps: finer encoders, more sure "
         "friction or less presliding raise it; stiffness_budget(device).because() says which.",
         "The coupling's own spring stands in series with the surface: a stiffer one shows more.",

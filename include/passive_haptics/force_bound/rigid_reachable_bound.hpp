@@ -124,6 +124,13 @@ class rigid_reachable_bound::on {
     return share{known * allowed};
   }
 
+  /// Names damping and tick where the torque has reached 4b_ω/T, the largest that is let pass (lemma C).
+  constexpr void explain(explanation& e, const auto& damping, scalar T,
+                         int /*late*/) const noexcept {
+    const double most = 4.0 * static_cast<double>(damping.along_axis(3) / T);
+    if (e.torque > 0.95 * most) e.now = softened_by::damping_and_tick;
+  }
+
   /// The most work [J] that w can have done in a time `dt` [s] without samples, and the part of it that the end poses
   /// of a turn may hide. (mathematics.md § 2(a″))
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr detail::unseen_work<scalar> unseen(
@@ -247,6 +254,10 @@ struct rigid_actuator_limit {
       using lengths = part_at<rigid_inertia, P>;
       return detail::can_be_held(lengths::template length<0>(held), force_) &&
              detail::can_be_held(lengths::template length<3>(held), torque_);
+    }
+    constexpr void explain(explanation& e, const auto& /*damping*/, scalar /*T*/,
+                           int /*late*/) const noexcept {
+      e.saturate(static_cast<double>(force_), static_cast<double>(torque_));
     }
 
    private:

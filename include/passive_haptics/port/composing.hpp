@@ -207,6 +207,12 @@ template <class P>
     return P::geometry::norm(f);
   }
 }
+/// |τ| [N·m] of a wrench; 0 of another effort.
+template <class P>
+[[nodiscard]] constexpr auto torque_in([[maybe_unused]] const typename P::effort& f) noexcept {
+  if constexpr (moves_and_turns<P>) return P::body_space::norm(P::angular(f));
+  return typename P::scalar(0);
+}
 /// Satisfied by a bound with most_held(), the longest effort that can_hold() accepts.
 template <class Part>
 concept knows_most_held = requires(const Part p) {

@@ -245,6 +245,7 @@ class passive_port {
     }
     e.force = static_cast<double>(detail::force_in<P>(guard_.commanded().front()));
     source_.explain(e, where(), limits_.longest_tick, latency);
+    e.torque = static_cast<double>(detail::torque_in<P>(guard_.commanded().front()));
     detail::explain(bound_, e, observer_.damping(), limits_.longest_tick, latency);
     // A tick that asks for nothing where nothing stays nothing is not bounded, so is_cut_ is that of the tick before.
     const bool cut = is_cut_ && !(zero_stays_zero && e.depth == 0.0 && e.force == 0.0);
