@@ -198,6 +198,7 @@ class lag {
     const Scalar took = between(told.age);
     const Scalar usual = kernels::smaller(since_, pace.longest() / Scalar(2));
     longest_ = kernels::larger(usual, longest_ + (usual - longest_) / Scalar(5));
+    if (!(since_ < Scalar(1))) longest_ = Scalar(0);
     expect(moved / took, compliance, pace, told);
     const Scalar interval =
         kernels::smaller(kernels::larger(since_, kernels::rounding<Scalar>()), pace.longest());
@@ -255,9 +256,9 @@ class lag {
   Scalar speed_{};            ///< ρ [m/s]
   Scalar goes_on_{};          ///< u [m/s]
   going_on<Scalar> steady_;
-  Scalar usual_{}, ahead_{};   ///< P, and the time for which p grows [s]
-  Scalar since_{};             ///< time since the last update [s]
-  Scalar longest_{};           ///< such a time, the longest one that is not long ago [s]
+  Scalar usual_{}, ahead_{};  ///< P, and the time for which p grows [s]
+  Scalar since_{};            ///< time since the last update [s]
+  Scalar longest_{};  ///< such a time, the longest one that is not long ago; 0 after a pause [s]
   Scalar age_{}, told_age_{};  ///< age of the last update, compensated and stated [s]
   Scalar gains_{};             ///< u̇ [m/s²]
   Scalar its_{}, fastest_{};   ///< last stated speed used, larger one of the last two [m/s]

@@ -23,12 +23,12 @@ struct timing {
   double age = 1.0;                       ///< of the last ones [s]
   double period = 1.0, before = 1.0;  ///< between those and the ones before, and before that [s]
   double mean = 1.0;                  ///< of the last few periods [s]
-  double longest = rarest;  ///< of them, as long as it is not long ago, `rarest` at most [s]
+  double longest = 0.0;  ///< of them if not long ago, `rarest` at most; 0 after a pause [s]
   /// News that come at once, because those before were late, are no faster motion: they count as if they had taken half
   /// of the longest period.
   void hear() noexcept {
     const double since = std::exchange(age, 0.0), usual = (std::min)(since, rarest);
-    longest = (std::max)(usual, longest + 0.2 * (usual - longest));
+    longest = since < 1.0 ? (std::max)(usual, longest + 0.2 * (usual - longest)) : 0.0;
     before = std::exchange(period, (std::max)(since, 0.5 * longest));
     const bool other = mean > 2.0 * period || period > 2.0 * mean;
     mean = other ? period : mean + 0.25 * (period - mean);
