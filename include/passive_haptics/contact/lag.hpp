@@ -199,7 +199,7 @@ class lag {
     const Scalar usual = kernels::smaller(since_, pace.longest() / Scalar(2));
     longest_ = kernels::larger(usual, longest_ + (usual - longest_) / Scalar(5));
     if (!(since_ < Scalar(1))) longest_ = Scalar(0);
-    expect(moved / took, compliance, pace, told);
+    expect(moved / took, took, compliance, pace, told);
     const Scalar interval =
         kernels::smaller(kernels::larger(since_, kernels::rounding<Scalar>()), pace.longest());
     // P follows a longer interval at once and a shorter one slowly, for a network that drops updates.
@@ -225,9 +225,11 @@ class lag {
   }
 
  private:
+  /// Updates within this time [s] are heard as one, because each tells more of its noise than of its way.
+  static constexpr Scalar as_one = Scalar(0.0075);
   /// Updates u and u̇ from the speed between the last two updates and the stated one.
-  constexpr void expect(Scalar speed, Scalar compliance, const news_pace::at<Scalar>& pace,
-                        const account& told) noexcept {
+  constexpr void expect(Scalar speed, Scalar took, Scalar compliance,
+                        const news_pace::at<Scalar>& pace, const account& told) noexcept {
     const Scalar moved = kernels::magnitude(speed), calm = pace.usual() * compliance;
     const bool worse = !(kernels::magnitude(speed - told_speed_) <= moved);
     const bool again = std::exchange(worse_, worse) && worse;
@@ -237,7 +239,13 @@ class lag {
     fastest_ = kernels::larger(kernels::magnitude(its_), kernels::magnitude(before));
     const bool knew = std::exchange(knows_, told.knows) && told.knows;
     const Scalar rest = speed - (knew ? (its_ + before) / Scalar(2) : its_);
-    Scalar of_the_rest = steady_.hear(rest);
+    heard_ += rest * took;
+    heard_for_ += took;
+    if (!(heard_for_ < as_one)) {
+      foreseen_ = steady_.hear(heard_ / heard_for_);
+      heard_ = heard_for_ = Scalar(0);
+    }
+    Scalar of_the_rest = foreseen_;
     gains_ = knew ? (its_ - before) / between(told.age) : Scalar(0);
     if (knows_ && again) its_ = gains_ = of_the_rest = Scalar(0);
     if (knows_) of_the_rest = kernels::clamped(of_the_rest, -calm, calm);
@@ -256,6 +264,8 @@ class lag {
   Scalar speed_{};            ///< ρ [m/s]
   Scalar goes_on_{};          ///< u [m/s]
   going_on<Scalar> steady_;
+  Scalar heard_{}, heard_for_{},
+      foreseen_{};            ///< ways not yet heard [m], their time [s], the speed foreseen [m/s]
   Scalar usual_{}, ahead_{};  ///< P, and the time for which p grows [s]
   Scalar since_{};            ///< time since the last update [s]
   Scalar longest_{};  ///< such a time, the longest one that is not long ago; 0 after a pause [s]
