@@ -324,6 +324,77 @@ TEST_CASE("a mesh that jumps onto a hand is felt there at a limited rate", "[mes
   }
 }
 
+TEST_CASE("a mesh that the device is in when the forces are on again is met from no force on",
+          "[mesh]") {
+  const body b = plate();
+  for (const double k : {100.0, 400.0, 2000.0}) {
+    INFO(k << " N/m");
+    ph::mesh::surface s(b.triangles, b.nodes);
+    auto port = ph::make_mesh_touch<scene>(
+        {.mass = 0.1, .damping = 0.1, .force_limit = 9, .longest_tick = T}, {.force = 5},
+        {.stiffness = 2000});
+    REQUIRE(port.source().touch(s));
+    device dev({.mass = 0.1, .damping = 0.1, .start = vector(0.003, 0.002, 0.004)},
+               drawn(vector(0.003, 0.002, -3.0 / k), 5, k, k / 100 + 1));
+    vector force = vector::Zero();
+    auto sample = dev.exchange(force);
+    for (int n = 1; n < 4000; ++n) {
+      if (n == 2000) port.enable_forces(false);
+      if (n == 2020) port.enable_forces(true);
+      force = port.tick(sample).force;
+      if (n == 2019) REQUIRE(force.norm() == 0.0);
+      if (n == 2020) CHECK(force.norm() < 0.06);  // 50 N/s
+      sample = dev.exchange(force);
+    }
+    CHECK(force.norm() > 0.5);
+    CHECK(dev.meter().minimum() >= -1e-12);
+    port.source().let_go();
+  }
+}
+
+TEST_CASE("a ball of another radius and a mesh of another stiffness are felt at a limited rate",
+          "[mesh]") {
+  const body b = plate();
+  const auto largest_step = [&](double k, bool larger, double stiffer, bool by_mesh) {
+    ph::mesh::surface s(b.triangles, b.nodes);
+    auto port = ph::make_mesh_touch<scene>(
+        {.mass = 0.1, .damping = 0.1, .force_limit = 9, .longest_tick = T}, {.force = 5},
+        {.stiffness = 500});
+    REQUIRE(port.source().touch(s));
+    device dev({.mass = 0.1, .damping = 0.1, .start = vector(0.003, 0.002, 0.006)},
+               drawn(vector(0.003, 0.002, 0.006), 5, k, k / 100 + 1));
+    vector force = vector::Zero();
+    auto sample = dev.exchange(force);
+    double step = 0.0;
+    for (int n = 1; n < 8000; ++n) {
+      // A hand that comes slowly pays in little.
+      dev.hand().target =
+          vector(0.003, 0.002, 0.006 - (0.006 + 2.0 / k) * std::min(1.0, n / 700.0));
+      if (n == 3000) {
+        auto other = port.source().parameters();
+        if (larger) other.proxy.radius *= 4.0;
+        other.stiffness *= by_mesh ? 1.0 : stiffer;
+        REQUIRE_FALSE(port.set(other));
+        const std::vector<std::uint8_t> of(b.triangles.size(), 0);
+        if (by_mesh) REQUIRE(s.update(ph::mesh::made_of{{{500 * stiffer, 0.0, 0.0}}, of}));
+      }
+      const vector last = force;
+      force = port.tick(sample).force;
+      if (n >= 3000) step = std::max(step, (force - last).norm());
+      sample = dev.exchange(force);
+    }
+    CHECK(dev.meter().minimum() >= -1e-12);
+    port.source().let_go();
+    return step;
+  };
+  for (const double k : {100.0, 400.0, 2000.0}) {
+    INFO(k << " N/m");
+    CHECK(largest_step(k, true, 1.0, false) < 0.06);
+    CHECK(largest_step(k, false, 3.0, false) < 0.2);
+    CHECK(largest_step(k, false, 3.0, true) < 0.2);
+  }
+}
+
 TEST_CASE("a mesh that takes the place of the one that is pressed is felt on", "[mesh]") {
   // A sphere of another topology every 40 ms, its facets up to 0.4 mm apart from those before; and one touched again.
   for (const bool again : {false, true}) {

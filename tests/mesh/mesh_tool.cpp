@@ -124,6 +124,26 @@ TEST_CASE("no point of a tool goes through a mesh that moves, and no joule comes
   CHECK(device_through > 100);
 }
 
+TEST_CASE("a tool that is in a mesh when the forces are on again is met from no force on",
+          "[mesh]") {
+  const body b = plate();
+  ph::mesh::surface s(b.triangles, b.nodes);
+  auto port = tool_of(2000);
+  REQUIRE(port.source().touch(s));
+  double pressed = 0.0;
+  for (int n = 0; n < 440; ++n) {
+    if (n == 400) port.enable_forces(false);
+    if (n == 420) port.enable_forces(true);
+    const double z = n < 200 ? 0.008 - 3e-5 * n : n < 400 ? 0.002 : 0.002 - 1e-4 * (n - 400);
+    const handle::pose x{{0.0, 0.0, z}, {}};
+    const double force = handle::linear(port.tick(x, ph::seconds{T}).force).norm();
+    if (n < 400) pressed = std::max(pressed, force);
+    if (n == 420) CHECK(force < 8 * 0.06);  // 50 N/s at each point
+  }
+  CHECK(pressed > 1.0);
+  port.source().let_go();
+}
+
 TEST_CASE("the points of a tool share what the ledger pays for when a mesh heaves", "[mesh]") {
   for (const double K : {600.0, 1500.0}) {
     const moving heaves{"plate that heaves", plate(), shaken({0, 0, 0.002}, 2.5)};

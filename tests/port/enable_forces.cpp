@@ -124,6 +124,39 @@ TEST_CASE("within a second after the forces are on a wall is felt as before, and
   comes_back(set, 0.5);  // most of it is the finger's motion, 8 mm/s
 }
 
+TEST_CASE("a finger that moves when the forces are on again is no stranger, and is met softly",
+          "[port]") {
+  const auto falls_in = [](auto port, int on, int off) {
+    finger f;
+    f.of.hand() = {.stiffness = 400, .damping = 5, .limit = 5};
+    f.hold(port, -0.008, on);
+    port.enable_forces(false);
+    f.hold(port, -0.008, off, false);
+    port.enable_forces(true);
+    f.largest_step = f.force = 0.0;
+    bool is_stranger = false;
+    for (int n = 0; n < 300; ++n) {
+      f.hold(port, -0.008, 1);
+      is_stranger = is_stranger || f.what == event::outside_force;
+    }
+    INFO(on << ", " << off << " ms: " << f.largest_step << " N, " << f.of.meter().minimum()
+            << " J");
+    CHECK_FALSE(is_stranger);
+    CHECK(f.largest_step < 1.0);  // K v dt is 0.5 N
+    CHECK(f.of.meter().minimum() >= -1e-12);
+  };
+  for (const int off : {5, 10, 20, 40}) {
+    for (int on = 600; on < 728; ++on) {  // a test of its motion may go on just then
+      auto touch = ph::make_touch<d1>(device, hand);
+      (void)touch.update(floor_of_2000);
+      falls_in(touch, on, off);
+      auto set = ph::make_contacts<d1>(device, hand, ph::slots<ph::half_space<d1>, 2>{});
+      set.source().update(0, floor_of_2000);
+      falls_in(set, on, off);
+    }
+  }
+}
+
 TEST_CASE("forces that are off stay off until they are switched on", "[port]") {
   auto port = ph::make_guard<d1>(device, hand);
   CHECK(port.tick(0.0, 1ms, 0.0).what == event::nominal);

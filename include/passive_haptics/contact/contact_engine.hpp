@@ -200,6 +200,8 @@ class contact_engine {
       all.chases = true;  // what comes back then is news, too
     }
     const row way = now.moved();
+    if (!std::exchange(knows_way_, port.motion_known) || !knows_way_) [[unlikely]]
+      moved_ = way;  // that nothing was seen to move is no change of speed
     if (told_ || chased_ || all.chases) [[unlikely]]
       wanted = eased(wanted, way, all.chases, port.dt);
     moved_ = way;
@@ -445,6 +447,7 @@ class contact_engine {
   bool told_ = false;                     ///< an update is still being followed
   bool chased_ = false;                   ///< `chases` of the last tick
   bool refused_ = false;                  ///< a surface was refused since the last tick
+  bool knows_way_ = true;                 ///< the motion of the last tick is known
   bool placed_ = false;                   ///< last_ is known; it is not at the first sample
 };
 

@@ -116,7 +116,7 @@ class mesh_contact::on {
     const double asked = ball_.felt(elsewhere_).stiffness;
     e.asked = e.shown = asked;
     e.soften(spring_.sampled(asked).stiffness, spring_.softener(asked));
-    if (behind_ > 0.0) e.now = softened_by::news;
+    if (behind_ > 0.0 || (presses_ && felt_.stiffness < asked)) e.now = softened_by::news;
     if (inside_) e.now = softened_by::started_inside;
     if (ball_.placed() && ball_.pressed().count > 0) e.depth = mesh::length(ball_.pressed().way);
   }
@@ -153,7 +153,16 @@ class mesh_contact::on {
     return {port.force, r.depth, port.energy, port.what, port.limited};
   }
   constexpr result_type refused(const port_result<P>& port, scalar /*dt*/) noexcept {
+    if (port.what == event::forces_off) meet_anew();
     return {port.force, scalar(0), port.energy, port.what, false};
+  }
+  /// What the ball is in when the forces are on again is met as what has come there meanwhile: from no force on.
+  constexpr void meet_anew() noexcept {
+    anew_ = true;
+    presses_ = false;
+    felt_depth_ = behind_ = 0.0;
+    pressed_by_ = turned_ = {};
+    swing_.stop();
   }
 
  private:
@@ -231,6 +240,7 @@ class mesh_contact::on {
   /// by jump_speed where what moves it is no steady motion, and what it stays behind it makes up for by border_rate, or
   /// when the mesh comes back. Where other meshes are touched what was felt goes on, and is made up for likewise.
   [[nodiscard]] double share_felt(double depth, double most, double dt) noexcept {
+    stiffens_by_ = most;
     if (!(depth > 0.0)) return 1.0;
     const mesh::support& pressed = ball_.pressed();
     const mesh::triple n = ball_.push() * (1.0 / depth);
@@ -242,7 +252,9 @@ class mesh_contact::on {
     }
     if (!steady) most = (std::min)(most, jump_speed * dt);
     const double left = most - (std::max)(out, 0.0), rate = border_rate * dt / felt_.stiffness;
-    if (ball_.touches_others()) behind_ = (std::max)(depth - felt_depth_, -depth);
+    if (std::exchange(anew_, false) || ball_.touches_others()) {
+      behind_ = (std::max)(depth - felt_depth_, -depth);
+    }
     if (behind_ < 0.0) {
       behind_ = (std::max)((std::min)(behind_ + rate, 0.0), -depth);
     } else {
@@ -250,6 +262,7 @@ class mesh_contact::on {
       behind_ = kernels::clamped(behind_, 0.0, depth);
     }
     felt_depth_ = depth - behind_;
+    stiffens_by_ = behind_ > 0.0 ? 0.0 : (std::max)(left, 0.0);
     return felt_depth_ / depth;
   }
   /// The force f turned by what is left of where other meshes have turned it to; that is made up for by border_rate.
@@ -286,7 +299,8 @@ class mesh_contact::on {
       const auto towards = [](double from, double to, double most) {
         return kernels::clamped(to, from - most, from + most);
       };
-      felt_.stiffness = towards(before, goal.stiffness, step / depth);
+      const double stiffer = (std::min)(step, before * stiffens_by_) / depth;
+      felt_.stiffness = kernels::clamped(goal.stiffness, before - step / depth, before + stiffer);
       felt_.friction = towards(felt_.friction, goal.friction, step / (felt_.stiffness * depth));
       felt_.viscosity =
           towards(felt_.viscosity, goal.viscosity, speed > 0.0 ? step / speed : goal.viscosity);
@@ -325,10 +339,12 @@ class mesh_contact::on {
   mesh::material felt_;          ///< of the last tick; sampled_ is of its K
   double most_viscosity_ = 0.0;  ///< m/2T [N·s/m]
   sampled_spring<double> sampled_{};
-  bool presses_ = false;       ///< it did in the last tick
-  bool inside_ = false;        ///< the device was not clear of the meshes by then
-  double behind_ = 0.0;        ///< how far the surface that is felt lies below the mesh [m]
-  double felt_depth_ = 0.0;    ///< the depth less that, in the last tick [m]
+  bool presses_ = false;      ///< it did in the last tick
+  bool anew_ = false;         ///< the forces were off
+  double stiffens_by_ = 0.0;  ///< way [m] by which it may rise yet in this tick, or stiffen as much
+  bool inside_ = false;       ///< the device was not clear of the meshes by then
+  double behind_ = 0.0;       ///< how far the surface that is felt lies below the mesh [m]
+  double felt_depth_ = 0.0;   ///< the depth less that, in the last tick [m]
   mesh::triple pressed_by_{};  ///< the force of the last tick, without what rubs [N]
   mesh::triple turned_{};      ///< by how much its direction is not yet that of the meshes
   swing<double> swing_;

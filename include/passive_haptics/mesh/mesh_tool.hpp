@@ -167,6 +167,7 @@ class mesh_tool<Points>::on {
     return {port.force, r.depth, port.energy, port.what, port.limited};
   }
   constexpr result_type refused(const port_result<Body>& port, scalar /*dt*/) noexcept {
+    if (port.what == event::forces_off) each([](finger& one, int) { one.meet_anew(); });
     return {port.force, scalar(0), port.energy, port.what, false};
   }
 

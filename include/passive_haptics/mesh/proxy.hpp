@@ -61,9 +61,11 @@ class proxy {
   proxy() noexcept = default;
   explicit proxy(const proxy_parameters& p) noexcept : rule_(p) {}
   [[nodiscard]] constexpr const proxy_parameters& parameters() const noexcept { return rule_; }
-  /// Parameters that check() refuses change nothing.
+  /// Parameters that check() refuses change nothing. Where a ball of another radius rests counts as other meshes.
   constexpr void set(const proxy_parameters& p) noexcept {
-    if (!p.check()) rule_ = p;
+    if (p.check()) return;
+    if (!(p.radius == rule_.radius)) others_ = ticks_to_arrive + 1;
+    rule_ = p;
   }
 
   /// Touches this surface from now on, and no other; it must outlive the proxy. What is pressed keeps its side if the

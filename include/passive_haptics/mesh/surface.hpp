@@ -153,7 +153,6 @@ class surface {
   template <class Nodes>
   [[nodiscard]] static std::string check(std::span<const triangle> triangles, const Nodes& nodes) {
     const std::size_t count = nodes.size();
-    std::size_t with_area = 0;
     std::string fault = check_count(triangles.size());
     if (fault.empty()) fault = not_finite(nodes);
     if (!fault.empty()) return fault;
@@ -164,16 +163,8 @@ class surface {
                  " of " + std::to_string(count) + "; count nodes from 0";
         }
       }
-      const triple a = detail::node_of(nodes, at(triangles[i][0]));
-      const triple b = detail::node_of(nodes, at(triangles[i][1]));
-      const triple c = detail::node_of(nodes, at(triangles[i][2]));
-      with_area += squared(cross(b - a, c - a)) > 0.0 ? 1 : 0;
     }
-    if (with_area == 0) {
-      return "mesh: none of its " + std::to_string(triangles.size()) +
-             " triangles has an area, so it may be passed through; are all nodes at one place?";
-    }
-    return {};
+    return no_area(triangles, nodes);
   }
 
   /// What is possible for a mesh and almost surely a slip, as millimetres for metres, or an empty text.
@@ -243,7 +234,9 @@ class surface {
                std::to_string(count_) + "; make another mesh::surface of them and touch() it";
       return false;
     }
-    if (std::string fault = not_finite(nodes); !fault.empty()) {
+    std::string fault = not_finite(nodes);
+    if (fault.empty()) fault = no_area(world_->triangles, nodes);
+    if (!fault.empty()) {
       fault_ = std::move(fault);
       return false;
     }
@@ -428,6 +421,18 @@ class surface {
       }
     }
     return {};
+  }
+  /// What is said of nodes among which no triangle has an area; one that has is mostly the first.
+  template <class Nodes>
+  [[nodiscard]] static std::string no_area(std::span<const triangle> triangles,
+                                           const Nodes& nodes) {
+    for (const triangle& t : triangles) {
+      const triple a = detail::node_of(nodes, at(t[0])), b = detail::node_of(nodes, at(t[1])),
+                   c = detail::node_of(nodes, at(t[2]));
+      if (squared(cross(b - a, c - a)) > 0.0) return {};
+    }
+    return "mesh: none of its " + std::to_string(triangles.size()) +
+           " triangles has an area, so it may be passed through; are all nodes at one place?";
   }
   template <class Nodes>
   void smoothen(const smooth& rounded, const Nodes& nodes) {

@@ -172,6 +172,7 @@ class passive_port {
     if (!on || stopped_ != event::forces_off) return;
     stopped_ = event::nominal;
     static_cast<void>(source_.refused({P::zero(), energy(), event::forces_off, false}, scalar(0)));
+    if constexpr (looks) bound_.watching().look_on(false);  // no window goes on over the gap
     begin();
   }
 
