@@ -376,7 +376,7 @@ TEST_CASE("explain() of a set is about the contact that presses most", "[port][c
 }
 
 TEST_CASE("every reason has a name and a sentence", "[port]") {
-  for (int i = 0; i <= static_cast<int>(softened_by::forces_off); ++i) {
+  for (int i = 0; i <= static_cast<int>(softened_by::sample); ++i) {
     ph::explanation e;
     e.stiffness = static_cast<softened_by>(i);
     CHECK(std::string(to_string(e.stiffness)) != "unknown reason");
@@ -534,5 +534,18 @@ TEST_CASE("the floor of a force that the ledger limits is that of the bound's ow
     CAPTURE(load, step, said.floor);
     CHECK(step > 3.0 * K * q);
     CHECK(step < 1.2 * said.floor);
+  }
+}
+
+TEST_CASE("a sample that was refused is named, and not the ledger or the surface", "[explain]") {
+  auto touch = ph::make_touch<d1>(grip, hand);
+  REQUIRE(touch.update(wall(1000.0)));
+  (void)touch.tick(0.001, 1ms);
+  for (const double wrong : {std::nan(""), 30.0, -25.0}) {  // the others are millimetres
+    CHECK(touch.tick(wrong, 1ms).what >= event::rejected_sample);
+    CHECK(touch.explain().stiffness == softened_by::sample);
+    CHECK(std::string(touch.explain().because()).find("metres") != std::string::npos);
+    for (int n = 0; n < 3; ++n) (void)touch.tick(-0.001, 1ms);
+    CHECK(touch.explain().stiffness == softened_by::nothing);
   }
 }

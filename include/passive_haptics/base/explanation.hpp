@@ -33,14 +33,15 @@ enum class softened_by : std::uint8_t {
   ledger,   ///< the energy E1 covers no larger force, or no further way of a surface that has moved
   started_inside,  ///< in contact from the start, with no energy in the ledger
   forces_off,      ///< enable_forces(false) was called
+  sample,          ///< the last sample was refused or missing, as the event says: force zero
 };
 
 [[nodiscard]] constexpr const char* to_string(softened_by why) noexcept {
   constexpr const char* names[] = {
       "nothing",          "parameters",    "refuted",        "no surface", "mass and tick",
       "damping and tick", "encoder steps", "coupling",       "news",       "silence",
-      "motors",           "ledger",        "started inside", "forces off"};
-  return why <= softened_by::forces_off ? names[static_cast<int>(why)] : "unknown reason";
+      "motors",           "ledger",        "started inside", "forces off", "sample"};
+  return why <= softened_by::sample ? names[static_cast<int>(why)] : "unknown reason";
 }
 
 struct explanation {
@@ -96,10 +97,13 @@ struct explanation {
         "tick is too long.",
         "It was inside when the surface came, and nothing has been paid in to push it out: move "
         "it, start outside, or state a loan.",
-        "The forces are off: enable_forces(true) switches them on."};
-    static_assert(sizeof sentences / sizeof *sentences == int(softened_by::forces_off) + 1);
+        "The forces are off: enable_forces(true) switches them on.",
+        "The last sample was refused or missing, as the event says: positions are in metres, "
+        "within "
+        "the workspace, and no faster than top_speed."};
+    static_assert(sizeof sentences / sizeof *sentences == int(softened_by::sample) + 1);
     const softened_by why = now != softened_by::nothing ? now : stiffness;
-    return why <= softened_by::forces_off ? sentences[static_cast<int>(why)] : "";
+    return why <= softened_by::sample ? sentences[static_cast<int>(why)] : "";
   }
 };
 

@@ -244,6 +244,12 @@ class passive_port {
                                                            : softened_by::refuted;
       return e;
     }
+    if constexpr (!trusting) {
+      if (guard_.blind() > scalar(0)) {
+        e.stiffness = softened_by::sample;
+        return e;
+      }
+    }
     e.force = static_cast<double>(detail::force_in<P>(guard_.commanded().front()));
     source_.explain(e, where(), limits_.longest_tick, latency);
     e.torque = static_cast<double>(detail::torque_in<P>(guard_.commanded().front()));
