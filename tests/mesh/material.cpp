@@ -280,36 +280,33 @@ TEST_CASE("no joule comes out of a rough mesh, however it moves, and what rests 
     INFO(m.name);
     CHECK(least(ph::strict_bound{}, 3) >= -1e-12);
     CHECK(least(reachable(0.1), 4) >= -1e-12);
-    for (unsigned seed : {1U, 2U, 3U, 4U})
-      bare_one = std::min(bare_one, least(ph::no_bound{}, seed));
+    for (unsigned seed : {1U, 2U}) bare_one = std::min(bare_one, least(ph::no_bound{}, seed));
   }
   CHECK(bare_one < -1e-3);
 
   for (const body& b : {floor(), sphere(3, 0.04), star()}) {
-    for (const double K : {500.0, 2000.0, 20000.0}) {
-      for (const double mass : {0.05, 0.3}) {
-        for (const double mu : {0.1, 0.4, 1.5}) {
-          ph::mesh::surface s(b.triangles, b.nodes);
-          auto port = port_of(mu, 0.0, K, mass, reachable(mass));
-          port.source().touch(s);
-          sim::impedance_hand<scene> hand;
-          hand.stiffness = 200;
-          hand.damping = 1;
-          hand.limit = 8;
-          hand.target = vector(0.012, 0.005, -0.02);
-          sim::device<scene, sim::impedance_hand<scene>> dev(
-              {.mass = mass, .damping = 0.1, .start = vector(0.003, 0.004, 0.1)}, hand);
-          sim::quiet_judge<scene> judge;
-          const auto seen = sim::run(dev, port, 5500, sim::idle, sim::idle,
-                                     [&](auto& now) { show(judge, port.source().ball(), now); });
-          INFO(b.triangles.size() << " triangles, " << K << " N/m, " << mass << " kg, mu " << mu
-                                  << ": " << judge.figures().force << " N, "
-                                  << judge.figures().speed << " m/s, " << judge.figures().step
-                                  << " N");
-          CHECK(judge.quiet());
-          CHECK(seen.least_energy >= -1e-12);
-          CHECK(seen.largest_force > 0.5);
-        }
+    for (const auto& told : {std::pair{500.0, 0.05}, {2000.0, 0.3}, {20000.0, 0.05}}) {
+      const double K = told.first, mass = told.second;
+      for (const double mu : {0.1, 0.4, 1.5}) {
+        ph::mesh::surface s(b.triangles, b.nodes);
+        auto port = port_of(mu, 0.0, K, mass, reachable(mass));
+        port.source().touch(s);
+        sim::impedance_hand<scene> hand;
+        hand.stiffness = 200;
+        hand.damping = 1;
+        hand.limit = 8;
+        hand.target = vector(0.012, 0.005, -0.02);
+        sim::device<scene, sim::impedance_hand<scene>> dev(
+            {.mass = mass, .damping = 0.1, .start = vector(0.003, 0.004, 0.1)}, hand);
+        sim::quiet_judge<scene> judge;
+        const auto seen = sim::run(dev, port, 5500, sim::idle, sim::idle,
+                                   [&](auto& now) { show(judge, port.source().ball(), now); });
+        INFO(b.triangles.size() << " triangles, " << K << " N/m, " << mass << " kg, mu " << mu
+                                << ": " << judge.figures().force << " N, " << judge.figures().speed
+                                << " m/s, " << judge.figures().step << " N");
+        CHECK(judge.quiet());
+        CHECK(seen.least_energy >= -1e-12);
+        CHECK(seen.largest_force > 0.5);
       }
     }
   }

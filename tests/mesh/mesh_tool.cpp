@@ -109,7 +109,7 @@ TEST_CASE("no point of a tool goes through a mesh that moves, and no joule comes
         return to;
       };
       INFO(m.name << (taps ? ", tapped" : ", stroked"));
-      const auto seen = run(tool_of(2000), m, vector(0.13, 0, 0), hand, 2000);
+      const auto seen = run(tool_of(2000), m, vector(0.13, 0, 0), hand, 1200);
       CHECK(seen.through == 0);
       device_through += seen.device_through;
       CHECK(seen.least_energy >= -1e-12);
@@ -117,7 +117,7 @@ TEST_CASE("no point of a tool goes through a mesh that moves, and no joule comes
       const auto source = tool_of(2000).source().parameters();
       const ph::passive_port unbound{handle{}, source, ph::no_observer{}, ph::no_bound{},
                                      ph::loop_limits{.longest_tick = 1.1e-3}};
-      bare = std::min(bare, run(unbound, m, vector(0.13, 0, 0), hand, 1000).least_energy);
+      bare = std::min(bare, run(unbound, m, vector(0.13, 0, 0), hand, 600).least_energy);
     }
   }
   CHECK(bare < -1e-3);  // without a bound they give out energy
@@ -184,9 +184,9 @@ TEST_CASE("a tool that rests on a mesh by many points is quiet, if its inertia i
                          ? vector(vector(0.003, 0.002, from) * (1 - n / 300.0) + to * (n / 300.0))
                          : to;
             },
-            4000);
+            3200);
       };
-      for (const double K : {500.0, 2000.0, 10000.0}) {
+      for (const double K : {500.0, 10000.0}) {
         INFO(m.name << " from " << side << ", " << K << " N/m");
         const auto seen = press(tool_of(K));
         CHECK(seen.judge.quiet());
@@ -196,6 +196,7 @@ TEST_CASE("a tool that rests on a mesh by many points is quiet, if its inertia i
         CHECK(seen.largest > 3.0);
         CHECK(seen.pressing >= 2);
       }
+      if (side < 0.0) continue;
       ph::rigid_device heavy = facts;  // the control: as if each point had the whole of the handle
       heavy.inertia.mass *= 20;
       heavy.inertia.least *= 20;
@@ -203,7 +204,7 @@ TEST_CASE("a tool that rests on a mesh by many points is quiet, if its inertia i
       rings += !press(tool_of(1e5, heavy)).judge.quiet();
     }
   }
-  CHECK(rings >= 6);
+  CHECK(rings >= 3);
 }
 
 TEST_CASE(

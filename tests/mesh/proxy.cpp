@@ -45,7 +45,7 @@ seen wandered(const moving& m, unsigned seed, int every, double radius, double f
   witness looks;
   seen all;
   double round = -1e9;
-  const int ticks = int(3.0 / dt), news = int(every * T / dt);
+  const int ticks = int(2.0 / dt), news = int(every * T / dt);
   for (int k = 0; k < ticks; ++k) {
     if (k % news == 0) REQUIRE(s.update(m.nodes(k * dt)));
     ball.step(device.next(dt), dt);
@@ -68,7 +68,7 @@ seen wandered(const moving& m, unsigned seed, int every, double radius, double f
 TEST_CASE("no mesh lets the ball through, at rest, moved, deformed, by news of 30 Hz to 1 kHz",
           "[mesh][long]") {
   for (const moving& m : all_worst()) {
-    for (const int every : {33, 7, 1}) {
+    for (const int every : {33, 1}) {
       for (const unsigned seed : {1U, 2U}) {
         const double radius = seed == 1 ? 5e-4 : 1e-4;
         const double friction = seed == 1 ? 0.0 : 0.7;

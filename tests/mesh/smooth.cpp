@@ -314,7 +314,7 @@ TEST_CASE("what a smooth mesh cannot be made of is refused, and what is odd in i
   nodes[3].y = std::nan("");
   CHECK_FALSE(s.update(nodes));
   CHECK_THAT(s.fault(), Contains("node 3 at (0.0262866, nan, 0) m is not finite"));
-  // No area, double triangles, an open border, one inside out, and then all nodes in one point.
+  // No area, double triangles, an open border, one inside out, and then all nodes within a nanometre.
   body odd = with_degenerate();
   odd.triangles.resize(odd.triangles.size() - 30);
   std::swap(odd.triangles[7][0], odd.triangles[7][1]);
@@ -324,7 +324,9 @@ TEST_CASE("what a smooth mesh cannot be made of is refused, and what is odd in i
     ball.touch(*one);
     for (int k = 0; k < 1500; ++k) {
       if (k == 1000) {
-        REQUIRE(one->update(std::vector<std::array<double, 3>>(b.nodes.size(), {0, 0, 0})));
+        std::vector<triple> shrunk = b.nodes;
+        for (triple& p : shrunk) p = p * 1e-9;
+        REQUIRE(one->update(shrunk));
       }
       const double a = 0.004 * k;
       ball.step(of(vector((k < 300 ? 0.08 - 1.2e-4 * k : 0.03) *
@@ -340,35 +342,34 @@ TEST_CASE("what a smooth mesh cannot be made of is refused, and what is odd in i
 TEST_CASE("no smooth mesh lets the ball through, and no joule comes out of it", "[mesh][long]") {
   double largest = 0.0;
   for (const moving& m : all_worst()) {
-    for (const unsigned seed : {1U, 2U}) {
-      for (const bool strict : {false, true}) {
-        ph::mesh::surface s(m.rest.triangles, m.nodes(0.0), {}, rounded);
-        const auto run = [&](auto port) {
-          port.source().touch(s);
-          restless in_hand(seed);
-          witness looks;
-          int through = 0;
-          double winds = -1e9;
-          const auto& ball = port.source().ball();
-          const auto seen = sim::run(
-              in_hand.device, port, 3000,
-              [&](auto& now) {
-                if (now.tick % 33 == 0) REQUIRE(s.update(m.nodes(now.time)));
-                if (!ball.placed() || !m.closed || now.tick % 4 != 0) return;
-                const double about = winding(shown(s, ball), ball.place());
-                through += winds > -1e8 && std::abs(about - winds) > 0.5 ? 1 : 0;
-                winds = about;
-              },
-              [&](auto& now) { in_hand.move(now); });
-          INFO(m.name << ", seed " << seed << ", strict: " << strict);
-          CHECK(through == 0);
-          port.source().let_go();
-          CHECK(seen.least_energy >= -1e-12);
-          largest = std::max(largest, seen.largest_force);
-        };
-        if (strict) run(port_of(2000, 0.1, ph::strict_bound{}));
-        if (!strict) run(port_of(2000, 0.1, reachable(0.1)));
-      }
+    for (const bool strict : {false, true}) {
+      const unsigned seed = strict ? 2 : 1;
+      ph::mesh::surface s(m.rest.triangles, m.nodes(0.0), {}, rounded);
+      const auto run = [&](auto port) {
+        port.source().touch(s);
+        restless in_hand(seed);
+        witness looks;
+        int through = 0;
+        double winds = -1e9;
+        const auto& ball = port.source().ball();
+        const auto seen = sim::run(
+            in_hand.device, port, 3000,
+            [&](auto& now) {
+              if (now.tick % 33 == 0) REQUIRE(s.update(m.nodes(now.time)));
+              if (!ball.placed() || !m.closed || now.tick % 4 != 0) return;
+              const double about = winding(shown(s, ball), ball.place());
+              through += winds > -1e8 && std::abs(about - winds) > 0.5 ? 1 : 0;
+              winds = about;
+            },
+            [&](auto& now) { in_hand.move(now); });
+        INFO(m.name << ", seed " << seed << ", strict: " << strict);
+        CHECK(through == 0);
+        port.source().let_go();
+        CHECK(seen.least_energy >= -1e-12);
+        largest = std::max(largest, seen.largest_force);
+      };
+      if (strict) run(port_of(2000, 0.1, ph::strict_bound{}));
+      if (!strict) run(port_of(2000, 0.1, reachable(0.1)));
     }
   }
   CHECK(largest > 5.0);
@@ -465,7 +466,7 @@ TEST_CASE("a ball that is larger than the hollows of a smooth mesh comes to rest
   }
   ph::mesh::surface s(b.triangles, b.nodes, {}, rounded);
   for (const double radius : {0.0005, 0.0015, 0.003, 0.006}) {
-    for (const double stiffness : {500.0, 2000.0, 9000.0}) {
+    for (const double stiffness : {500.0, 9000.0}) {
       for (const vector& to : {vector(1e-3, 2e-3, -4e-3), vector(4e-3, -3e-3, -8e-3)}) {
         auto port = ph::make_mesh_touch<scene>(
             ph::exact_device{.mass = 0.2, .damping = 0.2, .force_limit = 20, .longest_tick = T},

@@ -150,6 +150,7 @@ TEST_CASE("a finger that moves when the forces are on again is no stranger, and 
       auto touch = ph::make_touch<d1>(device, hand);
       (void)touch.update(floor_of_2000);
       falls_in(touch, on, off);
+      if (on % 32 != 0) continue;
       auto set = ph::make_contacts<d1>(device, hand, ph::slots<ph::half_space<d1>, 2>{});
       set.source().update(0, floor_of_2000);
       falls_in(set, on, off);
