@@ -601,8 +601,11 @@ TEST_CASE(
   for (int n = 0; n < 12; ++n) (void)more(-10e-3, of(-0.05));
   CHECK_THAT(more(-10e-3, of(-0.05)), is(-0.05 - 0.0195));  // of the rest no more than that
   told_each_tenth slows;
-  CHECK_THAT(slows(-6e-3, of(-0.06)), is(-0.06));
-  CHECK_THAT(slows(2e-3, of(0.02)), is(0.02 + 0.06 / 0.08 * 1e-3));
+  CHECK_THAT(slows(-5e-3, of(-0.05)), is(-0.05));
+  CHECK_THAT(slows(2e-3, of(0.02)), is(0.02 + 0.05 / 0.08 * 1e-3));
+  told_each_tenth begins;
+  CHECK_THAT(begins(0.02, of(0.2)), is(0.05));  // 50 N/s, because it may be a jump
+  CHECK_THAT(begins(0.02, of(0.2)), is(0.2 + 0.15 / 0.1 * 1e-3));
 }
 
 TEST_CASE("a surface with a stated speed is where it is by now, not where it was told",
@@ -614,7 +617,7 @@ TEST_CASE("a surface with a stated speed is where it is by now, not where it was
   CHECK_THAT(gains(2e-3, of(0.02, 0.02), 0.4e-3), WithinRel(0.02, 1e-9));
   CHECK_THAT(gains(3e-3, of(0.04, 0.02), 0.84e-3), WithinRel(0.044 + 0.2 * 1e-3, 1e-9));
   told_each_tenth much;  // by no more than its speed in the age and the 0.08 s ahead
-  CHECK_THAT(much(-2e-3, of(-0.02, 0.02), -0.4e-3), WithinRel(-0.02, 1e-9));
+  CHECK_THAT(much(-4e-3, of(-0.04, 0.02), -0.8e-3), WithinRel(-0.04, 1e-9));
   CHECK_THAT(much(6e-3, of(0.1, 0.02), 2.2e-3), WithinRel(0.12 + 1e-3, 1e-9));
   told_each_tenth old;  // no more than 0.1 s count
   CHECK_THAT(old(2e-3, of(0.04, 0.5), 4e-3), WithinRel(0.04, 1e-9));

@@ -233,7 +233,12 @@ class lag {
     const Scalar moved = kernels::magnitude(speed), calm = pace.usual() * compliance;
     const bool worse = !(kernels::magnitude(speed - told_speed_) <= moved);
     const bool again = std::exchange(worse_, worse) && worse;
-    const Scalar before = its_, most = kernels::larger(calm, Scalar(2) * moved);
+    // What begins is believed to be as fast as R_most only, because what jumps may be told to be as fast, and stops.
+    const Scalar went =
+        kernels::larger(std::exchange(moved_, moved), kernels::magnitude(told_speed_));
+    const Scalar begins = kernels::larger(Scalar(2) * went, pace.most() * compliance);
+    const Scalar before = its_;
+    const Scalar most = kernels::larger(calm, kernels::smaller(Scalar(2) * moved, begins));
     its_ = told.knows ? kernels::clamped(told.speed, -most, most) : Scalar(0);
     told_speed_ = its_;
     fastest_ = kernels::larger(kernels::magnitude(its_), kernels::magnitude(before));
@@ -273,6 +278,7 @@ class lag {
   Scalar gains_{};             ///< u̇ [m/s²]
   Scalar its_{}, fastest_{};   ///< last stated speed used, larger one of the last two [m/s]
   Scalar told_speed_{};        ///< last stated speed [m/s]
+  Scalar moved_{};             ///< how fast the update before has moved the surface [m/s]
   bool worse_ = false;         ///< at the last update that was worse than 0 m/s
   bool knows_ = false;         ///< the last update stated its speed
   bool settled_ = true;
