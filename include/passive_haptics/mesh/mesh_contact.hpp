@@ -96,8 +96,8 @@ class mesh_contact::on {
   }
 
   /// Touches this mesh from now on, and no other; it must outlive the port. Call it from the haptic thread. One that takes
-  /// the place of what is pressed, within r of it, is felt on without a step. It returns false if 64 fingers touch the
-  /// mesh already.
+  /// the place of what is pressed, within r of it, is felt on without a step. It returns false, and nothing is touched, if
+  /// 64 fingers touch the mesh already: a port that ends before its mesh must let_go(), or its place stays taken.
   bool touch(const mesh::surface& s) noexcept { return ball_.touch(s); }
   /// Touches this mesh as well (mesh/proxy.hpp). It returns false if 64 fingers touch it, or if eight are touched.
   bool also_touch(const mesh::surface& s) noexcept { return ball_.also_touch(s); }
