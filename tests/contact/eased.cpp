@@ -158,6 +158,26 @@ TEST_CASE("a surface that moves fast is followed through the noise of frequent n
   }
 }
 
+TEST_CASE("news of uneven instants are followed as even ones are", "[contact]") {
+  const auto heaving = [](double t) { return 1e-3 * std::sin(6.911504 * t); };  // 1.1 Hz
+  const auto in_pairs = [](int n) { return n % 31 < 2; };                       // 1 and 30 ms apart
+  const felt even = held(ph::eased{damper}, 2e-3, heaving, always(2000.0), at_30_hz);
+  const felt uneven = held(ph::eased{damper}, 2e-3, heaving, always(2000.0), in_pairs);
+  INFO("even: off by " << even.rms << ", in pairs " << uneven.rms << " N");
+  CHECK(uneven.largest_step < 0.02);
+  CHECK(uneven.rms < 1.5 * even.rms);  // 5 times where the later one counts as half of 30 ms
+}
+
+TEST_CASE("frequent news are followed without delay unless they are noisy", "[contact]") {
+  // 15 mm/s to and fro for half a second each, with rests; heard as one of 7.5 ms it was off by 0.05 N.
+  const auto moves = [](double t) {
+    const double u = std::fmod(t, 2.0);
+    return 0.012 * (std::clamp(u - 0.5, 0.0, 0.5) - std::clamp(u - 1.5, 0.0, 0.5));
+  };
+  const auto each_ms = [](int) { return true; };
+  CHECK(held(ph::eased{damper}, 2e-3, moves, always(2000.0), each_ms).rms < 0.01);
+}
+
 TEST_CASE("what is told of a surface is shown within a second", "[contact]") {
   const double K = GENERATE(500.0, 2000.0, 8000.0);
   const auto off = [&](const auto& height, const auto& stiffness) {

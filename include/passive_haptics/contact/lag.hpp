@@ -187,15 +187,13 @@ class lag {
   /// and come at once, because those before were late, are no faster motion: they took half of the longest of late.
   [[nodiscard]] constexpr Scalar between(Scalar age) const noexcept {
     const bool stated = age > Scalar(0) || told_age_ > Scalar(0) || knows_;
-    const Scalar least = stated ? since_ : kernels::larger(since_, longest_);
-    return kernels::larger(kernels::larger(since_ + told_age_ - age, least / Scalar(2)),
-                           kernels::rounding<Scalar>());
+    return kernels::larger(seems(age), stated ? Scalar(0) : longest_ / Scalar(2));
   }
   /// An update: `now` is the depth in it, `moved` its displacement at the device, and `own` the own depth so far or at
   /// the beginning of the contact, 0 without contact [m].
   constexpr void hear(Scalar own, Scalar now, Scalar moved, Scalar compliance,
                       const news_pace::at<Scalar>& pace, const account& told = {}) noexcept {
-    const Scalar took = between(told.age);
+    const Scalar took = took_by(moved, told.age);
     const Scalar usual = kernels::smaller(since_, pace.longest() / Scalar(2));
     longest_ = kernels::larger(usual, longest_ + (usual - longest_) / Scalar(5));
     if (!(since_ < Scalar(1))) longest_ = Scalar(0);
@@ -213,8 +211,8 @@ class lag {
     behind_ =
         own > Scalar(0) || here > Scalar(0) ? here - kernels::larger(own, Scalar(0)) : Scalar(0);
     if (!kernels::is_finite(behind_ + goes_on_)) return void(*this = {});
-    speed_ = pace.speed_for(behind_, usual_, goes_on_, steady_.fastest(), compliance);
-    if (told.way < steady_.last() * took / Scalar(4) && !steady_.is_steady())
+    speed_ = pace.speed_for(behind_, usual_, goes_on_, fastest(), compliance);
+    if (told.way < steady_.last() * took / Scalar(4) && !is_steady())
       speed_ = kernels::smaller(speed_, kernels::magnitude(behind_) / (Scalar(2) * ahead_));
     settled_ = behind_ == Scalar(0) && lead_ == Scalar(0) && goes_on_ == Scalar(0);
   }
@@ -225,8 +223,27 @@ class lag {
   }
 
  private:
-  /// Updates within this time [s] are heard as one, because each tells more of its noise than of its way.
+  /// The same, if none was late [s].
+  [[nodiscard]] constexpr Scalar seems(Scalar age) const noexcept {
+    return kernels::larger(kernels::larger(since_ + told_age_ - age, since_ / Scalar(2)),
+                           kernels::rounding<Scalar>());
+  }
+  /// The same of an update that has moved the surface by `moved` [m]: no longer than it takes at the speed of the one
+  /// before, because updates of uneven instants come at once as well.
+  [[nodiscard]] constexpr Scalar took_by(Scalar moved, Scalar age) const noexcept {
+    const Scalar most = between(age), way = kernels::magnitude(moved);
+    return way < moved_ * most ? kernels::larger(seems(age), way / moved_) : most;
+  }
+  /// Where updates one by one do not go on steadily, those within this time [s] are heard as one, because each may tell more
+  /// of its noise than of its way.
   static constexpr Scalar as_one = Scalar(0.0075);
+  [[nodiscard]] constexpr bool is_steady() const noexcept {
+    return steady_.is_steady() || longer_.is_steady();
+  }
+  /// w [m/s].
+  [[nodiscard]] constexpr Scalar fastest() const noexcept {
+    return steady_.is_steady() ? steady_.fastest() : longer_.fastest();
+  }
   /// Updates u and u̇ from the speed between the last two updates and the stated one.
   constexpr void expect(Scalar speed, Scalar took, Scalar compliance,
                         const news_pace::at<Scalar>& pace, const account& told) noexcept {
@@ -247,10 +264,12 @@ class lag {
     heard_ += rest * took;
     heard_for_ += took;
     if (!(heard_for_ < as_one)) {
-      foreseen_ = steady_.hear(heard_ / heard_for_);
+      foreseen_ = longer_.hear(heard_ / heard_for_);
       heard_ = heard_for_ = Scalar(0);
     }
-    Scalar of_the_rest = foreseen_;
+    const Scalar next = steady_.hear(rest);
+    // What is heard as one is late by that time, and would swing where the surface yields to the force.
+    Scalar of_the_rest = steady_.is_steady() ? next : foreseen_;
     gains_ = knew ? (its_ - before) / between(told.age) : Scalar(0);
     if (knows_ && again) its_ = gains_ = of_the_rest = Scalar(0);
     if (knows_) of_the_rest = kernels::clamped(of_the_rest, -calm, calm);
@@ -265,14 +284,14 @@ class lag {
     goes_on_ += gains_ * age_;
   }
 
-  Scalar behind_{}, lead_{};  ///< ℓ, p [m]
-  Scalar speed_{};            ///< ρ [m/s]
-  Scalar goes_on_{};          ///< u [m/s]
-  going_on<Scalar> steady_;
-  Scalar heard_{}, heard_for_{},
-      foreseen_{};            ///< ways not yet heard [m], their time [s], the speed foreseen [m/s]
-  Scalar usual_{}, ahead_{};  ///< P, and the time for which p grows [s]
-  Scalar since_{};            ///< time since the last update [s]
+  Scalar behind_{}, lead_{};          ///< ℓ, p [m]
+  Scalar speed_{};                    ///< ρ [m/s]
+  Scalar goes_on_{};                  ///< u [m/s]
+  going_on<Scalar> steady_, longer_;  ///< of updates one by one, and of those that are heard as one
+  Scalar heard_{}, heard_for_{};      ///< ways that longer_ has not yet heard [m], their time [s]
+  Scalar foreseen_{};                 ///< by longer_ [m/s]
+  Scalar usual_{}, ahead_{};          ///< P, and the time for which p grows [s]
+  Scalar since_{};                    ///< time since the last update [s]
   Scalar longest_{};  ///< such a time, the longest one that is not long ago; 0 after a pause [s]
   Scalar age_{}, told_age_{};  ///< age of the last update, compensated and stated [s]
   Scalar gains_{};             ///< u̇ [m/s²]
