@@ -501,6 +501,47 @@ TEST_CASE("the floor of a force on encoders is the stiffness times what a positi
   CHECK(wall.explain().floor >= 0.01);
 }
 
+TEST_CASE("the floor of a force is no larger than the force on a ledger that is all but empty",
+          "[explain]") {
+  constexpr double q = 2e-5, K = 2000.0;
+  const ph::encoder_device pen{.mass = 0.1,
+                               .damping = 0.2,
+                               .friction = 0.1,
+                               .presliding = 5e-6,
+                               .quantum = q,
+                               .force_limit = 9.0};
+  auto port = ph::make_touch<d1>(pen, ph::known_hand{.force = 5.0});
+  REQUIRE(port.update({0.0, 1.0, K}));
+  double most = 0.0;
+  for (int n = 0; n < 5000; ++n) {  // inside from the start, and wriggles
+    (void)port.tick(std::floor((-0.002 + 1e-4 * std::sin(0.01 * n)) / q) * q, ph::seconds{1e-3});
+    const auto said = port.explain();
+    most = std::max(most, said.floor - std::max(said.force, 1.01 * K * q));
+  }
+  CHECK(most <= 0.0);
+}
+
+TEST_CASE("a late loop that bears less than the encoder steps is what is named", "[explain]") {
+  const auto why = [](auto port) {
+    REQUIRE(port.update({0.0, 1.0, 5000.0}));
+    (void)port.tick(0.001, ph::seconds{1e-3});
+    const auto said = port.explain();
+    CHECK(said.shown < 5000.0);
+    return said.stiffness;
+  };
+  const ph::known_hand person{.force = 5.0};
+  ph::encoder_device pen{.mass = 0.05,
+                         .damping = 0.1,
+                         .friction = 0.1,
+                         .presliding = 5e-6,
+                         .quantum = 2e-5,
+                         .force_limit = 9.0};
+  CHECK(why(ph::make_touch<d1>(pen, person)) == softened_by::encoder_steps);
+  pen.latency = 1;
+  CHECK(why(ph::make_touch<d1, ph::half_space<d1>, ph::late_loop_limits<1>>(pen, person)) ==
+        softened_by::mass_and_tick);
+}
+
 TEST_CASE("the floor of a force that the ledger limits is that of the bound's own spring",
           "[explain]") {
   // Pressed by what the ledger pays for, a step of the encoder is felt as up to 1.3 N, where K q is 0.15.

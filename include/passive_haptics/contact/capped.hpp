@@ -90,6 +90,12 @@ class capped<Law>::on : public part_at<Law, Space> {
   }
   /// True if the constraint's K is above `most`.
   [[nodiscard]] constexpr bool is_capped() const noexcept { return is_capped_; }
+  /// True if that, and not the law itself, is why it is no stiffer.
+  [[nodiscard]] constexpr bool caps() const noexcept {
+    if (!is_capped_) return false;
+    const scalar shown = scalar(1) / law_part::depth(scalar(1), scalar(0));
+    return !(shown < share_ * stiffness_ * scalar(0.99));
+  }
 
  private:
   /// C/5 [J]; without a working capital a number below every ledger.

@@ -268,11 +268,13 @@ class passive_port {
     const bool asks = cut || e.depth > 0.0;
     if (asks && !(e.force > 0.0) && !(energy() > scalar(0))) e.now = softened_by::started_inside;
     if constexpr (!Observer::exact) {
-      double steepest = e.shown;
-      if (e.now == softened_by::ledger && energy() > scalar(0)) {  // f/δ, where f δ = E1
-        steepest = kernels::larger(steepest, e.force * e.force / static_cast<double>(energy()));
+      const double q = static_cast<double>(travel_error());
+      e.floor = e.shown * q;
+      if (e.now == softened_by::ledger &&
+          energy() > scalar(0)) {  // f q/δ, where f δ = E1; f at most
+        const double steps = e.force * q / static_cast<double>(energy());
+        e.floor = kernels::larger(e.floor, e.force * kernels::smaller(steps, 1.0));
       }
-      e.floor = steepest * static_cast<double>(travel_error());
     }
     return e;
   }
