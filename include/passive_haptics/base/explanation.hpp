@@ -47,8 +47,7 @@ enum class softened_by : std::uint8_t {
 struct explanation {
   double asked{};  ///< K of the world's surface [N/m]; ∞ for a given force, whose K is unknown
   double shown{};  ///< the stiffness displayed at rest, below the motors' limit [N/m]
-  double
-      floor{};  ///< K q, or f² q/E1 ≤ f where the ledger limits f [N]: one encoder step q at rest
+  double floor{};  ///< of an encoder step q at rest [N]: K q, or f² q/E1 ≤ f where E1 limits f
   softened_by stiffness = softened_by::nothing;  ///< why `shown` is less than `asked`
   double depth{};  ///< penetration into the world's surface at the last sample [m]; 0 outside
   double force{};  ///< the last commanded force [N]

@@ -72,7 +72,7 @@ template <class Device, class Transmission>
 }
 template <int N>
 [[nodiscard]] constexpr double fastest_of(const chain_transmission<N>& t) noexcept {
-  return v0::fastest_mode(t.device);
+  return v0::fastest_mode(t.device) * (1.0 + t.tolerance);
 }
 /// The device for whose mass the spring and the damper of surfaces are designed: half of the rotor's, if it may swing
 /// faster than 3/(16 (k + 1) T) [Hz] in a loop k = `late` > 0 ticks late, where both feed what they are to damp. Half as

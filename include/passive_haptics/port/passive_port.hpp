@@ -268,12 +268,10 @@ class passive_port {
     const bool asks = cut || e.depth > 0.0;
     if (asks && !(e.force > 0.0) && !(energy() > scalar(0))) e.now = softened_by::started_inside;
     if constexpr (!Observer::exact) {
-      const double q = static_cast<double>(travel_error());
+      const double q = static_cast<double>(travel_error()), E1 = static_cast<double>(energy());
       e.floor = e.shown * q;
-      if (e.now == softened_by::ledger &&
-          energy() > scalar(0)) {  // f q/δ, where f δ = E1; f at most
-        const double steps = e.force * q / static_cast<double>(energy());
-        e.floor = kernels::larger(e.floor, e.force * kernels::smaller(steps, 1.0));
+      if (e.now == softened_by::ledger && E1 > 0.0) {  // f q/δ ≤ f, where f δ = E1
+        e.floor = kernels::larger(e.floor, e.force * kernels::smaller(e.force * q / E1, 1.0));
       }
     }
     return e;
