@@ -269,7 +269,8 @@ class lag {
     }
     const Scalar next = steady_.hear(rest);
     // What is heard as one is late by that time, and would swing where the surface yields to the force.
-    Scalar of_the_rest = steady_.is_steady() ? next : foreseen_;
+    const bool as_they_come = steady_.is_steady() || !longer_.is_steady();
+    Scalar of_the_rest = as_they_come ? next : foreseen_;
     gains_ = knew ? (its_ - before) / between(told.age) : Scalar(0);
     if (knows_ && again) its_ = gains_ = of_the_rest = Scalar(0);
     if (knows_) of_the_rest = kernels::clamped(of_the_rest, -calm, calm);
