@@ -173,23 +173,22 @@ TEST_CASE("what rests on a facet, in a groove, in a pit, on an edge or at a tip 
   for (const scene_of& here : scenes) {
     for (const auto& told : {std::pair{500.0, 0.05}, {2000.0, 0.3}, {20000.0, 0.05}}) {
       const double K = told.first, mass = told.second;
-      for (const bool stiff : {false, true}) {
-        ph::mesh::surface s(here.mesh.triangles, here.mesh.nodes);
-        auto port = port_of(K, mass, reachable(mass));
-        port.source().touch(s);
-        device dev({.mass = mass, .damping = 0.1, .start = here.start},
-                   drawn(here.to, 8, stiff ? 400 : 100, stiff ? 6 : 1));
-        sim::quiet_judge<scene> judge;
-        const auto seen = sim::run(dev, port, 5500, sim::idle, sim::idle,
-                                   [&](auto& now) { show(judge, port.source().ball(), now); });
-        INFO(here.name << ", " << K << " N/m, " << mass << " kg, stiff hand: " << stiff << ", "
-                       << judge.figures().force << " N, " << judge.figures().speed << " m/s, "
-                       << judge.figures().step << " N");
-        CHECK(judge.quiet());
-        CHECK(judge.since() <= 5.0);
-        CHECK(seen.least_energy >= -1e-12);
-        CHECK(seen.largest_force > 0.5);
-      }
+      const bool stiff = mass > 0.1;
+      ph::mesh::surface s(here.mesh.triangles, here.mesh.nodes);
+      auto port = port_of(K, mass, reachable(mass));
+      port.source().touch(s);
+      device dev({.mass = mass, .damping = 0.1, .start = here.start},
+                 drawn(here.to, 8, stiff ? 400 : 100, stiff ? 6 : 1));
+      sim::quiet_judge<scene> judge;
+      const auto seen = sim::run(dev, port, 5500, sim::idle, sim::idle,
+                                 [&](auto& now) { show(judge, port.source().ball(), now); });
+      INFO(here.name << ", " << K << " N/m, " << mass << " kg, stiff hand: " << stiff << ", "
+                     << judge.figures().force << " N, " << judge.figures().speed << " m/s, "
+                     << judge.figures().step << " N");
+      CHECK(judge.quiet());
+      CHECK(judge.since() <= 5.0);
+      CHECK(seen.least_energy >= -1e-12);
+      CHECK(seen.largest_force > 0.5);
     }
   }
 }
