@@ -200,8 +200,10 @@ class contact_engine {
       all.chases = true;  // what comes back then is news, too
     }
     const row way = now.moved();
-    if (told_ || chased_ || all.chases) [[unlikely]]
-      wanted = eased(wanted, way, all.chases, port);
+    if (told_ || chased_ || all.chases) [[unlikely]] {
+      if (!(knows_way_ && port.motion_known)) moved_ = way;  // none was seen: no change of speed
+      wanted = eased(wanted, way, all.chases, port.dt);
+    }
     moved_ = way;
     knows_way_ = port.motion_known;
     last_ = now.place();
@@ -387,11 +389,8 @@ class contact_engine {
   /// it; of what is across it, x − C w k u/|w|, only its size is. By size alone a device that gives way would explain the
   /// news that made it do so.
   [[gnu::noinline]] constexpr row eased(const row& wanted, const row& way, bool chases,
-                                        const auto& port) noexcept {
-    const scalar dt = port.dt;
+                                        scalar dt) noexcept {
     news(!told_ && !chased_);  // what recedes by itself may have pressed until now
-    if (!(knows_way_ && port.motion_known))
-      moved_ = way;  // that none was seen is no change of speed
     const scalar lead = steepest_.settling / dt;
     row beside = frame::way_of(way, dt), change = frame::way_of(way - row(moved_), dt),
         middle = asked_;
