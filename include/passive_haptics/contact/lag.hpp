@@ -114,10 +114,13 @@ struct surface_motion {
 template <class Scalar>
 class going_on {
  public:
-  /// Takes v [m/s], and returns what is foreseen of the next one [m/s].
-  constexpr Scalar hear(Scalar v) noexcept {
+  /// Takes v [m/s], out of line, once for both that a lag has.
+  [[gnu::noinline]] constexpr void hear(Scalar v) noexcept {
     sees_.hear(v * v, v * last_, v * older_);
     older_ = std::exchange(last_, v);
+  }
+  /// What is foreseen of the next one [m/s].
+  [[nodiscard]] constexpr Scalar next() const noexcept {
     return sees_.last() * last_ + sees_.before() * older_;
   }
   [[nodiscard]] constexpr bool is_steady() const noexcept { return sees_.is_steady(); }
@@ -185,7 +188,7 @@ class lag {
   }
   /// The time between the instants of the last update and of one of that age [s]. Updates that state neither age nor speed
   /// and come at once, because those before were late, are no faster motion: they took half of the longest of late.
-  [[nodiscard]] constexpr Scalar between(Scalar age) const noexcept {
+  [[nodiscard, gnu::noinline]] constexpr Scalar between(Scalar age) const noexcept {
     const bool stated = age > Scalar(0) || told_age_ > Scalar(0) || knows_;
     return kernels::larger(seems(age), stated ? Scalar(0) : longest_ / Scalar(2));
   }
@@ -211,8 +214,9 @@ class lag {
     behind_ =
         own > Scalar(0) || here > Scalar(0) ? here - kernels::larger(own, Scalar(0)) : Scalar(0);
     if (!kernels::is_finite(behind_ + goes_on_)) return void(*this = {});
-    speed_ = pace.speed_for(behind_, usual_, goes_on_, fastest(), compliance);
-    if (told.way < steady_.last() * took / Scalar(4) && !is_steady())
+    const auto& by = heard();
+    speed_ = pace.speed_for(behind_, usual_, goes_on_, by.fastest(), compliance);
+    if (told.way < by.last() * took / Scalar(4) && !by.is_steady())
       speed_ = kernels::smaller(speed_, kernels::magnitude(behind_) / (Scalar(2) * ahead_));
     settled_ = behind_ == Scalar(0) && lead_ == Scalar(0) && goes_on_ == Scalar(0);
   }
@@ -237,12 +241,9 @@ class lag {
   /// Where updates one by one do not go on steadily, those within this time [s] are heard as one, because each may tell more
   /// of its noise than of its way.
   static constexpr Scalar as_one = Scalar(0.0075);
-  [[nodiscard]] constexpr bool is_steady() const noexcept {
-    return steady_.is_steady() || longer_.is_steady();
-  }
-  /// w [m/s].
-  [[nodiscard]] constexpr Scalar fastest() const noexcept {
-    return steady_.is_steady() ? steady_.fastest() : longer_.fastest();
+  /// Updates one by one, or as one: those are late by that time, and would swing where the surface yields to the force.
+  [[nodiscard]] constexpr const going_on<Scalar>& heard() const noexcept {
+    return steady_.is_steady() || !longer_.is_steady() ? steady_ : longer_;
   }
   /// Updates u and u̇ from the speed between the last two updates and the stated one.
   constexpr void expect(Scalar speed, Scalar took, Scalar compliance,
@@ -264,13 +265,11 @@ class lag {
     heard_ += rest * took;
     heard_for_ += took;
     if (!(heard_for_ < as_one)) {
-      foreseen_ = longer_.hear(heard_ / heard_for_);
+      longer_.hear(heard_ / heard_for_);
       heard_ = heard_for_ = Scalar(0);
     }
-    const Scalar next = steady_.hear(rest);
-    // What is heard as one is late by that time, and would swing where the surface yields to the force.
-    const bool as_they_come = steady_.is_steady() || !longer_.is_steady();
-    Scalar of_the_rest = as_they_come ? next : foreseen_;
+    steady_.hear(rest);
+    Scalar of_the_rest = heard().next();
     gains_ = knew ? (its_ - before) / between(told.age) : Scalar(0);
     if (knows_ && again) its_ = gains_ = of_the_rest = Scalar(0);
     if (knows_) of_the_rest = kernels::clamped(of_the_rest, -calm, calm);
@@ -290,7 +289,6 @@ class lag {
   Scalar goes_on_{};                  ///< u [m/s]
   going_on<Scalar> steady_, longer_;  ///< of updates one by one, and of those that are heard as one
   Scalar heard_{}, heard_for_{};      ///< ways that longer_ has not yet heard [m], their time [s]
-  Scalar foreseen_{};                 ///< by longer_ [m/s]
   Scalar usual_{}, ahead_{};          ///< P, and the time for which p grows [s]
   Scalar since_{};                    ///< time since the last update [s]
   Scalar longest_{};  ///< such a time, the longest one that is not long ago; 0 after a pause [s]
