@@ -97,7 +97,7 @@ for (const theme of themes) {
 // Sizes.
 const packedSize = file => zlib.gzipSync(fs.readFileSync(file), {level: 9}).length;
 // 400 kB before balls rested in hollows, and news of sets were told from a hand that gives way to them.
-expect(packedSize(html) <= 403e3, `the page is ${packedSize(html)} bytes, 403 kB gzip at most`);
+expect(packedSize(html) <= 404e3, `the page is ${packedSize(html)} bytes, 404 kB gzip at most`);
 // 60 kB before it had a judge of quiet, the door's four compositions and whole programs to paste; 79 before it had an
 // article, the catalogue of devices, a tank and a glass; 85 before a surface could say how it moves.
 expect(packedSize(wallAlone) <= 88e3, `the wall alone is ${packedSize(wallAlone)} bytes, 88 kB gzip at most`);
