@@ -227,12 +227,12 @@ class lag {
   }
 
  private:
-  /// The same, if none was late [s].
+  /// between(), if no update was late [s].
   [[nodiscard]] constexpr Scalar seems(Scalar age) const noexcept {
     return kernels::larger(kernels::larger(since_ + told_age_ - age, since_ / Scalar(2)),
                            kernels::rounding<Scalar>());
   }
-  /// The same of an update that has moved the surface by `moved` [m]: no longer than it takes at the speed of the one
+  /// between() of an update that has moved the surface by `moved` [m]: no longer than that takes at the speed of the one
   /// before, because updates of uneven instants come at once as well.
   [[nodiscard]] constexpr Scalar took_by(Scalar moved, Scalar age) const noexcept {
     const Scalar most = between(age), way = kernels::magnitude(moved);
