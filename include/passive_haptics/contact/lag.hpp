@@ -270,7 +270,7 @@ class lag {
     }
     steady_.hear(rest);
     Scalar of_the_rest = heard().next();
-    gains_ = knew ? (its_ - before) / between(told.age) : Scalar(0);
+    gains_ = knew ? (its_ - before) / took : Scalar(0);
     if (knows_ && again) its_ = gains_ = of_the_rest = Scalar(0);
     if (knows_) of_the_rest = kernels::clamped(of_the_rest, -calm, calm);
     goes_on_ = its_ + of_the_rest;
