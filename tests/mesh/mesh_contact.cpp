@@ -32,6 +32,13 @@ hand drawn(const vector& to, double newtons, double per_metre = 400, double per_
   return h;
 }
 
+/// What make_mesh_touch makes of a device of 0.1 kg, K in N/m.
+auto at_the_door(double K) {
+  return ph::make_mesh_touch<scene>(
+      {.mass = 0.1, .damping = 0.1, .force_limit = 9, .longest_tick = T}, {.force = 5},
+      {.stiffness = K});
+}
+
 }  // namespace
 
 TEST_CASE("a plate of 2 mm holds 1 m/s and 10 N from both sides, at news of 30 Hz", "[mesh]") {
@@ -327,9 +334,7 @@ TEST_CASE("a mesh that the device is in when the forces are on again is met from
   for (const double k : {100.0, 400.0, 2000.0}) {
     INFO(k << " N/m");
     ph::mesh::surface s(b.triangles, b.nodes);
-    auto port = ph::make_mesh_touch<scene>(
-        {.mass = 0.1, .damping = 0.1, .force_limit = 9, .longest_tick = T}, {.force = 5},
-        {.stiffness = 2000});
+    auto port = at_the_door(2000);
     REQUIRE(port.source().touch(s));
     device dev({.mass = 0.1, .damping = 0.1, .start = vector(0.003, 0.002, 0.004)},
                drawn(vector(0.003, 0.002, -3.0 / k), 5, k, k / 100 + 1));
@@ -354,9 +359,7 @@ TEST_CASE("a ball of another radius and a mesh of another stiffness are felt at 
   const body b = plate();
   const auto largest_step = [&](double k, bool larger, double stiffer, bool by_mesh) {
     ph::mesh::surface s(b.triangles, b.nodes);
-    auto port = ph::make_mesh_touch<scene>(
-        {.mass = 0.1, .damping = 0.1, .force_limit = 9, .longest_tick = T}, {.force = 5},
-        {.stiffness = 500});
+    auto port = at_the_door(500);
     REQUIRE(port.source().touch(s));
     device dev({.mass = 0.1, .damping = 0.1, .start = vector(0.003, 0.002, 0.006)},
                drawn(vector(0.003, 0.002, 0.006), 5, k, k / 100 + 1));

@@ -159,13 +159,17 @@ class mesh_contact::on {
   /// What the ball is in when the forces are on again is met as what has come there meanwhile: from no force on.
   constexpr void meet_anew() noexcept {
     anew_ = true;
-    presses_ = false;
-    felt_depth_ = behind_ = 0.0;
-    pressed_by_ = turned_ = {};
-    swing_.stop();
+    feel_nothing();
   }
 
  private:
+  /// Forgets what was felt in the last tick.
+  constexpr void feel_nothing() noexcept {
+    presses_ = false;
+    behind_ = felt_depth_ = 0.0;
+    pressed_by_ = turned_ = {};
+    swing_.stop();
+  }
   /// Out of line, once for both kinds of tick that ask for it, so that a program compiles sooner; dt is in seconds.
   [[gnu::noinline, nodiscard]] request asked(const auto& motion, double dt, double most,
                                              event& what) noexcept {
@@ -180,10 +184,7 @@ class mesh_contact::on {
     inside_ = !ball_.placed();
     if (inside_) what = detail::worse_yet(what, event::started_inside);
     if (inside_ || pressed.count == 0) {
-      presses_ = false;
-      behind_ = felt_depth_ = 0.0;
-      pressed_by_ = turned_ = {};
-      swing_.stop();
+      feel_nothing();
       return free;
     }
     const double depth = mesh::length(pressed.way);
