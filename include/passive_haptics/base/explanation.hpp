@@ -99,8 +99,7 @@ struct explanation {
         "it, start outside, or state a loan.",
         "The forces are off: enable_forces(true) switches them on.",
         "The last sample was refused or missing, as the event says: positions are in metres, "
-        "within "
-        "the workspace, and no faster than top_speed."};
+        "within the workspace, and no faster than top_speed."};
     static_assert(sizeof sentences / sizeof *sentences == int(softened_by::sample) + 1);
     const softened_by why = now != softened_by::nothing ? now : stiffness;
     return why <= softened_by::sample ? sentences[static_cast<int>(why)] : "";
