@@ -521,8 +521,13 @@ TEST_CASE("what turns is ticked with a pose, and nothing else is", "[c_interface
   ph_result r{};
   r.size = sizeof r;
   for (ph_port* one : {stylus.port, tool.port}) {
+    ph_explanation e{};
+    e.size = sizeof e;
     CHECK(c.tick_pose(one, x, q, 1e-3, &r) == PH_OK);
     CHECK(r.event == PH_NO_TARGET);
+    CHECK(c.explain(one, &e) == PH_OK);
+    CHECK(e.shown == 0.0);
+    CHECK(std::string(e.because).find("no surface") != std::string::npos);
     CHECK(c.tick_pose(one, x, none, 1e-3, &r) == PH_OK);
     CHECK(r.event == PH_REJECTED_SAMPLE);
     CHECK(c.tick_pose(one, x, nullptr, 1e-3, &r) == PH_NULL_ARGUMENT);
@@ -531,11 +536,8 @@ TEST_CASE("what turns is ticked with a pose, and nothing else is", "[c_interface
     CHECK(c.tick(one, x, 1e-3, &r) == PH_NOT_OF_THIS_COMPOSITION);
     CHECK(r.event == PH_REJECTED_SAMPLE);
     CHECK(c.tick_wanted(one, x, 1e-3, x, &r) == PH_NOT_OF_THIS_COMPOSITION);
-    ph_explanation e{};
-    e.size = sizeof e;
     CHECK(c.explain(one, &e) == PH_OK);
-    CHECK(e.shown == 0.0);
-    CHECK(std::string(e.because).find("no surface") != std::string::npos);
+    CHECK(std::string(e.because).find("last sample") != std::string::npos);
   }
   CHECK(c.tick_pose(touch.port, x, q, 1e-3, &r) == PH_NOT_OF_THIS_COMPOSITION);
   CHECK(r.event == PH_REJECTED_SAMPLE);
