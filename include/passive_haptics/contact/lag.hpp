@@ -115,7 +115,7 @@ template <class Scalar>
 class going_on {
  public:
   /// Takes v [m/s], out of line, once for both that a lag has.
-  [[gnu::noinline]] constexpr void hear(Scalar v) noexcept {
+  [[gnu::cold, gnu::noinline]] constexpr void hear(Scalar v) noexcept {
     sees_.hear(v * v, v * last_, v * older_);
     older_ = std::exchange(last_, v);
   }
@@ -194,8 +194,10 @@ class lag {
   }
   /// An update: `now` is the depth in it, `moved` its displacement at the device, and `own` the own depth so far or at
   /// the beginning of the contact, 0 without contact [m].
-  constexpr void hear(Scalar own, Scalar now, Scalar moved, Scalar compliance,
-                      const news_pace::at<Scalar>& pace, const account& told = {}) noexcept {
+  [[gnu::cold, gnu::noinline]] constexpr void hear(Scalar own, Scalar now, Scalar moved,
+                                                   Scalar compliance,
+                                                   const news_pace::at<Scalar>& pace,
+                                                   const account& told = {}) noexcept {
     const Scalar took = took_by(moved, told.age);
     const Scalar usual = kernels::smaller(since_, pace.longest() / Scalar(2));
     longest_ = kernels::larger(usual, longest_ + (usual - longest_) / Scalar(5));
