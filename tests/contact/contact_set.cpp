@@ -712,13 +712,41 @@ TEST_CASE("a plane that is told anew in every tick of a stroke does not lag", "[
       const auto felt = stroke<ph::half_space<d3>>({}, 1000, path, truth, told, every);
       // by then it has turned by as much since the last news, and a tick more
       const double since = speed / radius * 1e-3 * (every + 1);
-      // the control: a wide round for its edges, so that the way explains next to nothing
-      const auto lags = stroke<ph::half_space<d3>>({.edge = 1e3}, 1000, path, truth, told, every);
+      // the control: a wide round for its edges, so that the way explains next to nothing, and any time for news
+      const auto lags = stroke<ph::half_space<d3>>({.catch_up = 1e9, .edge = 1e3}, 1000, path,
+                                                   truth, told, every);
       CAPTURE(radius, every, since, felt.worst, felt.largest_step, lags.worst, lags.largest_step);
       CHECK(felt.worst < since);
       CHECK(lags.worst > since + 0.1);
       CHECK(felt.largest_step < 0.05);
     }
+  }
+}
+
+TEST_CASE("a plane that turns by itself and is told often is felt as it turns", "[contact_set]") {
+  constexpr double K = 800.0, amplitude = 0.5;
+  const auto turned = [](int n) -> d3::vector {
+    const double angle = amplitude * std::sin(6.28 * 0.8e-3 * n);
+    return {std::sin(angle), 0.0, std::cos(angle)};
+  };
+  for (const int every : {1, 4, 10}) {
+    int tick = 0;
+    const auto path = [&](int n) -> d3::vector {
+      tick = n;
+      return {0, 0, -0.003};
+    };
+    const auto truth = [&](const d3::vector& x) -> d3::vector {
+      const d3::vector up = turned(tick);
+      return up * (-K * x.dot(up));
+    };
+    const auto told = [&](int n) { return ph::half_space<d3>{d3::zero(), turned(n), K}; };
+    const auto felt = stroke<ph::half_space<d3>>({}, 3000, path, truth, told, every);
+    const auto late =
+        stroke<ph::half_space<d3>>({.catch_up = 0.32}, 3000, path, truth, told, every);
+    CAPTURE(every, felt.worst, felt.largest_step, late.worst);
+    CHECK(felt.worst < 2.51e-3 * (std::max(every, 5) + 1));  // at 2.51 rad/s an update late
+    CHECK(felt.largest_step < 0.02);
+    CHECK(late.worst > 0.07);  // the control: updates are made up for in 40 ms
   }
 }
 

@@ -94,7 +94,8 @@ class slow_set {
     if (s.pressed > 0.0) {  // the force stays: d K is the same
       s.lag = now.depth - (was - s.lag) * (s.spring.stiffness * spring.compliance);
       s.speed = std::max(pace_.speed, std::abs(s.lag) / pace_.catch_up);
-      s.hurry = std::max(1.0, (now.normal - s.normal).norm() / (pace_.catch_up * pace_.turn_rate));
+      const double within = std::clamp(s.age, pace_.catch_up / 8, pace_.catch_up);
+      s.hurry = std::max(1.0, (now.normal - s.normal).norm() / (within * pace_.turn_rate));
       s.before = now.normal;
       s.state = slow_slot::there;
     } else {

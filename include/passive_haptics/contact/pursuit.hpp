@@ -7,7 +7,7 @@
 //   appears       d is at most up to where λ = 0 beside the other contacts, or d before: what is repeated is no news
 //   every tick    |ℓ| falls by ρ dt, or as fast as removes ℓ within t_c if that is more; the own normal turns
 //                 with the target's as the device slides along it, and catches up with the turn of an update
-//                 at turn_rate, or within t_c if that is faster
+//                 at turn_rate or, if that is faster, within the time between updates, t_c/8 to t_c
 //   vanishes      ℓ grows by ρ dt and by any increase of d_target, until λ = 0
 //
 // The own normal first turns with the target's, on any surface, so fast sliding counts as no update. Over an edge,
@@ -94,10 +94,13 @@ class pursuit::on {
   [[nodiscard]] constexpr scalar news(scalar dt) const noexcept { return force_rate_ * dt; }
   /// D = 0.2 s · ρ [m]: a surface is not evaluated until the device may be nearer to it than that.
   [[nodiscard]] constexpr scalar out_of_reach() const noexcept { return scalar(0.2) * speed_; }
-  /// The factor ≥ 1 of the turn rate at which a normal reaches the goal within t_c.
-  [[nodiscard]] constexpr scalar hurry_for(const vector& own, const vector& goal) const noexcept {
+  /// The factor ≥ 1 of the turn rate at which a normal reaches the goal of an update within the time `since` the last
+  /// one [s], t_c/8 to t_c: one that goes on turning is late by no more, and noise is turned to as slowly as t_c/8.
+  [[nodiscard]] constexpr scalar hurry_for(const vector& own, const vector& goal,
+                                           scalar since) const noexcept {
     const scalar angle = Space::norm(vector(goal - own));
-    return kernels::larger(angle / catch_up_ * per_rate_, scalar(1));
+    const scalar time = kernels::smaller(kernels::larger(since, catch_up_ / scalar(8)), catch_up_);
+    return kernels::larger(angle / time * per_rate_, scalar(1));
   }
   /// The time that a turn by `angle` [rad] takes at the largest rate [s].
   [[nodiscard]] constexpr scalar time_for(scalar angle) const noexcept { return angle * per_rate_; }
@@ -153,7 +156,7 @@ class pursued {
       if (!kernels::is_finite(lag) || !Space::is_finite(normal)) return false;
       lag_ = lag;
       speed_ = pace.speed_for(lag);
-      hurry_ = pace.hurry_for(normal_, normal);
+      hurry_ = pace.hurry_for(normal_, normal, age_);
       if constexpr (turns_along) shown_ = normal;
       state_ = state::there;
     } else {
