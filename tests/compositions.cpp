@@ -4,8 +4,10 @@
 #include "support/scenes.hpp"
 #include <passive_haptics/compositions.hpp>
 #include <passive_haptics/simulation/device.hpp>
+#include <passive_haptics/simulation/friction_bristle.hpp>
 #include <passive_haptics/simulation/friction_elastic.hpp>
 
+#include <random>
 #include <string>
 
 using Catch::Matchers::WithinRel;
@@ -346,6 +348,42 @@ TEST_CASE("a corner on encoders comes to rest at what its friction pays for", "[
   CHECK(last > 0.5);
   CHECK(step <= said.shown * q);
   CHECK(device.meter().with_friction() >= 0.0);
+}
+
+TEST_CASE("a guard on coarse encoders calls no honest device a debtor", "[compositions]") {
+  std::mt19937_64 random(8);
+  const auto between = [&random](double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random);
+  };
+  int doubtful = 0;
+  for (int scene = 0; scene < 12; ++scene) {
+    const ph::encoder_device made{.mass = between(0.05, 0.5),
+                                  .damping = between(0.1, 2.0),
+                                  .friction = between(0.2, 0.8),
+                                  .presliding = 3e-5,
+                                  .quantum = between(2e-4, 2e-3),
+                                  .force_limit = 9.0};
+    auto guard = ph::make_guard<d1>(made, ph::known_hand{.force = 5.0});
+    sim::device<d1, sim::impedance_hand<d1>, sim::dahl_friction> device(
+        {.mass = made.mass, .damping = made.damping, .quantum = made.quantum, .start = 2e-3},
+        {.stiffness = between(100.0, 1000.0), .damping = between(0.0, 8.0), .limit = 5.0},
+        {made.friction, made.presliding});
+    const double K = between(1000.0, 4000.0), turns = between(1.0, 40.0);
+    double least = 0.0, force = 0.0;
+    for (int n = 0; n < 4000; ++n) {
+      device.hand().target = -3e-3 + 3e-3 * std::sin(turns * 1e-3 * n);
+      const auto sample = device.exchange(force);
+      const auto out = guard.tick(sample, sample.position < 0.0 ? -K * sample.position : 0.0);
+      CAPTURE(scene, n, guard.energy());
+      REQUIRE(out.what != ph::event::debt);
+      REQUIRE(out.what != ph::event::wall_lost);
+      force = out.force;
+      least = std::min(least, guard.energy());
+    }
+    doubtful += least < -9.0 * 2.5e-3 / 64.0;
+    CHECK(device.meter().with_friction() >= 0.0);
+  }
+  CHECK(doubtful > 2);
 }
 
 TEST_CASE("a knob turns faster than a step a tick, and as often as it likes", "[local_model]") {

@@ -451,6 +451,21 @@ TEST_CASE("a contact has started inside if it has neither force nor energy", "[e
   CHECK(told(0.0, -1.0) == ph::event::started_inside);
 }
 
+TEST_CASE("a debt is no start inside", "[explain]") {
+  ph::passive_port port{d1{}, told{1000.0, 1e-3, softened_by::nothing},
+                        ph::reduced_energy{.damping = 0.03, .loan = 1e-3}, leaves<100, true>{},
+                        thesis_loop};
+  const auto out = [&] {
+    (void)port.tick(0.0, 1ms, 1.0);
+    return port.tick(2e-3, 1ms, 0.0);  // the device was pushed by 1 N for 2 mm
+  }();
+  CHECK(out.what == event::debt);
+  CHECK(port.explain().now == softened_by::ledger);
+  port.reset();
+  CHECK(port.tick(0.0, 1ms, 0.0).force == 0.0);
+  CHECK(port.explain().now != softened_by::ledger);
+}
+
 TEST_CASE("what keeps a force low is what cut it, or else what its surface says", "[explain]") {
   int of[3] = {0, 0, 0};
   const auto check = [&]<int Percent, bool Remembers>(leaves<Percent, Remembers> bound) {

@@ -93,8 +93,8 @@ struct explanation {
         "surface, so the contact fades.",
         "The motors hold no more than their limit.",
         "The energy that the hand has paid in covers no more; it comes back as the hand presses or "
-        "moves. If this lasts, mass, damping or hand force are not what was stated, or the longest "
-        "tick is too long.",
+        "moves. If this lasts, mass, damping, hand force or encoder steps are not what was stated, "
+        "or the longest tick is too long.",
         "It was inside when the surface came, and nothing has been paid in to push it out: move "
         "it, start outside, or state a loan.",
         "The forces are off: enable_forces(true) switches them on.",

@@ -141,6 +141,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
       detail::book(energy_, cap_ - value_);
       take_stock(owed);
     }
+    doubted_ = value_ < scalar(0) ? doubted_ + doubt : scalar(0);
     return true;
   }
 
@@ -160,6 +161,7 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   }
   constexpr void reset() noexcept {
     energy_ = loan_;
+    doubted_ = scalar(0);
     last_held_ = P::zero();
     begin_window();
     if constexpr (crosses) steps_ = steps_type(steps_.parameters());
@@ -170,9 +172,12 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   }
 
   [[nodiscard]] constexpr scalar value() const noexcept { return value_; }
-  /// True if the value is below its start value without a loan, so that more energy was given out than came in.
+  /// True if more energy was given out than came in: the value is below its start value without a loan, and by more than
+  /// the steps have put in doubt since it was last ≥ 0, which it charges as if all of it were lost (§ 11).
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool overdrawn() const noexcept {
-    return value_ < -reserve() * (scalar(1) + scalar(16) * kernels::rounding<scalar>());
+    const scalar in_doubt = scalar(2) * (doubted_ + steps_.doubt(effort(last_held_)));
+    return value_ <
+           -(reserve() + in_doubt) * (scalar(1) + scalar(16) * kernels::rounding<scalar>());
   }
   /// The largest distance between the true Δx and the measured one [m].
   [[nodiscard]] constexpr scalar travel_error() const noexcept { return steps_.travel_error(); }
@@ -255,8 +260,9 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS damping_type damping_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS steps_type steps_;
   scalar loan_{}, cap_{}, window_{};
-  detail::ledger_number<scalar, Sum> energy_{};      ///< A of the choice u = 0 [J]
-  scalar value_{};                                   ///< the best lower bound of the energy [J]
+  detail::ledger_number<scalar, Sum> energy_{};  ///< A of the choice u = 0 [J]
+  scalar value_{};                               ///< the best lower bound of the energy [J]
+  scalar doubted_{};  ///< ½ Σ qᵢ|Δfᵢ| of the ticks since the value was last ≥ 0 [J]
   typename P::stored_effort last_held_ = P::zero();  ///< the last, −σ of the choice u = 0 [N]
   credit_window window_now_{};
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS certificates_type certificates_{};  ///< the other choices

@@ -17,7 +17,7 @@ inline namespace v0 {
 /// a debt to zero, once, and then adds credit for τ = ½ s (ours, docs/design/mathematics.md § 11):
 ///     E1 += min(A dt/τ, A − E1)  where E1 < A
 /// If the first fault in 10 s is a rejected sample or a late tick, E1 = max(E1, A) at once instead. A fault is a
-/// rejected sample, a late tick, or a debt (of A/64 where positions are known to a step only), because the bounds
+/// rejected sample, a late tick, or a debt, on encoders one beyond what their steps put in doubt, because the bounds
 /// cause no debt unless a stated parameter is wrong; samples rejected in a row are one fault while E1 ≥ A/2. θ is
 /// 0.1 s, doubles with each fault after amends have begun, and is 0.1 s again after 10 s without a fault. With D [J]
 /// the debts that are set to zero, after t seconds of any faults
@@ -108,9 +108,7 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
       missed_ = true;
       return worse(so_far, event::wall_lost);
     }
-    bool owed = this->value() < scalar(0);
-    if constexpr (requires(const kept k) { k.overdrawn(); }) owed = owed && kept::overdrawn();
-    const event now = owed ? event::debt : event::nominal;
+    const event now = in_debt() ? event::debt : event::nominal;
     return worse(so_far, missed_ && !lacks_ ? event::wall_back : now);
   }
 
@@ -129,8 +127,11 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
     quiet_ = scalar(0);
   }
   [[nodiscard]] constexpr bool in_debt() const noexcept {
-    if constexpr (exact) return this->value() < scalar(0);
-    return this->value() < -amends_ / scalar(64);
+    if constexpr (requires(const kept k) { k.overdrawn(); }) {
+      return this->value() < scalar(0) && kept::overdrawn();
+    } else {
+      return this->value() < scalar(0);
+    }
   }
   [[gnu::cold, gnu::noinline]] constexpr void make_amends(scalar dt) noexcept {
     if (!lacks_) missed_ = false;  // wall_back has been reported

@@ -266,7 +266,9 @@ class passive_port {
     }
     if (!cut && e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth) e.now = softened_by::nothing;
     const bool asks = cut || e.depth > 0.0;
-    if (asks && !(e.force > 0.0) && !(energy() > scalar(0))) e.now = softened_by::started_inside;
+    if (asks && !(e.force > 0.0) && !(energy() > scalar(0))) {
+      e.now = is_in_debt() ? softened_by::ledger : softened_by::started_inside;
+    }
     if constexpr (!Observer::exact) {
       const double q = static_cast<double>(travel_error()), E1 = static_cast<double>(energy());
       e.floor = e.shown * q;
@@ -493,7 +495,7 @@ class passive_port {
       }
     }
     if constexpr (mends && Observer::exact) return event::nominal;  // amend() sets the event
-    return observer_.value() < scalar(0) && overdrawn() ? event::debt : event::nominal;
+    return is_in_debt() ? event::debt : event::nominal;
   }
   /// The event of an observer that recovers from faults, a debt included.
   [[gnu::always_inline]] constexpr void amend([[maybe_unused]] event& what,
@@ -504,7 +506,8 @@ class passive_port {
     }
   }
   /// True if the ledger is in debt. A ledger that begins below zero, for elastic friction, has overdrawn() for it.
-  [[nodiscard]] constexpr bool overdrawn() const noexcept {
+  [[nodiscard, gnu::always_inline]] constexpr bool is_in_debt() const noexcept {
+    if (!(observer_.value() < scalar(0))) return false;
     if constexpr (requires { observer_.overdrawn(); }) return observer_.overdrawn();
     return true;
   }
