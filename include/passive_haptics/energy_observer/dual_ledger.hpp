@@ -141,7 +141,11 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
       detail::book(energy_, cap_ - value_);
       take_stock(owed);
     }
-    doubted_ = value_ < scalar(0) ? doubted_ + doubt : scalar(0);
+    if (value_ < scalar(0)) [[unlikely]] {
+      doubted_ += doubt;
+    } else {
+      doubted_ = scalar(0);
+    }
     return true;
   }
 

@@ -80,7 +80,7 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
   [[gnu::always_inline]] constexpr bool update(const motion& dx, const Held& held, scalar dt,
                                                Hidden... hidden) noexcept {
     if (!kept::update(dx, held, dt, hidden...)) return false;
-    if (shaken_ || detail::in_debt(*this)) [[unlikely]]
+    if (shaken_ || in_debt()) [[unlikely]]
       make_amends(dt);
     return true;
   }
@@ -108,7 +108,7 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
       missed_ = true;
       return worse(so_far, event::wall_lost);
     }
-    const event now = detail::in_debt(*this) ? event::debt : event::nominal;
+    const event now = in_debt() ? event::debt : event::nominal;
     return worse(so_far, missed_ && !lacks_ ? event::wall_back : now);
   }
 
@@ -126,10 +126,16 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
     paid_ = false;
     quiet_ = scalar(0);
   }
+  [[nodiscard]] constexpr bool in_debt() const noexcept {
+    if constexpr (exact)
+      return this->value() < scalar(0);
+    else
+      return this->value() < scalar(0) && kept::overdrawn();
+  }
   [[gnu::cold, gnu::noinline]] constexpr void make_amends(scalar dt) noexcept {
     if (!lacks_) missed_ = false;  // wall_back has been reported
     const bool waits = shaken_ && quiet_ <= pause_;
-    if (!waits && detail::in_debt(*this)) {
+    if (!waits && in_debt()) {
       fault();
       lacks_ = amends_ > scalar(0);
       return;

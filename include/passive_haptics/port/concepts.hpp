@@ -315,12 +315,6 @@ struct port_result {
 };
 
 namespace detail {
-/// True if a ledger says that more went out than came in: its value is < 0, and overdrawn(), which some begin below.
-[[nodiscard]] constexpr bool in_debt(const auto& ledger) noexcept {
-  if (!(ledger.value() < decltype(ledger.value()){})) return false;
-  if constexpr (requires { ledger.overdrawn(); }) return ledger.overdrawn();
-  return true;
-}
 /// The event of a contact whose force was reduced: started_inside, if the ledger is empty and the force zero.
 template <class P>
 [[nodiscard]] constexpr event cut_short(const port_result<P>& port) noexcept {

@@ -267,7 +267,8 @@ class passive_port {
     if (!cut && e.depth > 0.0 && e.force > 0.95 * e.shown * e.depth) e.now = softened_by::nothing;
     const bool asks = cut || e.depth > 0.0;
     if (asks && !(e.force > 0.0) && !(energy() > scalar(0))) {
-      e.now = detail::in_debt(observer_) ? softened_by::ledger : softened_by::started_inside;
+      const bool owes = energy() < scalar(0) && overdrawn();
+      e.now = owes ? softened_by::ledger : softened_by::started_inside;
     }
     if constexpr (!Observer::exact) {
       const double q = static_cast<double>(travel_error()), E1 = static_cast<double>(energy());
@@ -495,7 +496,7 @@ class passive_port {
       }
     }
     if constexpr (mends && Observer::exact) return event::nominal;  // amend() sets the event
-    return detail::in_debt(observer_) ? event::debt : event::nominal;
+    return observer_.value() < scalar(0) && overdrawn() ? event::debt : event::nominal;
   }
   /// The event of an observer that recovers from faults, a debt included.
   [[gnu::always_inline]] constexpr void amend([[maybe_unused]] event& what,
@@ -504,6 +505,11 @@ class passive_port {
       if (observer_.remembers()) [[unlikely]]
         what = observer_.tells(what, cut);
     }
+  }
+  /// True if the ledger is in debt. A ledger that begins below zero, for elastic friction, has overdrawn() for it.
+  [[nodiscard]] constexpr bool overdrawn() const noexcept {
+    if constexpr (requires { observer_.overdrawn(); }) return observer_.overdrawn();
+    return true;
   }
   /// The bounded effort; zero, and an event, if it is not finite.
   [[nodiscard, gnu::always_inline]] constexpr detail::bounded<P> bounded(const effort& wanted,
