@@ -136,6 +136,33 @@ static_assert(design::intended_use{.hand_swing = -1.0}.check());
 static_assert(
     stated_device{.mass = 0.1, .quantum = 1e-5, .force_limit = 3.0, .latency = -1}.check());
 
+// A device that turns has the budget of the same device at its handle, told in newtons and metres: a grip of 10 N at a
+// lever of 20 mm is a knob of 0.2 N·m. A use of one's own is taken as it is.
+constexpr stated_device at_its_handle{.mass = 0.1,
+                                      .damping = 0.05,
+                                      .friction = 0.13,
+                                      .presliding = 15e-6,
+                                      .quantum = 55e-6,
+                                      .force_limit = 10.0};
+constexpr double lever = 0.02;  // [m]
+constexpr stated_device in_radians{.mass = 0.1 * lever * lever,
+                                   .damping = 0.05 * lever * lever,
+                                   .friction = 0.13 * lever,
+                                   .presliding = 15e-6 / lever,
+                                   .quantum = 55e-6 / lever,
+                                   .force_limit = 10.0 * lever,
+                                   .rotary = true};
+constexpr auto of_handle = stiffness_budget(at_its_handle), of_knob = stiffness_budget(in_radians);
+static_assert(of_knob.binding == of_handle.binding);
+static_assert(near(of_knob.stiffness, of_handle.stiffness* lever* lever));
+static_assert(near(of_knob.limit(stiffness_limit::fast_kneading),
+                   of_handle.limit(stiffness_limit::fast_kneading) * lever * lever));
+static_assert(near(of_knob.working_capital, of_handle.working_capital));  // [J]
+static_assert(near(of_knob.loan, of_handle.loan));
+static_assert(near(stiffness_budget(in_radians, {.swing = 0.002, .hand_swing = 0.0}).stiffness,
+                   (0.13 * lever + 0.05 * lever * lever * 5e-3) /
+                       (55e-6 / lever + 2.0 * 0.13 * 15e-6 / 0.002)));
+
 constexpr double c = 0.1;  // [N]
 
 /// The middle of the step that is shown.

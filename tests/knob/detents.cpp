@@ -209,6 +209,37 @@ TEST_CASE("a knob with 2000 counts has detents, as stiff as its dry friction pay
   CHECK(least > -0.5 * 2e-3 * 2e-4 - 1e-9);
 }
 
+TEST_CASE("a stop on encoders that turn lasts under kneading", "[detents]") {
+  constexpr ph::encoder_device device{.mass = 4e-5,  // kg·m²
+                                      .damping = 4e-5,
+                                      .friction = 2.6e-3,
+                                      .presliding = 7.5e-4,
+                                      .quantum = 2.75e-3,
+                                      .force_limit = 0.2,
+                                      .rotary = true};
+  auto stop = ph::make_touch<d1>(device, ph::known_hand{.force = 0.1});
+  const double shown = stop.update({.point = 0.0, .normal = 1.0, .stiffness = 8.0}).stiffness;
+  sim::device<d1, sim::impedance_hand<d1>, sim::slider_and_spring> knob(
+      {.mass = 4e-5, .damping = 4e-5, .quantum = 2.75e-3, .start = 0.15},
+      {.stiffness = 0.12, .damping = 1.2e-3, .limit = 0.09, .target = 0.15},
+      {.level = {2.6e-3}, .presliding = {7.5e-4}});
+  auto sample = knob.exchange(0.0);
+  double pressed = 0.0, is_due = 0.0;
+  for (int ms = 0; ms < 30000; ++ms) {
+    const double push = 0.025 + 0.005 * std::sin(6e-3 * ms);  // N·m, once a second
+    if (ms > 200) knob.hand().target = -push / 0.12;
+    const double torque = stop.tick(sample).force;
+    if (ms > 15000) {
+      pressed += torque;
+      is_due += shown * std::max(-sample.position, 0.0);
+    }
+    sample = knob.exchange(torque);
+  }
+  CAPTURE(shown);
+  CHECK(pressed > 0.9 * is_due);
+  CHECK(knob.meter().with_friction() > 0.0);
+}
+
 TEST_CASE("parameters of detents change live, and are given back", "[detents]") {
   auto knob = ph::make_detents<d1>(motor, fingers, shape);
   auto other = knob.source().parameters();
