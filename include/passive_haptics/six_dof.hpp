@@ -51,7 +51,8 @@ struct rigid_hand {
 };
 
 /// A tool with points that touch surfaces, each in a slot. Its guarantee is conditional; it recovers from faults and
-/// respects the motors' limits.
+/// respects the motors' limits, which check() asks for: one share scales the whole wrench, so a limit of zero would be no
+/// wall. A device whose motors give no torque is a stylus, with at_tip.
 template <class Body = rigid_body<double>, class Limits = loop_limits, class... Room>
 [[nodiscard]] constexpr auto make_tool(const rigid_device& d, const rigid_hand& hand,
                                        const Room&... room) noexcept {
@@ -69,7 +70,8 @@ template <class Body = rigid_body<double>, class Limits = loop_limits, class... 
                                         .hand_torque = hand.torque,
                                         .linear_damping_most = d.damping_most.linear,
                                         .angular_damping_most = d.damping_most.angular},
-                  rigid_actuator_limit{.force = d.force_limit, .torque = d.torque_limit}},
+                  rigid_actuator_limit{.force = detail::stated(d.force_limit),
+                                       .torque = detail::stated(d.torque_limit)}},
       Limits{.longest_tick = d.longest_tick}};
 }
 

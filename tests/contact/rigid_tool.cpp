@@ -484,6 +484,24 @@ TEST_CASE("one late tick does not drop a peg, nor shake it", "[rigid_tool][fault
   CHECK(pressed_peg(0.0, 300).deepest < right.deepest - 5e-3);  // the control forgives nothing
 }
 
+TEST_CASE("a tool whose motors' limits are not stated is refused, and not a wall that is none",
+          "[rigid_tool]") {
+  const auto refused = [](double force, double torque) {
+    const auto port = ph::make_tool({.inertia = {.mass = 0.15, .least = 1e-4, .spread = 2e-4},
+                                     .damping = {.linear = 0.03, .angular = 1e-4},
+                                     .damping_most = {.linear = 0.06, .angular = 2e-4},
+                                     .force_limit = force,
+                                     .torque_limit = torque},
+                                    {.force = 5, .torque = 0.1},
+                                    ph::slots<ph::half_space<ph::space<double, 3>>, 3>{});
+    const auto fault = port.check();
+    return std::string(fault ? fault.parameter : "");
+  };
+  CHECK(refused(9.0, 0.5).empty());
+  CHECK(refused(9.0, 0.0) == "torque");
+  CHECK(refused(0.0, 0.5) == "force");
+}
+
 TEST_CASE("a tool that gives way to news is stepped by no more than they may change the force",
           "[rigid_tool]") {
   constexpr double length = 0.06, k = 400.0;
