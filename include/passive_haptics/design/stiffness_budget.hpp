@@ -39,8 +39,7 @@ namespace design {
 
 using stated_device = encoder_device;
 
-/// The motions of the hand under which the wall has to last, in newtons and metres. On a device that turns, these defaults
-/// are those at the lever force_limit/(10 N); what is stated otherwise is in N·m and rad there.
+/// The motions of the hand under which the wall has to last.
 struct intended_use {
   double slowest = 5e-3;            ///< speed of the slowest kneading [m/s]
   double fastest = 12e-3;           ///< speed of the fastest kneading [m/s]
@@ -66,6 +65,17 @@ struct intended_use {
     }
     return {};
   }
+  /// In N·m and rad for a device that turns, unless it is so stated: the defaults are those of a finger on 10 N, and a
+  /// knob of 0.1 N·m feels them at a lever of 10 mm.
+  [[nodiscard]] constexpr intended_use on(const stated_device& d) const noexcept {
+    const intended_use usual{
+        .frequency = frequency, .hand_force = hand_force, .stiffness_fraction = stiffness_fraction};
+    if (!d.rotary || *this != usual) return *this;
+    const double r = d.force_limit / 10.0, hand = hand_force == intended_use{}.hand_force ? r : 1.0;
+    return {slowest / r,    fastest / r, frequency,         swing * r,
+            hand_swing * r, force * r,   hand_force * hand, stiffness_fraction};
+  }
+  constexpr bool operator==(const intended_use&) const noexcept = default;
 };
 
 enum class stiffness_limit : std::uint8_t {
@@ -117,24 +127,6 @@ struct budget {
 
 namespace detail {
 
-/// The use in the units of the device. The defaults are those of a finger on a device of 10 N. A knob of 0.1 N·m feels
-/// them at a lever of 10 mm: no hand turns it by swings of 0.4 N·m, nor as slowly as 5 mrad/s.
-[[nodiscard]] constexpr intended_use use_on(const stated_device& d, intended_use use) noexcept {
-  constexpr intended_use usual{};
-  const bool stated = use.slowest != usual.slowest || use.fastest != usual.fastest ||
-                      use.swing != usual.swing || use.hand_swing != usual.hand_swing ||
-                      use.force != usual.force;
-  if (!d.rotary || stated) return use;
-  const double lever = d.force_limit / 10.0;  // [m]
-  use.slowest /= lever;
-  use.fastest /= lever;
-  use.swing *= lever;
-  use.hand_swing *= lever;
-  use.force *= lever;
-  if (use.hand_force == usual.hand_force) use.hand_force *= lever;
-  return use;
-}
-
 /// The right side less the left side of the inequality above, for swings of S newtons at a speed v [J/m].
 [[nodiscard]] constexpr double surplus(const stated_device& d, double K, double v,
                                        double swing) noexcept {
@@ -173,9 +165,9 @@ namespace detail {
 /// The largest stiffness that the ledger of this device sustains in that use. The surplus is concave in v, so it is
 /// least at the slowest or the fastest speed.
 [[nodiscard]] constexpr budget stiffness_budget(const stated_device& device,
-                                                const intended_use& asked = {}) noexcept {
-  if (device.check() || asked.check()) return {};
-  const intended_use use = detail::use_on(device, asked);
+                                                intended_use use = {}) noexcept {
+  if (device.check() || use.check()) return {};
+  use = use.on(device);
   const double T = device.longest_tick, q = device.quantum;
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   budget b;

@@ -23,11 +23,9 @@ struct crossing {
 /// step, and below that little is known up to ½. Where p is larger than half a step, an observer that rests within the
 /// presliding keeps more of a wall under a tremor. (docs/design/encoders.md)
 [[nodiscard]] constexpr crossing crossing_of(const stated_device& d,
-                                             const intended_use& asked = {}) noexcept {
-  if (d.check() || asked.check()) {
-    return {.because = "A parameter is out of its range: ask check()."};
-  }
-  const intended_use use = detail::use_on(d, asked);
+                                             intended_use use = {}) noexcept {
+  if (d.check() || use.check()) return {.because = "A parameter is out of its range: ask check()."};
+  use = use.on(d);
   if (!(d.quantum > 0.0 && d.friction > 0.0)) {
     return {.because = "Without steps nothing is unknown, and without friction nothing is paid."};
   }
@@ -74,9 +72,8 @@ namespace detail {
 /// The friction's changes at both turns cost 2 c q if they are made at once. That half of it is enough is measured, for
 /// 4p ≤ q, not proved (tests/identification/crossed_budget.cpp); a bound is passive with any stiffness.
 [[nodiscard]] constexpr budget crossed_budget(const stated_device& device,
-                                              const intended_use& asked = {}) noexcept {
-  if (device.check() || asked.check()) return {};
-  const intended_use use = detail::use_on(device, asked);
+                                              intended_use use = {}) noexcept {
+  use = use.on(device);
   budget b = stiffness_budget(device, use);
   const crossing told = crossing_of(device, use);
   if (!told.pays) return b;
