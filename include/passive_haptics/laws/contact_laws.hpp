@@ -32,21 +32,20 @@ template <class Space, class Normals>
 [[nodiscard]] constexpr bool turns_at_most(const Normals& parameters, typename Space::scalar rate,
                                            int pairs = 20) noexcept {
   using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
   part_at<Normals, Space> normals(parameters);
   samples random(4);
   const scalar dt = scalar(0.001);
   const scalar slack = scalar(64) * std::numeric_limits<scalar>::epsilon();
   for (int i = 0; i < enough(pairs); ++i) {
-    const typename Space::vector target = random.direction<Space>();
-    typename Space::vector now = i == 0   ? typename Space::vector(-target)
-                                 : i == 1 ? target
-                                          : typename Space::vector(random.direction<Space>());
+    const vector target = random.direction<Space>();
+    vector now = i == 0 ? vector(-target) : i == 1 ? target : vector(random.direction<Space>());
     const int steps = static_cast<int>(scalar(4) / (rate * dt)) + 2;
     for (int k = 0; k < steps; ++k) {
-      const typename Space::vector next = normals.step(now, target, dt);
-      if (!(Space::norm(typename Space::vector(next)) <= scalar(1) + slack)) return false;
-      if (!(Space::norm(typename Space::vector(next)) >= scalar(1) - slack)) return false;
-      const typename Space::vector chord = next - now;  // |chord| ≤ angle
+      const vector next = normals.step(now, target, dt);
+      if (!(Space::norm(vector(next)) <= scalar(1) + slack)) return false;
+      if (!(Space::norm(vector(next)) >= scalar(1) - slack)) return false;
+      const vector chord = next - now;  // |chord| ≤ angle
       if (Space::dof > 1 && !(Space::norm(chord) <= rate * dt + slack)) return false;
       now = next;
     }
@@ -59,14 +58,14 @@ template <class Space, class Normals>
 template <class Space, class Normals>
 [[nodiscard]] constexpr bool stays_a_normal(const Normals& parameters, int pairs = 100) noexcept {
   using scalar = typename Space::scalar;
+  using vector = typename Space::vector;
   part_at<Normals, Space> normals(parameters);
   samples random(7);
   const scalar slack = scalar(64) * std::numeric_limits<scalar>::epsilon();
   for (int i = 0; i < enough(pairs); ++i) {
-    const typename Space::vector to = random.direction<Space>();
-    const typename Space::vector from =
-        i == 0 ? typename Space::vector(-to) : random.direction<Space>();
-    const typename Space::vector next = normals.step(from, to, scalar(0.001));
+    const vector to = random.direction<Space>();
+    const vector from = i == 0 ? vector(-to) : random.direction<Space>();
+    const vector next = normals.step(from, to, scalar(0.001));
     if (!(kernels::magnitude(scalar(Space::dot(next, next) - scalar(1))) <= slack)) return false;
     if (!(normals.step(to, to, scalar(0.001)) == to)) return false;
   }
