@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A peg of 40 mm in a hole, six degrees of freedom: the hand leans on it.
+// A peg of 40 mm in a hole, six degrees of freedom: the hand leans on it. Each point has one wall, for a peg that keeps
+// its heading; one that may turn round is told all that is near anew in each frame, by contact/manifold.hpp.
 #include <passive_haptics/simulation/quiet.hpp>
 #include <passive_haptics/simulation/rigid_device.hpp>
 #include <passive_haptics/six_dof.hpp>
