@@ -99,9 +99,11 @@ int main() {
   cost::run_part<cost::part_stepped>();
   cost::run_part<cost::part_rubbing>();
   cost::run_part<cost::part_reachable>();
+  cost::run_part<cost::part_plane>();
   cost::run_part<cost::part_rough>();
   cost::run_part<cost::part_corner>();
   cost::run_part<cost::part_sixteen>();
+  cost::run_part<cost::part_crowd>();
   cost::run_part<cost::part_tool>();
   cost::run_part<cost::part_tool_sixteen>();
 }

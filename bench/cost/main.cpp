@@ -136,7 +136,7 @@ std::string ratio_lines(const std::vector<cost::counts>& all) {
   return heading + '\n' + rule + '\n' + lines;
 }
 
-/// What each part costs; returns which parts that a scene has no use for cost instructions.
+/// What each part costs; returns which parts that a scene has no use for cost instructions, and crowds that cost too much.
 std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::counts>& all,
                                     part_rows& rows) {
   add_part<cost::part_bare>(rows, all, "part_bare");
@@ -148,14 +148,18 @@ std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::cou
   add_part<cost::part_stepped>(rows, all, "part_stepped");
   add_part<cost::part_rubbing>(rows, all, "part_rubbing");
   add_part<cost::part_reachable>(rows, all, "part_reachable");
+  add_part<cost::part_plane>(rows, all, "part_plane");
   add_part<cost::part_rough>(rows, all, "part_rough");
   add_part<cost::part_corner>(rows, all, "part_corner");
   add_part<cost::part_sixteen>(rows, all, "part_sixteen");
+  add_part<cost::part_crowd>(rows, all, "part_crowd");
   add_part<cost::part_tool>(rows, all, "part_tool");
   add_part<cost::part_tool_sixteen>(rows, all, "part_tool_sixteen");
-  out.section("What each part costs",
-              "Instructions per tick, composed, of the same fixed wall with one part more each "
-              "time. A part that a scene has no use for must cost none.");
+  out.section(
+      "What each part costs",
+      "Instructions per tick, composed, of the same fixed wall with one part more each "
+      "time. A part that a scene has no use for must cost none, and 64 planes of which three are "
+      "near at most twice what three cost.");
   ex::show_rows(out, "parts", rows.rows);
 
   std::vector<std::string> found;
@@ -166,6 +170,12 @@ std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::cou
       if (with > without) {
         found.push_back(build.compiler + ": turn_limited on a fixed wall costs " +
                         ex::format("%.2f instructions per tick, ", with - without) + scalar);
+      }
+      const double near = build.per_tick("part_corner", scalar);
+      const double crowd = build.per_tick("part_crowd", scalar);
+      if (!(crowd <= 2.0 * near)) {
+        found.push_back(build.compiler + ": 64 planes, three of them near, cost " +
+                        ex::format("%.2f times what three cost, ", crowd / near) + scalar);
       }
     }
   }

@@ -153,7 +153,8 @@ template <class Space>
   }
 }
 
-template <class Scalar, int Dof, int Planes, class Friction = ph::frictionless>
+/// The first `Near` planes go through the origin; the others are half a metre away.
+template <class Scalar, int Dof, int Planes, class Friction = ph::frictionless, int Near = Planes>
 struct part_set : part_base<Scalar, Dof> {
   [[nodiscard]] static auto composed(const settings& s) {
     using space = typename part_set::space;
@@ -164,10 +165,15 @@ struct part_set : part_base<Scalar, Dof> {
                         ph::slots<plane, Planes>{}},
         observer(s), ph::reachable_bound{.mass = s.mass, .hand_force = s.hand_force}, limits(s)};
     for (int i = 0; i < Planes; ++i) {
-      port.source().update(i, plane{space::zero(), normal_of<space>(i), in<Scalar>(s.stiffness)});
+      const typename space::vector n = normal_of<space>(i), at = n * Scalar(i < Near ? 0.0 : -0.5);
+      port.source().update(i, plane{at, n, in<Scalar>(s.stiffness)});
     }
     return port;
   }
+};
+template <class Scalar, int Dof>
+struct part_plane : part_set<Scalar, Dof, 1> {
+  static constexpr const char* name = "contact_set of a plane";
 };
 template <class Scalar, int Dof>
 struct part_rough : part_set<Scalar, Dof, 1, ph::stick_slip> {
@@ -180,6 +186,11 @@ struct part_corner : part_set<Scalar, Dof, 3> {
 template <class Scalar, int Dof>
 struct part_sixteen : part_set<Scalar, Dof, 16> {
   static constexpr const char* name = "contact_set of sixteen planes";
+};
+
+template <class Scalar, int Dof>
+struct part_crowd : part_set<Scalar, Dof, 64, ph::frictionless, 3> {
+  static constexpr const char* name = "contact_set of 64 planes, three of them near";
 };
 
 /// A tool of six degrees of freedom, whatever Dof says.

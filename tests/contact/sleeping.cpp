@@ -46,7 +46,7 @@ TEST_CASE("surfaces out of reach sleep, and nobody feels that they do", "[contac
     ph::proxy_problem<d3::vector, double, count> all;
     for (int i = 0; i < count; ++i) {
       const auto& wall = walls[static_cast<std::size_t>(i)];
-      slept += port.source().slot(i).asleep ? 1 : 0;
+      slept += port.source().sleeps(i) ? 1 : 0;
       all.add(wall.at(x).outward(), port.source().slot(i).spring().compliance,
               port.source().slot(i).spring(), wall.at(x).depth, 0.0, 0.0);
     }

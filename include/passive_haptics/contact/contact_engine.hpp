@@ -63,7 +63,6 @@ class contact_engine {
   template <class Surface>
   struct slot_of : pursued<Surface, space_type> {
     PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS point_type point{};
-    bool asleep = false;  ///< out of reach until all slots are evaluated again
   };
   using all_slots = slot_room<slot_of, Slots...>;
   /// With more than four slots, those out of reach are not evaluated in every tick.
@@ -105,6 +104,7 @@ class contact_engine {
   [[nodiscard]] constexpr bool settles(scalar K) const noexcept { return spring_.settles(K); }
   constexpr void reset() noexcept {
     slots_.for_each([](auto& slot, std::size_t) { slot.reset(); });
+    if constexpr (naps) nap_.awake = {};
     let_go();
     asked_ = moved_ = Port::zero();
     steepest_ = {};
@@ -115,12 +115,24 @@ class contact_engine {
   template <class Surface = first_kind>
   constexpr void release(int i) noexcept {
     news();
-    slots_.template visit<Surface>(i, [](auto& slot) { slot.release(); });
+    slots_.template visit<Surface>(i, [&](auto& slot, std::size_t number) {
+      slot.release();
+      if constexpr (naps) nap_.awake.set(number);
+    });
   }
   /// Slot i of that kind, 0 ≤ i < Count, with its newest surface, its lag ℓ and its λ.
   template <class Surface = first_kind>
   [[nodiscard]] constexpr const auto& slot(int i) const noexcept {
     return slots_.template slot<Surface>(i);
+  }
+
+  /// True if it is out of reach, and not evaluated until all slots are again.
+  template <class Surface = first_kind>
+  [[nodiscard]] constexpr bool sleeps(int i) const noexcept {
+    if constexpr (naps) {
+      return !nap_.awake.has(all_slots::template first<Surface>() + static_cast<std::size_t>(i));
+    }
+    return false;
   }
 
   /// Explains the contact with the largest λ, at its place on the device, or the first one.
@@ -163,10 +175,7 @@ class contact_engine {
     rests_ = true;
     std::size_t r = 0;
     if constexpr (naps) nap_.reach = scalar(0);
-    slots_.for_each([&](auto& slot, std::size_t i) {
-      if constexpr (naps) {
-        if (slot.asleep) return;
-      }
+    each_awake([&](auto& slot, std::size_t i) {
       const bool felt = r < all.rows.count && all.slot[r] == i;
       const scalar lambda = felt ? all.rows.pressed[r] : scalar(0);
       slot.press(lambda);
@@ -220,7 +229,8 @@ class contact_engine {
     slots_.for_each([&](auto& slot, std::size_t) { slot.grow_older(dt, pace_); });
     if (port.what == event::forces_off) {
       let_go();
-      slots_.for_each([](auto& slot, std::size_t) { slot.asleep = slot.vanish(); });
+      slots_.for_each([](auto& slot, std::size_t) { slot.vanish(); });
+      if constexpr (naps) nap_.awake = {};
       asked_ = Port::zero();
     }
     return {port.force, scalar(0), port.energy, port.what, false};
@@ -231,7 +241,7 @@ class contact_engine {
   template <class Surface>
   [[nodiscard]] constexpr point_type point_of(int i) noexcept {
     point_type point{};
-    slots_.template visit<Surface>(i, [&point](auto& slot) { point = slot.point; });
+    slots_.template visit<Surface>(i, [&point](auto& slot, std::size_t) { point = slot.point; });
     return point;
   }
   /// Sets the newest surface of slot i of its kind, at that point of the device.
@@ -239,11 +249,11 @@ class contact_engine {
   constexpr news_taken<scalar> put(int i, const point_type& point, const Surface& next) noexcept {
     news_taken<scalar> taken;
     news();
-    slots_.template visit<Surface>(i, [&](auto& slot) {
+    slots_.template visit<Surface>(i, [&](auto& slot, std::size_t number) {
       taken.taken =
           frame::is_point(point) && slot.update(next, frame::place(last_, slot.point),
                                                 frame::place(last_, point), spring_, pace_);
-      slot.asleep = false;
+      if constexpr (naps) nap_.awake.set(number);
       if (!taken) return;
       slot.point = point;
       taken.stiffness = displayed(slot);
@@ -293,14 +303,13 @@ class contact_engine {
       slots_.for_each([&](const auto& slot, std::size_t) { together += slot.pressed(); });
     }
     [[maybe_unused]] const scalar slept = time_to_look(now, dt);
-    slots_.for_each([&](auto& slot, std::size_t i) {
+    if constexpr (naps) {
+      all.empty = nap_.awake.all();
+      if (slept > scalar(0)) wake(slept - dt);
+    }
+    each_awake([&](auto& slot, std::size_t i) {
       if (!slot.taken()) return;
       all.empty = false;
-      if constexpr (naps) {
-        if (slot.asleep && !(slept > scalar(0))) return;
-        if (slot.asleep) slot.grow_older(slept - dt, pace_);
-        slot.asleep = false;
-      }
       slot.grow_older(dt, pace_);
       if (slot.stale()) what = detail::worse_yet(what, event::stale_target);
       const auto here = now.at(slot.point);
@@ -318,9 +327,10 @@ class contact_engine {
       }
       if constexpr (naps) {
         const scalar reach = pace_.out_of_reach() + nap_.reach;
-        slot.asleep = slept > scalar(0) && own.depth < scalar(-2) * reach && !own.chases &&
-                      !(slot.pressed() > scalar(0));
-        if (slot.asleep) return;
+        if (slept > scalar(0) && own.depth < scalar(-2) * reach && !own.chases &&
+            !(slot.pressed() > scalar(0))) {
+          return nap_.awake.clear(i);
+        }
       }
       all.chases = all.chases || own.chases;
       const auto press = [&](const auto& spring) {
@@ -341,6 +351,21 @@ class contact_engine {
       }
       press(slot.spring());
     });
+  }
+  /// Calls act(slot, number) for all slots but those that sleep.
+  constexpr void each_awake(auto act) noexcept {
+    if constexpr (naps) {
+      slots_.for_each_of(nap_.awake, act);
+    } else {
+      slots_.for_each(act);
+    }
+  }
+  /// Wakes those that have slept for a time [s].
+  constexpr void wake(scalar slept) noexcept {
+    slots_.for_each([&](auto& slot, std::size_t i) {
+      if (!nap_.awake.has(i)) slot.grow_older(slept, pace_);
+    });
+    nap_.awake = {};
   }
   /// The time that sleeping slots have slept [s] if all slots are to be evaluated now, else 0. A surface that was
   /// 2 (D + R) away, R = Σ λ_i c_i the proxy's offset, cannot press while the device has moved by less than D − R.
@@ -428,9 +453,10 @@ class contact_engine {
   }
 
   struct nap {
-    typename frame::stored began_at{};  ///< device when all slots were evaluated
-    scalar lasted = scalar(1);          ///< time since then [s]
-    scalar reach{};                     ///< Σ λ c in the last tick [m]
+    typename frame::stored began_at{};       ///< device when all slots were evaluated
+    scalar lasted = scalar(1);               ///< time since then [s]
+    scalar reach{};                          ///< Σ λ c in the last tick [m]
+    slot_bits<all_slots::capacity> awake{};  ///< slots that are evaluated in each tick
   };
 
   all_slots slots_{};
