@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../bench/contacts/stroke.hpp"
 #include "support/catch.hpp"
 #include "support/contact_sets.hpp"
 #include <passive_haptics/base/samples.hpp>
@@ -631,163 +632,58 @@ TEST_CASE("no news steps a device that holds still, and the truth is there withi
   }
 }
 
-namespace {
-
-/// Of a finger that strokes: how far its force leans off what the surface itself pushes with.
-struct stroked {
-  double worst = 0.0;         ///< off the direction of the truth [rad]
-  double largest_step = 0.0;  ///< [N] in a tick
-  double leaning = 0.0;       ///< off by more than 5 degrees [s]
-  double work = 0.0;          ///< that the finger got [J]
-};
-
-/// `path`(n) is where it is, `truth`(x) what pushes there, and `told`(n) the surface to publish, every so many ms.
-template <class Surface>
-stroked stroke(const ph::pursuit& pace, int ticks, const auto& path, const auto& truth,
-               const auto& told, int every = 33) {
-  ph::passive_port port{d3{},
-                        ph::contact_set{ph::proxy_spring{.mass = 0.1, .damping_ratio = 0.0}, pace,
-                                        ph::slots<Surface, 1>{}},
-                        ph::no_observer{}, ph::no_bound{}, thesis_loop};
-  REQUIRE(port.source().update(0, told(0)));
-  const d3::vector begin = path(0);
-  for (int n = 100; n > 0; --n) {
-    (void)port.tick(d3::vector(begin + truth(begin).normalized() * (1e-4 * n)), 1ms);
-  }
-  stroked result;
-  d3::vector last = d3::zero(), was = begin;
-  for (int n = 0; n < ticks; ++n) {
-    const d3::vector x = path(n);
-    if (n % every == 0) REQUIRE(port.source().update(0, told(n)));
-    const d3::vector force = port.tick(x, 1ms).force, right = truth(x);
-    const double off = std::atan2(d3::cross(force, right).norm(), force.dot(right));
-    result.worst = std::max(result.worst, off);
-    if (n > 0) result.largest_step = std::max(result.largest_step, (force - last).norm());
-    if (off > 0.087) result.leaning += 1e-3;
-    result.work += last.dot(x - was);
-    last = force;
-    was = x;
-  }
-  return result;
-}
-
-}  // namespace
-
 TEST_CASE("a ball told by its tangent planes may be stroked fast", "[contact_set]") {
-  constexpr double radius = 0.05, K = 500.0, speed = 0.2;
-  const auto path = [](int n) -> d3::vector {
-    const double angle = speed / radius * 1e-3 * n;
-    return (radius - 2e-3) * d3::vector(std::cos(angle), 0.0, std::sin(angle));
-  };
-  const auto truth = [](const d3::vector& x) -> d3::vector {
-    return x.normalized() * (K * (radius - x.norm()));
-  };
-  const auto told = [&](int n) {
-    const d3::vector up = path(n).normalized();
-    return ph::half_space<d3>{d3::vector(up * radius), up, K};
-  };
-  const auto felt = stroke<ph::half_space<d3>>({}, 1500, path, truth, told);
-  CHECK(felt.worst < 0.18);  // 10 degrees
+  const stroking::round_a_ball ball;
+  const auto felt = stroking::stroke({}, ball, 1500);
+  CHECK(felt.off < 0.18);  // 10 degrees
   CHECK(felt.largest_step < 0.05);
-  const auto control =
-      stroke<ph::half_space<d3>>({.catch_up = 1e9, .edge = 1e3}, 1500, path, truth, told);
-  CHECK(control.worst > 1.0);  // 4 rad/s, where 2 may be turned
+  const auto control = stroking::stroke(stroking::limited, ball, 1500);
+  CHECK(control.off > 1.0);  // 4 rad/s, where 2 may be turned
 }
 
 TEST_CASE("a plane that is told anew in every tick of a stroke does not lag", "[contact_set]") {
-  constexpr double K = 500.0, speed = 0.2;
   for (const double radius : {0.05, 0.02, 0.012}) {
     for (const int every : {1, 4, 10}) {
-      const auto path = [&](int n) -> d3::vector {
-        const double angle = speed / radius * 1e-3 * n;
-        return (radius - 2e-3) * d3::vector(std::cos(angle), 0.0, std::sin(angle));
-      };
-      const auto truth = [&](const d3::vector& x) -> d3::vector {
-        return x.normalized() * (K * (radius - x.norm()));
-      };
-      const auto told = [&](int n) {
-        const d3::vector up = path(n).normalized();
-        return ph::half_space<d3>{d3::vector(up * radius), up, K};
-      };
-      const auto felt = stroke<ph::half_space<d3>>({}, 1000, path, truth, told, every);
+      const stroking::round_a_ball ball{.radius = radius};
+      const auto felt = stroking::stroke({}, ball, 1000, every);
       // by then it has turned by as much since the last news, and a tick more
-      const double since = speed / radius * 1e-3 * (every + 1);
+      const double since = ball.turned_in(every);
       // the control: a wide round for its edges, so that the way explains next to nothing, and any time for news
-      const auto lags = stroke<ph::half_space<d3>>({.catch_up = 1e9, .edge = 1e3}, 1000, path,
-                                                   truth, told, every);
-      CAPTURE(radius, every, since, felt.worst, felt.largest_step, lags.worst, lags.largest_step);
-      CHECK(felt.worst < since);
-      CHECK(lags.worst > since + 0.1);
+      const auto lags = stroking::stroke(stroking::limited, ball, 1000, every);
+      CAPTURE(radius, every, since, felt.off, felt.largest_step, lags.off, lags.largest_step);
+      CHECK(felt.off < since);
+      CHECK(lags.off > since + 0.1);
       CHECK(felt.largest_step < 0.05);
     }
   }
 }
 
 TEST_CASE("a plane that turns by itself and is told often is felt as it turns", "[contact_set]") {
-  constexpr double K = 800.0, amplitude = 0.5;
-  const auto turned = [](int n) -> d3::vector {
-    const double angle = amplitude * std::sin(6.28 * 0.8e-3 * n);
-    return {std::sin(angle), 0.0, std::cos(angle)};
-  };
+  const stroking::turning_plane plane;
   for (const int every : {1, 4, 10}) {
-    int tick = 0;
-    const auto path = [&](int n) -> d3::vector {
-      tick = n;
-      return {0, 0, -0.003};
-    };
-    const auto truth = [&](const d3::vector& x) -> d3::vector {
-      const d3::vector up = turned(tick);
-      return up * (-K * x.dot(up));
-    };
-    const auto told = [&](int n) { return ph::half_space<d3>{d3::zero(), turned(n), K}; };
-    const auto felt = stroke<ph::half_space<d3>>({}, 3000, path, truth, told, every);
-    const auto late =
-        stroke<ph::half_space<d3>>({.catch_up = 0.32}, 3000, path, truth, told, every);
-    CAPTURE(every, felt.worst, felt.largest_step, late.worst);
-    CHECK(felt.worst < 2.51e-3 * (std::max(every, 5) + 1));  // at 2.51 rad/s an update late
+    const auto felt = stroking::stroke({}, plane, 3000, every);
+    const auto late = stroking::stroke({.catch_up = 0.32}, plane, 3000, every);
+    CAPTURE(every, felt.off, felt.largest_step, late.off);
+    CHECK(felt.off < plane.fastest() * 1e-3 * (std::max(every, 5) + 1));  // an update late
     CHECK(felt.largest_step < 0.02);
-    CHECK(late.worst > 0.07);  // the control: updates are made up for in 40 ms
+    CHECK(late.off > 0.07);  // the control: updates are made up for in 40 ms
   }
 }
 
 TEST_CASE("a ridge turns the force where the finger passes it, as if it were rounded",
           "[contact_set]") {
-  constexpr double K = 500.0, speed = 0.045, r = 1e-3,
-                   slope = 0.57735;  // falls by 30 degrees each side
-  ph::patch<d3, 4> ridge;
-  ridge.nodes[0] = d3::vector(0, -0.1, 0);
-  ridge.nodes[1] = d3::vector(0, 0.1, 0);
-  ridge.nodes[2] = d3::vector(0.05, -0.1, -0.05 * slope);
-  ridge.nodes[3] = d3::vector(0.05, 0.1, -0.05 * slope);
-  ridge.nodes[4] = d3::vector(-0.05, -0.1, -0.05 * slope);
-  ridge.nodes[5] = d3::vector(-0.05, 0.1, -0.05 * slope);
-  ridge.node_count = 6;
-  ridge.triangles = {{{0, 2, 1}, {1, 2, 3}, {0, 1, 4}, {1, 5, 4}}};
-  ridge.triangle_count = 4;
-  ridge.stiffness = K;
-  auto itself = ridge;
-  REQUIRE(itself.prepare());
-  const int there = int(0.02 / (speed * 1e-3)), loop = 2 * there;  // ±10 mm, and back
-  const auto path = [&](int n) -> d3::vector {
-    const double way = 0.01 - speed * 1e-3 * std::abs(n % loop - there);
-    return {way, 0.0, -std::abs(way) * slope - 2e-3 / 0.8660254};
-  };
-  const auto truth = [&](const d3::vector& x) -> d3::vector {
-    const auto seen = itself.at(x);
-    return seen.outward() * (K * seen.depth);
-  };
-  const auto told = [&](int) { return ridge; };
-  const auto felt = stroke<ph::patch<d3, 4>>({.edge = r}, 5 * loop, path, truth, told);
-  const double force = K * 2e-3, way = speed * 1e-3 / 0.8660254;
-  CHECK(felt.leaning < 10 * 1.05 * r / speed);  // r times 60 degrees, ten times
-  const double by_news = 1.05 / 0.04 * 1e-3;    // 60 degrees within t_c [rad a tick]
-  CHECK(felt.largest_step < 1.05 * force * (way / r + by_news));
-  CHECK(felt.work > -10 * 1.05 * force * r * 0.5);  // each time no more than F r (1 − cos 60°)
+  stroking::over_a_ridge ridge;
+  REQUIRE(ridge.prepare());
+  const int ticks = 5 * ridge.loop();
+  const auto felt = stroking::stroke({.edge = 1e-3}, ridge, ticks);
+  const auto bars = ridge.as_rounded(1e-3, 0.04, 5);
+  CHECK(felt.leaning < bars.leaning);
+  CHECK(felt.largest_step < bars.largest_step);
+  CHECK(felt.work > -bars.work);
   CHECK(felt.work < 0.0);
-  const auto control =
-      stroke<ph::patch<d3, 4>>({.catch_up = 1e9, .edge = 1e3}, 5 * loop, path, truth, told);
+  const auto control = stroking::stroke(stroking::limited, ridge, ticks);
   CHECK(control.leaning > 1.0);  // at 2 rad/s
-  CHECK(control.work < -10 * 2.0 * force * r);
+  CHECK(control.work < -10 * 2.0 * 1e-3);
 }
 
 TEST_CASE("a plane that is sent again as it is, is no news", "[contact_set]") {
