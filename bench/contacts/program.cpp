@@ -8,10 +8,11 @@ const std::vector<ex::section<session>>& sections() {
       {"quiet", run_quiet},       {"quiet_tool", run_quiet_tool},
       {"settling", run_settling}, {"touch", run_touch},
       {"news", run_news},         {"stroke", run_stroke},
-      {"curved", run_curved},     {"friction", run_friction},
-      {"static", run_static},     {"passive", run_passive},
-      {"rigid", run_rigid},       {"tool", run_tool},
-      {"guards", run_guards},     {"steep", run_steep}};
+      {"frames", run_frames},     {"curved", run_curved},
+      {"friction", run_friction}, {"static", run_static},
+      {"passive", run_passive},   {"rigid", run_rigid},
+      {"tool", run_tool},         {"guards", run_guards},
+      {"steep", run_steep}};
   return all;
 }
 

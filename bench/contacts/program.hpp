@@ -28,6 +28,7 @@ struct session : ex::workshop {
 [[nodiscard]] std::vector<std::string> run_quiet_tool(const session& s);
 [[nodiscard]] std::vector<std::string> run_settling(const session& s);
 [[nodiscard]] std::vector<std::string> run_stroke(const session& s);
+[[nodiscard]] std::vector<std::string> run_frames(const session& s);
 [[nodiscard]] std::vector<std::string> run_touch(const session& s);
 [[nodiscard]] std::vector<std::string> run_news(const session& s);
 [[nodiscard]] std::vector<std::string> run_curved(const session& s);
