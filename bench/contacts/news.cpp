@@ -29,18 +29,26 @@ struct news_row {
   bool snapped = false;
   int seconds = 60;
   std::uint64_t seed = 1;
-  double step = 0.0;  ///< the largest of the asked force in a tick [N]
+  double step = 0.0;        ///< the largest of the asked force in a tick [N]
+  double shown = HUGE_VAL;  ///< of the stiffness, a second after news that end, at least
+  double there = HUGE_VAL;  ///< of the force and stiffness that it comes to, then, at least
 };
 ex::record record_of(const news_row& r) {
   return {{"planes", r.planes},
           {"stiffness", r.stiffness, "%.0f"},
           {"events", to_string(r.events)},
           {"snapped", r.snapped},
-          {"largest_step_N", r.step, "%.4f"}};
+          {"largest_step_N", r.step, "%.4f"},
+          {"shown_after_1_s", r.shown, "%.3f"},
+          {"of_what_it_comes_to", r.there, "%.4f"}};
 }
 
 /// What news may step a device by that holds still, whatever they are: R dt [N], and its rounding.
 constexpr double most_step = ph::pursuit{}.force_rate * T * (1.0 + 1e-9);
+
+/// What is shown at least a second after the news: of the stiffness, of which walls at an obtuse angle show less by their
+/// softness, snapped or not; and of what it comes to.
+constexpr double least_shown = 0.8, least_there = 0.999;
 
 /// A port that gives what is asked for: the ledger has no say in these runs.
 template <int Count>
@@ -83,6 +91,24 @@ double push_of(const std::vector<plane>& all) {
   return all.empty() ? 0.0 : all.front().stiffness * nearest;
 }
 
+/// Looks at a copy of a port that has no more news: the share of its stiffness that it shows after a second, and how much
+/// of its force and of the stiffness that it comes to.
+void look_after_a_second(news_row& row, auto port) {
+  const auto rest = [&](int ticks) -> vector {
+    for (; ticks > 1; --ticks) static_cast<void>(port.tick(vector::Zero(), ph::seconds{T}));
+    return port.tick(vector::Zero(), ph::seconds{T}).force;
+  };
+  const auto push = [&](const vector& x) -> vector { return port.tick(x, ph::seconds{T}).force; };
+  const vector force = rest(1000);
+  if (force.norm() < 0.1) return;
+  const double shown = ex::shown_by(push, vector(vector::Zero()));
+  const vector in_the_end = rest(3000);
+  const double at_last = ex::shown_by(push, vector(vector::Zero()));
+  row.shown = std::min(row.shown, shown / row.stiffness);
+  row.there =
+      std::min({row.there, shown / at_last, 1.0 - (force - in_the_end).norm() / in_the_end.norm()});
+}
+
 /// Calls watch(tick, force, the planes that are told) in every tick.
 template <int Count, class Watch>
 news_row judge(news_row row, const Watch& watch) {
@@ -121,6 +147,9 @@ news_row judge(news_row row, const Watch& watch) {
     watch(tick, force, there);
     row.step = std::max(row.step, (force - last).norm());
     last = force;
+    if ((tick + 1) % (row.seconds * 125) == 0) {  // eight times
+      look_after_a_second(row, port);
+    }
   }
   return row;
 }
@@ -369,21 +398,27 @@ heart_row beat(heart_row row) {
 }  // namespace
 
 std::vector<std::string> run_news(const session& s) {
-  s.out.section("News",
-                "A device held still, up to 3 mm behind the planes of a corner that appear, "
-                "vanish, move by 1 mm and "
-                "turn by 0.3 rad 30 times a second. The largest step of the asked force in a tick, "
-                "against a bar of 50 N/s; snapped: without pursuit.");
+  s.out.section(
+      "News",
+      "A device held still, up to 3 mm behind the planes of a corner that appear, "
+      "vanish, move by 1 mm and "
+      "turn by 0.3 rad 30 times a second. The largest step of the asked force in a tick, "
+      "against a bar of 50 N/s, with --seed " +
+          std::to_string(s.chosen.seed) +
+          "; shown: of the stiffness, a second after news that end, and of the stiffness and "
+          "force that it comes to 3 s later, the least of eight times; snapped: without pursuit.");
   std::vector<news_row> jobs;
   for (const double K : {500.0, 1000.0}) {
     for (const int n : {1, 3, 6}) {
       for (const order o : {order::one_a_frame, order::any}) {
         for (const bool snapped : {false, true}) {
-          jobs.push_back({.planes = n,
-                          .stiffness = K,
-                          .events = o,
-                          .snapped = snapped,
-                          .seconds = s.chosen.quick ? 10 : 120});
+          jobs.push_back(
+              {.planes = n,
+               .stiffness = K,
+               .events = o,
+               .snapped = snapped,
+               .seconds = s.chosen.quick ? 10 : 120,
+               .seed = (static_cast<std::uint64_t>(s.chosen.seed) << 32U) + jobs.size()});
         }
       }
     }
@@ -424,6 +459,9 @@ std::vector<std::string> run_news(const session& s) {
       continue;
     }
     expect(found, r.step <= most_step, name + ": a step of " + ex::format("%.4f", r.step) + " N");
+    const std::string after = name + ex::format(", %.0f N/m: after a second ", r.stiffness);
+    expect(found, r.shown >= least_shown, after + ex::format("%.3f of it is shown", r.shown));
+    expect(found, r.there >= least_there, after + ex::format("%.4f of the end", r.there));
   }
   for (const auto& r : greed) {
     expect(found, r.step <= most_step,
