@@ -105,7 +105,7 @@ struct passive_row {
   double least_energy = 0.0;  ///< [J]
   std::string worst{};
   double largest_force = 0.0;  ///< [N]
-  int seed = 1;                ///< of the hands that hold still
+  int seed = 1;                ///< of the attacks, and of the hands that hold still
   ex::at_rest still{};         ///< in such a hand, after a world that was restless
 };
 ex::record record_of(const passive_row& r) {
@@ -164,7 +164,8 @@ template <class Model>
 passive_row challenged(passive_row row, const Model& model) {
   const sim::circumstances world{.latency = row.latency, .watchdog = false, .ticks = 600};
   const auto attack = [&](sim::adversary by, int runs) {
-    const auto v = sim::challenge(model, by, world, runs, 1, lay);
+    const auto v =
+        sim::challenge(model, by, world, runs, static_cast<std::uint64_t>(row.seed) << 32U, lay);
     row.largest_force = std::max(row.largest_force, v.largest_force);
     if (!(v.least_energy >= row.least_energy)) {
       row.least_energy = v.least_energy;

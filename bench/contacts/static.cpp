@@ -86,12 +86,10 @@ static_row judge(static_row row, const Friction& friction, int seed) {
   static_cast<void>(
       port.tick(vector(0.0, 0.0, 1.0), ph::seconds{T}));  // they are all met from outside
   for (int run = 0; run < row.runs; ++run) {
-    row.least_energy =
-        std::min(row.least_energy,
-                 least_energy(port, static_cast<std::uint64_t>(run) + 1, row.largest_force));
+    const auto drawn = (static_cast<std::uint64_t>(seed) << 32U) + static_cast<std::uint64_t>(run);
+    row.least_energy = std::min(row.least_energy, least_energy(port, drawn, row.largest_force));
     if (run % 10 != 0)
       continue;  // of the attacks; the hand that holds still has another every time
-    const auto drawn = (static_cast<std::uint64_t>(seed) << 32U) + static_cast<std::uint64_t>(run);
     add_held(row.still, port, static_cast<int>(row.scene->normals.size()),
              resting_hand(*row.scene, drawn), no_news);
   }
