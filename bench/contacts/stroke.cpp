@@ -121,7 +121,9 @@ compared round(const round_a_mesh& ball, int every) {
 compared over(stroking::over_a_ridge ridge, int every) {
   static_cast<void>(ridge.prepare());
   return compare(ridge, 5 * ridge.loop(), every, [&](const felt& /*bare*/) {
-    return ridge.as_rounded(ph::pursuit{}.edge, ph::pursuit{}.catch_up, 5);
+    const ph::pursuit pace{};
+    return ridge.as_rounded(pace.edge, std::clamp(every * T, pace.catch_up / 8.0, pace.catch_up),
+                            5);
   });
 }
 /// What comes more often than every 5 ms is made up for within 5 ms.

@@ -128,13 +128,12 @@ struct over_a_ridge {
   [[nodiscard]] vector truth(int n) const { return curved::force<d3>(itself, at(n)); }
   [[nodiscard]] ph::patch<d3, 4> told(int /*n*/) const { return ridge; }
 
-  /// The bars of so many loops: an edge of radius r [m] that is felt a tick late, a twentieth more for its work and time and
-  /// a fifth for its steps.
-  [[nodiscard]] felt as_rounded(double r, double catch_up, int loops) const {
+  /// The bars of so many loops: an edge of radius r [m] that is felt a tick late, told each P [s], a twentieth more.
+  [[nodiscard]] felt as_rounded(double r, double P, int loops) const {
     const double force = stiffness * depth, turn = 2.0 * slope, way = speed * T / std::cos(slope);
     const double edges = 2.0 * loops;
     return {.off = 1.01 * turn,
-            .largest_step = 1.2 * force * (way / r + turn / catch_up * T),
+            .largest_step = 1.05 * force * (way / r + turn / P * T),
             .leaning = edges * 1.05 * turn * r / speed,
             .work = edges * 1.05 * force * (r + way) * (1.0 - std::cos(turn)),
             .rms = force};

@@ -676,7 +676,7 @@ TEST_CASE("a ridge turns the force where the finger passes it, as if it were rou
   REQUIRE(ridge.prepare());
   const int ticks = 5 * ridge.loop();
   const auto felt = stroking::stroke({.edge = 1e-3}, ridge, ticks);
-  const auto bars = ridge.as_rounded(1e-3, 0.04, 5);
+  const auto bars = ridge.as_rounded(1e-3, 0.033, 5);
   CHECK(felt.leaning < bars.leaning);
   CHECK(felt.largest_step < bars.largest_step);
   CHECK(felt.work > -bars.work);
