@@ -178,10 +178,10 @@ point_scene scene_of(const kind& what, const still_hand& hand, std::uint64_t see
   return s;
 }
 
-auto port_in(const point_scene& s, const auto& limits) {
+auto port_in(const point_scene& s, const auto& limits, ph::proxy_spring spring = {}) {
+  spring.mass = s.told;
   ph::passive_port port{
-      d3{},
-      ph::contact_set{ph::proxy_spring{.mass = s.told}, ph::pursuit{}, ph::slots<plane, room>{}},
+      d3{}, ph::contact_set{spring, ph::pursuit{}, ph::slots<plane, room>{}},
       ph::reduced_energy{.damping = s.device.damping},
       ph::reachable_bound{.mass = s.told, .hand_force = 1.2 * held_point::most(s.device)}, limits};
   int slot = 0;
@@ -218,6 +218,16 @@ quiet_row point_row(const session& s, const kind& what, const still_hand& hand, 
   return judged({.scene = what.name, .hand = hand.name, .cases = cases}, [&](int i) {
     const auto scene = scene_of(what, hand, seed + (part << 20U) + static_cast<std::uint64_t>(i));
     return run_of<0>(port_in(scene, ph::loop_limits{.longest_tick = T}), scene);
+  });
+}
+
+/// The same scenes on springs without a damper, as a control.
+quiet_row undamped_row(const session& s, const kind& what, const still_hand& hand, int cases) {
+  const auto seed = (static_cast<std::uint64_t>(s.chosen.seed) << 32U) + (1U << 29U);
+  return judged({.scene = what.name, .hand = hand.name, .cases = cases}, [&](int i) {
+    const auto scene = scene_of(what, hand, seed + static_cast<std::uint64_t>(i));
+    return run_of<0>(port_in(scene, ph::loop_limits{.longest_tick = T}, {.damping_ratio = 0.0}),
+                     scene);
   });
 }
 
@@ -281,7 +291,22 @@ std::vector<std::string> run_quiet(const session& s) {
   }
   ex::publish(s.out, "quiet_late", late);
 
+  s.out.section("Quiet: without a damper",
+                "The control: such scenes in a relaxed hand on the same springs, ζ = 0, of which a "
+                "tenth must ring on.");
+  std::vector<quiet_row> undamped;
+  for (const auto& what : kinds) {
+    undamped.push_back(undamped_row(s, what, still_hands[1], std::max(cases / 10, 4)));
+  }
+  ex::publish(s.out, "quiet_undamped", undamped);
+
   std::vector<std::string> found;
+  int ring = 0, tried = 0;
+  for (const auto& r : undamped) {
+    ring += r.unsettled;
+    tried += r.judged;
+  }
+  expect(found, 10 * ring > tried, "the control is quiet without a damper");
   for (const auto& r : rows) {
     expect_quiet(found, r);
     expect(found, r.share >= least_share,
