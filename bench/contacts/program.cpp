@@ -12,7 +12,7 @@ const std::vector<ex::section<session>>& sections() {
       {"friction", run_friction}, {"static", run_static},
       {"passive", run_passive},   {"rigid", run_rigid},
       {"tool", run_tool},         {"guards", run_guards},
-      {"steep", run_steep}};
+      {"steep", run_steep},       {"meshes", run_meshes}};
   return all;
 }
 

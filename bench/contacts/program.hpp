@@ -39,6 +39,7 @@ struct session : ex::workshop {
 [[nodiscard]] std::vector<std::string> run_tool(const session& s);
 [[nodiscard]] std::vector<std::string> run_guards(const session& s);
 [[nodiscard]] std::vector<std::string> run_steep(const session& s);
+[[nodiscard]] std::vector<std::string> run_meshes(const session& s);
 
 /// The settings of a command line. Throws std::invalid_argument with the value and the remedy.
 [[nodiscard]] settings parse(const std::vector<std::string>& arguments);

@@ -25,13 +25,13 @@ TEST_CASE("contacts keep every promise in a first look, and what stands beside t
   CHECK(found.code == 0);  // the controls among them: one that loses nothing is a failure
   const std::string json = content(out / "contacts.json");
   for (const char* key :
-       {"quiet",        "quiet_late",      "quiet_tool",  "settling",    "touch",
-        "motion",       "frames",          "frames_near", "touch_news",  "of_what_it_comes_to",
-        "news",         "greedy_news",     "heart",       "stroke",      "loops",
-        "drift",        "stick_slip",      "stopping",    "cone",        "static",
-        "passive",      "rigid",           "tool",        "guards",      "guards_sums",
-        "guards_drops", "guards_encoders", "failures",    "rest_step_N", "rest_mm_per_s",
-        "shown_N_per_m"}) {
+       {"quiet",         "quiet_late",      "quiet_tool",  "settling",    "touch",
+        "motion",        "frames",          "frames_near", "touch_news",  "of_what_it_comes_to",
+        "news",          "greedy_news",     "heart",       "stroke",      "loops",
+        "drift",         "stick_slip",      "stopping",    "cone",        "static",
+        "passive",       "rigid",           "tool",        "guards",      "guards_sums",
+        "guards_drops",  "guards_encoders", "failures",    "rest_step_N", "rest_mm_per_s",
+        "shown_N_per_m", "meshes"}) {
     CAPTURE(key);
     CHECK(json.find('"' + std::string(key) + '"') != std::string::npos);
   }
