@@ -149,7 +149,7 @@ struct mesh_row {
   double step = 0.0;                  ///< the largest of the force, before the last news [N]
   double off = std::nan("");          ///< rms of the force against the exact shape [N]
   double off_by = std::nan("");       ///< the same over K [m]
-  double least_share = std::nan("");  ///< of the stiffness asked for, shown at rest
+  double least_share = std::nan("");  ///< of the stiffness asked for, shown at rest, not eased
   ex::at_rest still{};
 
   void add(const mesh_row& other) {
@@ -296,7 +296,7 @@ mesh_row run_of(mesh_row row, const job& j, const finger& f, double dt, const au
   }
   if (pressed >= all - static_cast<int>(1.0 / dt)) {
     row.still.add(judge, {f.stiffness, shown});
-    row.least_share = shown / f.stiffness;
+    if (!eased()) row.least_share = shown / f.stiffness;
   }
   return row;
 }
