@@ -293,7 +293,7 @@ std::vector<std::string> run_quiet(const session& s) {
 
   s.out.section("Quiet: without a damper",
                 "The control: such scenes in a relaxed hand on the same springs, ζ = 0, of which a "
-                "tenth must ring on.");
+                "quarter must not be quiet within 5 s.");
   std::vector<quiet_row> undamped;
   for (const auto& what : kinds) {
     undamped.push_back(undamped_row(s, what, still_hands[1], std::max(cases / 10, 4)));
@@ -303,10 +303,10 @@ std::vector<std::string> run_quiet(const session& s) {
   std::vector<std::string> found;
   int ring = 0, tried = 0;
   for (const auto& r : undamped) {
-    ring += r.unsettled;
+    ring += r.unsettled + r.slides;
     tried += r.judged;
   }
-  expect(found, 10 * ring > tried, "the control is quiet without a damper");
+  expect(found, 4 * ring > tried, "the control is quiet without a damper");
   for (const auto& r : rows) {
     expect_quiet(found, r);
     expect(found, r.share >= least_share,

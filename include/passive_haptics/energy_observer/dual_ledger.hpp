@@ -177,9 +177,11 @@ class basic_dual_ledger<Damping, Steps, Sum>::on {
 
   [[nodiscard]] constexpr scalar value() const noexcept { return value_; }
   /// True if more energy was given out than came in: the value is below its start value without a loan, and by more than
-  /// the steps have put in doubt since it was last ≥ 0, which it charges as if all of it were lost (§ 11).
+  /// the steps have put in doubt since it was last ≥ 0, which it charges as if all of it were lost, and c q, which the
+  /// certificate that was the best then may lose at a turn (§ 11).
   [[nodiscard, gnu::cold, gnu::noinline]] constexpr bool overdrawn() const noexcept {
-    const scalar in_doubt = scalar(2) * (doubted_ + steps_.doubt(effort(last_held_)));
+    scalar in_doubt = scalar(2) * (doubted_ + steps_.doubt(effort(last_held_)));
+    if constexpr (rubs) in_doubt += damping_.most_friction() * steps_.travel_error();
     return value_ <
            -(reserve() + in_doubt) * (scalar(1) + scalar(16) * kernels::rounding<scalar>());
   }

@@ -17,7 +17,7 @@ inline namespace v0 {
 /// a debt to zero, once, and then adds credit for τ = ½ s (ours, docs/design/mathematics.md § 11):
 ///     E1 += min(A dt/τ, A − E1)  where E1 < A
 /// If the first fault in 10 s is a rejected sample or a late tick, E1 = max(E1, A) at once instead. A fault is a
-/// rejected sample, a late tick, or a debt, on encoders one beyond what their steps put in doubt, because the bounds
+/// rejected sample, a late tick, or a debt, on encoders of A/64 and more than their steps put in doubt, because the bounds
 /// cause no debt unless a stated parameter is wrong; samples rejected in a row are one fault while E1 ≥ A/2. θ is
 /// 0.1 s, doubles with each fault after amends have begun, and is 0.1 s again after 10 s without a fault. With D [J]
 /// the debts that are set to zero, after t seconds of any faults
@@ -127,10 +127,11 @@ class forgiving<Ledger>::on : public part_at<Ledger, P> {
     quiet_ = scalar(0);
   }
   [[nodiscard]] constexpr bool in_debt() const noexcept {
-    if constexpr (exact)
+    if constexpr (exact) {
       return this->value() < scalar(0);
-    else
-      return this->value() < scalar(0) && kept::overdrawn();
+    } else {
+      return this->value() < -amends_ / scalar(64) && kept::overdrawn();
+    }
   }
   [[gnu::cold, gnu::noinline]] constexpr void make_amends(scalar dt) noexcept {
     if (!lacks_) missed_ = false;  // wall_back has been reported
