@@ -66,14 +66,15 @@ struct intended_use {
     return {};
   }
   /// In N·m and rad for a device that turns, unless it is so stated: the defaults are those of a finger on 10 N, and a
-  /// knob of 0.1 N·m feels them at a lever of 10 mm.
+  /// knob of 0.1 N·m feels them at a lever of 10 mm, as a smaller one does their speeds: nothing turns faster by fingers.
   [[nodiscard]] constexpr intended_use on(const stated_device& d) const noexcept {
     const intended_use usual{
         .frequency = frequency, .hand_force = hand_force, .stiffness_fraction = stiffness_fraction};
     if (!d.rotary || *this != usual) return *this;
-    const double r = d.force_limit / 10.0, hand = hand_force == intended_use{}.hand_force ? r : 1.0;
-    return {slowest / r,    fastest / r, frequency,         swing * r,
-            hand_swing * r, force * r,   hand_force * hand, stiffness_fraction};
+    const double r = d.force_limit / 10.0, wide = kernels::larger(r, 0.01);
+    const double hand = hand_force == intended_use{}.hand_force ? r : 1.0;
+    return {slowest / wide, fastest / wide, frequency,         swing * r,
+            hand_swing * r, force * r,      hand_force * hand, stiffness_fraction};
   }
   constexpr bool operator==(const intended_use&) const noexcept = default;
 };
