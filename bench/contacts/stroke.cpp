@@ -122,8 +122,8 @@ compared over(stroking::over_a_ridge ridge, int every) {
   static_cast<void>(ridge.prepare());
   return compare(ridge, 5 * ridge.loop(), every, [&](const felt& /*bare*/) {
     const ph::pursuit pace{};
-    return ridge.as_rounded(pace.edge, std::clamp(every * T, pace.catch_up / 8.0, pace.catch_up),
-                            5);
+    const double P = std::clamp(every * T, pace.catch_up / 8.0, pace.catch_up);
+    return ridge.as_rounded(pace.edge, P, 5, ridge.speed * T > 0.05 * pace.edge ? 1.2 : 1.05);
   });
 }
 /// What comes more often than every 5 ms is made up for within 5 ms.

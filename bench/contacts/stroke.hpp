@@ -128,12 +128,13 @@ struct over_a_ridge {
   [[nodiscard]] vector truth(int n) const { return curved::force<d3>(itself, at(n)); }
   [[nodiscard]] ph::patch<d3, 4> told(int /*n*/) const { return ridge; }
 
-  /// The bars of so many loops: an edge of radius r [m] that is felt a tick late, told each P [s], a twentieth more.
-  [[nodiscard]] felt as_rounded(double r, double P, int loops) const {
+  /// The bars of so many loops: an edge of radius r [m] that is felt a tick late, told each P [s], a twentieth more, and of a
+  /// step what `coarse` says, for ticks that pass much of the edge at once.
+  [[nodiscard]] felt as_rounded(double r, double P, int loops, double coarse = 1.05) const {
     const double force = stiffness * depth, turn = 2.0 * slope, way = speed * T / std::cos(slope);
     const double edges = 2.0 * loops;
     return {.off = 1.01 * turn,
-            .largest_step = 1.05 * force * (way / r + turn / P * T),
+            .largest_step = coarse * force * (way / r + turn / P * T),
             .leaning = edges * 1.05 * turn * r / speed,
             .work = edges * 1.05 * force * (r + way) * (1.0 - std::cos(turn)),
             .rms = force};
