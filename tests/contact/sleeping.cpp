@@ -112,6 +112,24 @@ TEST_CASE("a surface that sleeps is there as soon as it is told to be where the 
   CHECK(naps.back().z() > 0.2);
 }
 
+TEST_CASE("a set whose surfaces sleep has none once they are released, or all is reset",
+          "[contact_set]") {
+  for (const bool reset : {false, true}) {
+    auto port = planes<d3, 5>();
+    const auto what = [&] { return port.tick(d3::vector(d3::zero()), ph::seconds{T}).what; };
+    REQUIRE(port.source().update(3, {d3::vector(0, 0, -0.1), d3::vector::UnitZ(), 300.0}));
+    for (int n = 0; n < 60; ++n) CHECK(what() == ph::event::nominal);
+    REQUIRE(port.source().sleeps(3));
+    if (reset) {
+      port.reset();
+    } else {
+      port.source().release(3);
+    }
+    CHECK_FALSE(port.source().sleeps(3));
+    for (int n = 0; n < 60; ++n) CHECK(what() == ph::event::no_target);
+  }
+}
+
 TEST_CASE("a surface that sleeps is stale when it is old enough, or 0.05 s later, and never before",
           "[contact_set]") {
   const double tick = 0x1p-10;  // 52 of which are more than 0.05 s
