@@ -69,7 +69,7 @@ class slot_room {
   /// Calls act(slot, number) for all slots, kind by kind.
   constexpr void for_each(auto act) noexcept { each(*this, act); }
   constexpr void for_each(auto act) const noexcept { each(*this, act); }
-  /// The same for those of them whose bit is set.
+  /// The same for those of them whose bit is set. One loop for both costs a set up to 7 % more.
   constexpr void for_each_of(const slot_bits<capacity>& chosen, auto act) noexcept {
     std::size_t first = 0;
     const auto one = [&](auto& group) {
