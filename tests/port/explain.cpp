@@ -557,6 +557,53 @@ TEST_CASE("a late loop that bears less than the encoder steps is what is named",
         softened_by::mass_and_tick);
 }
 
+TEST_CASE("a wall that is softened because the ledger runs low is not put down to mass and tick",
+          "[explain]") {
+  auto pen = ph::make_touch<d1>(ph::encoder_device{.mass = 0.1,
+                                                   .damping = 0.1,
+                                                   .friction = 0.1,
+                                                   .presliding = 1e-5,
+                                                   .quantum = 2e-6,
+                                                   .force_limit = 9.0},
+                                ph::known_hand{.force = 5.0});
+  REQUIRE(pen.update(wall(600.0)));
+  for (int n = 0; n < 100; ++n) (void)pen.tick(1e-3 - 3e-5 * n, ph::seconds{1e-3});
+  CHECK(pen.explain().stiffness == softened_by::nothing);
+  CHECK(pen.explain().shown == 600.0);
+  // The wall comes against a hand that holds, until that has used up what was paid in, and then stands.
+  for (int n = 0; n < 4000; ++n) {
+    if (n % 20 == 0) {
+      REQUIRE(pen.update({.point = std::min(n, 2000) * 1e-6, .normal = 1.0, .stiffness = 600.0}));
+    }
+    (void)pen.tick(-1.97e-3 + std::min(n, 2000) * 0.9e-6, ph::seconds{1e-3});
+  }
+  const auto said = pen.explain();
+  CAPTURE(said.shown, said.force, said.depth, pen.energy());
+  CHECK(said.shown < 0.5 * said.asked);
+  CHECK(said.stiffness == softened_by::ledger);
+}
+
+TEST_CASE("contacts in which the device was found deep say that their force follows at a limited rate",
+          "[explain]") {
+  // With the forces off it has sunk 0.1 m; a dead load then rides up on a force that is never K d.
+  auto port = ph::make_contacts<d1>(grip, hand, ph::slots<ph::half_space<d1>, 2>{});
+  REQUIRE(port.source().update(0, wall(4000.0)));
+  sim::device<d1> device({.mass = 0.1, .damping = 0.1, .load = -1.0}, {});
+  auto sample = device.exchange(0.0);
+  for (int n = 0; n < 3000; ++n) {
+    if (n == 300) port.enable_forces(false);
+    if (n == 450) port.enable_forces(true);
+    if (n % 20 == 0) REQUIRE(port.source().update(0, wall(4000.0)));
+    sample = device.exchange(port.tick(sample).force);
+    const auto said = port.explain();
+    if (n < 1000) continue;
+    CAPTURE(n, said.force, said.depth);
+    REQUIRE(said.depth > 0.01);
+    REQUIRE(said.force < 0.1 * said.shown * said.depth);
+    REQUIRE(said.now == softened_by::news);
+  }
+}
+
 TEST_CASE("the floor of a force that the ledger limits is that of the bound's own spring",
           "[explain]") {
   // Pressed by what the ledger pays for, a step of the encoder is felt as up to 1.3 N, where K q is 0.15.

@@ -6,6 +6,7 @@
 //     ph::capped law{ph::damped_spring{.mass = grip.mass, .force_limit = 9.0}, budget.stiffness};
 //     ph::capped law{…, budget.stiffness, budget.working_capital};     // and softer where the ledger runs low
 
+#include <passive_haptics/base/explanation.hpp>
 #include <passive_haptics/port/composing.hpp>
 
 namespace passive_haptics {
@@ -90,11 +91,12 @@ class capped<Law>::on : public part_at<Law, Space> {
   }
   /// True if the constraint's K is above `most`.
   [[nodiscard]] constexpr bool is_capped() const noexcept { return is_capped_; }
-  /// True if that, and not the law itself, is why it is no stiffer.
-  [[nodiscard]] constexpr bool caps() const noexcept {
-    if (!is_capped_) return false;
+  /// Why it is no stiffer: s, for the ledger runs low, or the cap; nothing if it is the law itself.
+  [[nodiscard]] constexpr softened_by lowers() const noexcept {
+    if (!is_capped_ && !(share_ < scalar(1))) return softened_by::nothing;
     const scalar shown = scalar(1) / law_part::depth(scalar(1), scalar(0));
-    return !(shown < share_ * stiffness_ * scalar(0.99));
+    if (shown < share_ * stiffness_ * scalar(0.99)) return softened_by::nothing;
+    return share_ < scalar(1) ? softened_by::ledger : softened_by::encoder_steps;
   }
 
  private:

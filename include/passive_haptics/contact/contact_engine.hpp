@@ -145,8 +145,8 @@ class contact_engine {
       most = slot.pressed();
       e.stiffness = softened_by::nothing;
       explain_surface(e, slot.target(), frame::place(last_, slot.point), displayed(slot),
-                      spring_.softener(slot.target().stiffness), !(slot.lag() == scalar(0)),
-                      slot.stale());
+                      spring_.softener(slot.target().stiffness),
+                      told_ || !(slot.lag() == scalar(0)), slot.stale());
     });
   }
 

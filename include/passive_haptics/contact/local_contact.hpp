@@ -350,8 +350,9 @@ class local_contact {
     return law;
   }
   [[nodiscard]] static constexpr softened_by softener(const law_type& law) noexcept {
-    if constexpr (requires { law.caps(); }) {
-      if (law.caps()) return softened_by::encoder_steps;
+    if constexpr (requires { law.lowers(); }) {
+      const softened_by why = law.lowers();
+      if (why != softened_by::nothing) return why;
     }
     if constexpr (requires { law_type::softener; }) return law_type::softener;
     return softened_by::nothing;
