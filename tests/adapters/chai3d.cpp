@@ -75,9 +75,14 @@ class simulated : public c3d::cGenericHapticDevice {
     gripper = g;
     ++forces;
     if (!takes) force.setZero();
-    static_cast<void>(device_.exchange(force));
+    static_cast<void>(device_.exchange(motors ? force : vec::Zero()));
     made_clock::pass(T);
     return takes;
+  }
+
+  bool enableForces(bool on) override {
+    if (switches) motors = on;
+    return switches;
   }
 
   [[nodiscard]] double least_energy() const { return device_.meter().minimum(); }
@@ -86,6 +91,7 @@ class simulated : public c3d::cGenericHapticDevice {
   hand_type& hand() { return device_.hand(); }
 
   bool opens = true, reads = true, takes = true, mirrored = false;
+  bool motors = true, switches = true;
   double unit = 1.0;  ///< positions per metre
   vec force = vec::Zero(), torque = vec::Zero();
   double gripper = 0.0;
@@ -149,6 +155,46 @@ TEST_CASE("a proxy on a stiff sphere feeds the hand, and through passive_device 
     CHECK(calm.least_energy >= -1e-12);
     if (K > 1000.0) CHECK(calm.rms_speed < 0.05 * press(false, K).rms_speed);
     CHECK(calm.depth < 0.003);  // there is a sphere: the hand alone would be 3 mm deep
+  }
+}
+
+TEST_CASE("a hand that sinks in while CHAI3D has the forces off is credited with nothing",
+          "[adapters][chai3d]") {
+  const auto run = [](auto port, bool switches, bool at_once) {
+    auto real = std::make_shared<simulated>();
+    real->switches = switches;
+    auto device = decorate(real, port);
+    REQUIRE(device->open());
+    double largest = 0.0;
+    const auto press = [&](double z, int ticks) {
+      real->hand().target = vec(0.0, 0.0, z);
+      for (int k = 0; k < ticks; ++k) {
+        const vec x = real->place();
+        device->setForce(ad::chai3d_types::vector(vec(0.0, 0.0, 1500.0 * std::max(0.05 - x(2), 0.0))));
+        largest = std::max(largest, real->force.norm());
+      }
+    };
+    press(0.047, 500);
+    REQUIRE(largest > 0.4);
+    for (int n = 0; n < 10; ++n) {
+      CHECK(device->enableForces(false) == switches);
+      if (at_once) CHECK(device->enableForces(true) == switches);
+      press(0.03, 200);
+      if (switches && !at_once) {
+        CHECK(device->last().what == ph::event::forces_off);
+        CHECK(real->force.norm() == 0.0);
+      }
+      CHECK(device->enableForces(true) == switches);
+      press(0.055, 200);
+      CHECK(device->last().what != ph::event::forces_off);
+    }
+    return real->least_energy();
+  };
+  for (const bool at_once : {false, true}) {
+    CAPTURE(at_once);
+    CHECK(run(strict_port(), true, at_once) >= -1e-12);
+    CHECK(run(reachable_port(), true, at_once) >= -1e-12);
+    CHECK(run(reachable_port(), false, at_once) >= -1e-12);  // one that cannot switch them
   }
 }
 

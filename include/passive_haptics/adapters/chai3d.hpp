@@ -27,6 +27,7 @@
 
 #include <devices/CGenericHapticDevice.h>
 #include <forces/CAlgorithmFingerProxy.h>
+#include <atomic>
 #include <memory>
 #include <utility>
 
@@ -159,7 +160,13 @@ class passive_device final : public chai3d_types::decorated {
     device_->setEnableGripperUserSwitch(on);
   }
   bool getEnableGripperUserSwitch() const override { return device_->getEnableGripperUserSwitch(); }
-  bool enableForces(bool on) override { return device_->enableForces(on); }
+  /// The same, and the port hears of it before its next tick: while the device drops the forces nothing is credited. Any
+  /// thread may call it.
+  bool enableForces(bool on) override {
+    const bool done = device_->enableForces(on);
+    if (done) on ? void(motors_ |= came_on) : void(motors_ = went_off);
+    return done;
+  }
 
  private:
   using effort = typename port_type::effort;
@@ -184,6 +191,11 @@ class passive_device final : public chai3d_types::decorated {
   }
 
   result_type tick(const vector3& force, const vector3& torque) {
+    if (motors_ != 0) [[unlikely]] {
+      const int news = motors_.exchange(0);
+      if ((news & went_off) != 0) port_.enable_forces(false);
+      if ((news & came_on) != 0) port_.enable_forces(true);
+    }
     const seconds<scalar> dt = seconds{watch_.lap(1e-3)};
     vector3 x;
     ::chai3d::cMatrix3d r;
@@ -221,6 +233,8 @@ class passive_device final : public chai3d_types::decorated {
   result_type last_ = nothing_yet<result_type, port_type>();
   parameter_fault unit_fault_{};  ///< fault of its position, found by open()
   bool refused_ = false;
+  static constexpr int went_off = 1, came_on = 2;
+  std::atomic<int> motors_{0};  ///< what enableForces() has said since the last tick
 };
 
 template <class Port>
