@@ -170,7 +170,8 @@ TEST_CASE("a hand that sinks in while CHAI3D has the forces off is credited with
       real->hand().target = vec(0.0, 0.0, z);
       for (int k = 0; k < ticks; ++k) {
         const vec x = real->place();
-        device->setForce(ad::chai3d_types::vector(vec(0.0, 0.0, 1500.0 * std::max(0.05 - x(2), 0.0))));
+        device->setForce(
+            ad::chai3d_types::vector(vec(0.0, 0.0, 1500.0 * std::max(0.05 - x(2), 0.0))));
         largest = std::max(largest, real->force.norm());
       }
     };

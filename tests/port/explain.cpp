@@ -583,8 +583,9 @@ TEST_CASE("a wall that is softened because the ledger runs low is not put down t
   CHECK(said.stiffness == softened_by::ledger);
 }
 
-TEST_CASE("contacts in which the device was found deep say that their force follows at a limited rate",
-          "[explain]") {
+TEST_CASE(
+    "contacts in which the device was found deep say that their force follows at a limited rate",
+    "[explain]") {
   // With the forces off it has sunk 0.1 m; a dead load then rides up on a force that is never K d.
   auto port = ph::make_contacts<d1>(grip, hand, ph::slots<ph::half_space<d1>, 2>{});
   REQUIRE(port.source().update(0, wall(4000.0)));

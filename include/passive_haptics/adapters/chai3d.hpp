@@ -25,9 +25,9 @@
 #include <passive_haptics/contact/given_force.hpp>
 #include <passive_haptics/port/passive_port.hpp>
 
+#include <atomic>
 #include <devices/CGenericHapticDevice.h>
 #include <forces/CAlgorithmFingerProxy.h>
-#include <atomic>
 #include <memory>
 #include <utility>
 
@@ -164,8 +164,13 @@ class passive_device final : public chai3d_types::decorated {
   /// thread may call it.
   bool enableForces(bool on) override {
     const bool done = device_->enableForces(on);
-    if (done) on ? void(motors_ |= came_on) : void(motors_ = went_off);
-    return done;
+    if (!done) return false;
+    if (on) {
+      motors_ |= came_on;
+    } else {
+      motors_ = went_off;
+    }
+    return true;
   }
 
  private:
