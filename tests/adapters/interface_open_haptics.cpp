@@ -16,6 +16,8 @@ static_assert(same<void (*)(HHD), decltype(&hdBeginFrame)>);
 static_assert(same<void (*)(HHD), decltype(&hdEndFrame)>);
 static_assert(same<HDErrorInfo (*)(), decltype(&hdGetError)>);
 static_assert(same<void (*)(HDenum), decltype(&hdEnable)>);
+static_assert(same<HDboolean (*)(HDenum), decltype(&hdIsEnabled)> &&
+              same<unsigned char, HDboolean>);
 static_assert(same<void (*)(HDenum, HDint*), decltype(&hdGetIntegerv)>);
 static_assert(same<void (*)(HDenum, HDdouble*), decltype(&hdGetDoublev)>);
 static_assert(same<HDstring (*)(HDenum), decltype(&hdGetString)>);

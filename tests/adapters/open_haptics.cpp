@@ -57,7 +57,7 @@ struct driver {
   HDerror fails_at_frame_end = HD_SUCCESS;
   std::vector<HDenum> enabled;
   HDint rate = 1000;
-  bool scheduler_full = false;
+  bool scheduler_full = false, output = true;
   int used_out_of_frame = 0;
 
   /// Time passes: each callback once, then each device for a tick.
@@ -68,7 +68,7 @@ struct driver {
                                                                   : std::next(it);
       }
       for (auto& [handle, d] : devices) {
-        if (d.open) static_cast<void>(d.device.exchange(d.command));
+        if (d.open) static_cast<void>(d.device.exchange(output ? d.command : vec(vec::Zero())));
       }
     }
   }
@@ -125,6 +125,9 @@ HDErrorInfo hdGetError() {
 }
 void hdEnable(HDenum what) {
   hd->enabled.push_back(what);
+}
+HDboolean hdIsEnabled(HDenum what) {
+  return what == HD_FORCE_OUTPUT && hd->output ? 1 : 0;
 }
 HDstring hdGetString(HDenum) {
   return "a simulated Touch";
@@ -248,6 +251,30 @@ TEST_CASE("a renderer's own force loses joules, and through the port in the serv
     if (guarded) CHECK(least >= -1e-12);
     if (!guarded) CHECK(least < -1e-3);
   }
+}
+
+TEST_CASE("a hand that sinks in while HD_FORCE_OUTPUT is off is credited with nothing",
+          "[adapters][open_haptics]") {
+  with_driver driver;
+  ad::open_haptics touch{guard_port(), stiff_floor};
+  REQUIRE_FALSE(touch.open());
+  REQUIRE_FALSE(touch.start());
+  auto& d = hd->devices[1];
+  const auto press = [&d](double y, int ticks) {
+    d.device.hand().target = vec(0.0, y, 0.0);
+    hd->run(ticks);
+  };
+  press(-0.005, 500);
+  for (int n = 0; n < 10; ++n) {
+    hd->output = false;
+    press(-0.03, 200);
+    CHECK(touch.last().what == ph::event::forces_off);
+    CHECK(d.command.norm() == 0.0);
+    hd->output = true;
+    press(0.01, 200);
+    CHECK(touch.last().what == ph::event::nominal);
+  }
+  CHECK(d.device.meter().minimum() >= -1e-12);
 }
 
 TEST_CASE("a program that stops while the driver's loop goes on pushes no longer",

@@ -135,7 +135,10 @@ requires hand_port<typename Port::port_type> &&(Port::port_type::dof == 3) class
     read(place, columns);
     HDint rate = 0;
     hdGetIntegerv(HD_INSTANTANEOUS_UPDATE_RATE, &rate);
+    const bool output = hdIsEnabled(HD_FORCE_OUTPUT) != 0;
     const HDErrorInfo failed = hdGetError();
+    // A program may switch the forces off, and nothing that moves then is credited.
+    if (output != std::exchange(output_, output)) port_.enable_forces(output);
     const auto dt = static_cast<scalar>(rate > 0 ? 1.0 / rate : 1e-3);
     const auto pose = pose_of<port_type>(place, columns);
     if (HD_DEVICE_ERROR(failed) || !pose) {
@@ -192,6 +195,7 @@ requires hand_port<typename Port::port_type> &&(Port::port_type::dof == 3) class
   HHD device_ = HD_INVALID_HANDLE;
   HDSchedulerHandle callback_{};
   bool scheduled_ = false;
+  bool output_ = true;  ///< HD_FORCE_OUTPUT in the last tick
   result_type last_ = nothing_yet<result_type, port_type>();
   std::atomic<HDerror> stopped_by_{HD_SUCCESS};
   std::atomic<unsigned long> errors_{0};

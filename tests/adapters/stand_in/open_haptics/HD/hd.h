@@ -58,6 +58,7 @@ void HDAPIENTRY hdBeginFrame(HHD device);
 void HDAPIENTRY hdEndFrame(HHD device);
 HDErrorInfo HDAPIENTRY hdGetError();
 void HDAPIENTRY hdEnable(HDenum what);
+HDboolean HDAPIENTRY hdIsEnabled(HDenum what);
 void HDAPIENTRY hdGetIntegerv(HDenum what, HDint* values);
 void HDAPIENTRY hdGetDoublev(HDenum what, HDdouble* values);
 HDstring HDAPIENTRY hdGetString(HDenum what);
