@@ -3,6 +3,8 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 
+#include <limits>
+
 using Catch::Matchers::WithinRel;
 
 TEST_CASE("what is in flight is all that was commanded and is not yet held, rounded up (§ 3)",
@@ -29,6 +31,26 @@ TEST_CASE("a port tells what its last tick has brought", "[port]") {
   CHECK_THAT(pressed.port().gain(), WithinRel(0.03 * 1e-6 / 2e-3 + 1e-3, 1e-12));
   const situation<d1> left{.dt = 2e-3, .held = -1.0, .travel = -1e-3};
   CHECK_THAT(left.port().gain(), WithinRel(0.03 * 1e-6 / 2e-3 - 1e-3, 1e-12));
+}
+
+TEST_CASE("a hand that rests is no leave for a surface to use up the end of the ledger at once",
+          "[port]") {
+  const auto way = [](double energy, double spent, double travel = 0.0) {
+    const situation<d1> pressed{.energy = energy, .dt = 1e-3, .held = -5.0, .travel = travel};
+    return pressed.port().paid_way(5.0, 1e-4, 0.05, spent);
+  };
+  constexpr double any = std::numeric_limits<double>::max();
+  CHECK(way(1.0, 0.0) == any);
+  CHECK(way(1.01e-3, 0.0) == any);  // 0.1 mm more than what is kept
+  CHECK(way(1.01e-3, 1e-4) < any);  // the hand takes as much
+  for (const double left : {0.99e-3, 0.6e-3, 0.501e-3, 0.5e-3 + 1e-15}) {
+    CHECK_THAT(way(left, 0.0), WithinRel((left / 5.0 - 1e-4) / 50.0, 1e-6));
+  }
+  CHECK(way(0.5e-3, 0.0) == 0.0);
+  CHECK(way(0.1e-3, -1e-6) == 0.0);  // even if it pays
+  CHECK(way(-1e-3, 0.0) == 0.0);
+  CHECK(way(1.11e-3, 0.0, 1e-5) == any);
+  CHECK(way(1.01e-3, 0.0, 1e-5) < any);  // two ticks of the device's way are kept, too
 }
 
 TEST_CASE("of friction that is elastic 2 c p is put aside for each tick a loop is late (§ 6)",
