@@ -680,9 +680,13 @@ struct plainly {
     const double braking =
         felt(braked, speed == 0.0 ? 0.0 : -rise / speed, std::abs(speed), dt, share);
     const double falls = aside == 0.0 ? 0.0 : -w_across.dot(v_across) / (aside * aside);
-    const double sliding = std::max(felt(slid, 4.0 * falls, aside, dt, share), 0.02 / aside);
+    const double slides = p.slide_fraction * unit;
+    const double trough =
+        std::min({10.0 * slides, damps, felt(slid, 4.0 * falls, aside, dt, share)});
     vector across = vector::Zero();
-    if (aside > 0.0) across = -std::min(p.slide_fraction * unit, sliding) * v_across;
+    if (aside > 0.0) {
+      across = -std::max(std::min(slides, 0.02 / aside), std::min(trough, 0.04 / aside)) * v_across;
+    }
     if (const double length = w_across.norm(); length > 0.0) {
       const double brakes = limited(-damps * w_across.dot(v) / length, 0.0, p.lead * length);
       across += w_across * (brakes / length);

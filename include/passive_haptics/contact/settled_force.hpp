@@ -18,7 +18,8 @@ inline namespace v0 {
 ///     f = w − n clip(D n·v, −2 n·w, n·w) + clip(σ (I − nnᵀ)(w − w_last)) − clip(D_s (I − nnᵀ) v)
 ///     D = min(B, t K)    B = β m/T, t = max(50 T, 50 ms, 4m/B), along n [N·s/m]; at most 2|w| inwards, |w| outwards
 ///     σ                  lead of the part of w across n [ticks]; at most B times the speed that it brakes
-///     D_s = min(B_s, max(4 t K_s, 0.02 N/|v|))   B_s = β_s m/T, across n [N·s/m]: it stops a swing along a trough
+///     D_s = max(min(B_s, 0.02 N/|v⊥|), min(10 B_s, 4 t K_s, 0.04 N/|v⊥|))   B_s = β_s m/T, across n [N·s/m]: dry
+///                        friction, more in a trough, where it stops a swing
 ///     K, K_s             slopes −Δw·Δx/|Δx|² of w along n and across it, felt in the last 0.1 s of motion [N/m]
 ///     n ← n + (w/|w| − n) dt/(τ + dt), of length 1, so that it turns smoothly at facets and detents
 /// The sum of both parts across n is at most |w|. At rest f = w; for w = 0 f = 0. A force that is the same everywhere
@@ -269,12 +270,13 @@ class settled_force::on : private part_at<given_force, P> {
       const scalar B = damper(braked_, -rise * speed, speed * speed, dt, full);
       const scalar brake = kernels::clamped(B * speed, scalar(-2) * along, along);
       const effort sideways = less(v, n, speed), aside = less(change, n, rise);
-      const scalar square = P::dot(sideways, sideways), little = scalar(0.02);
-      const scalar felt = damper(slid_, scalar(-4) * P::dot(aside, sideways), square, dt, full);
-      scalar slide = slide_ * per_tick_ * secant;
-      if (felt < slide && slide * slide * square > little * little) {
-        slide = kernels::larger(felt, little / kernels::square_root(square));
-      }
+      const scalar square = P::dot(sideways, sideways), unit = slide_ * per_tick_ * secant;
+      const scalar felt = kernels::smaller(
+          damper(slid_, scalar(-4) * P::dot(aside, sideways), square, dt, full), scalar(10) * unit);
+      const scalar per_newton = square > scalar(0) ? scalar(1) / kernels::square_root(square)
+                                                   : kernels::largest<scalar>();
+      const scalar slide = kernels::larger(kernels::smaller(unit, scalar(0.02) * per_newton),
+                                           kernels::smaller(felt, scalar(0.04) * per_newton));
       const effort ahead = P::scaled(aside, lead_);
       const effort across = less(P::scaled(ahead, braking(ahead, sideways, full)), sideways, slide);
       return less(less(w, n, brake), across, -within(across, size));
