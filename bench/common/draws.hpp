@@ -33,4 +33,18 @@ class draws {
   passive_haptics::laws::samples random_;
 };
 
+/// What a scene states, with seed 1; with another seed a number of that range in its place.
+class redrawn {
+ public:
+  redrawn(int seed, std::uint64_t part) noexcept
+      : stated_(seed == 1), from_((static_cast<std::uint64_t>(seed) << 32U) + part) {}
+  [[nodiscard]] double operator()(double stated, double low, double high) noexcept {
+    return stated_ ? stated : from_.scale(low, high);
+  }
+
+ private:
+  bool stated_;
+  draws from_;
+};
+
 }  // namespace experiments

@@ -61,6 +61,11 @@ inline option a_number(const std::string& name, const std::string& help, int& wh
           }};
 }
 
+/// What is drawn at random comes from this seed; `of` says what that is.
+inline option a_seed(const std::string& of, int& where) {
+  return a_number("--seed", of + " (default: 1)", where);
+}
+
 /// Gives every value to its option, then calls `last`, which may refuse their combination. Throws
 /// std::invalid_argument with the value, the remedy and the usage.
 inline void read_options(

@@ -18,11 +18,10 @@ const std::vector<ex::section<session>>& sections() {
 
 settings parse(const std::vector<std::string>& arguments) {
   settings chosen{{"contacts"}};
-  ex::read_options(
-      "contacts",
-      ex::section_options(sections(), chosen, "fewer cases and seconds",
-                          {ex::a_number("--seed", "of the scenes (default: 1)", chosen.seed)}),
-      arguments);
+  ex::read_options("contacts",
+                   ex::section_options(sections(), chosen, "fewer cases and seconds",
+                                       {ex::a_seed("of the scenes", chosen.seed)}),
+                   arguments);
   return chosen;
 }
 

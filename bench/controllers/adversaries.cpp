@@ -17,7 +17,7 @@ bool unsteady(sim::adversary by) noexcept {
 }
 
 template <class Space>
-attack_row judge_in(const controller& c, const attack& a, int runs) {
+attack_row judge_in(const controller& c, const attack& a, const effort& how) {
   sim::circumstances world = a.world;
   if (c.credits_friction) world.friction = 0.3;
   world.latency = std::max(world.latency, c.latency);
@@ -27,14 +27,14 @@ attack_row judge_in(const controller& c, const attack& a, int runs) {
                        .hand_force = world.hand_force + world.friction,
                        .quantum = world.quantum,
                        .longest_tick = world.longest_tick};
-  const auto v = sim::challenge(c.in<Space>()(known), a.by, world, runs);
-  return {c.name,       c.tag,          a.name,          Space::dof,  runs,
+  const auto v = sim::challenge(c.in<Space>()(known), a.by, world, how.runs, how.first);
+  return {c.name,       c.tag,          a.name,          Space::dof,  how.runs,
           covers(c, a), v.least_energy, v.largest_force, v.worst_seed};
 }
 
 }  // namespace
 
-std::vector<attack> attacks() {
+std::vector<attack> attacks(int seed) {
   std::vector<attack> list;
   for (const auto by : sim::all_adversaries) {
     if (by != sim::adversary::rocking) list.push_back({to_string(by), by, {}});
@@ -55,6 +55,14 @@ std::vector<attack> attacks() {
   list.push_back({"greedy, K ≤ 60 N/m", sim::adversary::greedy, soft});
   list.push_back({"jumping surface, K ≤ 60 N/m", sim::adversary::jumping_surface, soft});
   list.push_back({"kitchen sink, K ≤ 60 N/m", sim::adversary::kitchen_sink, soft});
+  for (auto& a : list) {
+    ex::redrawn number(seed, static_cast<std::uint64_t>(&a - list.data()));
+    if (a.world.mass != light.mass) {  // whose name says what it is
+      a.world.mass = number(a.world.mass, 0.05, 0.5);
+      a.world.hand_force = number(a.world.hand_force, 2.0, 15.0);
+    }
+    a.world.damping = number(a.world.damping, 0.03, 0.1);  // what is proved up to 2b/T stays so
+  }
   return list;
 }
 
@@ -64,10 +72,10 @@ bool covers(const controller& c, const attack& a) noexcept {
   return a.world.latency <= c.latency && c.covers_stiffness(a.world.stiffest);
 }
 
-attack_row judge_under_attack(const controller& c, const attack& a, int dof, int runs) {
-  return dof == 1   ? judge_in<d1>(c, a, runs)
-         : dof == 2 ? judge_in<d2>(c, a, runs)
-                    : judge_in<d3>(c, a, runs);
+attack_row judge_under_attack(const controller& c, const attack& a, int dof, const effort& how) {
+  return dof == 1   ? judge_in<d1>(c, a, how)
+         : dof == 2 ? judge_in<d2>(c, a, how)
+                    : judge_in<d3>(c, a, how);
 }
 
 std::vector<std::string> contradictions(const std::vector<attack_row>& rows) {
@@ -134,7 +142,7 @@ std::vector<std::string> run_adversaries(const session& s) {
     attack a;
     int dof;
   };
-  const auto list = attacks();
+  const auto list = attacks(s.chosen.seed);
   std::vector<job> jobs;
   for (const auto& [c, a] : with_each(s.judged, list)) {
     jobs.push_back({c, a, 1});
@@ -142,7 +150,7 @@ std::vector<std::string> run_adversaries(const session& s) {
     if (c->in<d3>()) jobs.push_back({c, a, 3});
   }
   const auto rows = s.rows("adversaries.csv", "adversaries", jobs, [&s](const job& j) {
-    return judge_under_attack(*j.c, j.a, j.dof, s.chosen.runs);
+    return judge_under_attack(*j.c, j.a, j.dof, {s.chosen.runs, s.chosen.first()});
   });
   s.out.section("Adversaries",
                 "Least true port energy [J] of " + std::to_string(s.chosen.runs) +

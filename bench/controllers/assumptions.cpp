@@ -65,7 +65,7 @@ struct situation : sim::circumstances {
 /// A named composition, told of a device, and the hands that its promise covers.
 struct subject {
   std::string name;
-  std::function<drawn(const situation&, int)> attack;
+  std::function<drawn(const situation&, const effort&)> attack;
   std::vector<sim::adversary> covered;
 };
 
@@ -94,8 +94,8 @@ template <class Loop, class Lay>
 subject attacked(const char* name, const Loop& loop, const Lay& lay,
                  const std::vector<sim::adversary>& covered) {
   return {name,
-          [loop, lay](const situation& world, int runs) {
-            return most_drawn(loop, lay, world, world.hands, runs);
+          [loop, lay](const situation& world, const effort& how) {
+            return most_drawn(loop, lay, world, world.hands, how);
           },
           covered};
 }
@@ -283,16 +283,16 @@ std::vector<trial> trials() {
   return all;
 }
 
-assumption_row judged(const trial& t, int runs) {
+assumption_row judged(const trial& t, const effort& how) {
   assumption_row row;
   row.composition = t.composition;
   row.assumption = t.assumption;
   row.stated = t.stated;
-  row.runs = runs;
+  row.runs = how.runs;
   row.unpaid = t.unpaid;
-  row.kept = t.kept(runs).joules;
+  row.kept = t.kept(how).joules;
   for (const auto& untruth : t.untrue) {
-    const drawn most = untruth.by(runs);
+    const drawn most = untruth.by(how);
     row.in_truth = untruth.true_value;
     row.violated = most.joules;
     row.by = most.by;
@@ -335,9 +335,9 @@ std::vector<std::string> unfounded(const std::vector<assumption_row>& rows) {
 }
 
 std::vector<std::string> run_assumptions(const session& s) {
-  const int runs = std::max(30, s.chosen.runs / 10);
+  const effort how{std::max(30, s.chosen.runs / 10), s.chosen.first()};
   const auto rows = s.rows("assumptions.csv", "assumptions", trials(),
-                           [runs](const trial& t) { return judged(t, runs); });
+                           [&how](const trial& t) { return judged(t, how); });
   s.out.section("Assumptions",
                 "The most that any hand has drawn out of a named composition on a device that is "
                 "just as stated and has nothing to spare, and on one of which one statement is "

@@ -46,25 +46,26 @@ template <class Loop, class Lay>
   return sim::run(device, loop, in + out, press, move).least_energy;
 }
 
-/// All of them: a challenge of `runs` runs each, and a search of five times as many.
+/// All of them: a challenge of so many runs each, and a search of five times as many.
 template <class Loop, class Lay>
 [[nodiscard]] drawn most_drawn(const Loop& loop, const Lay& lay, const sim::circumstances& world,
-                               const std::vector<sim::adversary>& hands, int runs) {
+                               const std::vector<sim::adversary>& hands, const effort& how) {
   drawn most;
   bool any_motion = false;
   for (const auto by : hands) {
-    most.count(sim::challenge(loop, by, world, runs, 1, lay).least_energy, to_string(by));
+    most.count(sim::challenge(loop, by, world, how.runs, how.first, lay).least_energy,
+               to_string(by));
     any_motion = any_motion || !sim::is_force_limited(by);
   }
   if (any_motion) {
-    most.count(sim::worst_motion(loop, world, 5 * runs, 1, lay).energy, "worst motion");
+    most.count(sim::worst_motion(loop, world, 5 * how.runs, how.first, lay).energy, "worst motion");
     if constexpr (sim::space_of<Loop>::dof == 1) {
       for (const double pushed : {0.3, 1.0, 3.0}) {
         most.count(load_and_unload(loop, lay, world, 12.0, pushed), "load and unload");
       }
     }
   } else {
-    most.count(sim::worst_push(loop, world, 5 * runs, 1, lay).energy, "worst push");
+    most.count(sim::worst_push(loop, world, 5 * how.runs, how.first, lay).energy, "worst push");
   }
   return most;
 }
@@ -110,7 +111,7 @@ template <class World, class Base, class Number>
 
 /// A row of the table: what hands draw while all is true, and while one statement is not.
 struct trial {
-  using attack = std::function<drawn(int runs)>;
+  using attack = std::function<drawn(const effort& how)>;
   struct untruth {
     std::string true_value;
     attack by;
@@ -124,7 +125,7 @@ template <class World, class Attack>
 [[nodiscard]] trial trial_of(const std::string& composition, const World& stated,
                              const statement<World>& s, const Attack& attack) {
   const auto in = [attack](const World& world) {
-    return [=](int runs) { return attack(world, runs); };
+    return [=](const effort& how) { return attack(world, how); };
   };
   trial t{composition, s.what, s.show(stated), in(stated), {}};
   for (const auto& world : s.untrue) t.untrue.push_back({s.show(world), in(world)});

@@ -74,11 +74,11 @@ void add_meshes(std::vector<trial>& all) {
                          .force_limit = device.force_limit,
                          .watchdog = false}};
   const touched_plate loop{ph::make_mesh_touch<d3>(device, hand, {.stiffness = 5000.0})};
-  const auto attack = [loop](const mesh_world& world, int runs) {
+  const auto attack = [loop](const mesh_world& world, const effort& how) {
     const std::vector<sim::adversary> limited{
         sim::adversary::tapping, sim::adversary::random_tapping, sim::adversary::trembling};
     return most_drawn(loop, lay_plate, world,
-                      world.any_motion ? std::vector{sim::adversary::greedy} : limited, runs);
+                      world.any_motion ? std::vector{sim::adversary::greedy} : limited, how);
   };
   using world = sim::circumstances;
   const auto add = [&](const statement<mesh_world>& s) {
@@ -190,13 +190,13 @@ void add_tools(std::vector<trial>& all) {
                      .force_limit = told.force_limit,
                      .torque_limit = told.torque_limit},
                     {.force = told.force, .torque = told.torque}, ph::slots<plane, 1>{});
-  const auto attack = [port](const tool_world& world, int runs) {
+  const auto attack = [port](const tool_world& world, const effort& how) {
     constexpr const char* names[] = {"random wrench", "tapping wrench", "swinging wrench",
                                      "greedy wrench"};
     drawn most;
-    for (int i = 0; i < 4 * runs * (world.spread > 1e-3 ? 20 : 1); ++i) {
+    for (int i = 0; i < 4 * how.runs * (world.spread > 1e-3 ? 20 : 1); ++i) {
       if (world.spread > 1e-3 && most.joules > 1e-9) break;  // one in some hundred draws anything
-      const auto seed = static_cast<std::uint64_t>(i);
+      const auto seed = how.first - 1 + static_cast<std::uint64_t>(i);
       most.count(one_tool(port, world, seed), names[seed % 4]);
     }
     return most;
@@ -259,12 +259,13 @@ struct chain_world {
 
 /// A wall that jumps and changes its stiffness, and a hand as in bench/devices.
 template <class Loop>
-drawn most_of_chain(const Loop& original, const chain_world& world, int runs) {
+drawn most_of_chain(const Loop& original, const chain_world& world, const effort& how) {
   constexpr const char* names[] = {"square wave", "sine",     "telegraph",
                                    "pumping",     "kneading", "turning"};
   drawn most;
-  for (int run = 0; run < 3 * runs; ++run) {
-    std::mt19937 from(static_cast<unsigned>(run) * 2654435761u + 17u);
+  for (int i = 0; i < 3 * how.runs; ++i) {
+    const unsigned run = static_cast<unsigned>(how.first) - 1U + static_cast<unsigned>(i);
+    std::mt19937 from(run * 2654435761u + 17u);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     auto by = devices::draw_hand<d1>(from, world.hand);
     auto p = world.device();
@@ -315,8 +316,9 @@ void add_transmissions(std::vector<trial>& all) {
     const without_report<std::remove_cvref_t<decltype(touch)>> loop{touch};
     if (touch.check()) ex::complain(std::string(name) + " is refused: " + touch.check().parameter);
     list([&](const statement<world>& s, bool unpaid = false) {
-      all.push_back(trial_of(
-          name, so, s, [loop](const world& w, int runs) { return most_of_chain(loop, w, runs); }));
+      all.push_back(trial_of(name, so, s, [loop](const world& w, const effort& how) {
+        return most_of_chain(loop, w, how);
+      }));
       all.back().unpaid = unpaid;
     });
   };

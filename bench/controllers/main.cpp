@@ -3,6 +3,7 @@
 //
 //     controllers --out DIR                    everything: a few minutes on two cores
 //     controllers --quick --only adversaries   a first look
+//     controllers --seed 2 --out DIR           the same, drawn anew
 //     controllers --shard 2/8 --out DIR        a part of the Z-width sweep, for a job array
 //     controllers --merge DIR/z_width_*.csv --out DIR
 

@@ -25,6 +25,7 @@ settings parse(const std::vector<std::string>& arguments) {
           sections(), chosen, "small: fewer seeds, runs and grid points",
           {ex::a_number("--seeds", "random schedules per scene (default: 10, quick 3)",
                         chosen.seeds),
+           ex::a_seed("of schedules, loads, hands and masses", chosen.seed),
            ex::a_number("--runs", "per adversary and dimension (default: 1000, quick 30)",
                         chosen.runs),
            {"--shard I/N", "only the I-th of N parts of the Z-width sweep",

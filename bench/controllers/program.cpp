@@ -13,11 +13,20 @@ std::string promise_of(const controller& c) {
 
 /// The sections that were asked for; returns what contradicts the tags.
 std::vector<std::string> judge(const session& s) {
-  s.out.section("Controllers",
-                "The tag is the type's own promise: strict for every motion and environment, "
-                "conditional under the assumptions named in the header, none. What each header "
-                "assumes beside that: a lower bound of the damping, exact positions, the force "
-                "held known, no tick longer than the longest.");
+  s.out.section(
+      "Controllers",
+      std::string("The tag is the type's own promise: strict for every motion and environment, "
+                  "conditional under the assumptions named in the header, none. What each header "
+                  "assumes beside that: a lower bound of the damping, exact positions, the force "
+                  "held known, no tick longer than the longest.") +
+          (s.chosen.seed == 1
+               ? ""
+               : " Drawn with --seed " + std::to_string(s.chosen.seed) +
+                     ": schedules and hands of all sections; masses, damping and forces "
+                     "of the hands of the adversaries; device and hand at the walls of "
+                     "0.5 to 16 kN/m; mass, load and wall of each case that falls. "
+                     "The device of § 5 stays, since figures of others stand beside "
+                     "it."));
   s.out.show(ex::table_of(s.judged, [](const controller& c) {
     return ex::record{{"controller", c.name},
                       {"tag", promise_of(c)},

@@ -21,6 +21,17 @@ struct settings : ex::section_settings {
   shard part{};
   int seeds = 0;  ///< schedules per scene; 0: 10, quick 3
   int runs = 0;   ///< per adversary and dimension; 0: 1000, quick 30
+  int seed = 1;   ///< of what is drawn; 1: the masses, hands and walls that are stated
+  /// The first of the seeds of runs that are counted on from it.
+  [[nodiscard]] std::uint64_t first() const noexcept {
+    return 1 + 1'000'003 * static_cast<std::uint64_t>(seed - 1);
+  }
+};
+
+/// How often it is tried, with seeds from the first on.
+struct effort {
+  int runs = 0;
+  std::uint64_t first = 1;
 };
 
 struct session : ex::workshop {

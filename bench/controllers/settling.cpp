@@ -35,19 +35,20 @@ std::vector<ex::wall_scene> devices() {
   }
   return all;
 }
-std::vector<ex::wall_scene> cases_of(ex::wall_scene scene, bool quick) {
+std::vector<ex::wall_scene> cases_of(ex::wall_scene scene, const settings& chosen) {
   std::vector<ex::wall_scene> all;
   for (const bool yields : {false, true}) {
     for (const double mass : {0.05, 0.1, 0.15, 0.5}) {
       for (const double stiffness : {1e2, 1e3, 1e4, 1e5, 1e6, 1e9}) {
-        scene.mass = mass;
-        scene.stiffness = stiffness;
+        ex::redrawn number(chosen.seed, all.size());
+        scene.mass = number(mass, 0.05, 0.5);
+        scene.stiffness = number(stiffness, 1e2, 1e9);
         scene.yields = scene.lags = yields;
         all.push_back(scene);
       }
     }
   }
-  if (quick) all = {all[1], all[all.size() / 2], all[all.size() / 2 + 1]};
+  if (chosen.quick) all = {all[1], all[all.size() / 2], all[all.size() / 2 + 1]};
   return all;
 }
 
@@ -117,7 +118,7 @@ struct late_press {
 
 /// One more press after the fall, 2 mm deep and twenty times the dry friction at least: the slope
 /// of the force held over the true depth, both means of a second, against min(K, κ m/T²).
-double stiffness_error(const settling_way& way, const ex::wall_scene& scene) {
+double stiffness_error(const settling_way& way, const ex::wall_scene& scene, std::uint64_t seed) {
   double K = ph::kernels::sampled_stiffness(scene.stiffness, 0.1, scene.mass, 1e-3);
   if (const auto grip = on_encoders(way, scene)) {
     K = std::min(K, ph::design::stiffness_budget(*grip).stiffness);
@@ -126,7 +127,7 @@ double stiffness_error(const settling_way& way, const ex::wall_scene& scene) {
   model<d1> wall = composed(way, scene, 9.81 * scene.mass + scene.friction + more);
   sim::device<d1, late_press> device(ex::device_of(scene), {more});
   std::array<double, 2> force{}, depth{};  // before, after
-  ex::run_on_wall(wall, device, scene, 7, 14000, [&](const auto& now, double surface) {
+  ex::run_on_wall(wall, device, scene, seed, 14000, [&](const auto& now, double surface) {
     const bool before = now.tick >= 9000 && now.tick < 10000;
     if (!before && now.tick < 13000) return;
     force[before ? 0 : 1] -= now.sample.held / 1000.0;
@@ -135,12 +136,12 @@ double stiffness_error(const settling_way& way, const ex::wall_scene& scene) {
   return (force[1] - force[0]) / (depth[1] - depth[0]) / K - 1.0;
 }
 
-settling_row judge_settling(const settling_row& job) {
+settling_row judge_settling(const settling_row& job, std::uint64_t seed) {
   settling_row row = job;
   const double hand_force = 9.81 * row.where.mass + row.where.friction + 1.0;
-  row.fell = ex::drop(composed(row.way, row.where, hand_force), row.where, 7);
+  row.fell = ex::drop(composed(row.way, row.where, hand_force), row.where, seed);
   if (row.way.counts_surely && !std::isfinite(row.where.force_limit)) {
-    row.stiffness_error = stiffness_error(row.way, row.where);
+    row.stiffness_error = stiffness_error(row.way, row.where, seed);
   }
   return row;
 }
@@ -234,10 +235,12 @@ std::vector<std::string> run_settling(const session& s) {
   for (const auto& way : ways) {
     for (const auto& device : devices()) {
       sums.push_back({way, device});
-      for (const auto& where : cases_of(device, s.chosen.quick)) jobs.push_back({way, where});
+      for (const auto& where : cases_of(device, s.chosen)) jobs.push_back({way, where});
     }
   }
-  const auto rows = s.rows("settling.csv", "settling", jobs, judge_settling);
+  const auto rows = s.rows("settling.csv", "settling", jobs, [&s](const settling_row& job) {
+    return judge_settling(job, 6 + s.chosen.first());
+  });
   const std::size_t each = rows.size() / sums.size();
   for (std::size_t i = 0; i < rows.size(); ++i) sums[i / each].add(rows[i]);
 

@@ -3,13 +3,20 @@
 
 namespace controllers {
 
-stiffness_row judge_on_stiffness(const controller& c, double stiffness) {
+stiffness_row judge_on_stiffness(const controller& c, double stiffness, int seed) {
   constexpr double most_hand = 5.0;
-  const sim::impedance_hand<d1> hand{
-      .stiffness = 30.0, .damping = 0.5, .limit = most_hand, .target = 0.015};
-  sim::device<d1, sim::impedance_hand<d1>> device({.damping = 0.1, .start = -0.020, .substeps = 50},
-                                                  hand);
-  auto wall = c.in<d1>()({.damping = 0.1, .hand_force = most_hand, .load = 30.0 * 0.015});
+  ex::redrawn number(seed, static_cast<std::uint64_t>(stiffness));
+  const double mass = number(0.1, 0.05, 0.5), damping = number(0.1, 0.03, 0.3);
+  sim::impedance_hand<d1> hand{.limit = most_hand};
+  hand.stiffness = number(30.0, 10.0, 100.0);
+  hand.damping = number(0.5, 0.2, 2.0);
+  hand.target = number(0.015, 0.005, 0.025);
+  sim::device<d1, sim::impedance_hand<d1>> device(
+      {.mass = mass, .damping = damping, .start = -0.020, .substeps = 50}, hand);
+  auto wall = c.in<d1>()({.mass = mass,
+                          .damping = damping,
+                          .hand_force = most_hand,
+                          .load = hand.stiffness * hand.target});
   wall.update({0.0, -1.0, stiffness});
   double squares = 0.0;
   sim::quiet_judge<d1> quiet;
@@ -48,9 +55,9 @@ static ex::record record_of(const stiffness_row& r) {
 
 std::vector<std::string> run_stiffness(const session& s) {
   const std::vector<double> swept{500, 1000, 2000, 4000, 8000, 16000};
-  const auto rows =
-      s.rows("stiffness.csv", "stiffness", with_each(s.judged, swept),
-             [](const auto& job) { return judge_on_stiffness(*job.first, job.second); });
+  const auto rows = s.rows(
+      "stiffness.csv", "stiffness", with_each(s.judged, swept),
+      [&s](const auto& job) { return judge_on_stiffness(*job.first, job.second, s.chosen.seed); });
   std::vector<std::string> heading{"out of port | of wall, mJ | quiet", "tag"}, found, line;
   ex::at_rest still;
   std::vector<ex::record> rests;

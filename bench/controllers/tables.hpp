@@ -3,6 +3,7 @@
 // The tables of the program, a section each. run_...() returns a sentence for everything that
 // contradicts a tag or fails.
 
+#include "../common/draws.hpp"
 #include "../common/wall.hpp"
 #include "program.hpp"
 #include <passive_haptics/simulation/challenge.hpp>
@@ -33,7 +34,8 @@ struct wall_row {
 [[nodiscard]] premises known_of(const ex::wall_scene& scene);
 
 /// One controller in one scene; S1 and S5 are random and run once per seed.
-[[nodiscard]] wall_row judge_on_wall(const controller& c, const ex::wall_scene& scene, int seeds);
+[[nodiscard]] wall_row judge_on_wall(const controller& c, const ex::wall_scene& scene,
+                                     const effort& seeds);
 
 /// The stiffness [N/m] that a slow hand feels: pressed from the surface of a wall of 10 kN/m at
 /// 1 mm/s by a velocity source, with an empty ledger, the force over the depth when it reaches 1 N,
@@ -64,7 +66,7 @@ struct attack {
   sim::adversary by{};
   sim::circumstances world{};
 };
-[[nodiscard]] std::vector<attack> attacks();
+[[nodiscard]] std::vector<attack> attacks(int seed = 1);
 
 struct attack_row {
   std::string controller;
@@ -82,7 +84,7 @@ struct attack_row {
 
 /// One cell of the table, in one dimension; the controller is told the truth about the attack.
 [[nodiscard]] attack_row judge_under_attack(const controller& c, const attack& a, int dof,
-                                            int runs);
+                                            const effort& how);
 
 /// A sentence for each contradiction of a tag; empty if all is well. A covered cell must lose less than 1e-12 J
 /// and must have pushed; a `conditional` or `none` one must lose somewhere else.
@@ -128,7 +130,7 @@ struct stiffness_row {
   ex::at_rest still{};       ///< the same in columns
 };
 
-[[nodiscard]] stiffness_row judge_on_stiffness(const controller& c, double stiffness);
+[[nodiscard]] stiffness_row judge_on_stiffness(const controller& c, double stiffness, int seed = 1);
 
 [[nodiscard]] std::vector<std::string> run_stiffness(const session& s);
 
@@ -176,7 +178,7 @@ struct z_cell {
 /// The whole sweep in its order: controllers that render a damped wall, then B, then K.
 [[nodiscard]] std::vector<z_cell> z_cells(const std::vector<controller>& judged,
                                           const z_grid& grid);
-[[nodiscard]] z_row judge_z(const z_cell& cell);
+[[nodiscard]] z_row judge_z(const z_cell& cell, std::uint64_t seed = 1);
 
 /// The name of its plot, without .svg.
 [[nodiscard]] std::string z_plot_name(std::string controller);

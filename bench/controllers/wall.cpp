@@ -30,17 +30,18 @@ double displayed_stiffness(const controller& c) {
   return -force / depth;
 }
 
-wall_row judge_on_wall(const controller& c, const ex::wall_scene& scene, int seeds) {
+wall_row judge_on_wall(const controller& c, const ex::wall_scene& scene, const effort& seeds) {
   wall_row row{.controller = c.name,
                .tag = c.tag,
                .scene = scene.name,
-               .runs = scene.yields ? seeds : 1,
+               .runs = scene.yields ? seeds.runs : 1,
                .covered = c.covers_prompt(scene.stiffness),
                .displayed = displayed_stiffness(c)};
   row.least.peak_to_peak = row.least.force_error = std::numeric_limits<double>::infinity();
   row.mean.settle = std::nan("");
-  for (int seed = 1; seed <= row.runs; ++seed) {
-    const auto r = ex::drop(c.in<d1>()(known_of(scene)), scene, static_cast<std::uint64_t>(seed));
+  for (int i = 0; i < row.runs; ++i) {
+    const auto r =
+        ex::drop(c.in<d1>()(known_of(scene)), scene, seeds.first + static_cast<std::uint64_t>(i));
     for (const auto figure : {&ex::wall_result::peak_to_peak, &ex::wall_result::force_error}) {
       row.mean.*figure += r.*figure / row.runs;
       row.least.*figure = std::min(row.least.*figure, r.*figure);
@@ -155,9 +156,10 @@ std::string agreement(const wall_row& row, const published& p) {
 
 std::vector<std::string> run_wall(const session& s) {
   const auto scenes = wall_scenes();
-  const auto rows = s.rows(
-      "controllers.csv", "wall", with_each(s.judged, scenes),
-      [&s](const auto& job) { return judge_on_wall(*job.first, job.second, s.chosen.seeds); });
+  const auto rows =
+      s.rows("controllers.csv", "wall", with_each(s.judged, scenes), [&s](const auto& job) {
+        return judge_on_wall(*job.first, job.second, {s.chosen.seeds, s.chosen.first()});
+      });
   s.out.section(
       "Wall",
       "A device of 0.1 kg and 0.03 N·s/m falls 61 mm onto a wall of 10 kN/m. S0: ideal device, "

@@ -7,9 +7,9 @@ namespace {
 
 /// A velocity source on a wall that stays put.
 template <class Motion>
-double least_energy(model<d1> wall, Motion motion, double start) {
+double least_energy(model<d1> wall, Motion motion, double start, std::uint64_t seed) {
   sim::prescribed_motion<d1> device({.start = start});
-  sim::random_source random(1);
+  sim::random_source random(seed);
   const auto move = [&](const auto& now) {
     const double x = device.position();
     device.move_to(
@@ -18,17 +18,17 @@ double least_energy(model<d1> wall, Motion motion, double start) {
   return sim::run(device, wall, 400, sim::idle, move).least_energy;
 }
 
-double under_motions(const model<d1>& wall) {
+double under_motions(const model<d1>& wall, std::uint64_t seed) {
   double least = 0.0;
   for (const double amplitude : {1e-5, 1e-3}) {
     for (const double start : {0.0, 5e-3}) {  // at the surface, and always inside
-      least = std::min(least,
-                       least_energy(wall, sim::nyquist_motion<d1>{.amplitude = amplitude}, start));
+      least = std::min(
+          least, least_energy(wall, sim::nyquist_motion<d1>{.amplitude = amplitude}, start, seed));
     }
   }
   for (const double speed : {0.02, 0.5}) {
-    least = std::min(least, least_energy(wall, sim::random_walk<d1>{.speed = speed}, 0.0));
-    least = std::min(least, least_energy(wall, sim::greedy_motion<d1>{.speed = speed}, 0.0));
+    least = std::min(least, least_energy(wall, sim::random_walk<d1>{.speed = speed}, 0.0, seed));
+    least = std::min(least, least_energy(wall, sim::greedy_motion<d1>{.speed = speed}, 0.0, seed));
   }
   return least;
 }
@@ -89,14 +89,14 @@ std::vector<z_cell> z_cells(const std::vector<controller>& judged, const z_grid&
   return cells;
 }
 
-z_row judge_z(const z_cell& cell) {
+z_row judge_z(const z_cell& cell, std::uint64_t seed) {
   const premises known{.load = 1.0, .wall_damping = cell.damping};
   auto wall = cell.c->in<d1>()(known);
   wall.update({0.0, -1.0, cell.stiffness});
   return {cell.c->name,
           cell.damping,
           cell.stiffness,
-          under_motions(wall),
+          under_motions(wall, seed),
           under_hand(wall, known.hand_force),
           growth_of(wall)};
 }
@@ -111,7 +111,8 @@ std::vector<std::string> run_z_width(const session& s) {
   std::string file = "z_width";
   if (of > 1) file += ex::format("_%g", part) + ex::format("_of_%g", of);
   file += ".csv";
-  const auto rows = s.rows(file, "z-width", mine, judge_z);
+  const auto rows = s.rows(file, "z-width", mine,
+                           [&s](const z_cell& cell) { return judge_z(cell, s.chosen.first()); });
   if (of == 1) {
     show_z_width(s, rows);
   } else {

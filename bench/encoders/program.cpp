@@ -43,12 +43,10 @@ void show_budgets(const session& s) {
 
 settings parse(const std::vector<std::string>& arguments) {
   settings chosen{{"encoders"}};
-  ex::read_options(
-      "encoders",
-      ex::section_options(
-          sections(), chosen, "two devices, fewer touches and seconds",
-          {ex::a_number("--seed", "of the scenes held still (default: 1)", chosen.seed)}),
-      arguments);
+  ex::read_options("encoders",
+                   ex::section_options(sections(), chosen, "two devices, fewer touches and seconds",
+                                       {ex::a_seed("of the scenes held still", chosen.seed)}),
+                   arguments);
   return chosen;
 }
 

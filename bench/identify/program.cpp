@@ -221,7 +221,7 @@ settings parse(const std::vector<std::string>& arguments) {
        ex::a_number("--study", "devices drawn at random: how often do the bounds hold?",
                     chosen.study),
        ex::a_number("--disturbed", "devices with something wrong: is it found?", chosen.disturbed),
-       ex::a_number("--seed", "of the first of them (default: 1)", chosen.seed),
+       ex::a_seed("of the first of them", chosen.seed),
        ex::a_text("--out DIR", "where the study goes (default: identify)", chosen.out),
        ex::a_number("--threads", "(default: as many as the machine has)", chosen.threads)},
       arguments, [&] {

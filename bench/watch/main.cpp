@@ -124,7 +124,7 @@ int run(const std::vector<std::string>& arguments, const std::atomic<bool>& stop
     ex::read_options(
         "watch",
         {ex::a_text("--out DIR", "where the results go (default: watch)", chosen.out),
-         ex::a_number("--seed", "other devices (default: 1)", chosen.seed),
+         ex::a_seed("other devices", chosen.seed),
          ex::a_number("--devices", "of each untruth (default: 200)", chosen.devices),
          ex::a_number("--sessions", "that are honest (default: 3700)", chosen.sessions),
          ex::a_number("--threads", "(default: as many as the machine has)", chosen.threads)},

@@ -46,7 +46,7 @@ TEST_CASE("S0 and S2 agree with section 5 in every row that is not explained, S1
     if (scene.name == "S5") continue;
     for (const auto& p : section_5()) {
       if (p.scene != scene.name) continue;
-      const wall_row row = judge_on_wall(named(p.controller), scene, 3);
+      const wall_row row = judge_on_wall(named(p.controller), scene, {.runs = 3});
       INFO(scene.name << ": " << p.controller);
       if (scene.name == "S1") {
         CHECK_THAT(row.mean.peak_to_peak * 1e3, WithinRel(p.peak_to_peak_mm, 0.1));
@@ -83,7 +83,7 @@ TEST_CASE("a conditional tag must hold where it covers and lose where it does no
           "[controllers]") {
   const auto judged = [](const controller& c) {
     std::vector<attack_row> rows;
-    for (const auto& a : attacks()) rows.push_back(judge_under_attack(c, a, 1, 4));
+    for (const auto& a : attacks()) rows.push_back(judge_under_attack(c, a, 1, {.runs = 4}));
     return contradictions(rows);
   };
   const auto inside = judged(lying<ph::guarantee::conditional>("liar"));

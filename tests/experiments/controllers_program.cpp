@@ -169,9 +169,22 @@ TEST_CASE("arguments that make no sense are named, with the remedy", "[controlle
   CHECK(refused({"--only", "wall,walls"}, "--only walls: there are wall, adversaries"));
   CHECK(refused({"--only", ""}, "--only: name some"));
   CHECK(refused({"--seeds"}, "its value is missing"));
+  CHECK(refused({"--seed", "0"}, "--seed 0: give a whole number of at least 1"));
   CHECK(refused({"--fast"}, "--fast: no such option"));
   CHECK(refused({"--merge", "--out", "x"}, "--merge: its value is missing"));
   CHECK(refused({"--shard", "1/2", "--merge", "x"}, "--merge joins what --shard wrote"));
   CHECK(refused({"--shard", "1/2", "--only", "wall"}, "--shard splits z_width alone"));
   CHECK(parse({"--quick"}).runs < parse({}).runs);
+}
+
+TEST_CASE("another seed draws other devices and hands, and none leaves what is stated",
+          "[controllers]") {
+  CHECK(parse({}).first() == 1);
+  CHECK(parse({"--seed", "2"}).first() != 1);
+  const auto stated = attacks(), drawn = attacks(2);
+  REQUIRE(stated.size() == drawn.size());
+  CHECK(stated.front().world.mass == sim::circumstances{}.mass);
+  CHECK(drawn.front().world.mass != stated.front().world.mass);
+  CHECK(drawn.front().world.mass != drawn[1].world.mass);
+  CHECK(drawn.front().world.hand_force == attacks(2).front().world.hand_force);
 }
