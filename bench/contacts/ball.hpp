@@ -77,24 +77,37 @@ inline double largest_loop(const auto& field, int loops = 12) {
   return largest;
 }
 
-/// Tick i of a finger that strokes the ball at 45 mm/s, 1 to 3 mm deep.
+/// The way of a finger that strokes the ball, 2 mm deep on average.
+struct path {
+  double speed = 0.045;  ///< [m/s]
+  double swing = 1e-3;   ///< of its depth [m]
+  double rate = 0.004;   ///< of the same [rad a tick]
+  double height = 0.35;  ///< over the equator that it follows [rad]
+  Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();  ///< of that equator, and where it begins
+
+  [[nodiscard]] Vector3d at(int tick) const {
+    const double along = 1e-3 * speed / radius * tick, up = height + 0.25 * std::sin(0.37 * along);
+    const Vector3d way(std::cos(along) * std::cos(up), std::sin(along) * std::cos(up),
+                       std::sin(up));
+    return attitude * way * (radius - 2e-3 - swing * std::sin(rate * tick));
+  }
+};
+/// Tick i of the usual one.
 inline Vector3d stroke(int i) {
-  const double along = 0.045e-3 / radius * i, up = 0.35 + 0.25 * std::sin(0.37 * along);
-  const Vector3d way(std::cos(along) * std::cos(up), std::sin(along) * std::cos(up), std::sin(up));
-  return way * (radius - 2e-3 - 1e-3 * std::sin(0.004 * i));
+  return path{}.at(i);
 }
 
 struct feel {
   double largest_step = 0.0;  ///< of the force, from tick to tick [N]
   double mean_error = 0.0;    ///< against the ball [N]
 };
-/// The force steps and errors of the force `force_at(tick, x)` along the stroke.
-inline feel stroked(const auto& force_at, int ticks = 10000) {
+/// The force steps and errors of the force `force_at(tick, x)` along the path.
+inline feel stroked(const auto& force_at, int ticks = 10000, const path& way = {}) {
   const ph::sphere<d3> ball{.centre = {0, 0, 0}, .radius = radius, .stiffness = stiffness};
   feel all;
   Vector3d last = Vector3d::Zero();
   for (int i = 0; i < ticks; ++i) {
-    const Vector3d x = stroke(i), f = force_at(i, x);
+    const Vector3d x = way.at(i), f = force_at(i, x);
     if (i > 0) all.largest_step = std::max(all.largest_step, (f - last).norm());
     all.mean_error += (f - force<d3>(ball, x)).norm() / ticks;
     last = f;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A finger that strokes a ball of 50 mm at 45 mm/s, 1 to 3 mm deep, while what it touches is published 30
-// times a second; and the work that closed loops draw out of a surface.
+// A finger that strokes a ball of 50 mm, 1 to 3 mm deep, while what it touches is published 30 times a second;
+// and the work that closed loops draw out of a surface.
 #include "ball.hpp"
 #include "quiet.hpp"
 #include <passive_haptics/energy_observer/no_observer.hpp>
@@ -29,15 +29,31 @@ ex::record record_of(const loop_row& r) {
   return {{"surface", r.surface}, {"work_uJ", r.work * 1e6, "%.5f"}};
 }
 
+/// The usual path with seed 1, and one that is drawn with another.
+curved::path path_of(int seed) {
+  curved::path p;
+  if (seed == 1) return p;
+  draws d(static_cast<std::uint64_t>(seed));
+  p.speed = d.between(0.02, 0.06);
+  p.swing = d.between(0.5e-3, 1e-3);
+  p.rate = d.between(0.002, 0.004);
+  p.height = d.between(-0.5, 0.5);
+  const vector start = d.direction(), side = d.direction();
+  const vector up = d3::cross(start, side).normalized();
+  p.attitude << start, d3::cross(up, start), up;
+  return p;
+}
+
 /// Stroked through a set of contacts that gives what it asks for, without damping.
 template <class Surface>
-stroke_row stroke_of(const std::string& name, const auto& published, int every, int ticks) {
+stroke_row stroke_of(const std::string& name, const curved::path& way, const auto& published,
+                     int every, int ticks) {
   ph::passive_port port{d3{},
                         ph::contact_set{ph::proxy_spring{.mass = 0.1, .damping_ratio = 0.0},
                                         ph::pursuit{}, ph::slots<Surface, 1>{}},
                         ph::no_observer{}, ph::no_bound{},
                         ph::loop_limits{.longest_tick = T, .top_speed = 1e4}};
-  const vector start = curved::stroke(0);
+  const vector start = way.at(0);
   port.source().update(0, published(start));
   for (int i = 100; i > 0; --i)
     static_cast<void>(port.tick(start * (1.0 + 0.001 * i), ph::seconds{T}));
@@ -48,7 +64,7 @@ stroke_row stroke_of(const std::string& name, const auto& published, int every, 
                              end = x;
                              return port.tick(x, ph::seconds{T}).force;
                            },
-                           ticks)};
+                           ticks, way)};
   held_point::parameters p{.damping = damping, .hand = still_hands[1]};
   p.start = end;
   p.goal = end - 5e-3 * end.normalized();
@@ -75,7 +91,7 @@ plane facet(const curved::triangulated& ball, const vector& x) {
   return found;
 }
 
-/// A second of the stroke, of the quadric and of snapped triangles, as a file and a plot.
+/// A second of the usual stroke, of the quadric and of snapped triangles, as a file and a plot.
 void plot_stroke(const session& s, const curved::triangulated& mesh) {
   ph::passive_port port{d3{},
                         ph::contact_set{ph::proxy_spring{.mass = 0.1, .damping_ratio = 0.0},
@@ -127,13 +143,18 @@ void plot_stroke(const session& s, const curved::triangulated& mesh) {
 }  // namespace
 
 std::vector<std::string> run_curved(const session& s) {
+  const curved::path way = path_of(s.chosen.seed);
   s.out.section(
       "Curved surfaces: stroked",
-      "A finger strokes a ball of 50 mm and 500 N/m at 45 mm/s, 1 to 3 mm deep; what it "
-      "touches is published every 33 ms. The largest step of the force in a tick, and the "
-      "mean error against the ball. Snapped: the nearest of 320 triangles in every tick, which "
-      "only the path is played to. Then a relaxed hand (100 N/m, 1 N·s/m) holds 0.1 kg there while "
-      "the surface goes on being published." +
+      ex::format("A finger strokes a ball of 50 mm and 500 N/m at %.3g mm/s, ", 1e3 * way.speed) +
+          ex::format("%.3g to ", 2.0 - 1e3 * way.swing) +
+          ex::format("%.3g mm deep, ", 2.0 + 1e3 * way.swing) + "drawn with --seed " +
+          std::to_string(s.chosen.seed) +
+          " (1: the usual path, which the plot shows); what it touches is published every 33 ms. "
+          "The largest step of the force in a tick, and the mean error against the ball. Snapped: "
+          "the nearest of 320 triangles in every tick, which only the path is played to. Then a "
+          "relaxed hand (100 N/m, 1 N·s/m) holds 0.1 kg there while the surface goes on being "
+          "published." +
           std::string(ex::quiet_columns));
   const int ticks = s.chosen.quick ? 3000 : 20000;
   const auto tangent = [](const vector& x) {
@@ -145,9 +166,9 @@ std::vector<std::string> run_curved(const session& s) {
   };
   const auto mesh = curved::icosphere(2);
   std::vector<stroke_row> strokes{
-      stroke_of<ph::sphere<d3>>("sphere", ball, 33, ticks),
-      stroke_of<ph::quadric<d3>>("quadric of the sphere", curved::osculating<d3>, 33, ticks),
-      stroke_of<plane>("tangent plane", tangent, 33, ticks)};
+      stroke_of<ph::sphere<d3>>("sphere", way, ball, 33, ticks),
+      stroke_of<ph::quadric<d3>>("quadric of the sphere", way, curved::osculating<d3>, 33, ticks),
+      stroke_of<plane>("tangent plane", way, tangent, 33, ticks)};
   strokes.push_back({"nearest triangle, snapped",
                      curved::stroked(
                          [&](int, const vector& x) {
@@ -155,7 +176,7 @@ std::vector<std::string> run_curved(const session& s) {
                            const vector n = flat.normal;
                            return vector(n * (curved::stiffness * std::max(0.0, flat.at(x).depth)));
                          },
-                         ticks),
+                         ticks, way),
                      {}});
   ex::show_rows(s.out, "stroke", strokes);
 
