@@ -2,6 +2,7 @@
 // Somebody else's renderer behind a guard: does the device rest when the hand holds still, how soft does the
 // guard make it, what does it add where the hand slides? A given force under a reachable bound, the strict
 // guard and make_guard, side by side, on renderers written for this page.
+#include "../common/shares.hpp"
 #include "program.hpp"
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/compositions.hpp>
@@ -499,6 +500,7 @@ struct sum_row {
   int cases = 0, unsettled = 0;
   double median = 0.0, slow = 0.0, slowest = 0.0;  ///< of those that settle; slow: 95 of 100 [s]
   double least_energy = 0.0;                       ///< [J]
+  std::vector<double> times{};                     ///< until it rests; NaN: it does not [s]
 };
 ex::record record_of(const sum_row& r) {
   return {{"guard", std::string(to_string(r.by))},
@@ -530,12 +532,44 @@ sum_row fall_often(sum_row row, std::uint64_t seed, int cases) {
     }
   }
   std::sort(times.begin(), times.end());
+  row.times = times;
+  row.times.resize(static_cast<std::size_t>(row.cases), std::nan(""));
   if (!times.empty()) {
     row.median = times[times.size() / 2];
     row.slow = times[times.size() * 95 / 100];
     row.slowest = times.back();
   }
   return row;
+}
+
+/// The share of the falls that rest, over the time.
+void plot_sums(const session& s, const std::vector<sum_row>& rows) {
+  std::vector<ex::figures> lists;
+  for (const guard g : all_guards) {
+    lists.push_back({to_string(g)});
+    for (const sum_row& r : rows) {
+      if (r.by == g) lists.back().of.insert(lists.back().of.end(), r.times.begin(), r.times.end());
+    }
+  }
+  const auto commands = ex::shares(s.out, "guards_rest.csv", lists, 1.0, 0.0);
+  s.out.plot(
+      "guards_rest",
+      {"The share of the falls that rest, over the time since the device was let go",
+       {{"Behind make_guard all come to rest,", "guards_rest.csv",
+         [](const ex::recorded& r) { return ex::at_most(r["make_guard"].back(), 7.0); }},
+        {"more of them by the dotted line of 1 s than behind a reachable bound alone;",
+         "guards_rest.csv",
+         [](const ex::recorded& r) {
+           const auto by_then = [&r](const char* list) {
+             const auto n = std::ranges::count_if(r[list], [](double t) { return t <= 1.0; });
+             return static_cast<double>(n) / 2.0;
+           };
+           const double ours = by_then("make_guard"), given = by_then("given_force reachable");
+           return ex::finding(ours > given,
+                              ex::format("%.3g %% and ", ours) + ex::format("%.3g %%", given));
+         }},
+        ex::definition("a curve that ends below 1 leaves falls that do not rest in 7 s.")}},
+      "set xlabel 'time [s]'\nset xrange [0:7]\n" + commands);
 }
 
 /// Behind make_guard, a renderer that computes its force each `every` ticks, for walls that add up to 0.1 m/(T P) [N/m],
@@ -800,6 +834,7 @@ std::vector<std::string> run_guards(const session& s) {
     }
   }
   expect(found, unsettled > cases / 50, "the control rests: a given force in random sums");
+  plot_sums(s, fallen);
 
   s.out.section("Guards: a renderer slower than the tick",
                 "The same falls behind make_guard, of a renderer that computes its force each "

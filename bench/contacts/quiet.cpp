@@ -2,6 +2,8 @@
 // Is a point in a hand quiet where it rests, in scenes drawn at random, and in a loop that is late?
 #include "quiet.hpp"
 
+#include "../common/shares.hpp"
+
 #include <Eigen/Eigenvalues>
 
 namespace contacts {
@@ -247,6 +249,41 @@ quiet_row late_row(const session& s, const still_hand& hand, int cases) {
       });
 }
 
+/// A figure of the last window of all scenes, a curve for each kind and one for the control.
+void plot_at_rest(const session& s, const std::vector<quiet_row>& rows,
+                  const std::vector<quiet_row>& undamped, const std::string& name,
+                  const std::string& label, double sim::quiet_figures::*figure, double unit) {
+  std::vector<ex::figures> lists;
+  const auto add = [&](const quiet_row& r, const std::string& list) {
+    if (lists.empty() || lists.back().name != list) lists.push_back({list});
+    for (const auto& last : r.last) lists.back().of.push_back(last.*figure / unit);
+  };
+  for (const auto& r : rows) add(r, r.scene);
+  for (const auto& r : undamped) add(r, "without a damper");
+  const double bar = sim::quiet_figures{}.*figure / unit;
+  const std::string file = name + ".csv";
+  const auto commands = ex::shares(s.out, file, lists, bar, 1e-16);
+  s.out.plot(
+      name,
+      {"Every scene at rest: the " + label,
+       {ex::definition("Of the last window of 100 ms, all hands together; at the left edge: "
+                       "that or less."),
+        {"Every kind of scene ends left of the dotted bar,", file,
+         [=](const ex::recorded& r) {
+           double most = 0.0;
+           for (const auto& kind : kinds) {
+             std::string column = kind.name;
+             std::erase(column, ',');
+             most = std::max(most, r[column].back());
+           }
+           return ex::at_most(most, bar);
+         }},
+        {"and the control without a damper goes on beyond it.", file,
+         [=](const ex::recorded& r) { return ex::at_least(r["without a damper"].back(), bar); }}}},
+      "set xlabel '" + label + "'\nset logscale x\nset xrange [1e-16:*]\nset format x '10^{%T}'\n" +
+          commands);
+}
+
 }  // namespace
 
 std::vector<std::string> run_quiet(const session& s) {
@@ -299,6 +336,10 @@ std::vector<std::string> run_quiet(const session& s) {
     undamped.push_back(undamped_row(s, what, still_hands[1], std::max(cases / 10, 4)));
   }
   ex::publish(s.out, "quiet_undamped", undamped);
+  plot_at_rest(s, rows, undamped, "quiet_step", "largest step of the force [N a tick]",
+               &sim::quiet_figures::step, 1.0);
+  plot_at_rest(s, rows, undamped, "quiet_speed", "speed along what presses [mm/s]",
+               &sim::quiet_figures::speed, 1e-3);
 
   std::vector<std::string> found;
   int ring = 0, tried = 0;

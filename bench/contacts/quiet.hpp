@@ -240,6 +240,7 @@ struct quiet_row {
   int first_unsettled = -1;         ///< its number
   double asked = 0.0, shown = 0.0;  ///< medians [N/m]
   double least_share = std::nan(""), share = std::nan("");  ///< shown of what the sampling leaves
+  std::vector<sim::quiet_figures> last{};                   ///< window of each that is judged
 
   [[nodiscard]] std::string bars() const {
     std::string all;
@@ -286,6 +287,7 @@ inline quiet_row judged(quiet_row row, auto one) {
     row.lost += r.least_energy >= -r.loss_allowed ? 0 : 1;
     if (!r.counts()) continue;
     ++row.judged;
+    row.last.push_back(r.last);
     row.step = std::max(row.step, r.last.step);
     row.fastest = std::max(row.fastest, r.free);
     if (r.settling > row.in_time) {
