@@ -79,6 +79,17 @@ void run_part() {
   run<Part<double, 3>>(Part<double, 3>::composed(ordinary), workload<half_space<double>>());
 }
 
+/// One tick of each.
+template <template <class, int> class Part>
+void run_hardest() {
+  using single = Part<float, 1>;
+  using exact = Part<double, 3>;
+  const std::vector<step> last{
+      {.position = exact::place(exact::data.now), .target = {}, .taken = path::contact}};
+  run<single>(single::composed(ordinary), last);
+  run<exact>(exact::composed(ordinary), last);
+}
+
 }  // namespace cost
 
 int main() {
@@ -102,7 +113,11 @@ int main() {
   cost::run_part<cost::part_plane>();
   cost::run_part<cost::part_rough>();
   cost::run_part<cost::part_corner>();
+  cost::run_part<cost::part_six>();
   cost::run_part<cost::part_sixteen>();
+  cost::run_hardest<cost::part_hardest_three>();
+  cost::run_hardest<cost::part_hardest_six>();
+  cost::run_hardest<cost::part_hardest_sixteen>();
   cost::run_part<cost::part_crowd>();
   cost::run_part<cost::part_tool>();
   cost::run_part<cost::part_tool_sixteen>();

@@ -151,7 +151,11 @@ std::vector<std::string> show_parts(ex::report& out, const std::vector<cost::cou
   add_part<cost::part_plane>(rows, all, "part_plane");
   add_part<cost::part_rough>(rows, all, "part_rough");
   add_part<cost::part_corner>(rows, all, "part_corner");
+  add_part<cost::part_six>(rows, all, "part_six");
   add_part<cost::part_sixteen>(rows, all, "part_sixteen");
+  add_part<cost::part_hardest_three>(rows, all, "part_hardest_three");
+  add_part<cost::part_hardest_six>(rows, all, "part_hardest_six");
+  add_part<cost::part_hardest_sixteen>(rows, all, "part_hardest_sixteen");
   add_part<cost::part_crowd>(rows, all, "part_crowd");
   add_part<cost::part_tool>(rows, all, "part_tool");
   add_part<cost::part_tool_sixteen>(rows, all, "part_tool_sixteen");

@@ -4,6 +4,7 @@
 // with one part more each time, in one dimension (float) and in three (double), through the same workload. All
 // else in these scenes is as in scenes.hpp.
 
+#include "corners.hpp"
 #include "scenes.hpp"
 #include <passive_haptics/base/samples.hpp>
 #include <passive_haptics/contact/rigid_tool.hpp>
@@ -153,22 +154,27 @@ template <class Space>
   }
 }
 
+/// A set of planes, of which plane_of(i) is the i-th.
+template <class Space, int Planes, class Friction = ph::frictionless>
+[[nodiscard]] auto set_of(const settings& s, auto plane_of) {
+  ph::passive_port port{Space{},
+                        ph::contact_set{ph::proxy_spring{.mass = s.mass}, ph::pursuit{}, Friction{},
+                                        ph::slots<ph::half_space<Space>, Planes>{}},
+                        observer(s),
+                        ph::reachable_bound{.mass = s.mass, .hand_force = s.hand_force}, limits(s)};
+  for (int i = 0; i < Planes; ++i) port.source().update(i, plane_of(i));
+  return port;
+}
+
 /// The first `Near` planes go through the origin; the others are half a metre away.
 template <class Scalar, int Dof, int Planes, class Friction = ph::frictionless, int Near = Planes>
 struct part_set : part_base<Scalar, Dof> {
   [[nodiscard]] static auto composed(const settings& s) {
     using space = typename part_set::space;
-    using plane = ph::half_space<space>;
-    ph::passive_port port{
-        space{},
-        ph::contact_set{ph::proxy_spring{.mass = s.mass}, ph::pursuit{}, Friction{},
-                        ph::slots<plane, Planes>{}},
-        observer(s), ph::reachable_bound{.mass = s.mass, .hand_force = s.hand_force}, limits(s)};
-    for (int i = 0; i < Planes; ++i) {
+    return set_of<space, Planes, Friction>(s, [&s](int i) {
       const typename space::vector n = normal_of<space>(i), at = n * Scalar(i < Near ? 0.0 : -0.5);
-      port.source().update(i, plane{at, n, in<Scalar>(s.stiffness)});
-    }
-    return port;
+      return ph::half_space<space>{at, n, in<Scalar>(s.stiffness)};
+    });
   }
 };
 template <class Scalar, int Dof>
@@ -184,6 +190,10 @@ struct part_corner : part_set<Scalar, Dof, 3> {
   static constexpr const char* name = "contact_set of three planes";
 };
 template <class Scalar, int Dof>
+struct part_six : part_set<Scalar, Dof, 6> {
+  static constexpr const char* name = "contact_set of six planes";
+};
+template <class Scalar, int Dof>
 struct part_sixteen : part_set<Scalar, Dof, 16> {
   static constexpr const char* name = "contact_set of sixteen planes";
 };
@@ -191,6 +201,44 @@ struct part_sixteen : part_set<Scalar, Dof, 16> {
 template <class Scalar, int Dof>
 struct part_crowd : part_set<Scalar, Dof, 64, ph::frictionless, 3> {
   static constexpr const char* name = "contact_set of 64 planes, three of them near";
+};
+
+/// A corner in three dimensions, whatever Dof says, before the hardest tick that was found.
+template <class Scalar, int Planes>
+struct part_hardest {
+  using scalar = Scalar;
+  using space = ph::space<Scalar, 3>;
+  static constexpr const corner<Planes>& data = hardest<Planes>;
+
+  [[nodiscard]] static std::array<double, 3> place(const std::array<int, 3>& micrometres) {
+    return {1e-6 * micrometres[0], 1e-6 * micrometres[1], 1e-6 * micrometres[2]};
+  }
+  [[nodiscard]] static auto composed(const settings& s) {
+    auto port = set_of<space, Planes>(s, [&s](int i) {
+      const auto& [x, y, z, along] = data.planes[static_cast<std::size_t>(i)];
+      const typename space::vector n = vector<Scalar>({1.0 * x, 1.0 * y, 1.0 * z}).normalized(),
+                                   at = n * in<Scalar>(1e-6 * along);
+      return ph::half_space<space>{at, n, in<Scalar>(s.stiffness)};
+    });
+    const ph::seconds dt{in<Scalar>(1e-3)};
+    for (const auto& x : {std::array{0.0, 0.0, 0.03}, place(data.before)}) {
+      static_cast<void>(port.tick(vector<Scalar>(x), dt));
+    }
+    return port;
+  }
+};
+template <class Scalar, int Dof>
+struct part_hardest_three : part_hardest<Scalar, 3> {
+  static constexpr const char* name =
+      "... of three planes, in 3-DOF float, too: the hardest tick found";
+};
+template <class Scalar, int Dof>
+struct part_hardest_six : part_hardest<Scalar, 6> {
+  static constexpr const char* name = "... of six planes, the hardest tick found";
+};
+template <class Scalar, int Dof>
+struct part_hardest_sixteen : part_hardest<Scalar, 16> {
+  static constexpr const char* name = "... of sixteen planes, the hardest tick found";
 };
 
 /// A tool of six degrees of freedom, whatever Dof says.
