@@ -347,6 +347,7 @@ function remarks(v) {
   if (v.buzz >= 25) said.push([`buzzes at ${figures(v.buzz)} Hz by ${figures(v.swing, 2)} N`, 'bad']);
   else if (v.buzz > 0)
     said.push([`jumps ${figures(v.buzz, 2)} times a second by ${figures(v.swing, 2)} N`, 'price']);
+  if (v.worst > 0.02) said.push([`stepped by ${figures(v.worst, 2)} N at most`, '']);
   if (v.behind > 3e-4) said.push([`sinks ${figures(v.behind * 1e3, 2)} mm behind the surface`, 'price']);
   if (v.settled) said.push([`settled at ${figures(v.force, 2)} N`, 'good']);
   else if (v.touching && v.force > 0.02) {

@@ -70,6 +70,30 @@ for (const [problem, p] of Object.entries(words.problems)) {
   expect(made[0] >= least, `${problem}: the left made ${made[0]} J, ${least} J is what it does`);
 }
 
+// The largest step since the start is that of the trace; on the organ the right steps less than the bare side.
+{
+  const {stage, module} = words.scenes.organ,
+    {e, text: said, numbers} = await instanceOf(modules[module]);
+  const names = Array.from({length: e.ph_controllers(stage)}, (_, i) => said(e.ph_name(stage, i)));
+  const {left, right} = Object.values(words.problems).find(p => p.scene === 'organ');
+  [left, right].forEach((name, w) => e.ph_choose(stage, w, names.indexOf(name)));
+  e.ph_by_itself(stage, 1);
+  e.ph_restart(stage);
+  e.ph_run(stage, 5000);
+  const worst = [0, 1].map(w => {
+    const width = e.ph_row_width(),
+      rows = numbers(e.ph_rows(stage, w), 5000 * width);
+    const force = i => [rows[i * width + 5], rows[i * width + 6]];
+    let most = 0;
+    for (let i = 1; i < 5000; ++i)
+      most = Math.max(most, Math.hypot(force(i)[0] - force(i - 1)[0], force(i)[1] - force(i - 1)[1]));
+    const {worst} = words.verdictOf(numbers(e.ph_verdict(stage, w), words.verdictNames.length));
+    expect(Math.abs(worst - most) < 1e-9, `the organ steps by ${worst} N at most, in the trace by ${most} N`);
+    return worst;
+  });
+  expect(worst[1] < worst[0] / 3, `the organ steps by ${worst[1]} N, its bare side by ${worst[0]} N`);
+}
+
 // Contrast AA, light and dark: 4.5 to 1 for every colour of text on both grounds.
 const css = fs.readFileSync(`${source}/examples/page/page.css`, 'utf8');
 const themes = [...css.matchAll(/:root \{([^}]*)\}/g)].map(([, body]) =>
@@ -307,6 +331,7 @@ expect(
       'shows 2000 of 2000 N/m; buzzes at 210 Hz by 4 N',
   speak({made: 0.082, settled: 0, buzz: 210, swing: 4})
 );
+expect(speak({worst: 0.87}).includes('stepped by 0.87 N at most'), speak({worst: 0.87}));
 expect(speak({behind: 3e-3}).includes('sinks 3 mm behind the surface'), speak({behind: 3e-3}));
 expect(
   speak({settled: 0, buzz: 15, swing: 2}).includes('jumps 15 times a second by 2 N'),
