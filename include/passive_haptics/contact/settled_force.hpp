@@ -28,6 +28,7 @@ inline namespace v0 {
 /// A renderer stiffer than K_m = most_stiffness(T, 0, l) [N/m] would ring, so its w is multiplied by s = ¾ K_m/K. Its
 /// stiffness K, the slope −Δw·Δx/|Δx|² along w and across it, is estimated over 30 ms of motion; s rises again when K
 /// falls below half. shown() is s. A moving surface changes w along Δx and not against it, so it does not lower s.
+/// If w of a device that moves changes every P ≥ 5 ticks only, K_m is that of a force P ticks old.
 ///
 /// A force above the motors' limit F is shortened to F, and B to B √(F/|w|), critical for the secant, so that the
 /// device comes out at a speed from which F can stop it. In a loop that is k ticks late B is divided by 1 + k. T is the
@@ -141,7 +142,7 @@ class settled_force::on : private part_at<given_force, P> {
   /// Explains most_stiffness; for a renderer that was found too stiff, its estimated stiffness and ¾ of most_stiffness.
   /// As a shaper it explains the surface: its share s, or most_stiffness if no force was too stiff yet.
   constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
-    const double settles = parameters().most_stiffness(static_cast<double>(T), 0, late);
+    const double settles = parameters().most_stiffness(static_cast<double>(T), seen_.period, late);
     const double steps = static_cast<double>(stiffest_), s = static_cast<double>(seen_.shown);
     const double least = kernels::smaller(settles, steps);
     const auto why = settles <= steps ? softened_by::mass_and_tick : softened_by::encoder_steps;
@@ -212,6 +213,14 @@ class settled_force::on : private part_at<given_force, P> {
     scalar ticks{};           ///< evaluated ticks of motion, of the last 30 ms
     int left = 0;             ///< ticks of motion still to be evaluated; 30 after a stiff one
     bool begun = false, steep = false;  ///< `given` is known; a tick was too stiff
+    int held = 0, before = 0;  ///< ticks for which w has stayed, now and before its last change
+    int period = 0;            ///< P, if the two are alike, else 0
+    typename P::stored_effort way{};  ///< since the last change
+    constexpr void changes() noexcept {
+      const int shorter = held < before ? held : before, longer = held + before - shorter;
+      period = shorter >= 4 && 3 * shorter >= longer ? longer + 1 : 0;
+      before = std::exchange(held, 0);
+    }
     scalar shown = scalar(1);           ///< s
     typename P::stored_effort given{};  ///< given force of the last evaluated tick [N]
   };
@@ -219,10 +228,25 @@ class settled_force::on : private part_at<given_force, P> {
   [[gnu::cold, gnu::noinline]] constexpr void look(const effort& w,
                                                    const typename P::stored_effort& travel,
                                                    scalar dt) noexcept {
-    const effort way = travel, change = P::difference(w, seen_.given);
+    const effort last = travel, change = P::difference(w, seen_.given);
     seen_.given = w;
-    const scalar size = P::dot(w, w), moved = P::dot(way, way), slow = scalar(1e-3) * dt;
-    if (!std::exchange(seen_.begun, true) || !(size > scalar(0) && moved > slow * slow)) return;
+    const scalar size = P::dot(w, w), slow = scalar(1e-3) * dt;
+    if (!std::exchange(seen_.begun, true)) return;
+    const bool felt = size > scalar(0);
+    const bool same = felt && !(P::dot(change, change) > scalar(0)) && seen_.held < 100;
+    const effort way = less(last, seen_.way, scalar(-1));
+    seen_.way = same ? way : P::zero();
+    if (!(felt && P::dot(last, last) > slow * slow)) {
+      if (!same) seen_.held = 0;
+      return;
+    }
+    if (same) {
+      ++seen_.held;
+      return;
+    }
+    seen_.changes();
+    const scalar fresh = scalar(late_) + scalar(1.5), moved = P::dot(way, way);
+    const scalar settles = steepest_ * (fresh / (fresh + scalar(seen_.period)));
     slope &along = seen_.along, &across = seen_.across;
     const scalar keep = scalar(0.03) / (scalar(0.03) + dt), little = moved * scalar(1e-4);
     const effort n = P::scaled(w, scalar(1) / kernels::square_root(size));
@@ -230,10 +254,10 @@ class settled_force::on : private part_at<given_force, P> {
     const scalar work = P::dot(change, way), outwards = kernels::smaller(out * out, moved);
     along.see(out * rise, outwards + little, risen, keep);
     across.see(work - out * rise, moved - outwards + little, P::dot(change, change) - risen, keep);
-    seen_.steep = seen_.steep || -work > steepest_ * moved;
+    seen_.steep = seen_.steep || -work > settles * moved;
     seen_.ticks = keep * seen_.ticks + scalar(1);
     const scalar s = seen_.steep && seen_.ticks > scalar(3)
-                         ? kernels::smaller(along.share(steepest_), across.share(steepest_))
+                         ? kernels::smaller(along.share(settles), across.share(settles))
                          : scalar(1);
     if (!kernels::is_finite(along.stiff + along.changed + across.stiff + across.moved +
                             across.changed)) {  // a force was absurd
