@@ -51,6 +51,15 @@ TEST_CASE("a hand that rests is no leave for a surface to use up the end of the 
   CHECK(way(-1e-3, 0.0) == 0.0);
   CHECK(way(1.11e-3, 0.0, 1e-5) == any);
   CHECK(way(1.01e-3, 0.0, 1e-5) < any);  // two ticks of the device's way are kept, too
+
+  const auto calm = [](double travel, double spent) {
+    const situation<d1> at_end{.energy = 0.6e-3, .dt = 1e-3, .held = -5.0, .travel = travel};
+    return at_end.port().paid_way(5.0, 1e-4, 0.05, spent, 1e-4);
+  };
+  CHECK(calm(0.9e-7, 0.0) < any);
+  CHECK(calm(1.1e-7, 0.0) == any);  // at more than 0.1 mm/s it does not rest
+  CHECK(calm(-1e-6, 0.0) == any);
+  CHECK(calm(1e-6, 1e-4) < any);  // but is limited by a hand that takes as much
 }
 
 TEST_CASE("of friction that is elastic 2 c p is put aside for each tick a loop is late (§ 6)",

@@ -89,7 +89,7 @@ class own_surface {
     if (!lag_.settled()) {
       const scalar force = Space::norm(vector(port.held));
       const scalar spent = Space::work(port.held, port.travel).joules;
-      lag_.follow(port.dt, port.paid_way(force, scalar(1e-4), scalar(0.05), spent));
+      lag_.follow(port.dt, port.paid_way(force, scalar(1e-4), scalar(0.05), spent, scalar(1e-4)));
     }
     if (lag_.silent()) turn_.stop();
   }

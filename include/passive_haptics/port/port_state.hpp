@@ -125,11 +125,12 @@ struct port_state {
     return kernels::larger(energy / force - kept, scalar(0)) * dt / time;
   }
   /// The same where the hand took `spent` [J] in the last tick: one that takes an eighth of what is paid does not limit it,
-  /// as long as a way of `kept` more is paid for. Nearer to the end a hand that rests is no leave to go on at once.
-  [[nodiscard]] constexpr scalar paid_way(scalar force, scalar kept, scalar time,
-                                          scalar spent) const noexcept {
+  /// as long as a way of `kept` more is paid for. Nearer to the end a device slower than `calm` [m/s] does not go on at once.
+  [[nodiscard]] constexpr scalar paid_way(scalar force, scalar kept, scalar time, scalar spent,
+                                          scalar calm = kernels::largest<scalar>()) const noexcept {
     const scalar paid = paid_way(force, kept, time), any = kernels::largest<scalar>();
-    const bool nears = paid * time < kept * dt;
+    const bool nears =
+        paid * time < kept * dt && !(kernels::square_root(Port::squared(travel)) / dt > calm);
     return paid < any && (nears || scalar(8) * spent > paid * force) ? paid : any;
   }
   /// Δxᵀ(b/dt)Δx − f_held·Δx [J], the least energy gained in the last tick, rounded down.
