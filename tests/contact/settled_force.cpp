@@ -726,10 +726,9 @@ struct plainly {
     const double slides = p.slide_fraction * unit;
     const double trough =
         std::min({10.0 * slides, damps, felt(slid, 4.0 * falls, aside, dt, share)});
-    vector across = vector::Zero();
-    if (aside > 0.0) {
-      across = -std::max(std::min(slides, 0.02 / aside), std::min(trough, 0.04 / aside)) * v_across;
-    }
+    const double slow = std::max(aside, 1e-3);
+    vector across =
+        -std::max(std::min(slides, 0.02 / slow), std::min(trough, 0.04 / slow)) * v_across;
     if (const double length = w_across.norm(); length > 0.0) {
       const double brakes = limited(-damps * w_across.dot(v) / length, 0.0, p.lead * length);
       across += w_across * (brakes / length);

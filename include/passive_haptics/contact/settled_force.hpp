@@ -297,8 +297,8 @@ class settled_force::on : private part_at<given_force, P> {
       const scalar square = P::dot(sideways, sideways), unit = slide_ * per_tick_ * secant;
       const scalar felt = kernels::smaller(
           damper(slid_, scalar(-4) * P::dot(aside, sideways), square, dt, full), scalar(10) * unit);
-      const scalar per_newton = square > scalar(0) ? scalar(1) / kernels::square_root(square)
-                                                   : kernels::largest<scalar>();
+      const scalar per_newton =
+          scalar(1) / kernels::larger(kernels::square_root(square), scalar(1e-3));
       const scalar slide = kernels::larger(kernels::smaller(unit, scalar(0.02) * per_newton),
                                            kernels::smaller(felt, scalar(0.04) * per_newton));
       const effort ahead = P::scaled(aside, lead_);
