@@ -250,7 +250,7 @@ class pursued {
       if constexpr (has_edges) own.normal = pace.turned(own.normal, goal, pace.time_for(most));
       if (!(own.normal == goal)) own.push = carry<Space>(own.push, goal, own.normal);
     }
-    if (!(before == own.normal)) normal_ = own.normal;
+    normal_ = own.normal;
     own.depth -= lag;
     own.chases = own.chases || !(lag == scalar(0));
     lag_ = lag;
