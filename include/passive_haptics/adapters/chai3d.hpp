@@ -160,17 +160,15 @@ class passive_device final : public chai3d_types::decorated {
     device_->setEnableGripperUserSwitch(on);
   }
   bool getEnableGripperUserSwitch() const override { return device_->getEnableGripperUserSwitch(); }
-  /// The same, and the port hears of it before its next tick: while the device drops the forces nothing is credited. Any
-  /// thread may call it.
+  /// The same, and the port hears of it before its next tick: while the device drops the forces nothing is credited. One
+  /// thread at a time may call it, beside the tick.
   bool enableForces(bool on) override {
+    int before = 0, told = went_off;
+    if (!on) before = motors_.exchange(told);  // told first, so that no tick counts on what is gone
     const bool done = device_->enableForces(on);
-    if (!done) return false;
-    if (on) {
-      motors_ |= came_on;
-    } else {
-      motors_ = went_off;
-    }
-    return true;
+    if (on && done) motors_ |= came_on;
+    if (!on && !done && !motors_.compare_exchange_strong(told, before)) motors_ |= came_on;
+    return done;
   }
 
  private:
