@@ -206,29 +206,6 @@ TEST_CASE("a settled force says how much of a steep one it shows, and shows all 
   CHECK(guard.source().shown() == 1.0);
 }
 
-TEST_CASE("a renderer slower than the tick is shown as soft as settles with so old a force",
-          "[settled_force]") {
-  const double most = rule.most_stiffness(1e-3);
-  const auto shown = [&](double K, int period) {
-    auto guard = guard_of<d1>(rule);
-    double w = 2.0;
-    for (int n = 0; n < 2000; ++n) {
-      const double x = 1e-4 * std::sin(0.03 * n);
-      if (n % period == 0) w = 2.0 - K * x;
-      (void)guard.tick(x, 1ms, w);
-    }
-    return double(guard.source().shown()) * K;
-  };
-  CHECK(shown(0.5 * most, 1) == 0.5 * most);
-  for (const int period : {6, 10, 16}) {
-    CAPTURE(period);
-    const double settles = rule.most_stiffness(1e-3, period);
-    CHECK(shown(0.5 * most, period) < settles);
-    CHECK(shown(0.5 * most, period) > 0.4 * settles);
-    CHECK(shown(0.1 * settles, period) == 0.1 * settles);
-  }
-}
-
 TEST_CASE("what is steeper across the force than along it is shown by what is across",
           "[settled_force]") {
   const double most = rule.most_stiffness(1e-3);
@@ -612,18 +589,13 @@ struct plainly {
   int late;
   bool knows_speed;
   std::vector<tick> seen{};
-  vector since = vector::Zero();  // the way since w has changed
   vector rendered = vector::Zero(), last = vector::Zero(), n = vector::Zero();
   double braked = 1e9, slid = 0.0;  // t times the slopes along n and across it
   bool begun = false, steep = false;
-  int watched = 0;                       // ticks of motion that are still to be looked at
-  int held = 0, before = 0, period = 0;  // ticks without a change of w, the same before it, and P
+  int watched = 0;  // ticks of motion that are still to be looked at
   double shown = 1.0;
 
   [[nodiscard]] double most() const { return std::min(p.most_stiffness(T, 0, late), p.most); }
-  [[nodiscard]] double settles() const {  // of a force that is P ticks old
-    return most() * (1.5 + late) / (1.5 + late + period);
-  }
   [[nodiscard]] double share(std::size_t k) const {  // K_m over the slope, 100 for what is none
     double work = 0.0, moved = 0.0, changed = 0.0, weight = 1.0;
     for (std::size_t i = seen.size(); i-- > 0;) {
@@ -635,14 +607,13 @@ struct plainly {
     }
     const double correlation = work * work / (moved * changed), slope = work / moved;
     const double rest = moved * changed * (1.0 - correlation);
-    const bool sure = correlation > 0.25 && rest <= 8.0 * std::pow(work - settles() * moved, 2);
-    return sure && slope > settles() / 100.0 ? settles() / slope : 100.0;
+    const bool sure = correlation > 0.25 && rest <= 8.0 * std::pow(work - most() * moved, 2);
+    return sure && slope > most() / 100.0 ? most() / slope : 100.0;
   }
   void forget() {
     seen.clear();
     begun = steep = false;
-    watched = held = before = period = 0;
-    since.setZero();
+    watched = 0;
     shown = 1.0;
   }
   void reset() {
@@ -661,24 +632,10 @@ struct plainly {
     if (2.0 * asked < damper && v > 1e-3 && share == 1.0) damper *= 1.0 - std::min(10.0 * dt, 1.0);
     return used;
   }
-  void look(const vector& w, const vector& moves, double dt) {
+  void look(const vector& w, const vector& way, double dt) {
     const vector change = w - rendered;
     rendered = w;
-    if (!std::exchange(begun, true)) return;
-    const bool same = w.norm() > 0.0 && change.norm() == 0.0 && held < 100;
-    const vector way = since + moves;
-    since = same ? way : vector(vector::Zero());
-    if (moves.norm() <= 1e-3 * dt || w.norm() == 0.0) {
-      if (!same) held = 0;
-      return;
-    }
-    if (same) {
-      ++held;
-      return;
-    }
-    const int least = std::min(held, before), longest = std::max(held, before);
-    period = least >= 4 && longest <= 3 * least ? longest + 1 : 0;
-    before = std::exchange(held, 0);
+    if (!std::exchange(begun, true) || way.norm() <= 1e-3 * dt || w.norm() == 0.0) return;
     const vector along = w / w.norm(), way_across = way - along * way.dot(along);
     const vector change_across = change - along * change.dot(along);
     seen.push_back({{way.dot(along) * change.dot(along), way_across.dot(change_across)},
@@ -686,7 +643,7 @@ struct plainly {
                     {std::pow(change.dot(along), 2), change_across.squaredNorm()},
                     way.squaredNorm(),
                     0.03 / (0.03 + dt)});
-    steep = steep || -change.dot(way) > settles() * way.squaredNorm();
+    steep = steep || -change.dot(way) > most() * way.squaredNorm();
     double ticks = 0.0, weight = 1.0;
     for (std::size_t i = seen.size(); i-- > 0; weight *= seen[i].keep) ticks += weight;
     const double s = steep && ticks > 3.0 ? std::min(share(0), share(1)) : 1.0;
@@ -724,11 +681,10 @@ struct plainly {
         felt(braked, speed == 0.0 ? 0.0 : -rise / speed, std::abs(speed), dt, share);
     const double falls = aside == 0.0 ? 0.0 : -w_across.dot(v_across) / (aside * aside);
     const double slides = p.slide_fraction * unit;
-    const double trough =
-        std::min({10.0 * slides, damps, felt(slid, 4.0 * falls, aside, dt, share)});
     const double slow = std::max(aside, 1e-3);
-    vector across =
-        -std::max(std::min(slides, 0.02 / slow), std::min(trough, 0.04 / slow)) * v_across;
+    const double most = std::max(slides, std::min(10.0 * slides, 0.04 / slow));
+    const double trough = std::min({most, damps, felt(slid, 4.0 * falls, aside, dt, share)});
+    vector across = -std::max(std::min(slides, 0.02 / slow), trough) * v_across;
     if (const double length = w_across.norm(); length > 0.0) {
       const double brakes = limited(-damps * w_across.dot(v) / length, 0.0, p.lead * length);
       across += w_across * (brakes / length);
@@ -740,7 +696,7 @@ struct plainly {
 
 /// How often it was felt softer, rose again, was whole again, and was cut by F.
 struct felt {
-  int softer = 0, rises = 0, whole = 0, cut = 0, slow = 0;
+  int softer = 0, rises = 0, whole = 0, cut = 0;
 };
 
 /// Tries one guard against its twin under a renderer that is steep, noisy, soft, gone, turned round or slow.
@@ -795,11 +751,7 @@ felt tries(unsigned seed, const ph::settled_force& p, const Limits& limits, cons
     const double dt = tick * (n % 5 == 4 ? 0.75 : 1.0);
     const vector way = n % 41 == 40 ? vector(vector::Zero()) : any(pace);
     x += way;
-    const int slowly = seed % 3 != 0 || n % 700 < 200 ? 1
-                       : n % 700 < 500                ? 6
-                                                      : 23;  // ticks from force to force
-    const vector fresh = base - vector(stiff.cwiseProduct(x)) + any(noise);
-    if (n % slowly == 0) wanted = fresh;
+    wanted = base - vector(stiff.cwiseProduct(x)) + any(noise);
     if (n % 97 > 94) wanted.setZero();
     const double rises = twin.shown;
     const vector expected =
@@ -814,7 +766,6 @@ felt tries(unsigned seed, const ph::settled_force& p, const Limits& limits, cons
     out.rises += twin.shown > rises ? 1 : 0;
     out.whole += twin.shown == 1.0 && rises < 1.0 ? 1 : 0;
     out.cut += twin.shown * wanted.norm() > p.force_limit ? 1 : 0;
-    out.slow += twin.period > 0 && twin.shown < 1.0 ? 1 : 0;
   }
   return out;
 }
@@ -832,8 +783,7 @@ TEST_CASE("a settled force is that of its formulas, with the slope which all tic
   const ph::last_difference known{};
   felt all;
   const auto also = [&](const felt& f) {
-    all = {all.softer + f.softer, all.rises + f.rises, all.whole + f.whole, all.cut + f.cut,
-           all.slow + f.slow};
+    all = {all.softer + f.softer, all.rises + f.rises, all.whole + f.whole, all.cut + f.cut};
   };
   for (unsigned seed = 1; seed < 7; ++seed) {
     also(tries<d1>(seed, limited, prompt, known, 1e-3, 1800));
@@ -847,7 +797,6 @@ TEST_CASE("a settled force is that of its formulas, with the slope which all tic
   CHECK(all.rises > 50);
   CHECK(all.whole > 3);
   CHECK(all.cut > 50);
-  CHECK(all.slow > 1000);
 }
 
 TEST_CASE("a slope of K_m is not too steep, and at 1 mm/s none is learned", "[settled_force]") {

@@ -18,8 +18,8 @@ inline namespace v0 {
 ///     f = w − n clip(D n·v, −2 n·w, n·w) + clip(σ (I − nnᵀ)(w − w_last)) − clip(D_s (I − nnᵀ) v)
 ///     D = min(B, t K)    B = β m/T, t = max(50 T, 50 ms, 4m/B), along n [N·s/m]; at most 2|w| inwards, |w| outwards
 ///     σ                  lead of the part of w across n [ticks]; at most B times the speed that it brakes
-///     D_s = max(min(B_s, 0.02 N/|v⊥|), min(10 B_s, 4 t K_s, 0.04 N/|v⊥|))   B_s = β_s m/T, across n [N·s/m]: dry
-///                        friction, more in a trough, where it stops a swing
+///     D_s = max(min(B_s, 0.02 N/|v⊥|), min(4 t K_s, max(B_s, min(10 B_s, 0.04 N/|v⊥|))))   B_s = β_s m/T, across n
+///                        [N·s/m]: dry friction, and more in a trough, where it stops a swing
 ///     K, K_s             slopes −Δw·Δx/|Δx|² of w along n and across it, felt in the last 0.1 s of motion [N/m]
 ///     n ← n + (w/|w| − n) dt/(τ + dt), of length 1, so that it turns smoothly at facets and detents
 /// The sum of both parts across n is at most |w|. At rest f = w; for w = 0 f = 0. A force that is the same everywhere
@@ -28,7 +28,6 @@ inline namespace v0 {
 /// A renderer stiffer than K_m = most_stiffness(T, 0, l) [N/m] would ring, so its w is multiplied by s = ¾ K_m/K. Its
 /// stiffness K, the slope −Δw·Δx/|Δx|² along w and across it, is estimated over 30 ms of motion; s rises again when K
 /// falls below half. shown() is s. A moving surface changes w along Δx and not against it, so it does not lower s.
-/// If w of a device that moves changes every P ≥ 5 ticks only, K_m is that of a force P ticks old.
 ///
 /// A force above the motors' limit F is shortened to F, and B to B √(F/|w|), critical for the secant, so that the
 /// device comes out at a speed from which F can stop it. In a loop that is k ticks late B is divided by 1 + k. T is the
@@ -142,7 +141,7 @@ class settled_force::on : private part_at<given_force, P> {
   /// Explains most_stiffness; for a renderer that was found too stiff, its estimated stiffness and ¾ of most_stiffness.
   /// As a shaper it explains the surface: its share s, or most_stiffness if no force was too stiff yet.
   constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
-    const double settles = parameters().most_stiffness(static_cast<double>(T), seen_.period, late);
+    const double settles = parameters().most_stiffness(static_cast<double>(T), 0, late);
     const double steps = static_cast<double>(stiffest_), s = static_cast<double>(seen_.shown);
     const double least = kernels::smaller(settles, steps);
     const auto why = settles <= steps ? softened_by::mass_and_tick : softened_by::encoder_steps;
@@ -213,14 +212,6 @@ class settled_force::on : private part_at<given_force, P> {
     scalar ticks{};           ///< evaluated ticks of motion, of the last 30 ms
     int left = 0;             ///< ticks of motion still to be evaluated; 30 after a stiff one
     bool begun = false, steep = false;  ///< `given` is known; a tick was too stiff
-    int held = 0, before = 0;  ///< ticks for which w has stayed, now and before its last change
-    int period = 0;            ///< P, if the two are alike, else 0
-    typename P::stored_effort way{};  ///< since the last change
-    constexpr void changes() noexcept {
-      const int shorter = held < before ? held : before, longer = held + before - shorter;
-      period = shorter >= 4 && 3 * shorter >= longer ? longer + 1 : 0;
-      before = std::exchange(held, 0);
-    }
     scalar shown = scalar(1);           ///< s
     typename P::stored_effort given{};  ///< given force of the last evaluated tick [N]
   };
@@ -228,25 +219,10 @@ class settled_force::on : private part_at<given_force, P> {
   [[gnu::cold, gnu::noinline]] constexpr void look(const effort& w,
                                                    const typename P::stored_effort& travel,
                                                    scalar dt) noexcept {
-    const effort last = travel, change = P::difference(w, seen_.given);
+    const effort way = travel, change = P::difference(w, seen_.given);
     seen_.given = w;
-    const scalar size = P::dot(w, w), slow = scalar(1e-3) * dt;
-    if (!std::exchange(seen_.begun, true)) return;
-    const bool felt = size > scalar(0);
-    const bool same = felt && !(P::dot(change, change) > scalar(0)) && seen_.held < 100;
-    const effort way = less(last, seen_.way, scalar(-1));
-    seen_.way = same ? way : P::zero();
-    if (!(felt && P::dot(last, last) > slow * slow)) {
-      if (!same) seen_.held = 0;
-      return;
-    }
-    if (same) {
-      ++seen_.held;
-      return;
-    }
-    seen_.changes();
-    const scalar fresh = scalar(late_) + scalar(1.5), moved = P::dot(way, way);
-    const scalar settles = steepest_ * (fresh / (fresh + scalar(seen_.period)));
+    const scalar size = P::dot(w, w), moved = P::dot(way, way), slow = scalar(1e-3) * dt;
+    if (!std::exchange(seen_.begun, true) || !(size > scalar(0) && moved > slow * slow)) return;
     slope &along = seen_.along, &across = seen_.across;
     const scalar keep = scalar(0.03) / (scalar(0.03) + dt), little = moved * scalar(1e-4);
     const effort n = P::scaled(w, scalar(1) / kernels::square_root(size));
@@ -254,10 +230,10 @@ class settled_force::on : private part_at<given_force, P> {
     const scalar work = P::dot(change, way), outwards = kernels::smaller(out * out, moved);
     along.see(out * rise, outwards + little, risen, keep);
     across.see(work - out * rise, moved - outwards + little, P::dot(change, change) - risen, keep);
-    seen_.steep = seen_.steep || -work > settles * moved;
+    seen_.steep = seen_.steep || -work > steepest_ * moved;
     seen_.ticks = keep * seen_.ticks + scalar(1);
     const scalar s = seen_.steep && seen_.ticks > scalar(3)
-                         ? kernels::smaller(along.share(settles), across.share(settles))
+                         ? kernels::smaller(along.share(steepest_), across.share(steepest_))
                          : scalar(1);
     if (!kernels::is_finite(along.stiff + along.changed + across.stiff + across.moved +
                             across.changed)) {  // a force was absurd
@@ -295,12 +271,13 @@ class settled_force::on : private part_at<given_force, P> {
       const scalar brake = kernels::clamped(B * speed, scalar(-2) * along, along);
       const effort sideways = less(v, n, speed), aside = less(change, n, rise);
       const scalar square = P::dot(sideways, sideways), unit = slide_ * per_tick_ * secant;
-      const scalar felt = kernels::smaller(
-          damper(slid_, scalar(-4) * P::dot(aside, sideways), square, dt, full), scalar(10) * unit);
+      const scalar felt = damper(slid_, scalar(-4) * P::dot(aside, sideways), square, dt, full);
       const scalar per_newton =
           scalar(1) / kernels::larger(kernels::square_root(square), scalar(1e-3));
+      const scalar most =
+          kernels::larger(unit, kernels::smaller(scalar(10) * unit, scalar(0.04) * per_newton));
       const scalar slide = kernels::larger(kernels::smaller(unit, scalar(0.02) * per_newton),
-                                           kernels::smaller(felt, scalar(0.04) * per_newton));
+                                           kernels::smaller(felt, most));
       const effort ahead = P::scaled(aside, lead_);
       const effort across = less(P::scaled(ahead, braking(ahead, sideways, full)), sideways, slide);
       return less(less(w, n, brake), across, -within(across, size));
