@@ -221,7 +221,7 @@ class slow_set {
     e.shown = most->spring.stiffness;
     e.depth = touched ? here.depth : 0.0;
     if (e.shown < e.asked) e.stiffness = rule_.softener(e.asked);
-    if (touched && std::abs(most->lag) > 0.0) e.now = ph::softened_by::news;
+    if (touched && (owes_ || std::abs(most->lag) > 0.0)) e.now = ph::softened_by::news;
     if (touched && most->state == slow_slot::stale) e.now = ph::softened_by::silence;
     return e;
   }

@@ -72,7 +72,10 @@ TEST_CASE("what eases, forgives and watches is felt alike in any units of force"
   indifferent<d3>(other_forces, touch, moved, by_itself<d3>);
   const auto settled = [](const units& u) {
     return ph::passive_port{
-        d3{}, ph::settled_force{.mass = 0.1 * u.kg(), .force_limit = 8.0 * u.N},
+        d3{},
+        ph::settled_force{.mass = 0.1 * u.kg(),
+                          .slide_fraction = 0.0,  // its dry friction is stated in newtons
+                          .force_limit = 8.0 * u.N},
         ph::forgiving{ph::reduced_energy{.damping = 0.05 * u.damp()}, 0.02 * u.J()},
         ph::bound_chain{reach(u), ph::actuator_limit{.most = 8.0 * u.N}}, late<1>(u)};
   };
