@@ -274,10 +274,10 @@ class settled_force::on : private part_at<given_force, P> {
       const scalar felt = damper(slid_, scalar(-4) * P::dot(aside, sideways), square, dt, full);
       const scalar per_newton =
           scalar(1) / kernels::larger(kernels::square_root(square), scalar(1e-3));
-      const scalar most =
+      const scalar stops =
           kernels::larger(unit, kernels::smaller(scalar(10) * unit, scalar(0.04) * per_newton));
       const scalar slide = kernels::larger(kernels::smaller(unit, scalar(0.02) * per_newton),
-                                           kernels::smaller(felt, most));
+                                           kernels::smaller(felt, stops));
       const effort ahead = P::scaled(aside, lead_);
       const effort across = less(P::scaled(ahead, braking(ahead, sideways, full)), sideways, slide);
       return less(less(w, n, brake), across, -within(across, size));
