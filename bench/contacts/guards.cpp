@@ -516,7 +516,7 @@ ex::record record_of(const sum_row& r) {
 }
 sum_row fall_often(sum_row row, std::uint64_t seed, int cases) {
   constexpr double seconds = 8.0;
-  std::vector<double> times;
+  std::vector<double>& times = row.times;
   for (int i = 0; i < cases; ++i) {
     const scene_of_walls s = drawn(seed * 1000003U + static_cast<std::uint64_t>(i));
     if (s.grip != row.grip) continue;
@@ -532,13 +532,12 @@ sum_row fall_often(sum_row row, std::uint64_t seed, int cases) {
     }
   }
   std::sort(times.begin(), times.end());
-  row.times = times;
-  row.times.resize(static_cast<std::size_t>(row.cases), std::nan(""));
   if (!times.empty()) {
     row.median = times[times.size() / 2];
     row.slow = times[times.size() * 95 / 100];
     row.slowest = times.back();
   }
+  times.resize(static_cast<std::size_t>(row.cases), std::nan(""));
   return row;
 }
 

@@ -19,7 +19,7 @@ inline namespace v0 {
 ///     D = min(B, t K)    B = β m/T, t = max(50 T, 50 ms, 4m/B), along n [N·s/m]; at most 2|w| inwards, |w| outwards
 ///     σ                  lead of the part of w across n [ticks]; at most B times the speed that it brakes
 ///     D_s = max(min(B_s, 0.02 N/|v⊥|), min(4 t K_s, max(B_s, min(10 B_s, 0.04 N/|v⊥|))))   B_s = β_s m/T, across n
-///                        [N·s/m]: dry friction, and more in a trough, where it stops a swing
+///                        [N·s/m], |v⊥| ≥ 1 mm/s in it: dry friction, and more in a trough, where it stops a swing
 ///     K, K_s             slopes −Δw·Δx/|Δx|² of w along n and across it, felt in the last 0.1 s of motion [N/m]
 ///     n ← n + (w/|w| − n) dt/(τ + dt), of length 1, so that it turns smoothly at facets and detents
 /// The sum of both parts across n is at most |w|. At rest f = w; for w = 0 f = 0. A force that is the same everywhere

@@ -124,7 +124,7 @@ struct port_state {
     kept += scalar(2) * kernels::square_root(Port::squared(travel));
     return kernels::larger(energy / force - kept, scalar(0)) * dt / time;
   }
-  /// The same where the hand took `spent` [J] in the last tick: one that takes an eighth of what is paid does not limit it,
+  /// The same where the hand took `spent` [J] in the last tick: less than an eighth of what is paid does not limit it,
   /// as long as a way of `kept` more is paid for. Nearer to the end a device slower than `calm` [m/s] does not go on at once.
   [[nodiscard]] constexpr scalar paid_way(scalar force, scalar kept, scalar time, scalar spent,
                                           scalar calm = kernels::largest<scalar>()) const noexcept {
