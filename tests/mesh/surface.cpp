@@ -28,14 +28,39 @@ TEST_CASE("what is no mesh is refused by a sentence that names it", "[mesh]") {
             .empty());
 }
 
-TEST_CASE("a mesh that was told in millimetres is doubted", "[mesh]") {
+TEST_CASE("a mesh that was told in millimetres or kilometres is doubted", "[mesh]") {
   const body b = plate();
   CHECK(ph::mesh::surface::doubt(b.nodes).empty());
-  auto nodes = b.nodes;
-  for (triple& p : nodes) p = p * 1e3;
-  CHECK(ph::mesh::surface::check(b.triangles, nodes).empty());
-  CHECK_THAT(ph::mesh::surface::doubt(nodes),
-             Contains("it is 100 m wide") && Contains("millimetres"));
+  const auto doubt = [&](double unit) {
+    auto nodes = b.nodes;
+    for (triple& p : nodes) p = p * unit;
+    CHECK(ph::mesh::surface::check(b.triangles, nodes).empty());
+    return ph::mesh::surface::doubt(nodes);
+  };
+  CHECK_THAT(doubt(1e3), Contains("it is 100 m wide") && Contains("millimetres"));
+  CHECK_THAT(doubt(1e-3), Contains("it is 0.0001 m wide") && Contains("give metres"));
+}
+
+TEST_CASE("a mesh whose triangles have left their neighbours is doubted", "[mesh]") {
+  const body b = sphere(3, 0.04);
+  auto mixed = b.nodes;
+  const std::size_t count = mixed.size();
+  for (std::size_t i = 0; i < count; ++i) std::swap(mixed[i], mixed[i * i % count]);
+  ph::mesh::surface s(b.triangles, mixed);
+  CHECK(s.doubt().empty());
+  REQUIRE(s.update(b.nodes));
+  CHECK_THAT(s.doubt(), Contains("make another mesh::surface"));
+  ph::mesh::surface anew(b.triangles, b.nodes);
+  for (const double by : {0.5, 1.0, 2.0}) {  // it grows, is drawn out, and is wound up by a turn
+    auto nodes = b.nodes;
+    for (triple& p : nodes) {
+      const double a = 6.28 * by * p.z / 0.08;
+      p = {by * (p.x * std::cos(a) - p.y * std::sin(a)),
+           by * (p.x * std::sin(a) + p.y * std::cos(a)), by * by * p.z};
+    }
+    REQUIRE(anew.update(nodes));
+    CHECK(anew.doubt().empty());
+  }
 }
 
 TEST_CASE("nodes with x, y and z are taken as they are", "[mesh]") {

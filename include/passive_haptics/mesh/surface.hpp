@@ -175,9 +175,13 @@ class surface {
       const triple off = detail::node_of(nodes, i) - detail::node_of(nodes, 0);
       for (const double way : {off.x, off.y, off.z}) widest = (std::max)(widest, std::fabs(way));
     }
-    if (!(widest > 10.0)) return {};
-    return "mesh: it is " + std::to_string(static_cast<int>((std::min)(widest, 1e9))) +
-           " m wide, so a finger may meet nothing of it; give metres, not millimetres";
+    if (widest > 10.0) {
+      return "mesh: it is " + in_words(widest) +
+             " m wide, so a finger may meet nothing of it; give metres, not millimetres";
+    }
+    if (!(widest < 1e-3)) return {};
+    return "mesh: it is " + in_words(widest) +
+           " m wide, so a finger feels nothing of its shape; give metres";
   }
 
   /// The same for a number of triangles.
@@ -280,6 +284,26 @@ class surface {
     late_ = 0.0;
     if (good) last_ = at;
     return good;
+  }
+  /// What is doubtful of the nodes that were told last, as above, or of where they have gone: triangles that have left
+  /// those beside which they were made are found slowly. It takes as long as making the mesh.
+  [[nodiscard]] std::string doubt() const {
+    const detail::world& w = *world_;
+    const shape& now = w.shapes[w.shapes.told()];
+    if (std::string of_nodes = doubt(now.nodes); !of_nodes.empty()) return of_nodes;
+    const box_tree anew(centres(w.triangles, now.nodes));
+    std::vector<box> boxes;
+    fit_boxes(boxes, anew, w.triangles, now.nodes);
+    const auto looked_at = [](const std::vector<box>& all) {  // in proportion to their area
+      double area = 0.0;
+      for (const box& b : all) area += b.half_area();
+      return area;
+    };
+    const double times = looked_at(now.boxes) / looked_at(boxes);
+    if (!(times > 4.0)) return {};
+    return "mesh: its triangles have left those beside which they were made, so a tick looks at " +
+           in_words(std::round(times)) +
+           " times as many as it need; make another mesh::surface of these nodes and touch() it";
   }
   /// Why the last update was refused; empty if it was not.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
@@ -400,15 +424,15 @@ class surface {
     }
     return true;
   }
+  [[nodiscard]] static std::string in_words(double x) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%g", x == x ? x : std::fabs(x));  // no sign of a NaN
+    return text.data();
+  }
   /// "(1, nan, 2)".
   [[nodiscard]] static std::string in_words(std::initializer_list<double> numbers) {
     std::string all;
-    for (const double x : numbers) {
-      std::array<char, 32> one{};
-      std::snprintf(one.data(), one.size(), "%s%g", all.empty() ? "(" : ", ",
-                    x == x ? x : std::fabs(x));  // no sign of a NaN
-      all += one.data();
-    }
+    for (const double x : numbers) all += (all.empty() ? "(" : ", ") + in_words(x);
     return all + ")";
   }
   template <class Nodes>
@@ -527,13 +551,17 @@ class surface {
     fit(next);
     shapes.publish();
   }
+  static void fit_boxes(std::vector<box>& boxes, const box_tree& tree,
+                        std::span<const triangle> triangles, const std::vector<triple>& nodes) {
+    boxes.resize(tree.branches().size());
+    tree.fit(boxes, [&](int t, box& b) {
+      for (const int node : triangles[at(t)]) b.grow(nodes[at(node)]);
+    });
+  }
   /// Fits the boxes, and the normals of a smooth mesh, to the nodes.
   void fit(shape& s) {
     const detail::world& w = *world_;
-    s.boxes.resize(w.tree.branches().size());
-    w.tree.fit(s.boxes, [&](int t, box& b) {
-      for (const int node : w.triangles[at(t)]) b.grow(s.nodes[at(node)]);
-    });
+    fit_boxes(s.boxes, w.tree, w.triangles, s.nodes);
     if (rounds_off_ != nullptr) rounds_off_(w, s, problems_);
   }
 

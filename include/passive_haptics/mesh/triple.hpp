@@ -72,6 +72,11 @@ struct box {
     return squared(
         triple{beyond(low.x, high.x, p.x), beyond(low.y, high.y, p.y), beyond(low.z, high.z, p.z)});
   }
+  /// Half of its area [m²]; 0 of a box of no points.
+  [[nodiscard]] constexpr double half_area() const noexcept {
+    const triple side = high - low;
+    return side.x >= 0.0 ? side.x * side.y + side.y * side.z + side.z * side.x : 0.0;
+  }
   /// The largest n·p of its points.
   [[nodiscard]] constexpr double farthest_along(const triple& n) const noexcept {
     return n.x * (n.x > 0.0 ? high.x : low.x) + n.y * (n.y > 0.0 ? high.y : low.y) +
