@@ -30,6 +30,7 @@ int main() {
   touch.update({.point = {0.0, 0.0, 0.0}, .normal = {0.0, 0.0, 1.0}, .stiffness = 4000.0});
   auto sample = omega.exchange(scene::zero());
   for (const double end = dhdGetTime() + 60.0; dhdGetTime() < end;) {
+    touch.enable_forces(omega.forces_on());             // its button may have switched them off
     sample = omega.exchange(touch.tick(sample).force);  // the call paces the loop
   }
 

@@ -23,6 +23,16 @@ class passive_effort_controller : public ci::ChainableControllerInterface {
             {"device_x/position", "device_y/position", "device_z/position"}};
   }
 
+  // Nobody has seen what the device did while the controller was not active, and nothing pushes while it is not.
+  ci::CallbackReturn on_activate(const rclcpp_lifecycle::State&) override {
+    port_.reset();
+    return ci::CallbackReturn::SUCCESS;
+  }
+  ci::CallbackReturn on_deactivate(const rclcpp_lifecycle::State&) override {
+    for (auto& effort : command_interfaces_) (void)effort.set_value(0.0);
+    return ci::CallbackReturn::SUCCESS;
+  }
+
   ci::return_type update_and_write_commands(const rclcpp::Time&,
                                             const rclcpp::Duration& period) override {
     scene::vector x, wanted;

@@ -69,6 +69,10 @@ int dhdEnableForce(uchar on, char) {
   dhd->forces = on == DHD_ON;
   return 0;
 }
+int dhdGetStatus(int status[DHD_MAX_STATUS], char) {
+  status[DHD_STATUS_FORCE] = dhd->forces ? 1 : 0;
+  return dhd->gone ? -1 : 0;
+}
 const char* dhdGetSystemName(char) {
   return "a simulated omega";
 }
@@ -105,7 +109,7 @@ int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double 
   dhd->gripper = g;
   const bool saturates = wanted.norm() > most;
   dhd->applied = saturates ? vec(wanted * (most / wanted.norm())) : wanted;
-  static_cast<void>(dhd->device.exchange(dhd->applied));
+  static_cast<void>(dhd->device.exchange(dhd->forces ? dhd->applied : vec(vec::Zero())));
   dhd->now += T;
   return saturates ? DHD_MOTOR_SATURATED : 0;
 }
@@ -194,6 +198,34 @@ TEST_CASE("what saturated motors held is what the ledger is told", "[adapters][f
   CHECK(omega.saturated() == 1);
   CHECK_THAT(sample.dt, WithinRel(T, 1e-9));
   CHECK(sample.valid);
+}
+
+TEST_CASE("a port that is told of the force button credits no hand that sinks in",
+          "[adapters][force_dimension]") {
+  const auto least_energy = [](bool told) {
+    ad::force_dimension<scene> omega;
+    open(omega);
+    auto touch = ph::make_touch<scene>({.mass = omega.least_mass(),
+                                        .damping = damping,
+                                        .force_limit = most,
+                                        .longest_tick = 1.01 * T},
+                                       {.force = 5.0});
+    touch.update({.point = {0.0, 0.0, 0.0}, .normal = {0.0, 0.0, 1.0}, .stiffness = 8000.0});
+    auto sample = omega.exchange(scene::zero());
+    for (int k = 0; k < 6000; ++k) {
+      dhd->forces = k > 400;
+      if (told) touch.enable_forces(omega.forces_on());
+      sample = omega.exchange(touch.tick(sample).force);
+    }
+    return dhd->device.meter().minimum();
+  };
+  CHECK(least_energy(true) >= -1e-12);
+  CHECK(least_energy(false) < -1e-3);
+  ad::force_dimension<scene> omega;
+  open(omega);
+  CHECK(omega.forces_on());
+  dhd->gone = true;
+  CHECK_FALSE(omega.forces_on());
 }
 
 TEST_CASE("a sample that the time guard repeats is asked for again",

@@ -14,6 +14,7 @@ static_assert(same<int (*)(), decltype(&dhdOpen)>);
 static_assert(same<int (*)(char), decltype(&dhdOpenID)>);
 static_assert(same<int (*)(char), decltype(&dhdClose)>);
 static_assert(same<int (*)(unsigned char, char), decltype(&dhdEnableForce)>);
+static_assert(same<int (*)(int*, char), decltype(&dhdGetStatus)>);
 static_assert(same<const char* (*)(char), decltype(&dhdGetSystemName)>);
 static_assert(same<bool (*)(char), decltype(&dhdHasActiveWrist)>);
 static_assert(same<int (*)(double*, double*, double*, char), decltype(&dhdGetPosition)>);
@@ -31,3 +32,4 @@ static_assert(
     same<int (*)(double*, double (*)[6], char), decltype(&dhdJointAnglesToInertiaMatrix)>);
 static_assert(same<double (*)(), decltype(&dhdGetTime)>);
 static_assert(DHD_ON == 1 && DHD_MAX_DOF >= 6 && DHD_TIMEGUARD == 1 && DHD_MOTOR_SATURATED == 2);
+static_assert(DHD_STATUS_FORCE >= 0 && DHD_STATUS_FORCE < DHD_MAX_STATUS);

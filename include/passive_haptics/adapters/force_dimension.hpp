@@ -7,6 +7,7 @@
 //     if (const auto fault = omega.open()) return complain(fault);
 //     auto touch = ph::make_touch<scene>({.mass = omega.least_mass(), .damping = 0.05, .force_limit = 12.0, .longest_tick = 0.0005}, {.force = 5.0});
 //     for (auto sample = omega.exchange(scene::zero()); …;) {
+//       touch.enable_forces(omega.forces_on());                            // its button may have switched them off
 //       sample = omega.exchange(touch.tick(sample).force);                 // the call paces the loop
 //     }
 //
@@ -111,6 +112,13 @@ class force_dimension {
     saturated_ += said == DHD_MOTOR_SATURATED ? 1U : 0U;
     failed_ += said < 0 ? 1U : 0U;
     return sample;
+  }
+
+  /// False if the motors are off, by the button of the device or by a fault, or if the SDK does not say. No sample says
+  /// so: a port that is not told by enable_forces() takes what it commands for held, and credits the hand with it.
+  [[nodiscard]] bool forces_on() const noexcept {
+    int status[DHD_MAX_STATUS] = {};
+    return is_open() && dhdGetStatus(status, id_) >= 0 && status[DHD_STATUS_FORCE] != 0;
   }
 
   /// Exchanges since open() in which the motors could not hold the command, and those that the SDK refused.

@@ -8,6 +8,8 @@ using uchar = unsigned char;
 #define DHD_MAX_DOF 8
 #define DHD_TIMEGUARD 1
 #define DHD_MOTOR_SATURATED 2
+#define DHD_MAX_STATUS 16
+#define DHD_STATUS_FORCE 5
 
 extern "C" {
 int dhdErrorGetLast();
@@ -15,6 +17,7 @@ int dhdOpen();
 int dhdOpenID(char id);
 int dhdClose(char id = -1);
 int dhdEnableForce(uchar on, char id = -1);
+int dhdGetStatus(int status[DHD_MAX_STATUS], char id = -1);
 const char* dhdGetSystemName(char id = -1);
 bool dhdHasActiveWrist(char id = -1);
 int dhdGetPosition(double* x, double* y, double* z, char id = -1);
