@@ -4,6 +4,7 @@
 
 #include "tables.hpp"
 #include <passive_haptics/compositions.hpp>
+#include <passive_haptics/simulation/device.hpp>
 #include <passive_haptics/simulation/loop.hpp>
 #include <passive_haptics/simulation/prescribed_motion.hpp>
 #include <passive_haptics/simulation/search.hpp>
@@ -46,6 +47,39 @@ template <class Loop, class Lay>
   return sim::run(device, loop, in + out, press, move).least_energy;
 }
 
+/// Presses motors in, of which the world asks more than they hold, and gives way to what asks for less.
+struct yielding_hand {
+  using vector = sim::physical<ph::space<double, 1>>::vector;
+  double in = 0.0, out = 0.0;  ///< inwards [N]
+  double turns = 0.0;          ///< [s]
+  [[nodiscard]] vector force(double t, const vector& /*x*/, const vector& /*v*/) const noexcept {
+    return vector(t < turns ? -in : -out);
+  }
+  [[nodiscard]] double mass() const noexcept { return 0.0; }
+  [[nodiscard]] ph::parameter_fault check() const noexcept { return {}; }
+};
+/// The same of a hand that is limited in force: weak motors have not taken in what the ledger was told.
+template <class Loop, class Lay>
+[[nodiscard]] double press_and_give_way(Loop loop, const Lay& lay, const sim::circumstances& world,
+                                        double turns) {
+  using space = ph::space<double, 1>;
+  constexpr double stiffness = 300.0;  // [N/m]
+  const double motors = std::min(world.force_limit, 0.8 * world.hand_force);
+  const yielding_hand hand{.in = std::min(1.02 * motors + 1.05 * world.friction, world.hand_force),
+                           .out = 0.25 * motors,
+                           .turns = turns};
+  auto body = world.device_of<space>();
+  body.friction = world.friction;
+  sim::device<space, yielding_hand> device(body, hand);
+  return sim::
+      run(device, loop, 1500,
+          [&](const auto& now) {
+            const double force = (now.time < turns ? 6.0 : 0.9) * motors;
+            lay(loop, sim::surface_state<space>{now.position + force / stiffness, 1.0, stiffness});
+          })
+          .least_energy;
+}
+
 /// All of them: a challenge of so many runs each, and a search of five times as many.
 template <class Loop, class Lay>
 [[nodiscard]] drawn most_drawn(const Loop& loop, const Lay& lay, const sim::circumstances& world,
@@ -66,6 +100,11 @@ template <class Loop, class Lay>
     }
   } else {
     most.count(sim::worst_push(loop, world, 5 * how.runs, how.first, lay).energy, "worst push");
+    if constexpr (sim::space_of<Loop>::dof == 1) {
+      for (const double turns : {0.05, 0.1, 0.2}) {
+        most.count(press_and_give_way(loop, lay, world, turns), "press and give way");
+      }
+    }
   }
   return most;
 }
