@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Eigen vectors of two and more components, for space<Scalar, 2>, space<Scalar, 3> and every joint_space. No
-// other core header names Eigen.
+// Eigen vectors, for space<Scalar, 2>, space<Scalar, 3> and every joint_space. No other core header names Eigen.
 
 #include <passive_haptics/device/space.hpp>
 
@@ -100,11 +99,12 @@ requires(Dof >= 2) struct vectors<Scalar, Dof> {
 
   /// A unit vector orthogonal to the unit vector n; the choice is fixed, so it is repeatable (A19).
   [[nodiscard]] static vector orthogonal(const vector& n) noexcept {
-    Eigen::Index least = 0;
-    n.cwiseAbs().minCoeff(&least);
-    vector u = -n(least) * n;
+    const vector size = numbers([&](int i) { return kernels::magnitude(n(i)); });
+    int least = 0;
+    for (int i = 1; i < Dof; ++i) least = size(i) < size(least) ? i : least;
+    vector u = scaled(n, -n(least));
     u(least) += Scalar(1);
-    return u / norm(u);
+    return numbers([&, length = norm(u)](int i) { return u(i) / length; });
   }
 
   [[nodiscard, gnu::always_inline]] static vector cross(const vector& a, const vector& b) noexcept

@@ -32,7 +32,7 @@ class contact_area {
   contact_area(const surface_graph& surface, nodes_view rest)
       : areas_(rest.size(), 0.0), seen_(rest.size()) {
     for (const surface_triangle& t : surface.triangles()) {
-      const double third = area_vector(corners(t, rest)).norm() / 3.0;
+      const double third = mesh::length(area_of(triples_of(corners(t, rest)))) / 3.0;
       for (const int node : t.nodes) areas_[slot(node)] += third;
     }
     nodes_.reserve(rest.size());
@@ -43,10 +43,10 @@ class contact_area {
   /// as edges between nodes within the radius lead from that triangle to them. It does not allocate.
   void gather(const surface_graph& surface, nodes_view rest, const surface_triangle& on,
               const Eigen::Vector3d& weights, double radius) {
-    const triangle shape = corners(on, rest);
-    const Eigen::Vector3d centre = point_at(shape, weights);
+    const mesh::corners shape = triples_of(corners(on, rest));
+    const mesh::triple centre = mesh::point_at(shape, triple_of(weights));
     for (std::size_t k = 0; k < 3; ++k) {
-      radius = (std::max)(radius, (shape[(k + 1) % 3] - shape[k]).norm());
+      radius = (std::max)(radius, mesh::length(shape[(k + 1) % 3] - shape[k]));
     }
     nodes_.clear();
     shares_.clear();
@@ -54,7 +54,8 @@ class contact_area {
     double sum = 0.0;
     const auto add = [&](int node) {
       if (!seen_.add(node)) return;
-      const double inside = 1.0 - (rest[slot(node)] - centre).squaredNorm() / (radius * radius);
+      const double far = mesh::squared(triple_of(rest[slot(node)]) - centre);
+      const double inside = 1.0 - far / (radius * radius);
       if (!(inside > 0.0)) return;
       nodes_.push_back(node);
       shares_.push_back(areas_[slot(node)] * inside * inside);

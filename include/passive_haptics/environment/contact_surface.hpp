@@ -201,13 +201,13 @@ template <touched_body Body>
 ///     touch.update(env::yielding(env::plane_at(body), body.contact()));
 template <class Surface>
 [[nodiscard]] Surface yielding(Surface surface, const surface_contact& contact) {
-  const Eigen::Vector3d back = contact.rest - contact.point;
+  const mesh::triple back = triple_of(contact.rest) - triple_of(contact.point);
   if constexpr (requires { surface.node_count; }) {
     for (std::size_t i = 0; i < surface.node_count; ++i) {
-      surface.nodes[i] = Eigen::Vector3d(Eigen::Vector3d(surface.nodes[i]) + back);
+      surface.nodes[i] = vector_of(triple_of(surface.nodes[i]) + back);
     }
   } else {
-    surface.point = Eigen::Vector3d(Eigen::Vector3d(surface.point) + back);
+    surface.point = vector_of(triple_of(surface.point) + back);
   }
   const double K = surface.stiffness, body = contact.stiffness;
   if (K > 0.0 && body > 0.0) surface.stiffness = K * body / (K + body);
@@ -246,22 +246,21 @@ class ahead {
   /// Where the finger will be [m], for a finger [m] at this update. One that is not finite comes back as it is, and
   /// is not remembered; the first one comes back as it is, too.
   [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& finger) noexcept {
-    if (!finger.allFinite()) return finger;
-    const Eigen::Vector3d way = known_ ? Eigen::Vector3d(far_.periods * (finger - last_))
-                                       : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    const double length = way.norm();
+    const mesh::triple here = triple_of(finger);
+    if (!is_finite(here)) return finger;
+    const mesh::triple way = known_ ? (here - last_) * far_.periods : mesh::triple{};
+    const double length = mesh::length(way);
     known_ = true;
-    last_ = finger;
+    last_ = here;
     if (!std::isfinite(length)) return finger;
-    if (!(length > far_.most)) return finger + way;
-    return finger + way * (far_.most / length);
+    return vector_of(here + (length > far_.most ? way * (far_.most / length) : way));
   }
   /// Forgets the last finger: the next one is where it is.
   void reset() noexcept { known_ = false; }
 
  private:
   foresight far_;
-  Eigen::Vector3d last_ = Eigen::Vector3d::Zero();
+  mesh::triple last_;
   bool known_ = false;
 };
 

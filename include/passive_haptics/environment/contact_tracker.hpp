@@ -46,7 +46,8 @@ class contact_tracker {
   [[nodiscard]] std::optional<surface_point> follow(const surface_search& surface, nodes_view nodes,
                                                     const Eigen::Vector3d& x,
                                                     const Before& before) {
-    if (triangle_ < 0 || triangle_ >= static_cast<int>(surface.size()) || !x.allFinite()) {
+    if (triangle_ < 0 || triangle_ >= static_cast<int>(surface.size()) ||
+        !is_finite(triple_of(x))) {
       return find(surface, nodes, x);
     }
     return held_or(surface.closest_near(nodes, x, triangle_, before), surface.triangles(), nodes,

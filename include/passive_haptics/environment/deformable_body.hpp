@@ -145,14 +145,15 @@ class basic_deformable_body {
     moved_.reserve(rest_.size());
     moved_before_.reserve(rest_.size());
     double volume = 0.0;
+    passive_haptics::mesh::triple centre;
     for (const auto& t : mesh.tetrahedra) {
-      for (const int node : t) {
-        centre_ += signed_volume(mesh, t) / 4.0 * mesh.nodes[static_cast<std::size_t>(node)];
-      }
-      volume += signed_volume(mesh, t);
+      const double share = signed_volume(mesh, t);
+      for (const int node : t) centre = centre + triple_of(rest_[slot(node)]) * (share / 4.0);
+      volume += share;
     }
-    centre_ /= volume;
-    for (const auto& node : rest_) extent_ = (std::max)(extent_, (node - centre_).norm());
+    centre = centre * (1.0 / volume);
+    centre_ = vector_of(centre);
+    for (const auto& node : rest_) extent_ = (std::max)(extent_, length(triple_of(node) - centre));
   }
 
   /// One update of the slow loop. It loads the contact of the LAST update, which the local model has
@@ -163,7 +164,7 @@ class basic_deformable_body {
   /// allocates or factorises, unless the solid does.
   surface_contact update(const Eigen::Vector3d& device, const Eigen::Vector3d& force_on_device) {
     contact_.fresh = false;
-    if (!device.allFinite() || !force_on_device.allFinite()) return contact_;
+    if (!is_finite(triple_of(device)) || !is_finite(triple_of(force_on_device))) return contact_;
     const Eigen::Vector3d force = relaxed(force_on_device);
     const auto found = around() ? find_around(device, force) : find_anywhere(device, force);
     if (!found || !within_reach_ || !std::isfinite(found->depth)) return contact_;
@@ -214,8 +215,7 @@ class basic_deformable_body {
 
   [[nodiscard]] Eigen::Vector3d at_rest(const surface_triangle& t,
                                         const Eigen::Vector3d& weights) const {
-    return weights(0) * rest_[slot(t.nodes[0])] + weights(1) * rest_[slot(t.nodes[1])] +
-           weights(2) * rest_[slot(t.nodes[2])];
+    return point_at(corners(t, rest_), weights);
   }
   /// F + w (F_LM − F) [N] with the w of the last contact; zero before the first contact. (A12)
   [[nodiscard]] Eigen::Vector3d relaxed(const Eigen::Vector3d& answer) const {
@@ -223,7 +223,8 @@ class basic_deformable_body {
     if (options_.relaxation == force_relaxation::none) return answer;
     const double local =
         options_.local_stiffness > 0.0 ? options_.local_stiffness : contact_.stiffness;
-    return force_ + contact_.stiffness / (contact_.stiffness + local) * (answer - force_);
+    const double share = contact_.stiffness / (contact_.stiffness + local);
+    return vector_of(mesh::between(triple_of(force_), triple_of(answer), share));
   }
 
   /// Presses the point or area that the next force will act on; returns its compliance along the normal [m/N].
@@ -236,7 +237,8 @@ class basic_deformable_body {
       solid_.load(n);  // the contact point moves farther than the mean that press() returns
       double give = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {
-        give += on.weights[static_cast<Eigen::Index>(k)] * n.dot(solid_.displacement(t.nodes[k]));
+        give += on.weights[static_cast<Eigen::Index>(k)] *
+                mesh::dot(triple_of(n), triple_of(solid_.displacement(t.nodes[k])));
       }
       return give;
     }
@@ -253,22 +255,22 @@ class basic_deformable_body {
   void move(int node) {
     if (!met_.add(node)) return;
     moved_.push_back(node);
-    const Eigen::Vector3d u = solid_.displacement(node);
-    next_[slot(node)] = rest_[slot(node)] + u;
-    within_reach_ = within_reach_ && u.norm() < 1e3 * extent_;
+    const mesh::triple u = triple_of(solid_.displacement(node));
+    next_[slot(node)] = vector_of(triple_of(rest_[slot(node)]) + u);
+    within_reach_ = within_reach_ && mesh::length(u) < 1e3 * extent_;
   }
   void begin_moves(const Eigen::Vector3d& force) {
     within_reach_ = true;
     for (const int node : moved_) next_[slot(node)] = rest_[slot(node)];
     moved_.clear();
     met_.clear();
-    if (contact_.triangle >= 0) solid_.load(-force);
+    if (contact_.triangle >= 0) solid_.load(vector_of(triple_of(force) * -1.0));
   }
 
   [[nodiscard]] std::optional<surface_point> find_anywhere(const Eigen::Vector3d& device,
                                                            const Eigen::Vector3d& force) {
     begin_moves(force);
-    const bool at_rest = force.isZero(0.0);
+    const bool at_rest = triple_of(force) == mesh::triple{};
     if (!at_rest) {
       for (const int node : moving_) move(node);
       if (!within_reach_) return std::nullopt;
@@ -285,7 +287,7 @@ class basic_deformable_body {
   [[nodiscard]] std::optional<surface_point> find_around(const Eigen::Vector3d& device,
                                                          const Eigen::Vector3d& force) {
     begin_moves(force);
-    if (force.isZero(0.0)) return tracker_.find(search_, next_, device);
+    if (triple_of(force) == mesh::triple{}) return tracker_.find(search_, next_, device);
     const auto move_corners = [&](int i) {
       for (const int node : search_[slot(i)].nodes) move(node);
     };

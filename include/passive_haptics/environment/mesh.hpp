@@ -146,7 +146,7 @@ inline constexpr double flat_element = 1e-9;  ///< an element of a relative volu
   }
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(i)];
-    if (!x.allFinite()) {
+    if (!is_finite(triple_of(x))) {
       return mesh_fault{.node = i,
                         .problem = sentence("is not finite: ", x[0], " ", x[1], " ", x[2]),
                         .remedy = "mend its coordinates"};

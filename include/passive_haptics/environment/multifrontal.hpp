@@ -51,9 +51,9 @@ class multifrontal {
     factorised_ = false;
     factor_result result = eliminate(stiffness, tell);
     factorised_ = !result.stopped && result.smallest_pivot > 0.0;
-    if (!factorised_) return factor_ = {}, result;
-    work_.setZero(stiffness.rows());
-    below_.setZero(largest_front(), 3);
+    if (!factorised_) return factor_.clear(), result;
+    work_.assign(static_cast<std::size_t>(stiffness.rows()), 0.0);
+    clear(below_, largest_front(), 3);
     return result;
   }
   [[nodiscard]] bool factorised() const noexcept { return factorised_; }
@@ -63,12 +63,12 @@ class multifrontal {
   void solve(Eigen::VectorXd& b) {
     if (!factorised_) return;
     for (std::size_t k = 0; k < node_at_.size(); ++k) {
-      work_.segment<3>(row(k)) = b.segment<3>(row(node_at_[k]));
+      std::copy_n(b.data() + row(node_at_[k]), 3, work_.data() + row(k));
     }
-    for (std::size_t t = 0; t < factor_.size(); ++t) forward(t, work_.data(), work_.size(), 1);
+    for (std::size_t t = 0; t < factor_.size(); ++t) forward(t, work_.data(), b.size(), 1);
     for (std::size_t t = factor_.size(); t-- > 0;) backward(t, work_.data());
     for (std::size_t k = 0; k < node_at_.size(); ++k) {
-      b.segment<3>(row(node_at_[k])) = work_.segment<3>(row(k));
+      std::copy_n(work_.data() + row(k), 3, b.data() + row(node_at_[k]));
     }
   }
 
@@ -135,23 +135,23 @@ class multifrontal {
 
   /// The point that was pressed last.
   struct pressed {
-    std::vector<int> path;                          ///< fronts from the point to the root
-    Eigen::Matrix<double, Eigen::Dynamic, 3> half;  ///< Y, 3N rows in the order of elimination
+    std::vector<int> path;  ///< fronts from the point to the root
+    Eigen::MatrixXd half;   ///< Y, 3N rows in the order of elimination, and 3 columns
     Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero();  ///< YᵀY of the point [m/N]
   };
   /// The displacements under one force, of the fronts that were solved so far.
   struct answer {
-    Eigen::VectorXd u;         ///< 3N, in the order of elimination [m]
+    std::vector<double> u;     ///< 3N, in the order of elimination [m]
     marks solved;              ///< fronts whose u is known
     std::vector<int> waiting;  ///< fronts to solve, on the way from a node to a solved front
   };
   /// Allocates their memory, so that press() and displacement() do not allocate.
   void prepare(pressed& at) const {
     at.path.reserve(tree_.fronts.size());
-    at.half.setZero(static_cast<Eigen::Index>(3 * node_at_.size()), 3);
+    clear(at.half, row(node_at_.size()), 3);
   }
   void prepare(answer& to) const {
-    to.u.setZero(static_cast<Eigen::Index>(3 * node_at_.size()));
+    to.u.assign(3 * node_at_.size(), 0.0);
     to.solved = marks(tree_.fronts.size());
     to.waiting.reserve(tree_.fronts.size());
   }
@@ -189,7 +189,7 @@ class multifrontal {
   /// u [m] of a node under `force` [N] at the pressed point. A second call before forget() costs nothing.
   [[nodiscard]] Eigen::Vector3d displacement(answer& of, const pressed& at,
                                              const Eigen::Vector3d& force, int node) {
-    if (!factorised_ || of.u.size() == 0) return Eigen::Vector3d::Zero();
+    if (!factorised_ || of.u.empty()) return Eigen::Vector3d::Zero();
     const int position = tree_.position[slot(node)];
     of.waiting.clear();
     for (int t = tree_.front_of[slot(position)]; t >= 0 && !of.solved.has(t);
@@ -200,14 +200,16 @@ class multifrontal {
       const elimination_front& front = tree_.fronts[slot(*it)];
       const bool on_path = std::binary_search(at.path.begin(), at.path.end(), *it);
       for (Eigen::Index k = row(front.first); k < row(front.first + front.pivots); ++k) {
-        of.u[k] = !on_path ? 0.0
-                           : at.half(k, 0) * force[0] + at.half(k, 1) * force[1] +
-                                 at.half(k, 2) * force[2];
+        of.u[static_cast<std::size_t>(k)] =
+            !on_path
+                ? 0.0
+                : at.half(k, 0) * force[0] + at.half(k, 1) * force[1] + at.half(k, 2) * force[2];
       }
       backward(slot(*it), of.u.data());
       of.solved.add(*it);
     }
-    return of.u.segment<3>(row(position));
+    const double* const u = of.u.data() + row(position);
+    return {u[0], u[1], u[2]};
   }
 
  private:
@@ -553,8 +555,8 @@ class multifrontal {
   std::vector<int> node_at_;             ///< the node at each position in the order of elimination
   std::vector<Eigen::MatrixXd> factor_;  ///< L of each front, the bound below the pivots
   bool factorised_ = false;
-  Eigen::VectorXd work_;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> below_;  ///< scratch, rows of the largest front
+  std::vector<double> work_;
+  Eigen::MatrixXd below_;  ///< scratch, rows of the largest front and 3 columns
 };
 
 }  // namespace environment

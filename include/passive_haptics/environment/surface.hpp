@@ -108,6 +108,12 @@ struct surface_point {
   return true;
 }
 
+/// The corner of the largest weight.
+[[nodiscard]] inline std::size_t heaviest(const Eigen::Vector3d& weights) {
+  const auto first = weights.data();
+  return static_cast<std::size_t>(std::max_element(first, first + 3) - first);
+}
+
 /// Σ αₜ nₜ over the triangles that touch the point, where αₜ is the corner's angle [rad] at a node, and 1 on an
 /// edge and inside a face, where all angles are equal. The sign of (p − x)·Σ αₜ nₜ tells inside from outside even
 /// where that of one triangle does not: Bærentzen and Aanæs, "Signed distance computation using the angle weighted
@@ -116,22 +122,18 @@ template <class ForEach>
 [[nodiscard]] Eigen::Vector3d pseudo_normal(surface_view surface, nodes_view nodes,
                                             const surface_point& on, const ForEach& for_each) {
   const surface_triangle& owner = surface[static_cast<std::size_t>(on.triangle)];
-  std::size_t heaviest = 0, held = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double weight = on.weights[static_cast<Eigen::Index>(k)];
-    held += weight > 0.0 ? 1 : 0;
-    if (weight > on.weights[static_cast<Eigen::Index>(heaviest)]) heaviest = k;
-  }
-  const bool at_node = held == 1;
+  const int node = owner.nodes[heaviest(on.weights)];
+  int held = 0;
+  for (Eigen::Index k = 0; k < 3; ++k) held += on.weights[k] > 0.0 ? 1 : 0;
   mesh::triple sum;
   for_each([&](int number) {
     const surface_triangle& t = surface[static_cast<std::size_t>(number)];
     const mesh::corners shape = triples_of(corners(t, nodes));
     if (!touches(t, owner, on.weights) || is_degenerate(shape)) return;
     double angle = 1.0;  // the same for both sides of an edge
-    if (at_node) {
-      const auto k = static_cast<std::size_t>(
-          std::find(t.nodes.begin(), t.nodes.end(), owner.nodes[heaviest]) - t.nodes.begin());
+    if (held == 1) {     // at a node
+      const auto k = static_cast<std::size_t>(std::find(t.nodes.begin(), t.nodes.end(), node) -
+                                              t.nodes.begin());
       const mesh::triple a = shape[(k + 1) % 3] - shape[k], b = shape[(k + 2) % 3] - shape[k];
       angle = std::atan2(mesh::length(mesh::cross(a, b)), mesh::dot(a, b));
     }
@@ -144,9 +146,10 @@ template <class ForEach>
 template <class ForEach>
 [[nodiscard]] surface_point facing(surface_view surface, nodes_view nodes, const Eigen::Vector3d& x,
                                    const surface_point& found, const ForEach& for_each) {
-  if (found.weights.minCoeff() > 0.0) return found;
-  const double side =
-      (found.point - x).dot(pseudo_normal(surface, nodes, found, for_each)) < 0.0 ? -1.0 : 1.0;
+  const mesh::triple weights = triple_of(found.weights);
+  if (weights.x > 0.0 && weights.y > 0.0 && weights.z > 0.0) return found;
+  const mesh::triple outward = triple_of(pseudo_normal(surface, nodes, found, for_each));
+  const double side = mesh::dot(triple_of(found.point) - triple_of(x), outward) < 0.0 ? -1.0 : 1.0;
   surface_point best = found;
   for_each([&](int i) {
     if (!touches(surface[static_cast<std::size_t>(i)],
@@ -194,9 +197,9 @@ template <class ForEach>
   int best = -1;
   double largest = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < static_cast<int>(surface.size()); ++i) {
-    const triangle t = corners(surface[static_cast<std::size_t>(i)], nodes);
+    const mesh::corners t = triples_of(corners(surface[static_cast<std::size_t>(i)], nodes));
     if (is_degenerate(t)) continue;
-    const double match = unit_normal(t).dot(x - centre);
+    const double match = mesh::dot(normal_of(t), triple_of(x) - triple_of(centre));
     if (match > largest) {
       largest = match;
       best = i;

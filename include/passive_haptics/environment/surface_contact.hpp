@@ -18,7 +18,7 @@ struct surface_contact {
   std::array<Eigen::Vector3d, 3> nodes{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                                        Eigen::Vector3d::Zero()};  ///< of the triangle [m]
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< p: of the triangle, closest to device [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< n: of the triangle, unit, outward
+  Eigen::Vector3d normal{0.0, 0.0, 1.0};              ///< n: of the triangle, unit, outward
   Eigen::Vector3d weights = Eigen::Vector3d::Zero();  ///< barycentric, of p
   Eigen::Vector3d rest = Eigen::Vector3d::Zero();     ///< where p is under no load [m]
   int triangle = -1;                                  ///< −1 until the first good update

@@ -49,13 +49,13 @@ class surface_search : public surface_graph {
   [[nodiscard]] std::optional<surface_point> closest_point(nodes_view nodes,
                                                            const Eigen::Vector3d& x,
                                                            int likely = -1) const {
-    if (boxes_.empty() || !x.allFinite()) return std::nullopt;
+    if (boxes_.empty() || !is_finite(triple_of(x))) return std::nullopt;
     std::optional<surface_point> best;
     if (likely >= 0 && likely < static_cast<int>(size())) offer(best, nodes, x, likely);
     const mesh::triple at = triple_of(x);
     // Positions are rounded, so a box may seem farther than its triangles by up to `slack` [m], 90 roundings of 2⁻⁵³.
     const double slack =
-        1e-14 * (mesh::length(boxes_[0].low) + mesh::length(boxes_[0].high) + x.norm());
+        1e-14 * (mesh::length(boxes_[0].low) + mesh::length(boxes_[0].high) + mesh::length(at));
     tree_.walk([&](int b) { return boxes_[slot(b)].squared_distance(at); },
                [&](double distance2) {
                  const double reach = best ? best->distance + slack : mesh::box::infinity;
@@ -93,8 +93,8 @@ class surface_search : public surface_graph {
     std::vector<mesh::triple> all;
     all.reserve(surface.size());
     for (const surface_triangle& t : surface) {
-      const triangle shape = corners(t, nodes);
-      all.push_back(triple_of((shape[0] + shape[1] + shape[2]) / 3.0));
+      const mesh::corners shape = triples_of(corners(t, nodes));
+      all.push_back((shape[0] + shape[1] + shape[2]) * (1.0 / 3.0));
     }
     return all;
   }
@@ -104,8 +104,8 @@ class surface_search : public surface_graph {
     nodes_view nodes;
     void operator()(int t, mesh::box& b) const {
       for (const int node : of[slot(t)].nodes) {
-        const Eigen::Vector3d& at = nodes[slot(node)];
-        if (at.allFinite()) b.grow(triple_of(at));
+        const mesh::triple at = triple_of(nodes[slot(node)]);
+        if (is_finite(at)) b.grow(at);
       }
     }
   };
@@ -125,9 +125,7 @@ class surface_search : public surface_graph {
                                                    nodes_view nodes,
                                                    const Eigen::Vector3d& x) const {
     if (!found) return found;
-    Eigen::Index heaviest = 0;
-    found->weights.maxCoeff(&heaviest);
-    const int node = (*this)[slot(found->triangle)].nodes[static_cast<std::size_t>(heaviest)];
+    const int node = (*this)[slot(found->triangle)].nodes[heaviest(found->weights)];
     return facing(triangles(), nodes, x, *found, [&](const auto& visit) {
       for (const int i : triangles_at(node)) visit(i);
     });

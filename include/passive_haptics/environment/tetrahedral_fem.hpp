@@ -20,6 +20,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -171,7 +172,8 @@ class basic_tetrahedral_fem {
     check_memory("tetrahedral_fem", bytes, options.memory_limit, graph.points.size());
     factorise(stiffness_matrix(mesh, m, number_, graph), options.tell);
     displacements_.assign(mesh.nodes.size(), Eigen::Vector3d::Zero());
-    load_.setZero(3 * graph.size());
+    load_.resize(3 * graph.size());
+    std::fill_n(load_.data(), load_.size(), 0.0);
     pressed_.reserve(slot(graph.size()));
     shares_.reserve(slot(graph.size()));
     loaded_.prepare(*solver_, load_.size());

@@ -101,15 +101,18 @@ enum class force_split : std::uint8_t {
 [[nodiscard]] inline Eigen::Vector3d force_shares(force_split split, const triangle& t,
                                                   const Eigen::Vector3d& weights) {
   if (split == force_split::barycentric) return weights;
-  const Eigen::Vector3d point = point_at(t, weights);
-  const Eigen::Vector3d distance{(point - t[0]).norm(), (point - t[1]).norm(),
-                                 (point - t[2]).norm()};
-  Eigen::Index nearest = 0;
-  if (distance.minCoeff(&nearest) <= 1e-9 * distance.maxCoeff()) {
-    return Eigen::Vector3d::Unit(nearest);
+  const mesh::corners corners = triples_of(t);
+  const mesh::triple point = mesh::point_at(corners, triple_of(weights));
+  std::array<double, 3> distance{}, share{};
+  for (std::size_t k = 0; k < 3; ++k) distance[k] = mesh::length(point - corners[k]);
+  const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
+  if (*least <= 1e-9 * *most) {
+    share[static_cast<std::size_t>(least - distance.begin())] = 1.0;
+  } else {
+    const double sum = 1.0 / distance[0] + 1.0 / distance[1] + 1.0 / distance[2];
+    for (std::size_t k = 0; k < 3; ++k) share[k] = 1.0 / distance[k] / sum;
   }
-  const Eigen::Vector3d closeness = distance.cwiseInverse();
-  return closeness / closeness.sum();
+  return {share[0], share[1], share[2]};
 }
 
 }  // namespace environment
