@@ -6,6 +6,8 @@
 #include <passive_haptics/environment/surface.hpp>
 #include <passive_haptics/environment/tetrahedral_stiffness.hpp>
 
+#include <Eigen/Geometry>
+
 #include <optional>
 #include <stdexcept>
 #include <string>

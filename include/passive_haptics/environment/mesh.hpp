@@ -16,7 +16,6 @@
 #include <passive_haptics/environment/triangle_weights.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
@@ -212,9 +211,11 @@ inline void check(const tetrahedral_mesh& mesh, std::string_view name = "mesh") 
   refuse(mesh_error(name, subject + fault->problem, fault->remedy));
 }
 
-/// The smallest box along the axes that holds every node [m].
-[[nodiscard]] inline Eigen::AlignedBox3d bounds(const tetrahedral_mesh& mesh) {
-  Eigen::AlignedBox3d box;
+/// The smallest box along the axes that holds every node [m]. (A template, so that only programs that ask for it
+/// need Eigen/Geometry, which they include.)
+template <class Box = Eigen::AlignedBox<double, 3>>
+[[nodiscard]] Box bounds(const tetrahedral_mesh& mesh) {
+  Box box;
   for (const auto& node : mesh.nodes) box.extend(node);
   return box;
 }

@@ -15,7 +15,6 @@
 #include <passive_haptics/environment/triangle_weights.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
