@@ -40,9 +40,10 @@ requires(!std::convertible_to<const Part&, std::string_view>)
   }
 }
 
-/// Joins the parts to one text. Numbers are written in the "C" locale, whatever locale the application has set.
+/// Joins the parts to one text. Numbers are written in the "C" locale, whatever locale the application has set. Parts
+/// are taken by value, so that texts of all lengths share one function.
 template <class... Parts>
-[[nodiscard, gnu::cold, gnu::noinline]] std::string sentence(const Parts&... parts) {
+[[nodiscard, gnu::cold, gnu::noinline]] std::string sentence(Parts... parts) {
   std::string text;
   (append(text, parts), ...);
   return text;
@@ -68,7 +69,7 @@ template <class Error>
 
 /// Refuses an argument with a std::invalid_argument of these parts.
 template <class... Parts>
-[[noreturn, gnu::cold, gnu::noinline]] void refuse_argument(const Parts&... parts) {
+[[noreturn, gnu::cold, gnu::noinline]] void refuse_argument(Parts... parts) {
   refuse(std::invalid_argument(sentence(parts...)));
 }
 
