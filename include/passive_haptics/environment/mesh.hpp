@@ -24,7 +24,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -95,18 +94,14 @@ struct element_face {
   all.reserve(4 * mesh.tetrahedra.size());
   for (const auto& element : mesh.tetrahedra) {
     for (const auto& corner : corners) {
-      element_face f{{element[corner[0]], element[corner[1]], element[corner[2]]},
-                     {},
-                     static_cast<int>(all.size())};
-      const std::size_t first =
-          f.key[0] < f.key[1] ? (f.key[0] < f.key[2] ? 0 : 2) : (f.key[1] < f.key[2] ? 1 : 2);
-      f.nodes = {f.key[first], f.key[(first + 1) % 3], f.key[(first + 2) % 3]};
-      std::sort(f.key.begin(), f.key.end());
-      all.push_back(f);
+      int a = element[corner[0]], b = element[corner[1]], c = element[corner[2]];
+      while (a > b || a > c) a = std::exchange(b, std::exchange(c, a));  // turns the cycle
+      all.push_back(
+          {{a, (std::min)(b, c), (std::max)(b, c)}, {a, b, c}, static_cast<int>(all.size())});
     }
   }
   std::sort(all.begin(), all.end(), [](const element_face& a, const element_face& b) {
-    return std::tie(a.key, a.number) < std::tie(b.key, b.number);
+    return a.key != b.key ? a.key < b.key : a.number < b.number;
   });
   return all;
 }
@@ -163,14 +158,12 @@ inline constexpr double flat_element = 1e-9;  ///< an element of a relative volu
                           .problem = sentence("names node ", node, " of ", count, " nodes"),
                           .remedy = "node numbers count from 0"};
       }
+      if (std::count(tetrahedron.begin(), tetrahedron.end(), node) > 1) {
+        return mesh_fault{.tetrahedron = e,
+                          .problem = sentence("names node ", node, " twice"),
+                          .remedy = "remove the element"};
+      }
       used[static_cast<std::size_t>(node)] = 1;
-    }
-    auto key = tetrahedron;
-    std::sort(key.begin(), key.end());
-    if (const auto twin = std::adjacent_find(key.begin(), key.end()); twin != key.end()) {
-      return mesh_fault{.tetrahedron = e,
-                        .problem = sentence("names node ", *twin, " twice"),
-                        .remedy = "remove the element"};
     }
     const double volume = relative_volume(mesh, tetrahedron);
     if (!(std::abs(volume) > flat_element)) {

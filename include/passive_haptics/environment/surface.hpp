@@ -52,19 +52,18 @@ using nodes_view = std::span<const Eigen::Vector3d>;  ///< positions [m]
         sentence("tetrahedra ", fault->tetrahedron, " and ", fault->other, " ", fault->problem),
         fault->remedy));
   }
-  std::vector<element_face> single;
+  std::vector<int> place(all.size(), -1);  // in `all`, of each face of one owner
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i + 1 < all.size() && all[i].key == all[i + 1].key) {
       ++i;  // skips the face of the other owner
     } else {
-      single.push_back(all[i]);
+      place[static_cast<std::size_t>(all[i].number)] = static_cast<int>(i);
     }
   }
-  std::sort(single.begin(), single.end(),
-            [](const element_face& a, const element_face& b) { return a.number < b.number; });
   std::vector<surface_triangle> result;
-  result.reserve(single.size());
-  for (const element_face& f : single) result.push_back({f.nodes});
+  for (const int i : place) {
+    if (i >= 0) result.push_back({all[static_cast<std::size_t>(i)].nodes});
+  }
   return result;
 }
 

@@ -38,7 +38,7 @@ class box_tree {
       if (!is_finite(p)) p = {};
     }
     if (!places.empty()) split(places, 0, static_cast<int>(places.size()), -1);
-    dirty_.assign(branches_.size(), false);
+    dirty_.assign(branches_.size(), 0);
     dirty_list_.reserve(branches_.size());
   }
 
@@ -61,14 +61,14 @@ class box_tree {
     dirty_list_.clear();
     for (const int i : moved) {
       for (int b = leaf_of_[at(i)]; b >= 0 && !dirty_[at(b)]; b = branches_[at(b)].parent) {
-        dirty_[at(b)] = true;
+        dirty_[at(b)] = 1;
         dirty_list_.push_back(b);
       }
     }
     std::sort(dirty_list_.begin(), dirty_list_.end());
     for (std::size_t k = dirty_list_.size(); k-- > 0;) {
       fit_one(at(dirty_list_[k]), boxes, grow);
-      dirty_[at(dirty_list_[k])] = false;
+      dirty_[at(dirty_list_[k])] = 0;
     }
   }
 
@@ -139,7 +139,7 @@ class box_tree {
   std::vector<int> order_;    ///< the things, those of a branch side by side
   std::vector<int> leaf_of_;  ///< the leaf of each thing
   std::vector<branch> branches_;
-  std::vector<bool> dirty_;
+  std::vector<char> dirty_;
   std::vector<int> dirty_list_;
 };
 
