@@ -140,6 +140,9 @@ constexpr ranged of_detents[]{
     return {"hand_force", p.hand_force, "finite and > 0 N: hand, load and dry friction together"};
   }
   if (!(p.stale_after >= 0.0)) return {"stale_after", p.stale_after, "≥ 0 s, 0 for the default"};
+  if (!ph::detail::not_negative(p.renderer_period)) {
+    return {"renderer_period", p.renderer_period, "finite and ≥ 0 s, 0 for a force in each tick"};
+  }
   if (const auto wrong = fault_in(p, of_surfaces)) return wrong;
   if (p.kinetic_friction > p.static_friction) {
     return {"kinetic_friction", p.kinetic_friction, "no more than static_friction"};
@@ -253,7 +256,7 @@ void leave(auto* slot) noexcept {
 constexpr std::size_t shortest_surface = sizeof(ph_surface);
 constexpr std::size_t shortest_parameters = offsetof(ph_parameters, friction);
 constexpr std::size_t shortest_result = offsetof(ph_result, limited);
-static_assert(sizeof(ph_parameters) == 504 && shortest_parameters == 48);
+static_assert(sizeof(ph_parameters) == 512 && shortest_parameters == 48);
 static_assert(sizeof(ph_surface) == 176);
 static_assert(sizeof(ph_explanation) == 48 || sizeof(void*) != 8);
 static_assert(sizeof(ph_result) == 80 && shortest_result == 48);

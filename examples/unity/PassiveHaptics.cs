@@ -32,6 +32,7 @@ namespace PassiveHaptics
         private uint pointCount;
         [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)]
         public Vector[] Points; // of a mesh_tool, at most 8, in the frame of its handle
+        public double RendererPeriod; // of a guard, longest time from one new force to the next
 
         internal Parameters WithSize()
         {

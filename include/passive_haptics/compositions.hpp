@@ -199,13 +199,15 @@ constexpr void fit(proxy_spring& spring, const auto& d, double most) noexcept {
   return contact_set{spring, d.rotary ? turned : pursuit{}, room...};
 }
 /// A force of the user's own, as stiff as the device and its dry friction bear in a loop `late` ticks late.
-[[nodiscard]] constexpr settled_force guard_of(const auto& d, const auto& hand, int late) noexcept {
+[[nodiscard]] constexpr settled_force guard_of(const auto& d, const auto& hand, int late,
+                                               double renderer_period) noexcept {
   const double budget = budget_of(d, hand, late);
   const double most = kernels::smaller(budget, d.rotary ? 50.0 * d.force_limit : 40e3);
   return {.mass = d.mass,
           .damping_fraction = braking(d, most, most / 40.0),
           .force_limit = d.force_limit,
-          .most = budget};
+          .most = budget,
+          .renderer_period = renderer_period};
 }
 /// The port of a source that was made for this device.
 template <class Space, class Limits>
@@ -247,13 +249,16 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
 }
 
 /// For a force that you, a renderer, a simulator or an SDK compute: port.tick(sample, wanted). The contact comes to
-/// rest when the hand does, for a renderer's stiffness of up to port.explain().shown [N/m]. With any_hand the
+/// rest when the hand does, for a renderer's stiffness of up to port.explain().shown [N/m]. A renderer that is slower than
+/// the loop states its longest time from one force to the next, `renderer_period` [s]: 0.03 for 33 Hz. With any_hand the
 /// guarantee holds for any hand, and a wall is soft: 2b/T [N/m], pressed slowly from an empty ledger.
 template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
           detail::stated_hand Hand = known_hand>
-[[nodiscard]] constexpr auto make_guard(const Device& device, const Hand& hand) noexcept {
-  return detail::port_of<Space, Limits>(detail::guard_of(device, hand, Limits::latency), device,
-                                        hand, detail::bounds_of(device, hand));
+[[nodiscard]] constexpr auto make_guard(const Device& device, const Hand& hand,
+                                        double renderer_period = 0.0) noexcept {
+  return detail::port_of<Space, Limits>(
+      detail::guard_of(device, hand, Limits::latency, renderer_period), device, hand,
+      detail::bounds_of(device, hand));
 }
 
 // The types that they return, for members of a class.

@@ -166,6 +166,9 @@ TEST_CASE("in a loop that is late a composition by name is the late one", "[c_in
 
 TEST_CASE("a guard by name is make_guard, bit for bit", "[c_interface]") {
   agree("guard", ph::make_guard<d3>(exact, hand), grip(), &ph_parameters::mass);
+  ph_parameters slow = grip();
+  slow.renderer_period = 0.02;
+  agree("guard", ph::make_guard<d3>(exact, hand, 0.02), slow, &ph_parameters::mass);
   agree("encoder_guard", ph::make_guard<d3>(stated, hand), on_encoders(), &ph_parameters::quantum);
   agree("strict_guard", ph::make_guard<d3>(exact, ph::any_hand), grip(),
         &ph_parameters::longest_tick);
@@ -610,6 +613,8 @@ TEST_CASE("the C interface names a parameter that is out of its range, its value
   CHECK_THAT(says("touch", grip(), &ph_parameters::turn_rate, -1.0), StartsWith("turn_rate = -1"));
   CHECK_THAT(says("touch", grip(), &ph_parameters::stale_after, nan),
              StartsWith("stale_after = nan"));
+  CHECK_THAT(says("guard", grip(), &ph_parameters::renderer_period, -1.0),
+             StartsWith("renderer_period = -1 is refused"));
   CHECK_THAT(says("touch", grip(), &ph_parameters::top_speed, -5.0), StartsWith("top_speed = -5"));
   CHECK_THAT(says("touch", grip(), &ph_parameters::workspace, -2.0), StartsWith("workspace = -2"));
   CHECK_THAT(says("touch", grip(), &ph_parameters::watchdog, 1e-4),

@@ -206,6 +206,62 @@ TEST_CASE("a settled force says how much of a steep one it shows, and shows all 
   CHECK(guard.source().shown() == 1.0);
 }
 
+TEST_CASE("a renderer that is told to be slow is shown as soft as settles with so old a force",
+          "[settled_force]") {
+  const double most = rule.most_stiffness(1e-3);
+  const auto shown = [&](double K, int ticks, bool told) {
+    ph::settled_force slow = rule;
+    if (told) slow.renderer_period = ticks * 1e-3;
+    auto guard = guard_of<d1>(slow);
+    double w = 2.0;
+    for (int n = 0; n < 2000; ++n) {
+      const double x = 1e-4 * std::sin(0.03 * n);
+      if (n % ticks == 0) w = 2.0 - K * x;
+      (void)guard.tick(x, 1ms, w);
+    }
+    return double(guard.source().shown()) * K;
+  };
+  CHECK(shown(0.5 * most, 1, true) == 0.5 * most);
+  for (const int ticks : {4, 10, 33}) {
+    CAPTURE(ticks);
+    const double settles = rule.most_stiffness(1e-3, ticks);
+    CHECK(shown(0.5 * most, ticks, true) < settles);
+    CHECK(shown(0.5 * most, ticks, true) > 0.4 * settles);
+    CHECK(shown(0.1 * settles, ticks, true) == 0.1 * settles);
+    if (ticks == 4) CHECK(shown(0.1 * most, ticks, false) == 0.1 * most);
+  }
+}
+
+TEST_CASE("a sphere that is rendered 30 times a second rests behind a guard that is told so",
+          "[settled_force]") {
+  constexpr double mass = 0.1, period = 33e-3;
+  const auto last_step = [&](double told) {
+    auto guard =
+        ph::make_guard<d3>({.mass = mass, .damping = 0.1, .force_limit = 9.0, .longest_tick = 1e-3},
+                           {.force = 5.0}, told);
+    REQUIRE_FALSE(guard.check());
+    ph::simulation::device<d3, ph::simulation::impedance_hand<d3>> device(
+        {.mass = mass, .damping = 0.1, .start = {0.004, 0.003, 0.06}},
+        {.stiffness = 300.0, .damping = 0.5, .target = {0.004, 0.003, 0.035}});
+    auto sample = device.exchange(d3::zero());
+    d3::vector w = d3::zero(), last = d3::zero();
+    double step = 0.0;
+    for (int n = 0; n < 4000; ++n) {
+      const d3::vector x = sample.position;
+      const double deep = 0.05 - x.norm();
+      if (n % 33 == 0) w = deep > 0.0 ? d3::vector(2000.0 * deep * x.normalized()) : d3::zero();
+      const d3::vector force = guard.tick(sample, w).force;
+      if (n > 1000) step = std::max(step, (force - last).norm());
+      last = force;
+      sample = device.exchange(force);
+    }
+    CHECK(device.meter().minimum() >= -1e-12);
+    return step;
+  };
+  CHECK(last_step(period) < 0.02);
+  CHECK(last_step(0.0) > 1.0);
+}
+
 TEST_CASE("what is steeper across the force than along it is shown by what is across",
           "[settled_force]") {
   const double most = rule.most_stiffness(1e-3);

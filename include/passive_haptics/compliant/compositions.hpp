@@ -127,9 +127,10 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
 template <class Space, class Limits = loop_limits, detail::described Device = exact_device,
           detail::stated_transmission Transmission>
 [[nodiscard]] constexpr auto make_guard(const Device& device, const Transmission& transmission,
-                                        const known_hand& hand) noexcept {
+                                        const known_hand& hand,
+                                        double renderer_period = 0.0) noexcept {
   const Device seen = detail::seen_through(device, transmission);
-  const auto source = detail::guard_of(seen, hand, Limits::latency);
+  const auto source = detail::guard_of(seen, hand, Limits::latency, renderer_period);
   return detail::port_of<Space, Limits>(source, seen, hand,
                                         detail::bounds_through<Limits>(seen, transmission, hand));
 }

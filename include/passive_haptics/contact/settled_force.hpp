@@ -25,9 +25,10 @@ inline namespace v0 {
 /// The sum of both parts across n is at most |w|. At rest f = w; for w = 0 f = 0. A force that is the same everywhere
 /// (a weight, wind) is not braked, and a stroke along a flat or convex wall by 0.02 N at most; at a touch D is B.
 ///
-/// A renderer stiffer than K_m = most_stiffness(T, 0, l) [N/m] would ring, so its w is multiplied by s = ¾ K_m/K. Its
-/// stiffness K, the slope −Δw·Δx/|Δx|² along w and across it, is estimated over 30 ms of motion; s rises again when K
-/// falls below half. shown() is s. A moving surface changes w along Δx and not against it, so it does not lower s.
+/// A renderer stiffer than K_m = most_stiffness(T, P/T, l) [N/m] would ring, so its w is multiplied by s = ¾ K_m/K. Its
+/// stiffness K, the slope −Δw·Δx/|Δx|² along w and across it, is estimated over 30 ms of motion, or 30 changes of w;
+/// s rises again when K falls below half. shown() is s. A moving surface changes w along Δx and not against it, so it
+/// does not lower s. P is `renderer_period`: one that is slower than told may ring.
 ///
 /// A force above the motors' limit F is shortened to F, and B to B √(F/|w|), critical for the secant, so that the
 /// device comes out at a speed from which F can stop it. In a loop that is k ticks late B is divided by 1 + k. T is the
@@ -41,9 +42,10 @@ struct settled_force {
   double turn_time = 0.02;                                       ///< τ, time constant of n [s]
   double force_limit = std::numeric_limits<double>::infinity();  ///< F, limit of the motors [N]
   double most = std::numeric_limits<double>::infinity();         ///< budget for encoder steps [N/m]
-  double stale_after = 0.1;  ///< age up to which a force is not reduced [s]
-  double fade = 0.05;        ///< time in which it then fades to zero [s]
-  bool softens = true;       ///< if false, s = 1, and too stiff a renderer rings
+  double stale_after = 0.1;      ///< age up to which a force is not reduced [s]
+  double fade = 0.05;            ///< time in which it then fades to zero [s]
+  bool softens = true;           ///< if false, s = 1, and too stiff a renderer rings
+  double renderer_period = 0.0;  ///< P, longest time from one given force to the next [s]; 0: T
 
   /// The ranges are those for which most_stiffness was measured and damping does not feel viscous.
   [[nodiscard]] constexpr parameter_fault check() const noexcept {
@@ -60,14 +62,17 @@ struct settled_force {
     if (!(most > 0.0)) {
       return {"most", most, "> 0 N/m; on encoders dry friction pays, stated as .friction"};
     }
+    if (!detail::not_negative(renderer_period)) {
+      return {"renderer_period", renderer_period, "finite and ≥ 0 s"};
+    }
     return given_force{stale_after, fade}.check();
   }
   /// The largest stiffness of a renderer [N/m] that settles along n, K (k + l + 3/2) T ≤ B, with a force that is
   /// k = `renderer_late` ticks of T [s] old, in a loop l = `loop_late` ≤ 2 ticks late (ours, § 10). Above ¾ of it a
   /// device that falls on it may bounce; a stiffer one is as passive, but may ring. Across n, σ > k + l + 1/2 is needed.
-  [[nodiscard]] constexpr double most_stiffness(double T, int renderer_late = 0,
+  [[nodiscard]] constexpr double most_stiffness(double T, double renderer_late = 0.0,
                                                 int loop_late = 0) const noexcept {
-    const double late = static_cast<double>(renderer_late) + static_cast<double>(loop_late);
+    const double late = renderer_late + static_cast<double>(loop_late);
     return damping_fraction * mass / ((1.0 + loop_late) * (late + 1.5) * T * T);
   }
   /// True if a renderer of K [N/m] settles along n and across it. A stiffer one is displayed softer, if `softens`.
@@ -106,6 +111,7 @@ class settled_force::on : private part_at<given_force, P> {
     lead_ = detail::number<scalar>(p.lead);
     turn_time_ = detail::number<scalar>(p.turn_time);
     softens_ = p.softens;
+    period_ = detail::number<scalar>(p.renderer_period);
     if (!softens_) seen_ = {};
     most_ = detail::number<scalar>(p.force_limit);
     stiffest_ = detail::number<scalar>(p.most);
@@ -121,7 +127,8 @@ class settled_force::on : private part_at<given_force, P> {
             .most = static_cast<double>(stiffest_),
             .stale_after = rule.stale_after,
             .fade = rule.fade,
-            .softens = softens_};
+            .softens = softens_,
+            .renderer_period = static_cast<double>(period_)};
   }
   /// The same for the port's T and latency.
   [[nodiscard]] constexpr bool settles(scalar K, int renderer_late = 0) const noexcept {
@@ -135,13 +142,14 @@ class settled_force::on : private part_at<given_force, P> {
     most_damping_ = fraction_ * per_tick_;
     slope_time_ = kernels::larger(scalar(4) * mass_ / most_damping_,
                                   kernels::larger(scalar(0.05), scalar(50) * T));
-    const scalar settles = most_damping_ / ((scalar(late) + scalar(1.5)) * T);
+    const scalar settles = most_damping_ / ((scalar(late) + scalar(1.5)) * T + age());
     steepest_ = softens_ ? kernels::smaller(settles, stiffest_) : kernels::largest<scalar>();
   }
   /// Explains most_stiffness; for a renderer that was found too stiff, its estimated stiffness and ¾ of most_stiffness.
   /// As a shaper it explains the surface: its share s, or most_stiffness if no force was too stiff yet.
   constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
-    const double settles = parameters().most_stiffness(static_cast<double>(T), 0, late);
+    const double settles = parameters().most_stiffness(
+        static_cast<double>(T), static_cast<double>(age() / longest_tick_), late);
     const double steps = static_cast<double>(stiffest_), s = static_cast<double>(seen_.shown);
     const double least = kernels::smaller(settles, steps);
     const auto why = settles <= steps ? softened_by::mass_and_tick : softened_by::encoder_steps;
@@ -189,6 +197,10 @@ class settled_force::on : private part_at<given_force, P> {
     const effort f = settled(w, change, v, secant, port.dt);
     return P::is_finite(f) ? f : w;  // f is not finite if w overflows or underflows
   }
+  /// P [s] of a renderer that is slower than the tick, else 0.
+  [[nodiscard]] constexpr scalar age() const noexcept {
+    return period_ > longest_tick_ ? period_ : scalar(0);
+  }
   /// Σ −Δw Δx, Σ Δx² and Σ Δw² of the last 30 ms of motion.
   struct slope {
     scalar stiff{}, moved{}, changed{};
@@ -212,6 +224,7 @@ class settled_force::on : private part_at<given_force, P> {
     scalar ticks{};           ///< evaluated ticks of motion, of the last 30 ms
     int left = 0;             ///< ticks of motion still to be evaluated; 30 after a stiff one
     bool begun = false, steep = false;  ///< `given` is known; a tick was too stiff
+    typename P::stored_effort way{};    ///< since the force of a slow renderer changed [m]
     scalar shown = scalar(1);           ///< s
     typename P::stored_effort given{};  ///< given force of the last evaluated tick [N]
   };
@@ -219,7 +232,12 @@ class settled_force::on : private part_at<given_force, P> {
   [[gnu::cold, gnu::noinline]] constexpr void look(const effort& w,
                                                    const typename P::stored_effort& travel,
                                                    scalar dt) noexcept {
-    const effort way = travel, change = P::difference(w, seen_.given);
+    const effort change = P::difference(w, seen_.given);
+    const effort way =
+        age() > scalar(0) ? less(travel, effort(seen_.way), scalar(-1)) : effort(travel);
+    const bool old = !(P::dot(change, change) > scalar(0)) && P::dot(w, w) > scalar(0);
+    seen_.way = old ? way : P::zero();
+    if (old && age() > scalar(0)) return;
     seen_.given = w;
     const scalar size = P::dot(w, w), moved = P::dot(way, way), slow = scalar(1e-3) * dt;
     if (!std::exchange(seen_.begun, true) || !(size > scalar(0) && moved > slow * slow)) return;
@@ -333,7 +351,7 @@ class settled_force::on : private part_at<given_force, P> {
   scalar braked_ = kernels::largest<scalar>();         ///< t K along n, large at a touch [N·s/m]
   scalar slid_{};                                      ///< 4 t K_s across n [N·s/m]
   scalar per_tick_{}, most_damping_{}, slope_time_{};  ///< m/T and B [N·s/m], t [s]
-  scalar longest_tick_{};                              ///< T [s]
+  scalar longest_tick_{}, period_{};                   ///< T, P [s]
   int late_ = 0;                                       ///< [ticks]
   typename P::stored_effort last_{};                   ///< w of the last tick [N]
   typename P::stored_effort n_{};                      ///< n; zero for w = 0
