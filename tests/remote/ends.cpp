@@ -317,6 +317,33 @@ TEST_CASE("after a silence both ends begin anew, whoever it was that fell silent
   }
 }
 
+TEST_CASE("a client whose clock is set begins anew, and old answers are none of the future",
+          "[remote]") {
+  pair_of_ends ends;
+  ends.greet(ms(60'000));
+  const auto before = ends.answer(ms(60'010), 500.0);
+  const auto late = ends.answer(ms(60'020), 600.0);
+  CHECK(ends.client.receive(before, ms(60'030)) == verdict::accepted);
+  // Back by less than a silence: the session goes on, and so do its stamps when the clock has caught up.
+  (void)ends.client.ask({}, ms(59'500));
+  CHECK(ends.client.where() == remote::client::state::talking);
+  // Back by more: the server's clock goes on.
+  const auto hello = ends.client.ask({}, ms(20'000));
+  CHECK(ends.client.where() == remote::client::state::greeting);
+  CHECK(ends.client.receive(late, ms(20'001)) == verdict::untrue_stamp);
+  const auto heard = ends.server.receive(hello, home, ms(60'040));
+  REQUIRE(heard.reply);
+  CHECK(ends.client.receive(*heard.reply, ms(20'002)) == verdict::accepted);
+  CHECK(ends.client.sessions() == 2);
+  CHECK(ends.server.receive(ends.client.ask({}, ms(20'010)), home, ms(60'050)).asked);
+  const auto* asked = ends.server.take();
+  REQUIRE(asked != nullptr);
+  const auto news = ends.server.answer(remote::content_of(pair_of_ends::plane(700.0)), *asked);
+  CHECK(ends.client.receive(news, ms(20'020)) == verdict::accepted);
+  CHECK(ends.kept() == 700.0);
+  CHECK(ends.client.latest()->age(ms(20'020)) == Approx(0.010));
+}
+
 TEST_CASE("one client at a time: another waits until the first is silent", "[remote]") {
   pair_of_ends ends;
   ends.greet(ms(0));

@@ -11,6 +11,9 @@
 //
 // Nothing that is received is credited to a ledger: the ledger of the local model books the force that was
 // held over the motion that was measured. The network determines the wanted force only.
+//
+// The time should be of a clock that is never set, as std::chrono::steady_clock. If it goes back by more than
+// `silence`, the client begins anew, because the answers to its former questions would seem to be of the future.
 
 #include <passive_haptics/base/no_unique_address.hpp>
 #include <passive_haptics/remote/content.hpp>
@@ -82,6 +85,10 @@ class client_with {
   [[nodiscard]] datagram ask(const probe& where, nanoseconds now) noexcept {
     if (state_ == state::talking && now - heard_ > detail::span_of(settings_.silence)) {
       greet_anew();
+    }
+    if (asked_ != never && asked_ - now > detail::span_of(settings_.silence)) {  // the clock was set
+      greet_anew();
+      asked_ = never;
     }
     if (asked_ == never) oldest_ = now;
     asked_ = (std::max)(asked_, now);
