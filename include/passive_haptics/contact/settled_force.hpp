@@ -27,8 +27,9 @@ inline namespace v0 {
 ///
 /// A renderer stiffer than K_m = most_stiffness(T, P/T, l) [N/m] would ring, so its w is multiplied by s = ¾ K_m/K. Its
 /// stiffness K, the slope −Δw·Δx/|Δx|² along w and across it, is estimated over 30 ms of motion, or 30 changes of w;
-/// s rises again when K falls below half. shown() is s. A moving surface changes w along Δx and not against it, so it
-/// does not lower s. P is `renderer_period`: one that is slower than told may ring.
+/// s rises again when K falls below half. shown() is s. A surface that moves along with the device does not lower s. One
+/// that comes towards a device which gives way at 1 mm/s or more looks steeper, by 1 + the ratio of both speeds, and may
+/// lower s at once. P is `renderer_period`: one that is slower than told may ring.
 ///
 /// A force above the motors' limit F is shortened to F, and B to B √(F/|w|), critical for the secant, so that the
 /// device comes out at a speed from which F can stop it. In a loop that is k ticks late B is divided by 1 + k. T is the
