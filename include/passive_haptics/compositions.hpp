@@ -244,6 +244,9 @@ template <class Space, class Limits = loop_limits, detail::described Device = ex
           detail::stated_hand Hand = known_hand, class... Room>
 [[nodiscard]] constexpr auto make_contacts(const Device& device, const Hand& hand,
                                            const Room&... room) noexcept {
+  static_assert(sizeof...(Room) > 0,
+                "passive_haptics: a set of contacts has slots, which come after the hand: "
+                "slots<half_space<scene>, 3>{}");
   const auto source = detail::set_of(device, hand, Limits::latency, room...);
   return detail::port_of<Space, Limits>(source, device, hand, detail::bounds_of(device, hand));
 }

@@ -191,6 +191,13 @@ constexpr void refuse_mesh() noexcept {
                 "port.source().touch(surface), and surface.update(nodes)");
 }
 
+template <class Source>
+constexpr void refuse_slot() noexcept {
+  static_assert(!std::same_as<Source, Source>,
+                "passive_haptics: the slots are those of the source of a port: "
+                "port.source().update(i, surface), and port.source().release(i)");
+}
+
 /// Calls explain() of a part, if it has one.
 template <class Part, class... Facts>
 constexpr void explain(const Part& part, explanation& e, const Facts&... facts) noexcept {

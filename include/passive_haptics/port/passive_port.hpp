@@ -232,6 +232,15 @@ class passive_port {
   requires(Own::touches_meshes) constexpr void update(const Nodes& /*nodes*/) noexcept {
     detail::refuse_mesh<Nodes>();
   }
+  /// Does not compile: the slots of several surfaces are those of the source.
+  template <class... Surface, class Own = source_type>
+  requires requires(Own s, const Surface&... told) {
+    typename Own::first_kind;
+    s.update(0, told...);
+  }
+  constexpr void update(int /*slot*/, const Surface&... /*told*/) noexcept {
+    detail::refuse_slot<Own>();
+  }
 
   /// The displayed stiffness of the surface, its reason, and the reason for a smaller last force.
   template <class Own = source_type>
