@@ -47,12 +47,14 @@ class damped_spring::on {
   constexpr void adopt(scalar K, scalar T, int late = 0) noexcept {
     stiffness_ = rule_.stiffness(K, scalar(0), T, late);
     damping_ = rule_.damping(stiffness_, T, detail::late_limits<scalar>(late, scalar(6)));
-    natural_ = kernels::square_root(stiffness_ / rule_.mass());
   }
   static constexpr softened_by softener = softened_by::mass_and_tick;
   [[nodiscard]] constexpr scalar stiffness() const noexcept { return stiffness_; }  ///< K_s [N/m]
   [[nodiscard]] constexpr scalar damping() const noexcept { return damping_; }  ///< D_s [N·s/m]
-  [[nodiscard]] constexpr scalar natural() const noexcept { return natural_; }  ///< √(K_s/m) [1/s]
+  /// √(K_s/m) [1/s].
+  [[nodiscard]] constexpr scalar natural() const noexcept {
+    return kernels::square_root(stiffness_ / rule_.mass());
+  }
 
   [[nodiscard]] constexpr scalar force(scalar depth, scalar outward_speed) const noexcept {
     if (!(depth > scalar(0))) return scalar(0);
@@ -78,7 +80,7 @@ class damped_spring::on {
   }
 
   detail::damped_mass<scalar> rule_;
-  scalar stiffness_{}, damping_{}, natural_{};
+  scalar stiffness_{}, damping_{};
 };
 
 static_assert(contact_law_for<damped_spring, space<float, 1>>);

@@ -66,20 +66,23 @@ class eased<Law>::on : public part_at<Law, Space> {
   /// The rates at which updates are followed.
   [[nodiscard]] constexpr const news_pace::at<scalar>& pace() const noexcept { return pace_; }
 
+  constexpr void adopt(scalar K, scalar T, int late = 0) noexcept {
+    detail::tell(static_cast<law_part&>(*this), K, T, late);
+    if constexpr (swings) natural_ = law_part::natural();
+  }
   /// The part of an outward speed [m/s] that the law damps, which excludes a hand's motion (swing.hpp).
   [[nodiscard]] constexpr scalar swinging(scalar speed, scalar dt) noexcept {
-    if constexpr (requires(law_part l) { l.natural(); }) {
-      return swing_.damped(speed, law_part::natural(), dt);
-    } else {
-      return speed;
-    }
+    if constexpr (swings) return swing_.damped(speed, natural_, dt);
+    return speed;
   }
   /// Ends the contact.
   constexpr void let_go() noexcept { swing_.stop(); }
 
  private:
+  static constexpr bool swings = requires(law_part l) { l.natural(); };
   news_pace::at<scalar> pace_;
   swing<scalar> swing_;
+  scalar natural_{};  ///< √(K/m) [1/s], of a law that swings
 };
 
 }  // namespace v0
