@@ -149,6 +149,7 @@ class sampled_mass {
   }
   /// κ in a loop `late` ticks late.
   [[nodiscard]] constexpr Scalar fraction(int late) const noexcept {
+    if (late <= 0) return fraction_;
     return kernels::smaller(fraction_, late_limits<Scalar>(late).stiffness);
   }
 
@@ -178,10 +179,11 @@ class damped_mass : public sampled_mass<Scalar> {
   [[nodiscard]] constexpr Scalar force_limit() const noexcept { return force_limit_; }  ///< F [N]
   [[nodiscard]] constexpr Scalar damping(Scalar stiffness, Scalar T,
                                          const late_limits<Scalar>& late) const noexcept {
-    const Scalar most = kernels::smaller(most_, late.damping);
+    const bool is_late = late.least_ticks > Scalar(0);  // else no limit of it is reached
+    const Scalar most = is_late ? kernels::smaller(most_, late.damping) : most_;
     const Scalar damping = kernels::sampled_damping(stiffness, ratio_, most, this->mass(), T);
-    const Scalar least = late.least_ticks * T * stiffness;
-    return damping > Scalar(0) ? kernels::larger(damping, least) : damping;
+    if (!is_late || !(damping > Scalar(0))) return damping;
+    return kernels::larger(damping, late.least_ticks * T * stiffness);
   }
   /// 2ζ√(K m) [N·s/m], of K m [kg·N/m].
   [[nodiscard]] constexpr Scalar critical(Scalar Km) const noexcept {
