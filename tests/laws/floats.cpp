@@ -53,12 +53,14 @@ double passes(const Bound& told, const Damping& damping, const moment& now,
     commanded[j] = typename Port::stored_effort(effort(Late - j));
   }
   const typename Port::stored_effort held(effort(0));
+  ph::recent_ticks<S, Exact> recent{S(now.longest)};
+  if constexpr (!Exact) recent.shortest = S(now.shortest);
   const state s{.damping = b,
                 .commanded = commanded,
                 .energy = S(now.energy),
                 .dt = S(now.dt),
                 .longest_tick = S(now.T),
-                .recent = {S(now.longest), S(now.shortest)},
+                .recent = recent,
                 .held = held,
                 .travel = as(typename Port::motion(Port::zero()), moved),
                 .travel_error = Exact ? S(0) : S(now.error),

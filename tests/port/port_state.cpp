@@ -77,7 +77,7 @@ TEST_CASE("of friction that is elastic 2 c p is put aside for each tick a loop i
 }
 
 TEST_CASE("recent ticks are the longest up to T and the shortest from T/4 on", "[port]") {
-  ph::recent_ticks<double> recent{};
+  ph::recent_ticks<double, false> recent{};
   const auto saw = [&](double dt, double longest, double shortest) {
     recent.see(dt, 1.0);
     CHECK(recent.longest == longest);

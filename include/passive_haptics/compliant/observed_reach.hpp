@@ -208,7 +208,7 @@ class observed_reach::on {
     const auto speeds_up = [&](int i) {
       return kernels::larger(by_mass(h[static_cast<std::size_t>(i)] + most), scalar(0));
     };
-    scalar speed = moved / T0 + e / kernels::smaller(T0, state.recent.shortest) +
+    scalar speed = moved / T0 + e / state.shortest_tick() +
                    speeds_up(0) * kernels::larger(T0, state.recent.longest) / scalar(2);
     for (int i = 1; i < j; ++i) speed += speeds_up(i) * T;
     return speed * T + speeds_up(j) * T * T / scalar(2) +
@@ -249,7 +249,7 @@ class observed_reach::on {
     if (last < scalar(0) && speed < scalar(-2) * last * T) {  // it would stop within the tick
       travel = speed > scalar(0) ? speed * speed / (scalar(-4) * last) : scalar(0);
     }
-    const scalar s0 = kernels::smaller(T0, state.recent.shortest), s1 = kernels::smaller(T1, s0),
+    const scalar s0 = state.shortest_tick(), s1 = kernels::smaller(T1, s0),
                  k = scalar(2) * area / (s0 + s1);
     const scalar passed = (kernels::magnitude(V0) + kernels::magnitude(V1)) * (scalar(1) + k) * T;
     return travel + T * (area * unsure / m_ + e * ((scalar(1) + k) / s0 + k / s1)) +

@@ -171,8 +171,7 @@ class reachable_bound::on {
       scalar outward = Space::dot(state.travel, direction) / length +
                        kernels::rounding<scalar>() * Space::norm(state.travel);
       if constexpr (!State::exact) {
-        outward +=
-            state.travel_error * kernels::larger(scalar(1), state.dt / state.recent.shortest);
+        outward += state.travel_error * (state.dt / state.shortest_tick());
       }
       return kernels::outward_reach(outward, Space::norm(state.held), last, other, mass_, state.dt,
                                     T, state.recent.longest);

@@ -602,7 +602,7 @@ class passive_port {
       return guard_.last();
     }
   }
-  [[nodiscard]] constexpr recent_ticks<scalar> recent() const noexcept {
+  [[nodiscard]] constexpr recent_ticks<scalar, Observer::exact> recent() const noexcept {
     if constexpr (reckons) return recent_;
     return {};
   }
@@ -673,7 +673,7 @@ class passive_port {
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS guard_type guard_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS sensor_watch<P, Limits::traits.watched> watch_;
   PASSIVE_HAPTICS_NO_UNIQUE_ADDRESS
-  std::conditional_t<reckons, recent_ticks<scalar>, no_ticks> recent_;
+  std::conditional_t<reckons, recent_ticks<scalar, Observer::exact>, no_ticks> recent_;
   bool is_cut_ = false;             ///< the bound has reduced the last desired effort
   event stopped_ = event::nominal;  ///< the reason for force zero until set() or reset()
   std::uint8_t busy_ = 0;           ///< true during a call; debug builds only

@@ -40,8 +40,16 @@ template <class Scalar>
 }
 
 /// The ticks since a force was last not cut: a bound that followed the length of each would tremble. (L6)
-template <class Scalar>
+template <class Scalar, bool Exact = true>
 struct recent_ticks {
+  Scalar longest{};  ///< [s], T at most
+  constexpr void see(Scalar dt, Scalar T) noexcept {
+    longest = kernels::larger(longest, kernels::smaller(dt, T));
+  }
+};
+/// The same, for an error of the travel, which counts for most in a short tick.
+template <class Scalar>
+struct recent_ticks<Scalar, false> {
   Scalar longest{}, shortest = kernels::largest<Scalar>();  ///< [s], T at most and T/4 at least
   constexpr void see(Scalar dt, Scalar T) noexcept {
     longest = kernels::larger(longest, kernels::smaller(dt, T));
@@ -77,7 +85,7 @@ struct port_state {
   scalar energy;                             ///< E1(n), with the last tick booked
   scalar dt;                                 ///< length of the last tick
   scalar longest_tick;                       ///< T, upper bound of the next tick
-  recent_ticks<scalar> recent{};             ///< kept by ports whose bound reckons with them
+  recent_ticks<scalar, Exact> recent{};      ///< kept by ports whose bound reckons with them
   const typename Port::stored_effort& held;  ///< effort held over the last tick
   motion travel;                             ///< measured Δx over the last tick
   scalar travel_error;                       ///< largest distance of the true Δx from it
@@ -87,6 +95,11 @@ struct port_state {
   /// The command that is held in the j-th coming tick, 1 ≤ j ≤ Latency.
   [[nodiscard]] constexpr const typename Port::stored_effort& coming(int j) const noexcept {
     return commanded[static_cast<std::size_t>(Latency - j)];
+  }
+  /// The shortest of the last tick and the recent ones [s]; with an exact Δx, the last one.
+  [[nodiscard]] constexpr scalar shortest_tick() const noexcept {
+    if constexpr (!Exact) return kernels::smaller(dt, recent.shortest);
+    return dt;
   }
   [[nodiscard]] constexpr tick_fate fate() const noexcept {
     if (!motion_known) return tick_fate::lost;
