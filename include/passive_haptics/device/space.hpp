@@ -73,7 +73,7 @@ struct vectors<Scalar, 1> {
 
   [[nodiscard]] static constexpr vector zero() noexcept { return Scalar(0); }
   [[nodiscard]] static constexpr Scalar dot(Scalar a, Scalar b) noexcept { return a * b; }
-  [[nodiscard]] static constexpr Scalar norm(Scalar a) noexcept { return a < Scalar(0) ? -a : a; }
+  [[nodiscard]] static constexpr Scalar norm(Scalar a) noexcept { return kernels::magnitude(a); }
   [[nodiscard]] static constexpr Scalar difference(Scalar a, Scalar b) noexcept { return a - b; }
   [[nodiscard]] static constexpr Scalar scaled(Scalar a, Scalar by) noexcept { return a * by; }
   [[nodiscard]] static constexpr bool is_finite(Scalar a) noexcept { return kernels::is_finite(a); }
