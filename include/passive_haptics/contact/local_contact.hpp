@@ -317,8 +317,7 @@ class local_contact {
       if (limited) {
         felt = law_.depth(Space::dot(port.force, r.normal), r.outward_speed);
         if (!kernels::is_finite(felt)) felt = scalar(0);  // more than K d over a K next to nothing
-        if (!(felt > scalar(0))) [[unlikely]]
-          what = detail::cut_short(port);
+        what = detail::cut_short(port);
       }
       if (limited || r.following) {
         supply_.approach(r.in_local, r.here, r.normal, felt);
@@ -388,7 +387,8 @@ class local_contact {
       if (supply_.current()) [[likely]]
         return scalar(1);
       if (supply_.stale()) what = detail::worse_yet(what, event::stale_target);
-      return faded(supply_.weight(), depth, dt);
+      if constexpr (eases) return faded(supply_.weight(), depth, dt);
+      return supply_.weight();
     } else {
       return scalar(1);
     }
@@ -421,16 +421,12 @@ class local_contact {
     adopt(port.longest_tick, std::remove_cvref_t<decltype(port)>::latency);
     own_.hear(supply_.target(), told, x, supply_.last_weight(), before, law_);
   }
-  /// The factor of a contact that fades, whose force also falls at a limited rate if the law is eased.
-  [[nodiscard, gnu::noinline]] constexpr scalar faded(scalar weight, [[maybe_unused]] scalar depth,
-                                                      [[maybe_unused]] scalar dt) const noexcept {
-    if constexpr (eases) {
-      const scalar whole = law_.force(depth, scalar(0));
-      if (whole > scalar(0)) {
-        return kernels::larger(weight, supply_.last_weight() - law_.pace().most() * dt / whole);
-      }
-    }
-    return weight;
+  /// The factor of an eased contact that fades, whose force falls at a limited rate.
+  [[nodiscard, gnu::noinline]] constexpr scalar faded(scalar weight, scalar depth,
+                                                      scalar dt) const noexcept {
+    const scalar whole = law_.force(depth, scalar(0));
+    if (!(whole > scalar(0))) return weight;
+    return kernels::larger(weight, supply_.last_weight() - law_.pace().most() * dt / whole);
   }
 
   /// The depth of x in the local model, and whether it is touched there.
