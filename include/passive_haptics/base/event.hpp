@@ -65,9 +65,8 @@ namespace detail {
   };
   return severity(a) < severity(b) ? b : a;
 }
-/// The event of a force that is NaN or infinite. It is a cold function, so that this rare case costs the
-/// ordinary tick no instructions.
-[[nodiscard, gnu::cold, gnu::noinline]] constexpr event unusable(event so_far) noexcept {
+/// The event of a force that is NaN or infinite, which is rare.
+[[nodiscard, gnu::cold]] constexpr event unusable(event so_far) noexcept {
   return worse_yet(so_far, event::rejected_target);
 }
 }  // namespace detail
