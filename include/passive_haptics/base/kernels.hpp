@@ -181,7 +181,11 @@ template <real S>
 [[nodiscard]] constexpr S sum_rounded_down(S E, S gain) noexcept {
   const S sum = E + gain;
   const S ulp = magnitude(sum) * std::numeric_limits<S>::epsilon();
-  return sum - (sum - E > gain ? ulp : S(0));
+#if defined(__SSE2__)
+  return sum - (sum - E > gain ? ulp : S(0));  // by a mask: a jump would be guessed wrong too often
+#else
+  return sum - E > gain ? S(sum - ulp) : sum;
+#endif
 }
 
 /// d_max = f/K [m], the depth at which a spring K [N/m] has the force f [N]; 0 for K ≤ 0. (2.27, A10)
