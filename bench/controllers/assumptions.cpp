@@ -255,7 +255,8 @@ std::vector<trial> trials() {
   const auto stepped = just_as(stated, 5.0);
   const subject encoders = on_encoders("make_touch, encoders", stated, 5.0);
   add(encoders, stepped,
-      {mass, friction, presliding, hand_force, limited_hand, encoder_step, longest_tick, latency});
+      {mass, damping, friction, presliding, hand_force, limited_hand, encoder_step, longest_tick,
+       latency});
   add(encoders, soft_and_restless(stepped), {motors_limit});
   const ph::known_hand known{.force = 5.0 + stated.friction};
   add(of_set("make_contacts, encoders", ph::make_contacts<d1>(stated, known, one)), stepped,
@@ -264,13 +265,14 @@ std::vector<trial> trials() {
   add(attacked("make_guard, encoders", rendered<std::remove_const_t<decltype(guarded)>>{guarded},
                lay_on_guard, limited_hands),
       stepped,
-      {mass, friction, presliding, hand_force, limited_hand, encoder_step, longest_tick, latency});
+      {mass, damping, friction, presliding, hand_force, limited_hand, encoder_step, longest_tick,
+       latency});
   const auto strictly = ph::make_guard<d1>(stated, ph::any_hand);
   add(attacked("make_guard, encoders, any_hand",
                rendered<std::remove_const_t<decltype(strictly)>>{strictly}, lay_on_guard,
                strict_hands_on_encoders()),
       stepped, {friction, presliding, encoder_step, longest_tick, latency});
-  // Dry friction pays for so much that nothing is left for the damper to pay, unless there is much of it.
+  // The same of a device whose damper pays for more than its dry friction.
   const ph::encoder_device damped{.mass = 0.05,
                                   .damping = 4.0,
                                   .friction = 0.05,
