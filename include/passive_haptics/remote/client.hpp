@@ -86,8 +86,8 @@ class client_with {
     if (state_ == state::talking && now - heard_ > detail::span_of(settings_.silence)) {
       greet_anew();
     }
-    if (asked_ != never && asked_ - now > detail::span_of(settings_.silence)) {  // the clock was set
-      greet_anew();
+    if (asked_ != never && asked_ - now > detail::span_of(settings_.silence)) {
+      greet_anew();  // because the clock was set back
       asked_ = never;
     }
     if (asked_ == never) oldest_ = now;

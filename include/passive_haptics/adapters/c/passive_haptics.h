@@ -197,7 +197,7 @@ typedef struct ph_parameters {
   uint32_t point_count;              ///< 1 to PH_TOOL_POINTS
   double points[PH_TOOL_POINTS][3];  ///< what touches, in the frame of the handle [m]
 
-  double renderer_period;  ///< of a guard, longest time from one new force to the next [s]; 0: a tick
+  double renderer_period;  ///< of a guard, longest time between two new forces [s]; 0: a tick
 } ph_parameters;
 
 /// A surface of the environment. Members that its kind does not use are ignored.
