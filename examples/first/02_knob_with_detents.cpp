@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A knob with a detent every 15 degrees and end stops at ±2 rad.
+// A knob with a detent every 15 degrees and end stops at ±2 rad. For N and m in the verdict read N·m and rad.
 #include "judge.hpp"
 #include <passive_haptics/knob/detents.hpp>
 
