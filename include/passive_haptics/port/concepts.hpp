@@ -318,8 +318,8 @@ namespace detail {
 /// The event of a contact whose force was reduced: started_inside, if the ledger is empty and the force zero.
 template <class P>
 [[nodiscard]] constexpr event cut_short(const port_result<P>& port) noexcept {
-  if (port.energy > typename P::scalar(0) || !(port.force == P::zero())) return port.what;
-  return worse_yet(port.what, event::started_inside);
+  if (port.energy > typename P::scalar(0) || port.what != event::nominal) return port.what;
+  return port.force == P::zero() ? event::started_inside : event::nominal;
 }
 /// Satisfied by the result of a source with the depth of a contact.
 template <class R>
