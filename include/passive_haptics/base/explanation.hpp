@@ -79,8 +79,9 @@ struct explanation {
         "The motion has refuted what was stated, as the event says: mend that, and reset().",
         "There is no surface: tell one by update(), or a mesh by source().touch().",
         "A mass that is sampled every T can be held with so much and no more, and it grows with "
-        "m/T^2: a faster loop, a longest tick that is no longer than it has to be, a heavier grip, "
-        "or behind a cable in a late loop a slow fastest_mode that is stated raises it.",
+        "m/T^2: a faster loop, behind a guard a faster renderer, a longest tick that is no longer "
+        "than it has to be, a heavier grip, or behind a cable in a late loop a slow fastest_mode "
+        "that is stated raises it.",
         "So much is sure of this damping and tick, of a force under a strict bound from an empty "
         "ledger, and of any torque: more damping or a shorter longest tick raises it, and of a "
         "force reachable_bound, where mass and hand are known.",
