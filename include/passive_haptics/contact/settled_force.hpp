@@ -139,18 +139,19 @@ class settled_force::on : private part_at<given_force, P> {
   constexpr void adopt(scalar T, int late) noexcept {
     longest_tick_ = T;
     late_ = late;
+    age_ = period_ > T ? period_ : scalar(0);
     per_tick_ = mass_ / (T * scalar(1 + late));
     most_damping_ = fraction_ * per_tick_;
     slope_time_ = kernels::larger(scalar(4) * mass_ / most_damping_,
                                   kernels::larger(scalar(0.05), scalar(50) * T));
-    const scalar settles = most_damping_ / ((scalar(late) + scalar(1.5)) * T + age());
+    const scalar settles = most_damping_ / ((scalar(late) + scalar(1.5)) * T + age_);
     steepest_ = softens_ ? kernels::smaller(settles, stiffest_) : kernels::largest<scalar>();
   }
   /// Explains most_stiffness; for a renderer that was found too stiff, its estimated stiffness and ¾ of most_stiffness.
   /// As a shaper it explains the surface: its share s, or most_stiffness if no force was too stiff yet.
   constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
     const double settles = parameters().most_stiffness(
-        static_cast<double>(T), static_cast<double>(age() / longest_tick_), late);
+        static_cast<double>(T), static_cast<double>(age_ / longest_tick_), late);
     const double steps = static_cast<double>(stiffest_), s = static_cast<double>(seen_.shown);
     const double least = kernels::smaller(settles, steps);
     const auto why = settles <= steps ? softened_by::mass_and_tick : softened_by::encoder_steps;
@@ -198,10 +199,6 @@ class settled_force::on : private part_at<given_force, P> {
     const effort f = settled(w, change, v, secant, port.dt);
     return P::is_finite(f) ? f : w;  // f is not finite if w overflows or underflows
   }
-  /// P [s] of a renderer that is slower than the tick, else 0.
-  [[nodiscard]] constexpr scalar age() const noexcept {
-    return period_ > longest_tick_ ? period_ : scalar(0);
-  }
   /// Σ −Δw Δx, Σ Δx² and Σ Δw² of the last 30 ms of motion.
   struct slope {
     scalar stiff{}, moved{}, changed{};
@@ -241,11 +238,11 @@ class settled_force::on : private part_at<given_force, P> {
                                                    const typename P::stored_effort& travel,
                                                    scalar dt) noexcept {
     const effort change = P::difference(w, seen_.given);
-    const effort way =
-        age() > scalar(0) ? less(travel, effort(seen_.passed), scalar(-1)) : effort(travel);
-    const bool old = !(P::dot(change, change) > scalar(0)) && P::dot(w, w) > scalar(0);
+    const effort way = less(effort(travel), effort(seen_.passed), scalar(-1));
+    const bool old =
+        age_ > scalar(0) && !(P::dot(change, change) > scalar(0)) && P::dot(w, w) > scalar(0);
     seen_.passed = old ? way : P::zero();
-    if (old && age() > scalar(0)) return;
+    if (old) return;
     seen_.given = w;
     const scalar size = P::dot(w, w), moved = P::dot(way, way), slow = scalar(1e-3) * dt;
     if (!std::exchange(seen_.begun, true) || !(size > scalar(0) && moved > slow * slow)) return;
@@ -364,7 +361,7 @@ class settled_force::on : private part_at<given_force, P> {
   scalar braked_ = kernels::largest<scalar>();         ///< t K along n, large at a touch [N·s/m]
   scalar slid_{};                                      ///< 4 t K_s across n [N·s/m]
   scalar per_tick_{}, most_damping_{}, slope_time_{};  ///< m/T and B [N·s/m], t [s]
-  scalar longest_tick_{}, period_{};                   ///< T, P [s]
+  scalar longest_tick_{}, period_{}, age_{};           ///< T, P, P of a slow renderer or 0 [s]
   int late_ = 0;                                       ///< [ticks]
   typename P::stored_effort last_{};                   ///< w of the last tick [N]
   typename P::stored_effort n_{};                      ///< n; zero for w = 0
