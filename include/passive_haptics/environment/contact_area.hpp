@@ -54,8 +54,8 @@ class contact_area {
     double sum = 0.0;
     const auto add = [&](int node) {
       if (!seen_.add(node)) return;
-      const double far = mesh::squared(triple_of(rest[slot(node)]) - centre);
-      const double inside = 1.0 - far / (radius * radius);
+      const double off = mesh::squared(triple_of(rest[slot(node)]) - centre);
+      const double inside = 1.0 - off / (radius * radius);
       if (!(inside > 0.0)) return;
       nodes_.push_back(node);
       shares_.push_back(areas_[slot(node)] * inside * inside);
