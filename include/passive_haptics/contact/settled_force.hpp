@@ -27,9 +27,9 @@ inline namespace v0 {
 ///
 /// A renderer stiffer than K_m = most_stiffness(T, P/T, l) [N/m] would ring, so its w is multiplied by s = ¾ K_m/K. Its
 /// stiffness K, the slope −Δw·Δx/|Δx|² along w and across it, is estimated over 30 ms of motion, or 30 changes of w;
-/// s rises again when K falls below half. shown() is s. K is the lesser of that slope and of the one about the means of
-/// Δw and Δx, which a wall that comes towards the device at a steady speed does not raise; one whose speed swings with the
-/// device's may lower s. P is `renderer_period`: one that is slower than told may ring.
+/// s rises again when K falls below half. shown() is s. A surface that moves along with the device does not lower s. One
+/// that comes towards a device which gives way at 1 mm/s or more looks steeper, by 1 + the ratio of both speeds, and may
+/// lower s at once. P is `renderer_period`: one that is slower than told may ring.
 ///
 /// A force above the motors' limit F is shortened to F, and B to B √(F/|w|), critical for the secant, so that the
 /// device comes out at a speed from which F can stop it. In a loop that is k ticks late B is divided by 1 + k. T is the
@@ -207,12 +207,6 @@ class settled_force::on : private part_at<given_force, P> {
       moved = keep * moved + way;
       changed = keep * changed + change;
     }
-    /// The same about the means of Δx and Δw, whose sums over so many ticks are given, and without `little`.
-    [[nodiscard]] constexpr slope about(scalar way, scalar rise, scalar ticks) const noexcept {
-      const scalar varies = moved * scalar(0.9999) - way * way / ticks;
-      return {stiff + way * rise / ticks, kernels::larger(varies, moved * scalar(1e-5)),
-              changed - rise * rise / ticks};
-    }
     /// `enough` over the stiffness, the share s of the force that has the stiffness `enough` [N/m]. It is 100 for a soft
     /// force and for an uncertain estimate: if less than a quarter of Σ Δw² correlates with the motion, or if the rest
     /// may explain the excess, as with noise or an added effect.
@@ -225,7 +219,6 @@ class settled_force::on : private part_at<given_force, P> {
   };
   struct evaluation {
     slope along{}, across{};  ///< of the given force, along w and across it
-    scalar way{}, rise{};     ///< Σ Δx and Σ Δw along w
     scalar ticks{};           ///< evaluated ticks of motion, of the last 30 ms
     int left = 0;             ///< ticks of motion still to be evaluated; 30 after a stiff one
     bool begun = false, steep = false;   ///< `given` is known; a tick was too stiff
@@ -255,18 +248,13 @@ class settled_force::on : private part_at<given_force, P> {
     across.see(work - out * rise, moved - outwards + little, P::dot(change, change) - risen, keep);
     seen_.steep = seen_.steep || -work > steepest_ * moved;
     seen_.ticks = keep * seen_.ticks + scalar(1);
-    seen_.way = keep * seen_.way + out;
-    seen_.rise = keep * seen_.rise + rise;
-    scalar s(1);
-    if (seen_.steep && seen_.ticks > scalar(3)) {
-      const slope swing = along.about(seen_.way, seen_.rise, seen_.ticks);
-      s = kernels::smaller(kernels::larger(along.share(steepest_), swing.share(steepest_)),
-                           across.share(steepest_));
-    }
+    const scalar s = seen_.steep && seen_.ticks > scalar(3)
+                         ? kernels::smaller(along.share(steepest_), across.share(steepest_))
+                         : scalar(1);
     if (!kernels::is_finite(along.stiff + along.changed + across.stiff + across.moved +
                             across.changed)) {  // a force was absurd
       along = across = {};
-      seen_.ticks = seen_.way = seen_.rise = scalar(0);
+      seen_.ticks = scalar(0);
     } else if (s < seen_.shown) {
       seen_.shown = scalar(0.75) * s;
     } else if (s > scalar(8) / scalar(3) * seen_.shown) {
