@@ -157,16 +157,22 @@ void open(ad::force_dimension<P>& omega, bool wrist = false) {
   REQUIRE_FALSE(omega.open());
 }
 
-/// 6000 ticks on a floor of 8 kN/m: the least energy at the port [J].
-double press(bool guarded, double force_limit = most) {
-  ad::force_dimension<scene> omega;
-  open(omega);
+/// A touch for an open device, on a floor of 8 kN/m.
+auto on_the_floor(const ad::force_dimension<scene>& omega, double force_limit = most) {
   auto touch = ph::make_touch<scene>({.mass = omega.least_mass(),
                                       .damping = damping,
                                       .force_limit = force_limit,
                                       .longest_tick = 1.01 * T},
                                      {.force = 5.0});
   touch.update({.point = {0.0, 0.0, 0.0}, .normal = {0.0, 0.0, 1.0}, .stiffness = 8000.0});
+  return touch;
+}
+
+/// 6000 ticks of it: the least energy at the port [J].
+double press(bool guarded, double force_limit = most) {
+  ad::force_dimension<scene> omega;
+  open(omega);
+  auto touch = on_the_floor(omega, force_limit);
   auto sample = omega.exchange(scene::zero());
   for (int k = 0; k < 6000; ++k) {
     const vec x = sample.position;
@@ -205,12 +211,7 @@ TEST_CASE("a port that is told of the force button credits no hand that sinks in
   const auto least_energy = [](bool told) {
     ad::force_dimension<scene> omega;
     open(omega);
-    auto touch = ph::make_touch<scene>({.mass = omega.least_mass(),
-                                        .damping = damping,
-                                        .force_limit = most,
-                                        .longest_tick = 1.01 * T},
-                                       {.force = 5.0});
-    touch.update({.point = {0.0, 0.0, 0.0}, .normal = {0.0, 0.0, 1.0}, .stiffness = 8000.0});
+    auto touch = on_the_floor(omega);
     auto sample = omega.exchange(scene::zero());
     for (int k = 0; k < 6000; ++k) {
       dhd->forces = k > 400;
