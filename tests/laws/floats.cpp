@@ -53,7 +53,8 @@ double passes(const Bound& told, const Damping& damping, const moment& now,
     commanded[j] = typename Port::stored_effort(effort(Late - j));
   }
   const typename Port::stored_effort held(effort(0));
-  ph::recent_ticks<S, Exact> recent{S(now.longest)};
+  ph::recent_ticks<S, Exact> recent{};
+  recent.longest = S(now.longest);
   if constexpr (!Exact) recent.shortest = S(now.shortest);
   const state s{.damping = b,
                 .commanded = commanded,

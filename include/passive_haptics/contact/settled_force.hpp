@@ -150,8 +150,8 @@ class settled_force::on : private part_at<given_force, P> {
   /// Explains most_stiffness; for a renderer that was found too stiff, its estimated stiffness and ¾ of most_stiffness.
   /// As a shaper it explains the surface: its share s, or most_stiffness if no force was too stiff yet.
   constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
-    const double settles = parameters().most_stiffness(
-        static_cast<double>(T), static_cast<double>(age_ / longest_tick_), late);
+    const double settles =
+        parameters().most_stiffness(static_cast<double>(T), static_cast<double>(age_ / T), late);
     const double steps = static_cast<double>(stiffest_), s = static_cast<double>(seen_.shown);
     const double least = kernels::smaller(settles, steps);
     const auto why = settles <= steps ? softened_by::mass_and_tick : softened_by::encoder_steps;

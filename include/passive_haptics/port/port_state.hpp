@@ -49,10 +49,10 @@ struct recent_ticks {
 };
 /// The same, for an error of the travel, which counts for most in a short tick.
 template <class Scalar>
-struct recent_ticks<Scalar, false> {
-  Scalar longest{}, shortest = kernels::largest<Scalar>();  ///< [s], T at most and T/4 at least
+struct recent_ticks<Scalar, false> : recent_ticks<Scalar> {
+  Scalar shortest = kernels::largest<Scalar>();  ///< [s], T/4 at least
   constexpr void see(Scalar dt, Scalar T) noexcept {
-    longest = kernels::larger(longest, kernels::smaller(dt, T));
+    recent_ticks<Scalar>::see(dt, T);
     shortest = kernels::smaller(shortest, kernels::larger(dt, T / Scalar(4)));
   }
 };
