@@ -71,12 +71,14 @@ struct situation {
   typename state_type::commands commanded{};  ///< newest first
 
   [[nodiscard]] constexpr state_type port() const noexcept {
+    decltype(state_type::recent) ticks{};
+    ticks.longest = recent;
     return {.damping = damping,
             .commanded = commanded,
             .energy = energy,
             .dt = dt,
             .longest_tick = longest_tick,
-            .recent = {recent},
+            .recent = ticks,
             .held = held,
             .travel = travel,
             .travel_error = travel_error,
