@@ -247,6 +247,15 @@ std::int32_t ph_mesh_move(ph_mesh* mesh, const double position[3],
   });
 }
 
+std::int32_t ph_mesh_doubt(const ph_mesh* mesh, char* doubt, std::size_t room) noexcept {
+  const text reason(doubt, room);
+  if (mesh == nullptr) return refuse_null(reason, "ph_mesh_doubt", "mesh");
+  return guarded(reason, [&]() -> std::int32_t {
+    reason.say("%s", mesh->triangles->doubt().c_str());
+    return PH_OK;
+  });
+}
+
 std::int32_t ph_mesh_touch(ph_port* port, const ph_mesh* mesh) noexcept {
   return port == nullptr || mesh == nullptr ? std::int32_t{PH_NULL_ARGUMENT} : port->touch(*mesh);
 }

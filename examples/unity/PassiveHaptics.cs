@@ -171,6 +171,14 @@ namespace PassiveHaptics
             GC.KeepAlive(this);
             return status == 0;
         }
+        /// What is almost surely a slip, as millimetres for metres; "" if nothing is. It takes as long as the constructor.
+        public string Doubt()
+        {
+            byte[] doubt = new byte[why.Length];
+            if (ph_mesh_doubt(mesh, doubt, (UIntPtr)doubt.Length) != 0) Port.Refuse(doubt);
+            GC.KeepAlive(this);
+            return Encoding.UTF8.GetString(doubt, 0, Array.IndexOf(doubt, (byte)0));
+        }
         public string Fault { get { return Encoding.UTF8.GetString(why, 0, Array.IndexOf(why, (byte)0)); } }
 
         private void Check(byte[] materialOf)
@@ -201,6 +209,8 @@ namespace PassiveHaptics
         [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
         private static extern int ph_mesh_set_materials(IntPtr mesh, double[] materials, uint count,
                                                         byte[] materialOf, byte[] why, UIntPtr room);
+        [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
+        private static extern int ph_mesh_doubt(IntPtr mesh, byte[] doubt, UIntPtr room);
         [DllImport(Port.library, CallingConvention = CallingConvention.Cdecl)]
         private static extern int ph_mesh_move(IntPtr mesh, ref Vector position, ref Rotation orientation);
     }

@@ -42,6 +42,7 @@ const char* load(struct c_interface* found, const char* file) {
                    {"ph_mesh_update", &found->mesh_update},
                    {"ph_mesh_set_materials", &found->mesh_set_materials},
                    {"ph_mesh_move", &found->mesh_move},
+                   {"ph_mesh_doubt", &found->mesh_doubt},
                    {"ph_mesh_touch", &found->mesh_touch},
                    {"ph_mesh_let_go", &found->mesh_let_go},
                    {"ph_probe_create", &found->probe_create},

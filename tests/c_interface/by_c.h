@@ -33,6 +33,7 @@ struct c_interface {
   int32_t (*mesh_create)(const ph_mesh_data*, ph_mesh**, char*, size_t);
   void (*mesh_destroy)(ph_mesh*);
   int32_t (*mesh_update)(ph_mesh*, const double*, uint32_t, char*, size_t);
+  int32_t (*mesh_doubt)(const ph_mesh*, char*, size_t);
   int32_t (*mesh_set_materials)(ph_mesh*, const double*, uint32_t, const uint8_t*, char*, size_t);
   int32_t (*mesh_move)(ph_mesh*, const double*, const double*);
   int32_t (*mesh_touch)(ph_port*, const ph_mesh*);

@@ -481,6 +481,16 @@ TEST_CASE("news that are none are refused from C, and the last good mesh is felt
   }
   CHECK(update(other.sheet, sheet_vertices) == PH_OK);  // the control: what is good is felt
   CHECK(press() < 0.8 * before);
+  const auto doubt = [&] {
+    CHECK(c.mesh_doubt(sheet.mesh, why.data(), why.size()) == PH_OK);
+    return std::string(why.c_str());
+  };
+  CHECK(doubt().empty());
+  for (double& one : other.sheet) one *= 1e3;
+  CHECK(update(other.sheet, sheet_vertices) == PH_OK);
+  CHECK_THAT(doubt(), StartsWith("mesh: it is ") && Catch::Matchers::Contains("give metres"));
+  CHECK(c.mesh_doubt(nullptr, why.data(), why.size()) == PH_NULL_ARGUMENT);
+  CHECK(std::string(why.c_str()) == "ph_mesh_doubt: mesh is NULL");
 }
 
 TEST_CASE("a mesh is touched where there is a place for it, and lives as long as it is touched",

@@ -170,6 +170,7 @@ struct a_mesh {
         double materials[6]{800.0, 0.2, 0.1, in.about(2000.0), in.about(0.2), in.about(0.1)};
         std::uint8_t of[]{0, 1, 0, static_cast<std::uint8_t>(in.one() % 3)};
         (void)ph_mesh_set_materials(mesh, materials, in.one() % 3, of, nullptr, 0);
+        (void)ph_mesh_doubt(mesh, nullptr, 0);
         break;
       }
       case 4:

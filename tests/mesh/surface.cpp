@@ -49,7 +49,7 @@ TEST_CASE("a mesh whose triangles have left their neighbours is doubted", "[mesh
   ph::mesh::surface s(b.triangles, mixed);
   CHECK(s.doubt().empty());
   REQUIRE(s.update(b.nodes));
-  CHECK_THAT(s.doubt(), Contains("make another mesh::surface"));
+  CHECK_THAT(s.doubt(), Contains("make another mesh of these nodes"));
   ph::mesh::surface anew(b.triangles, b.nodes);
   for (const double by : {0.5, 1.0, 2.0}) {  // it grows, is drawn out, and is wound up by a turn
     auto nodes = b.nodes;

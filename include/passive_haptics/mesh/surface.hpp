@@ -303,7 +303,7 @@ class surface {
     if (!(times > 4.0)) return {};
     return "mesh: its triangles have left those beside which they were made, so a tick looks at " +
            in_words(std::round(times)) +
-           " times as many as it need; make another mesh::surface of these nodes and touch() it";
+           " times as many as it need; make another mesh of these nodes and touch that one";
   }
   /// Why the last update was refused; empty if it was not.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }

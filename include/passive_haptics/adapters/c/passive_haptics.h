@@ -21,10 +21,10 @@
 // hand into the device. Vectors are three doubles: x, y, z.
 //
 // No function throws. Memory is taken and given back by ph_create, ph_destroy, ph_mesh_create, ph_mesh_update,
-// ph_mesh_set_materials, ph_mesh_destroy, ph_probe_create and ph_probe_destroy only, and given back by ph_mesh_let_go
-// and ph_probe_let_go where they were the last to hold a mesh. Wherever a result is written, the port has ticked, and the
-// force in it is what must be commanded: zero, with an event, if anything was wrong. Where no result can be written
-// (NULL, a wrong size) the port has not ticked.
+// ph_mesh_set_materials, ph_mesh_doubt, ph_mesh_destroy, ph_probe_create and ph_probe_destroy only, and given back by
+// ph_mesh_let_go and ph_probe_let_go where they were the last to hold a mesh. Wherever a result is written, the port has
+// ticked, and the force in it is what must be commanded: zero, with an event, if anything was wrong. Where no result can
+// be written (NULL, a wrong size) the port has not ticked.
 //
 // A pointer that is not NULL must point to an object of its type, which lives as long as the call. A ph_port* is
 // valid from the ph_create that wrote it until its first ph_destroy, and so are a ph_mesh* and a ph_probe*. Any later
@@ -35,8 +35,8 @@
 // ph_enable_forces, ph_explain, ph_mesh_touch and ph_mesh_let_go in one thread, the same or another. Two threads in one
 // of these groups at the same time, or ph_destroy while a thread is in any function, are a data race and undefined; a
 // debug build of the library stops if two threads tick. ph_guarantee_of is for any thread, and different ports share
-// nothing but the meshes that they touch. Call ph_mesh_update, _move and _set_materials of a mesh in one thread,
-// whichever threads touch it, and all functions of a probe in one thread.
+// nothing but the meshes that they touch. Call ph_mesh_update, _move, _set_materials and _doubt of a mesh in one
+// thread, whichever threads touch it, and all functions of a probe in one thread.
 //
 // Before 1.0 a minor version may change this interface, as it may the library's.
 
@@ -387,6 +387,10 @@ PH_API int32_t ph_mesh_move(ph_mesh* mesh, const double position[3],
 PH_API int32_t ph_mesh_set_materials(ph_mesh* mesh, const double* materials,
                                      uint32_t material_count, const uint8_t* material_of, char* why,
                                      size_t room) PH_NOTHROW;
+/// Says what is doubtful of the shape that was told last and almost surely a slip: millimetres for metres, or triangles
+/// that have left those beside which they were made, so that ticks take long. It is no refusal: "" if nothing is. It takes
+/// as long as ph_mesh_create.
+PH_API int32_t ph_mesh_doubt(const ph_mesh* mesh, char* doubt, size_t room) PH_NOTHROW;
 /// Lets a mesh_touch, or all points of a mesh_tool, touch this mesh as well. Call it, and the next one, in the thread
 /// of its ticks.
 PH_API int32_t ph_mesh_touch(ph_port* port, const ph_mesh* mesh) PH_NOTHROW;
