@@ -179,11 +179,11 @@ TEST_CASE("a settled force says how much of a steep one it shows, and shows all 
   const double most = rule.most_stiffness(1e-3);
   auto guard = guard_of<d1>(rule);
   int tick = 0;
-  // For a second: swings by 0.2 mm about where it presses with 3 N, 8 times a second, under that slope.
+  // For a second: swings by 0.2 mm about where it presses with 30 N, 8 times a second, under that slope.
   const auto swing = [&](double K) {
     for (int n = 0; n < 1000; ++n) {
       const double way = 2e-4 * std::sin(0.05 * ++tick);
-      (void)guard.tick(way, 1ms, std::max(0.0, 3.0 - K * way));
+      (void)guard.tick(way, 1ms, 30.0 - K * way);
     }
     return double(guard.source().shown());
   };
@@ -195,6 +195,13 @@ TEST_CASE("a settled force says how much of a steep one it shows, and shows all 
   (void)swing(4.0 * most);
   guard.reset();
   CHECK(guard.source().shown() == 1.0);
+  for (int n = 0; n < 50; ++n) (void)guard.tick(-1e-5 * n, 1ms, 4.0 * most * 1e-5 * n);
+  CHECK_THAT(guard.explain().shown, WithinRel(4.0 * most, 1e-6));  // pressed steadily: as given
+  CHECK(guard.explain().stiffness == ph::softened_by::nothing);
+  (void)swing(4.0 * most);
+  CHECK_THAT(guard.explain().shown, WithinRel(0.75 * most, 1e-6));
+  CHECK(guard.explain().stiffness == ph::softened_by::mass_and_tick);
+  guard.reset();
 
   ph::laws::samples random(3);
   double x = 0.0;
@@ -523,14 +530,16 @@ TEST_CASE("an absurd force is no reason to show a steep one as it is", "[settled
 TEST_CASE("a given force that fades is not taken for a steep one", "[settled_force]") {
   const auto shown = [](bool told) {  // 5 N that are gone after 0.15 s, or are told to go so
     auto guard = guard_of<d1>(rule);
-    double x = 0.0;
+    double x = 0.0, t = 0.0;
     (void)guard.tick(x, 1ms, 5.0);
     for (int n = 1; n < 200; ++n) {
-      x += 2e-6;
+      const double dt = n % 2 == 0 ? 0.5e-3 : 1.5e-3;
+      x += 2e-3 * dt;
+      t += dt;
       if (told) {
-        (void)guard.tick(x, 1ms, std::clamp(5.0 * (150 - n) / 50.0, 0.0, 5.0));
+        (void)guard.tick(x, ph::seconds{dt}, std::clamp(100.0 * (0.15 - t), 0.0, 5.0));
       } else {
-        (void)guard.tick(x, 1ms);
+        (void)guard.tick(x, ph::seconds{dt});
       }
     }
     CHECK(guard.tick(x, 1ms).force == 0.0);
@@ -545,9 +554,11 @@ TEST_CASE("after an absurd force three ticks are too few again", "[settled_force
   for (const double absurd : {1e200, -1e200}) {
     auto guard = guard_of<d1>(rule);
     double x = 0.0, w = 100.0;
+    int tick = 0;
     const auto next = [&](double K) {
-      x -= step;
-      w += K * step;
+      const double way = ++tick % 2 == 0 ? step : 3.0 * step;
+      x -= way;
+      w += K * way;
       (void)guard.tick(x, 1ms, w);
       return double(guard.source().shown());
     };
@@ -567,7 +578,7 @@ TEST_CASE("a settled force that looks at a steep one forgets at a reset that it 
   const auto touched = [&](auto& guard) {  // from the air onto a steep floor
     std::vector<double> shown;
     for (int n = 0; n < 12; ++n) {
-      const double x = 1e-5 * (3 - n);
+      const double x = 1e-5 * (3 - n) + (n % 2 == 0 ? 0.0 : 5e-6);
       (void)guard.tick(x, 1ms, std::max(0.0, -K * x));
       shown.push_back(double(guard.source().shown()));
     }
@@ -638,7 +649,7 @@ struct plainly {
   using vector = Eigen::Matrix<double, N, 1>;
   struct tick {
     std::array<double, 2> work, way, change;  // along w, and across it
-    double moved, keep;
+    double moved, keep, out, rise;            // Δx and Δw along w
   };
   ph::settled_force p;
   double T;
@@ -654,13 +665,23 @@ struct plainly {
   [[nodiscard]] double most() const { return std::min(p.most_stiffness(T, 0, late), p.most); }
   [[nodiscard]] double share(std::size_t k) const {  // K_m over the slope, 100 for what is none
     double work = 0.0, moved = 0.0, changed = 0.0, weight = 1.0;
+    double out = 0.0, rise = 0.0, ticks = 0.0;
     for (std::size_t i = seen.size(); i-- > 0;) {
       const tick& t = seen[i];
       work -= weight * t.work[k];
       moved += weight * (t.way[k] + 1e-4 * t.moved);
       changed += weight * t.change[k];
+      out += weight * t.out;
+      rise += weight * t.rise;
+      ticks += weight;
       weight *= t.keep;
     }
+    const double s = share(work, moved, changed);
+    if (k == 1) return s;
+    const double varies = std::max(0.9999 * moved - out * out / ticks, 1e-5 * moved);
+    return std::max(s, share(work + out * rise / ticks, varies, changed - rise * rise / ticks));
+  }
+  [[nodiscard]] double share(double work, double moved, double changed) const {
     const double correlation = work * work / (moved * changed), slope = work / moved;
     const double rest = moved * changed * (1.0 - correlation);
     const bool sure = correlation > 0.25 && rest <= 8.0 * std::pow(work - most() * moved, 2);
@@ -698,7 +719,9 @@ struct plainly {
                     {std::pow(way.dot(along), 2), way_across.squaredNorm()},
                     {std::pow(change.dot(along), 2), change_across.squaredNorm()},
                     way.squaredNorm(),
-                    0.03 / (0.03 + dt)});
+                    0.03 / (0.03 + dt),
+                    way.dot(along),
+                    change.dot(along)});
     steep = steep || -change.dot(way) > most() * way.squaredNorm();
     double ticks = 0.0, weight = 1.0;
     for (std::size_t i = seen.size(); i-- > 0; weight *= seen[i].keep) ticks += weight;
@@ -855,6 +878,23 @@ TEST_CASE("a settled force is that of its formulas, with the slope which all tic
   CHECK(all.cut > 50);
 }
 
+TEST_CASE("a wall that heaves against a finger that gives in steadily is not taken for a steep one",
+          "[settled_force]") {
+  // The finger moves in at 2 mm/s and the wall comes at four times that, so each tick looks five times as steep.
+  const double K = 0.4 * rule.most_stiffness(1e-3);
+  auto guard = guard_of<d1>(rule);
+  double x = 0.0, wall = 0.0, step = 0.0, last = 0.0;
+  for (int n = 0; n < 400; ++n) {
+    const double f = guard.tick(x, 1ms, K * std::max(0.0, wall - x)).force;
+    if (n > 5) step = std::max(step, std::abs(f - last));
+    last = f;
+    x -= 2e-6 + 0.1e-6 * std::sin(0.05 * n);
+    wall += 8e-6;
+  }
+  CHECK(guard.source().shown() == 1.0);
+  CHECK(step < 0.1);
+}
+
 TEST_CASE("a slope of K_m is not too steep, and at 1 mm/s none is learned", "[settled_force]") {
   ph::settled_force p = rule;
   p.most = 1024.0;
@@ -863,9 +903,11 @@ TEST_CASE("a slope of K_m is not too steep, and at 1 mm/s none is learned", "[se
     ph::passive_port guard{
         d1{}, p, ph::no_observer{}, ph::no_bound{}, ph::loop_limits{.longest_tick = 1e-3}, motion};
     double x = 0.0, w = 64.0;
+    int tick = 0;
     const auto next = [&](double K) {
-      x -= step;
-      w += K * step;
+      const double way = ++tick % 2 == 0 ? step : 3.0 * step;
+      x -= way;
+      w += K * way;
       (void)guard.tick(x, ph::seconds{dt}, w);
     };
     (void)guard.tick(x, ph::seconds{dt}, w);
@@ -909,7 +951,10 @@ TEST_CASE("a slope of K_m is not too steep, and at 1 mm/s none is learned", "[se
         next({0, -step}, {0, 2048.0 * step});  // noticed
         next({0, 0}, {0, 0});
         next({0, -step}, {0, K * step});
-        for (int n = 0; n < 9; ++n) next({step, -step}, {8192.0 * step, 4096.0 * step});
+        for (int n = 0; n < 9; ++n) {
+          const double way = n % 2 == 0 ? 3.0 * step : step;
+          next({way, -way}, {8192.0 * way, 4096.0 * way});
+        }
         return double(guard.source().shown());
       };
   CHECK(turned(1024.0) == 1.0);

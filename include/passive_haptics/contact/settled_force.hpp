@@ -27,9 +27,10 @@ inline namespace v0 {
 ///
 /// A renderer stiffer than K_m = most_stiffness(T, P/T, l) [N/m] would ring, so its w is multiplied by s = ¾ K_m/K. Its
 /// stiffness K, the slope −Δw·Δx/|Δx|² along w and across it, is estimated over 30 ms of motion, or 30 changes of w;
-/// s rises again when K falls below half. shown() is s. A surface that moves along with the device does not lower s. One
-/// that comes towards a device which gives way at 1 mm/s or more looks steeper, by 1 + the ratio of both speeds, and may
-/// lower s at once. P is `renderer_period`: one that is slower than told may ring.
+/// s rises again when K falls below half. shown() is s. Along w, on exact positions, K is the lesser of that slope and
+/// of the one about the means of Δw and Δx, which a wall that moves at a steady speed does not raise; so a press that
+/// does not swing is shown as given. A wall whose speed swings with the device's may lower s. P is `renderer_period`:
+/// one that is slower than told may ring.
 ///
 /// A force above the motors' limit F is shortened to F, and B to B √(F/|w|), critical for the secant, so that the
 /// device comes out at a speed from which F can stop it. In a loop that is k ticks late B is divided by 1 + k. T is the
@@ -147,8 +148,9 @@ class settled_force::on : private part_at<given_force, P> {
     const scalar settles = most_damping_ / ((scalar(late) + scalar(1.5)) * T + age_);
     steepest_ = softens_ ? kernels::smaller(settles, stiffest_) : kernels::largest<scalar>();
   }
-  /// Explains most_stiffness; for a renderer that was found too stiff, its estimated stiffness and ¾ of most_stiffness.
-  /// As a shaper it explains the surface: its share s, or most_stiffness if no force was too stiff yet.
+  /// Explains most_stiffness; for a renderer that was found too stiff, its estimated stiffness and ¾ of most_stiffness,
+  /// or all of it as long as it does not swing. As a shaper it explains the surface: its share s, or most_stiffness if
+  /// no force was too stiff yet.
   constexpr void explain(explanation& e, const auto& /*x*/, scalar T, int late) const noexcept {
     const double settles =
         parameters().most_stiffness(static_cast<double>(T), static_cast<double>(age_ / T), late);
@@ -158,6 +160,10 @@ class settled_force::on : private part_at<given_force, P> {
     const bool shapes = e.asked > 0.0;  // the force of a surface
     if (shapes && !softens_) return;
     if (!shapes) e.asked = e.shown = std::numeric_limits<double>::infinity();
+    if (!(s < 1.0) && seen_.steep && seen_.felt > steepest_) {
+      if (!shapes) e.asked = e.shown = static_cast<double>(seen_.felt);
+      return;
+    }
     e.soften(s < 1.0 ? (shapes ? s * e.shown : 0.75 * least) : least, why);
     if (!shapes && s < 1.0) e.asked = e.shown / s;
   }
@@ -199,13 +205,19 @@ class settled_force::on : private part_at<given_force, P> {
     const effort f = settled(w, change, v, secant, port.dt);
     return P::is_finite(f) ? f : w;  // f is not finite if w overflows or underflows
   }
-  /// Σ −Δw Δx, Σ Δx² and Σ Δw² of the last 30 ms of motion.
+  /// Σ −Δw·Δx, Σ Δx² and Σ Δw² of the last 30 ms of motion.
   struct slope {
     scalar stiff{}, moved{}, changed{};
     constexpr void see(scalar work, scalar way, scalar change, scalar keep) noexcept {
       stiff = keep * stiff - work;
       moved = keep * moved + way;
       changed = keep * changed + change;
+    }
+    /// The same about the means of Δx and Δw, whose sums over so many ticks are given.
+    [[nodiscard]] constexpr slope about(scalar way, scalar rise, scalar ticks) const noexcept {
+      const scalar varies = moved * scalar(0.9999) - way * way / ticks;
+      return {stiff + way * rise / ticks, kernels::larger(varies, moved * scalar(1e-5)),
+              changed - rise * rise / ticks};
     }
     /// `enough` over the stiffness, the share s of the force that has the stiffness `enough` [N/m]. It is 100 for a soft
     /// force and for an uncertain estimate: if less than a quarter of Σ Δw² correlates with the motion, or if the rest
@@ -219,6 +231,8 @@ class settled_force::on : private part_at<given_force, P> {
   };
   struct evaluation {
     slope along{}, across{};  ///< of the given force, along w and across it
+    scalar way{}, rise{};     ///< Σ Δx [m] and Σ Δw [N] along w
+    scalar felt{};            ///< slope of the last evaluated tick [N/m]
     scalar ticks{};           ///< evaluated ticks of motion, of the last 30 ms
     int left = 0;             ///< ticks of motion still to be evaluated; 30 after a stiff one
     bool begun = false, steep = false;   ///< `given` is known; a tick was too stiff
@@ -246,15 +260,24 @@ class settled_force::on : private part_at<given_force, P> {
     const scalar work = P::dot(change, way), outwards = kernels::smaller(out * out, moved);
     along.see(out * rise, outwards + little, risen, keep);
     across.see(work - out * rise, moved - outwards + little, P::dot(change, change) - risen, keep);
-    seen_.steep = seen_.steep || -work > steepest_ * moved;
+    seen_.felt = -work / moved;
+    seen_.steep = seen_.steep || seen_.felt > steepest_;
     seen_.ticks = keep * seen_.ticks + scalar(1);
-    const scalar s = seen_.steep && seen_.ticks > scalar(3)
-                         ? kernels::smaller(along.share(steepest_), across.share(steepest_))
-                         : scalar(1);
+    seen_.way = keep * seen_.way + out;
+    seen_.rise = keep * seen_.rise + rise;
+    scalar s(1);
+    if (seen_.steep && seen_.ticks > scalar(3)) {
+      s = along.share(steepest_);
+      if (!(stiffest_ < kernels::largest<scalar>())) {  // there are no encoder steps
+        const slope swing = along.about(seen_.way, seen_.rise, seen_.ticks);
+        s = kernels::larger(s, swing.share(steepest_));
+      }
+      s = kernels::smaller(s, across.share(steepest_));
+    }
     if (!kernels::is_finite(along.stiff + along.changed + across.stiff + across.moved +
                             across.changed)) {  // a force was absurd
       along = across = {};
-      seen_.ticks = scalar(0);
+      seen_.ticks = seen_.way = seen_.rise = scalar(0);
     } else if (s < seen_.shown) {
       seen_.shown = scalar(0.75) * s;
     } else if (s > scalar(8) / scalar(3) * seen_.shown) {
