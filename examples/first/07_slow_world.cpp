@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A world that answers 30 times a second, and whose surface heaves by 3 mm until it stands still.
+// A world that answers 30 times a second, and whose surface heaves by 3 mm until it stands still. One that knows its
+// velocity and how late it is tells them: touch.update({...}, {.velocity = v, .age = 0.02}), in m/s and s.
 #include "judge.hpp"
 
 using scene = ph::space<double, 1>;
