@@ -328,6 +328,43 @@ TEST_CASE("a mesh that jumps onto a hand is felt there at a limited rate", "[mes
   }
 }
 
+TEST_CASE("a mesh that jumps onto a hand does not let go of it where motors are weak", "[mesh]") {
+  // The motors' limit is a force, so the way that is not yet felt does not count against it. A finger that is held
+  // still shows the step, and a hand that gives way the energy.
+  const body b = plate();
+  for (const bool by_pose : {false, true}) {
+    for (const double way : {0.05, 0.5, 10.0, -0.05}) {
+      for (const bool held : {true, false}) {
+        ph::mesh::surface s(b.triangles, b.nodes);
+        auto port = at_the_door(1000);
+        REQUIRE(port.source().touch(s));
+        device dev({.mass = 0.1, .damping = 0.1, .start = vector(0.003, 0.002, 0.006)},
+                   drawn(vector(0.003, 0.002, -0.006), 5, 1000, 10));
+        double step = 0.0, most = 0.0;
+        vector force = vector::Zero();
+        auto sample = dev.exchange(force);
+        for (int n = 0; n < 2000; ++n) {
+          auto nodes = b.nodes;
+          for (triple& p : nodes) p.z += way;
+          const ph::mesh::pose there{.position = {0, 0, way}};
+          if (n >= 1000 && n % 33 == 0) REQUIRE((by_pose ? s.update(there) : s.update(nodes)));
+          const vector last = force, x(0.003, 0.002, 0.006 - std::min(0.0095, 2e-5 * n));
+          force = held ? port.tick(x, ph::seconds{T}).force : port.tick(sample).force;
+          if (!held) sample = dev.exchange(force);
+          if (n > 600) step = std::max(step, (force - last).norm());
+          most = std::max(most, force.norm());
+        }
+        INFO(by_pose << ", by " << way << " m, held " << held << ": " << step << " N");
+        CHECK(most > 3.9);
+        if (held && way > 0.0) CHECK(step < 0.3);
+        CHECK((force.norm() > 0.0) == (way > 0.0));  // a mesh that has left holds nothing
+        CHECK(dev.meter().minimum() >= -1e-12);
+        port.source().let_go();
+      }
+    }
+  }
+}
+
 TEST_CASE("a mesh that the device is in when the forces are on again is met from no force on",
           "[mesh]") {
   const body b = plate();

@@ -191,8 +191,9 @@ class mesh_contact::on {
     const double part = share_felt(depth, most, dt);
     const mesh::triple v = to_triple(detail::velocity_of<P>(motion));
     const mesh::material is = made_of(depth, mesh::length(v), dt);
+    const double shown = depth * part;
     const auto felt =
-        spring_.saturates(sampled_, depth) ? spring_.saturated(sampled_, depth) : sampled_;
+        spring_.saturates(sampled_, shown) ? spring_.saturated(sampled_, shown) : sampled_;
     const int count = ball_.planes();
     std::array<double, mesh::proxy::most_planes> wish;  // NOLINT(*-member-init): read below count
     std::array<mesh::triple, mesh::proxy::most_planes> n;
