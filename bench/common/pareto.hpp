@@ -3,6 +3,7 @@
 // The Pareto front of many points.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -24,6 +25,24 @@ namespace experiments {
     if (!(points[i].second < least)) continue;
     least = points[i].second;
     front.push_back(i);
+  }
+  return front;
+}
+
+/// The same of points of three quantities and more, than which no other is as good in all and better in one: their
+/// places in the list, as they stand there, the first of those that are alike.
+template <std::size_t N>
+[[nodiscard]] std::vector<std::size_t> pareto_front(
+    const std::vector<std::array<double, N>>& points) {
+  std::vector<std::size_t> front;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    bool beaten = false;
+    for (std::size_t k = 0; k < points.size() && !beaten; ++k) {
+      bool as_good = k != i && (k < i || points[k] != points[i]);
+      for (std::size_t n = 0; n < N; ++n) as_good = as_good && points[k][n] <= points[i][n];
+      beaten = as_good;
+    }
+    if (!beaten) front.push_back(i);
   }
   return front;
 }

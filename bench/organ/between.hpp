@@ -34,7 +34,7 @@ struct between_row {
   double least = 0.0;    ///< port energy, with the device's own damping [J]
   double tick = 0.0;     ///< of the model [ns]
   double work = 0.0;     ///< of the environment, for a second of touching [ms]
-  bool front = false;    ///< nothing has less error for as little work in this scene, told at once
+  bool front = false;    ///< nothing has as little error, step and work in this scene, told at once
   ex::at_rest still{};   ///< when hand and world hold still after the run
 };
 [[nodiscard]] ex::record record_of(const between_row& r);

@@ -48,6 +48,11 @@ TEST_CASE("a Pareto front is what nothing beats in both", "[organ]") {
   CHECK(experiments::pareto_front(points{{3, 1}, {1, 3}, {2, 3}, {2, 2}, {4, 1}}) ==
         places{1, 3, 0});
   CHECK(experiments::pareto_front(points{}).empty());
+  // Of three quantities: what is beaten in two of them is kept for the third, and of two that are alike the first.
+  using triples = std::vector<std::array<double, 3>>;
+  const triples of_three{{1, 3, 3}, {2, 3, 3}, {3, 3, 1}, {3, 1, 3}, {3, 3, 1}, {3, 3, 2}};
+  CHECK(experiments::pareto_front(of_three) == places{0, 2, 3});
+  CHECK(experiments::pareto_front(triples{}).empty());
 }
 
 TEST_CASE("a first look at an organ keeps what it promises", "[organ]") {
