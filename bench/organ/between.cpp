@@ -278,6 +278,7 @@ void judge(between_row& row, const scene& s, const felt& run, const felt& truth)
     row.own = std::max(row.own, (truth.force[n] - truth.force[n - 1]).norm());
     row.lost += run.force[n].norm() == 0.0 && truth.force[n].norm() > 0.02 ? 1 : 0;
   }
+  row.ticks += count;
   row.error = std::max(row.error, std::sqrt(sum / count));
   row.least = std::min(row.least, run.least);
   row.tick = std::max(row.tick, 1e9 * run.tick);
@@ -354,7 +355,7 @@ const auto made_ahead = [](auto& model, const letter& a, double /*age*/) {
 /// All that can be made of the news of a scene, at a rate and a latency.
 class comparison {
  public:
-  comparison(std::vector<between_row>& rows, const std::vector<scene>& by_hand)
+  comparison(between_rows& rows, const std::vector<scene>& by_hand)
       : rows_(rows), scenes_(by_hand) {
     for (const auto& s : by_hand) truths_.push_back(truth_of(s));
   }
@@ -395,17 +396,22 @@ class comparison {
     between_row worst{
         .scene = scenes_[0].name, .rate = rate, .late = 1e3 * late, .by = by, .loan = loan};
     for (std::size_t h = 0; h < scenes_.size(); ++h) {
-      between_row one = worst;
-      one.error = 0.0;
       const scene& s = scenes_[h];
+      between_row one{.scene = s.name + ", hand " + std::to_string(h + 1),
+                      .rate = rate,
+                      .late = worst.late,
+                      .by = by,
+                      .loan = loan};
       const felt run =
           follow(s, fresh_one(model), tell, rate, late, ahead == 0.0 ? s.fresh() : s.ahead(ahead));
       judge(one, s, run, truths_[h]);
       judge(worst, s, run, truths_[h]);
       if (by == "bare") bare_[h] = one.error;
-      worst.of_bare = std::max(worst.of_bare, one.error / std::max(bare_[h], 1e-6));
+      one.of_bare = one.error / std::max(bare_[h], 1e-6);
+      worst.of_bare = std::max(worst.of_bare, one.of_bare);
+      rows_.by_hand.push_back(one);
     }
-    rows_.push_back(worst);
+    rows_.worst.push_back(worst);
   }
   static auto fresh_one(const auto& model) {
     if constexpr (requires { model.fresh(); }) {
@@ -414,7 +420,7 @@ class comparison {
       return model;
     }
   }
-  std::vector<between_row>& rows_;
+  between_rows& rows_;
   const std::vector<scene>& scenes_;
   std::vector<felt> truths_;
   std::vector<double> bare_;
@@ -594,8 +600,8 @@ ex::record record_of(const between_row& r) {
                   r.still);
 }
 
-std::vector<between_row> run_between(ex::report& out, const between_settings& chosen) {
-  std::vector<between_row> rows;
+between_rows run_between(ex::report& out, const between_settings& chosen) {
+  between_rows rows;
   std::vector<std::function<scene(std::size_t)>> kinds{heaving_plane, breathing_sphere};
   kinds.emplace_back(
       [](std::size_t h) { return stroked("organ", ex::our_organ, ex::millimetre, h); });
@@ -630,10 +636,11 @@ std::vector<between_row> run_between(ex::report& out, const between_settings& ch
           std::string(ex::quiet_columns) +
           " Then the world stops, the last news stay, and 0.1 kg in a hand of 100 N/m and 1 "
           "N·s/m press as hard as the run did; where it ended in the air nothing is held.");
-  mark_fronts(rows);
-  draw(out, rows, chosen.quick);
-  if (!chosen.quick) draw_time(out, rows);  // others were measured in all three hands
-  ex::publish(out, "between", rows);
+  mark_fronts(rows.worst);
+  draw(out, rows.worst, chosen.quick);
+  if (!chosen.quick) draw_time(out, rows.worst);  // others were measured in all three hands
+  ex::publish(out, "between", rows.worst);
+  ex::write_csv(out, "between_hands.csv", rows.by_hand);
   if (chosen.mesh.empty())
     std::cout << "skipped: no other organ was stroked, because no --mesh was given\n";
   return rows;

@@ -19,7 +19,7 @@ struct between_settings {
   bool quick = false;
 };
 
-/// A scene, a rate, a latency and what is made of the news: the worst of some hands.
+/// A scene, a rate, a latency and what is made of the news.
 struct between_row {
   std::string scene{};
   double rate = 0.0;     ///< of the news [Hz]
@@ -31,6 +31,7 @@ struct between_row {
   double step = 0.0;     ///< largest in a tick [N]
   double own = 0.0;      ///< the same of the truth [N]
   int lost = 0;          ///< ticks without force where the truth has more than 0.02 N
+  int ticks = 0;         ///< of so many
   double least = 0.0;    ///< port energy, with the device's own damping [J]
   double tick = 0.0;     ///< of the model [ns]
   double work = 0.0;     ///< of the environment, for a second of touching [ms]
@@ -39,6 +40,10 @@ struct between_row {
 };
 [[nodiscard]] ex::record record_of(const between_row& r);
 
-[[nodiscard]] std::vector<between_row> run_between(ex::report& out, const between_settings& chosen);
+/// Each figure the worst of all hands; and those of each hand by itself, whose scene is "organ, hand 1".
+struct between_rows {
+  std::vector<between_row> worst, by_hand;
+};
+[[nodiscard]] between_rows run_between(ex::report& out, const between_settings& chosen);
 
 }  // namespace organ

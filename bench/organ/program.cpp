@@ -355,7 +355,7 @@ failures judge_precision(const session& s) {
 failures judge_between(const session& s) {
   const auto& [out, chosen, tell] = s;
   failures found;
-  const auto rows =
+  const auto [rows, by_hand] =
       run_between(out, {.mesh = chosen.mesh, .unit = chosen.unit, .quick = chosen.quick});
   for (const auto& r : rows) {
     const bool ours = r.by != "bare" && r.by != "TDPA",
@@ -380,6 +380,20 @@ failures judge_between(const session& s) {
     // The control: the same way, but behind.
     const bool behind = r.by == "... as far behind" && r.scene == "organ" && r.rate <= 60.0;
     expect(found, !behind || r.of_bare > 0.65, where + ": it does not matter where it is asked");
+    // Another organ may have two rests under the same finger, as the liver has (docs/design/error.md).
+    const bool other = ours && r.scene == "mesh";
+    expect(found, !other || (bare != rows.end() && r.step <= bare->step),
+           where + ": it steps by more than bare");
+    // Asked three times too far ahead it loses 6 % of the liver's ticks.
+    expect(found, !other || r.by == "... 3 times too far" || r.lost <= 0.025 * r.ticks,
+           where + ": contact was lost for long");
+  }
+  for (const auto& r : by_hand) {
+    expect(found,
+           r.scene != "mesh, hand 1" || r.by != "... ahead and lent" || r.rate > 60.0 ||
+               r.of_bare <= 1.1,
+           r.scene + ex::format(", %g Hz, ", r.rate) + ex::format("%g ms, ", r.late) + r.by +
+               ": it errs by more than bare");
   }
   return found;
 }
