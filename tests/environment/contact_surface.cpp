@@ -207,6 +207,27 @@ TEST_CASE("a deformable body publishes a quadric and a patch of its contact, non
   CHECK_THAT(seen.depth, WithinAbs(side * (body.contact().point - device).norm(), 1e-12));
 }
 
+TEST_CASE("where all nodes have gone NaN no surface is found, and none is published",
+          "[environment][curved]") {
+  const std::vector<env::surface_triangle> square{{{0, 1, 2}}, {{1, 3, 2}}};
+  const std::vector<Vector3d> nodes(4, Vector3d::Constant(not_a_number));
+  const env::surface_graph graph(square, nodes.size());
+  const env::surface_view view = square;
+  const auto none = env::closest_point(view, nodes, {0.5, 0.5, 0.1}).value_or(env::surface_point{});
+  REQUIRE(none.triangle == -1);
+  env::surface_point beyond;
+  beyond.triangle = 2;
+  for (const auto& on : {none, beyond}) {
+    CHECK_FALSE(env::quadric_at(view, nodes, on, 500).prepare());
+    CHECK_FALSE(env::quadric_at(graph, nodes, on, 500).prepare());
+    CHECK_FALSE(env::patch_at(view, nodes, on, 500).prepare());
+    CHECK_FALSE(env::patch_at(graph, nodes, on, 500).prepare());
+    CHECK_THROWS_WITH(env::shape_at(graph, nodes, on.triangle, on.weights),
+                      Catch::Matchers::Contains("triangle " + std::to_string(on.triangle) +
+                                                " of 2; give a triangle that closest_point()"));
+  }
+}
+
 TEST_CASE("a body is asked ahead of a finger by half of its last way, bounded", "[environment]") {
   env::ahead where({.periods = 0.5, .most = 1e-3});
   CHECK(where({0.01, 0, 0}) == Vector3d(0.01, 0, 0));

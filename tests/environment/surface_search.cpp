@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tree of boxes says what the linear search says, at ties too, and follows a body that deforms.
 #include "environment/shapes.hpp"
+#include <passive_haptics/environment/contact_surface.hpp>
 #include <passive_haptics/environment/contact_tracker.hpp>
 #include <passive_haptics/environment/curvature.hpp>
 #include <passive_haptics/environment/surface_search.hpp>
@@ -88,6 +89,32 @@ TEST_CASE("surface_search leaves out what cannot be touched", "[environment][sur
   search.refit(nodes);
   CHECK_FALSE(search.closest_point(nodes, x));
   CHECK_FALSE(env::surface_search({}, nodes).closest_point(nodes, x));
+}
+
+TEST_CASE("a surface refuses nodes that are not its own, and a tree keeps its boxes",
+          "[environment][surface]") {
+  using Catch::Matchers::Contains;
+  using surface = std::vector<env::surface_triangle>;
+  const surface square{{{0, 1, 2}}, {{1, 3, 2}}};
+  const std::vector<Vector3d> nodes{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  const std::vector<Vector3d> three(nodes.begin(), nodes.begin() + 3);
+  const Vector3d x(0.9, 0.9, 0.1);
+  for (const int node : {-1, 500}) {
+    const surface bad{{{0, 1, 2}}, {{1, node, 2}}};
+    const auto said = "names node " + std::to_string(node) + " of 4; count nodes from 0";
+    CHECK_THROWS_WITH(env::surface_graph(bad, 4), Contains(said));
+    CHECK_THROWS_WITH(env::surface_search(bad, nodes), Contains(said));
+    CHECK_THROWS_WITH(env::closest_point(bad, nodes, x), Contains(said));
+    CHECK_THROWS_WITH(env::patch_at(bad, nodes, {.triangle = 1}, 500), Contains(said));
+  }
+  env::surface_search search(square, nodes);
+  const std::vector<int> moved{1};
+  const std::string said = "news of 3 nodes for a surface of 4; make another surface_search";
+  CHECK_THROWS_WITH(search.refit(three), Contains(said));
+  CHECK_THROWS_WITH(search.refit(three, moved), Contains(said));
+  CHECK_THROWS_WITH(search.closest_point(three, x), Contains(said));
+  CHECK_THROWS_WITH(search.closest_near(three, x, 0, [](int) {}), Contains(said));
+  CHECK(search.closest_point(nodes, x)->triangle == 1);
 }
 
 TEST_CASE("a contact that is followed is where the whole search finds it",

@@ -43,12 +43,19 @@ struct quadric_options {
   double reach = 0.02;       ///< radius in which the quadric is used [m], about a mesh edge
 };
 
+/// True if a point is on a triangle of a surface of so many.
+[[nodiscard]] inline bool is_on(const surface_point& on, std::size_t triangles) noexcept {
+  return on.triangle >= 0 && static_cast<std::size_t>(on.triangle) < triangles;
+}
+
 /// The quadric at a point of the surface, of stiffness `stiffness` [N/m]. Its curvatures are limited to
 /// ±1/(2 thickness) [1/m], so that it does not fold: a sharper edge or dent is felt with that curvature.
+/// At a point that is on no triangle of it, as surface_point{} is, it is a quadric that every supply refuses.
 template <class Surface>
 [[nodiscard]] quadric<space<double, 3>> quadric_at(const Surface& surface, nodes_view nodes,
                                                    const surface_point& on, double stiffness,
                                                    const quadric_options& options = {}) {
+  if (!is_on(on, surface.size())) return {};
   const surface_shape shape = shape_at(surface, nodes, on.triangle, on.weights);
   const double sharpest = 0.5 / options.thickness;
   const auto kept = [&](double c) { return (std::max)(-sharpest, (std::min)(c, sharpest)); };
@@ -91,7 +98,8 @@ void for_triangles_beside(const surface_graph& surface, std::span<const int> tak
 
 /// The M triangles closest to a point of the surface that are connected to its triangle by whole edges. A
 /// triangle that would be the third at an edge is left out. In a surface_view every triangle is looked at; for
-/// a large surface take a surface_graph, which knows the neighbours of a triangle.
+/// a large surface take a surface_graph, which knows the neighbours of a triangle. At a point that is on no triangle of
+/// it, it is a patch that every supply refuses.
 template <std::size_t M = 16, class Surface>
 [[nodiscard]] patch<space<double, 3>, M> patch_at(
     const Surface& surface, nodes_view nodes, const surface_point& on, double stiffness,
@@ -130,9 +138,10 @@ template <std::size_t M = 16, class Surface>
     }
     return touches_patch;
   };
-  int next = on.triangle;
+  int next = is_on(on, surface.size()) ? on.triangle : -1;
   while (next >= 0) {
     const surface_triangle& t = surface[static_cast<std::size_t>(next)];
+    check_nodes(t, nodes.size());
     for (std::size_t k = 0; k < 3; ++k) {
       result.triangles[result.triangle_count][k] = local_number(t.nodes[k]);
     }

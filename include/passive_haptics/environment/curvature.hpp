@@ -174,9 +174,14 @@ struct surface_shape {
 /// The shape at the point of a triangle with these barycentric weights. Normal and curvature are blended
 /// from those of the three nodes; the point stands above the facet by what the curvature gives between
 /// the nodes, Σ wₖ ½ δₖᵀC δₖ with δₖ from the point to node k, so that the surface goes through the nodes.
+/// Throws std::invalid_argument for a triangle that does not exist.
 template <class Surface>
 [[nodiscard]] surface_shape shape_at(const Surface& surface, nodes_view nodes, int number,
                                      const Eigen::Vector3d& weights) {
+  if (static_cast<std::size_t>(number) >= surface.size()) {
+    refuse_argument("shape_at: triangle ", number, " of ", surface.size(),
+                    "; give a triangle that closest_point() has found");
+  }
   const surface_triangle& t = surface[static_cast<std::size_t>(number)];
   const mesh::corners shape = triples_of(corners(t, nodes));
   std::array<Eigen::Vector3d, 3> normals;

@@ -37,7 +37,19 @@ struct surface_triangle {
 using surface_view = std::span<const surface_triangle>;
 using nodes_view = std::span<const Eigen::Vector3d>;  ///< positions [m]
 
+/// Refuses a triangle that names a node which is not one of so many.
+inline void check_nodes(const surface_triangle& t, std::size_t count) {
+  for (const int node : t.nodes) {
+    if (static_cast<std::size_t>(node) < count) continue;
+    refuse_argument("surface: the triangle (", t.nodes[0], ", ", t.nodes[1], ", ", t.nodes[2],
+                    ") names node ", node, " of ", count,
+                    "; count nodes from 0 and give the positions of all of them");
+  }
+}
+
+/// Throws std::invalid_argument for a node that does not exist.
 [[nodiscard]] inline triangle corners(const surface_triangle& t, nodes_view nodes) {
+  check_nodes(t, nodes.size());
   return {nodes[static_cast<std::size_t>(t.nodes[0])], nodes[static_cast<std::size_t>(t.nodes[1])],
           nodes[static_cast<std::size_t>(t.nodes[2])]};
 }

@@ -18,11 +18,12 @@ namespace environment {
 
 class surface_graph {
  public:
-  /// `node_count` must exceed the number of every node of a triangle.
+  /// Throws std::invalid_argument if `node_count` does not exceed the number of every node of a triangle.
   surface_graph(std::vector<surface_triangle> surface, std::size_t node_count)
       : surface_(std::move(surface)), begin_(node_count + 1, 0) {
     for (const auto& t : surface_) {
-      for (const int node : t.nodes) ++begin_.at(slot(node) + 1);
+      check_nodes(t, node_count);
+      for (const int node : t.nodes) ++begin_[slot(node) + 1];
     }
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     at_.resize(3 * surface_.size());
@@ -39,6 +40,7 @@ class surface_graph {
   }
   [[nodiscard]] const std::vector<surface_triangle>& triangles() const noexcept { return surface_; }
   [[nodiscard]] std::size_t size() const noexcept { return surface_.size(); }
+  [[nodiscard]] std::size_t node_count() const noexcept { return begin_.size() - 1; }
   [[nodiscard]] const surface_triangle& operator[](std::size_t i) const { return surface_[i]; }
 
  private:

@@ -8,7 +8,8 @@
 //     refit                fits the boxes to nodes that have moved; the tree stays the same
 //
 // The tree (mesh/box_tree.hpp) is a median split of the triangles' centres at rest. Its answers stay right however
-// the body deforms, and it stays fast as long as neighbours stay neighbours. Queries do not allocate.
+// the body deforms, and it stays fast as long as neighbours stay neighbours. Queries do not allocate. Positions of
+// another number of nodes are refused by a std::invalid_argument, and the boxes stay as they were.
 
 #include <passive_haptics/environment/surface.hpp>
 #include <passive_haptics/environment/surface_graph.hpp>
@@ -38,9 +39,13 @@ class surface_search : public surface_graph {
   }
 
   /// Fits all boxes to the positions [m] of the nodes.
-  void refit(nodes_view nodes) { tree_.fit(boxes_, around{*this, nodes}); }
+  void refit(nodes_view nodes) {
+    check_count(nodes);
+    tree_.fit(boxes_, around{*this, nodes});
+  }
   /// Fits the boxes of the triangles `moved`; all others must be where they were.
   void refit(nodes_view nodes, std::span<const int> moved) {
+    check_count(nodes);
     tree_.fit(boxes_, moved, around{*this, nodes});
   }
 
@@ -49,6 +54,7 @@ class surface_search : public surface_graph {
   [[nodiscard]] std::optional<surface_point> closest_point(nodes_view nodes,
                                                            const Eigen::Vector3d& x,
                                                            int likely = -1) const {
+    check_count(nodes);
     if (boxes_.empty() || !is_finite(triple_of(x))) return std::nullopt;
     std::optional<surface_point> best;
     if (likely >= 0 && likely < static_cast<int>(size())) offer(best, nodes, x, likely);
@@ -72,6 +78,7 @@ class surface_search : public surface_graph {
   [[nodiscard]] std::optional<surface_point> closest_near(nodes_view nodes,
                                                           const Eigen::Vector3d& x, int from,
                                                           const Before& before) const {
+    check_count(nodes);
     std::optional<surface_point> best;
     before(from);
     offer(best, nodes, x, from);
@@ -89,6 +96,11 @@ class surface_search : public surface_graph {
   }
 
  private:
+  void check_count(nodes_view nodes) const {
+    if (nodes.size() == node_count()) return;
+    refuse_argument("surface_search: news of ", nodes.size(), " nodes for a surface of ",
+                    node_count(), "; make another surface_search of them");
+  }
   [[nodiscard]] static std::vector<mesh::triple> centres(surface_view surface, nodes_view nodes) {
     std::vector<mesh::triple> all;
     all.reserve(surface.size());
