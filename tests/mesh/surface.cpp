@@ -39,6 +39,16 @@ TEST_CASE("a mesh that was told in millimetres or kilometres is doubted", "[mesh
   };
   CHECK_THAT(doubt(1e3), Contains("it is 100 m wide") && Contains("millimetres"));
   CHECK_THAT(doubt(1e-3), Contains("it is 0.0001 m wide") && Contains("give metres"));
+  auto far_off = b.nodes;
+  for (triple& p : far_off) p.z += 400.0;
+  CHECK_THAT(ph::mesh::surface::doubt(far_off), Contains("it lies 400 m from the origin"));
+}
+
+TEST_CASE("a mesh of too many triangles for 20 updates a second is doubted", "[mesh]") {
+  CHECK(ph::mesh::surface::doubt_count(1'000'000).empty());
+  CHECK_THAT(ph::mesh::surface::doubt_count(10'000'000),
+             Contains("its 10000000 triangles take about 0.6 s an update") &&
+                 Contains("give a coarser one, or move it by poses"));
 }
 
 TEST_CASE("a mesh whose triangles have left their neighbours is doubted", "[mesh]") {
