@@ -37,13 +37,14 @@ struct surface_triangle {
 using surface_view = std::span<const surface_triangle>;
 using nodes_view = std::span<const Eigen::Vector3d>;  ///< positions [m]
 
+[[noreturn, gnu::cold, gnu::noinline]] inline void refuse_node(int node, std::size_t count) {
+  refuse_argument("surface: a triangle names node ", node, " of ", count,
+                  "; count nodes from 0 and give the positions of all of them");
+}
 /// Refuses a triangle that names a node which is not one of so many.
 inline void check_nodes(const surface_triangle& t, std::size_t count) {
   for (const int node : t.nodes) {
-    if (static_cast<std::size_t>(node) < count) continue;
-    refuse_argument("surface: the triangle (", t.nodes[0], ", ", t.nodes[1], ", ", t.nodes[2],
-                    ") names node ", node, " of ", count,
-                    "; count nodes from 0 and give the positions of all of them");
+    if (static_cast<std::size_t>(node) >= count) refuse_node(node, count);
   }
 }
 

@@ -98,8 +98,9 @@ class surface_search : public surface_graph {
  private:
   void check_count(nodes_view nodes) const {
     if (nodes.size() == node_count()) return;
-    refuse_argument("surface_search: news of ", nodes.size(), " nodes for a surface of ",
-                    node_count(), "; make another surface_search of them");
+    refuse_argument("surface_search: news of ", static_cast<int>(nodes.size()),
+                    " nodes for a surface of ", node_count(),
+                    "; make another surface_search of them");
   }
   [[nodiscard]] static std::vector<mesh::triple> centres(surface_view surface, nodes_view nodes) {
     std::vector<mesh::triple> all;
