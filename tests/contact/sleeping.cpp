@@ -229,6 +229,35 @@ TEST_CASE("what sleeps is looked at twenty times in a second, whatever else is p
   CHECK(looks_ahead == 0);
 }
 
+TEST_CASE("what sleeps sleeps on while it is told each 33 ms, until it is told to be near",
+          "[contact_set]") {
+  int in_ticks = 0;
+  const auto felt = [&in_ticks](auto port) {
+    in_ticks = 0;
+    std::vector<d3::vector> forces;
+    for (int n = 0; n < 1320; ++n) {
+      if (n % 33 == 0) {  // 0.1 m away for a second, and then nearer by 20 mm each time
+        const double at = n < 1000 ? -0.1 : std::min(0.0, -0.1 + 0.02 * (n / 33 - 30));
+        for (int i = 0; i < 4; ++i) {
+          REQUIRE(port.source().update(i, counted{{d3::vector(0, 0, at), {0, 0, 1}, 1000.0}}));
+        }
+      }
+      looks = 0;
+      forces.push_back(port.tick(d3::vector(0, 0, -1e-3), ph::seconds{T}).force);
+      if (n < 1000) in_ticks += looks;
+    }
+    return forces;
+  };
+  const auto with = [](auto room) {
+    return open_port<d3>(ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, room});
+  };
+  const auto wakes = felt(with(ph::slots<counted, 4>{}));
+  CHECK(in_ticks == 4000);  // the control: four slots never sleep
+  CHECK(felt(with(ph::slots<counted, 5>{})) == wakes);
+  CHECK(in_ticks <= 4 * 25);  // twenty times in a second, and as long as they are new
+  CHECK(wakes.back().z() > 0.5);
+}
+
 TEST_CASE("what has slept for just 0.05 s sleeps on", "[contact_set]") {
   ph::passive_port port{
       d3{}, ph::contact_set{ph::proxy_spring{.mass = 0.1}, ph::pursuit{}, ph::slots<counted, 7>{}},

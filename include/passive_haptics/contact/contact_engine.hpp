@@ -108,14 +108,15 @@ class contact_engine {
     let_go();
     asked_ = moved_ = Port::zero();
     steepest_ = {};
-    refused_ = told_ = chased_ = placed_ = false;
+    refused_ = told_ = heard_ = chased_ = placed_ = false;
   }
 
   /// Removes the surface of a slot: its contact recedes until λ = 0, and ends.
   template <class Surface = first_kind>
   constexpr void release(int i) noexcept {
-    news();
+    if (!heard_) news();
     slots_.template visit<Surface>(i, [&](auto& slot, std::size_t number) {
+      heard_ = !(slot.pressed() > scalar(0));
       slot.release();
       if constexpr (naps) nap_.awake.set(number);
     });
@@ -248,12 +249,20 @@ class contact_engine {
   template <class Surface>
   constexpr news_taken<scalar> put(int i, const point_type& point, const Surface& next) noexcept {
     news_taken<scalar> taken;
-    news();
+    if (!heard_) news();
     slots_.template visit<Surface>(i, [&](auto& slot, std::size_t number) {
+      heard_ = !(slot.pressed() > scalar(0));  // its spring counts, too, when there is more to hear
       taken.taken =
           frame::is_point(point) && slot.update(next, frame::place(last_, slot.point),
                                                 frame::place(last_, point), spring_, pace_);
-      if constexpr (naps) nap_.awake.set(number);
+      if constexpr (naps) {
+        nap_.awake.set(number);
+        if (taken && placed_ &&
+            slot.stays_away(nap_.began_at, scalar(-2) * (pace_.out_of_reach() + nap_.reach),
+                            nap_.lasted, pace_)) {
+          nap_.awake.clear(number);
+        }
+      }
       if (!taken) return;
       slot.point = point;
       taken.stiffness = displayed(slot);
@@ -394,7 +403,7 @@ class contact_engine {
   }
   /// Begins an update: the force is no steeper than the stiffest contact that presses, or is there if `any`, from now on.
   [[gnu::noinline]] constexpr void news(bool any = false) noexcept {
-    told_ = true;
+    told_ = heard_ = true;
     slots_.for_each([&](auto& slot, std::size_t) {
       const bool counts = any || slot.pressed() > scalar(0);
       slot.owe();
@@ -416,6 +425,7 @@ class contact_engine {
   [[gnu::noinline]] constexpr row eased(const row& wanted, const row& way, bool chases,
                                         scalar dt) noexcept {
     news(!told_ && !chased_);  // what recedes by itself may have pressed until now
+    heard_ = false;
     const scalar lead = steepest_.settling / dt;
     row beside = frame::way_of(way, dt), change = frame::way_of(way - row(moved_), dt),
         middle = asked_;
@@ -472,6 +482,7 @@ class contact_engine {
   sampled_spring<scalar> steepest_{};     ///< stiffest contact that pressed since the update
   bool rests_ = true;                     ///< no contact pressed in the last tick
   bool told_ = false;                     ///< an update is still being followed
+  bool heard_ = false;                    ///< an update has begun since the last tick
   bool chased_ = false;                   ///< `chases` of the last tick
   bool refused_ = false;                  ///< a surface was refused since the last tick
   bool knows_way_ = true;                 ///< the motion of the last tick is known

@@ -169,6 +169,21 @@ class pursued {
     age_ = scalar(0);
     return true;
   }
+  /// Notes that it was met at x, `since` [s] ago, if nothing presses it and its depth there is below `most` [m].
+  constexpr bool stays_away(const vector& x, scalar most, scalar since,
+                            const pursuit::on<Space>& pace) noexcept {
+    const auto shown = target_.at(x);
+    const vector normal = shown.outward();
+    if (pressed_ > scalar(0) || !shown.covered() || !(shown.depth < most) ||
+        !kernels::is_finite(shown.depth + Space::dot(normal, normal))) {
+      return false;
+    }
+    lag_ = scalar(0);
+    if constexpr (turns_along) place_ = x;
+    meet({normal, normal, shown.depth}, shown.depth, pace);
+    age_ = -since;
+    return true;
+  }
   /// Removes the surface; a pressed one recedes until λ = 0.
   constexpr void release() noexcept {
     owes_ = false;
