@@ -173,14 +173,16 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
     bool placed = false;
   };
   struct frame_state {
-    std::array<view, cells> slot;       ///< the surface in each slot
-    std::array<bool, cells> filled{};   ///< the slot has a surface
-    std::array<candidate, cells> told;  ///< the candidates
-    std::array<std::size_t, cells> by;  ///< the candidate that each slot belongs to
-    std::array<scalar, cells> bar;      ///< largest c with which a candidate takes the slot [m]
-    std::array<bool, cells> kept{};     ///< its surface came, and was unusable
-    std::size_t count = 0;              ///< number of candidates
-    std::size_t worst = 0;              ///< the candidate that is dropped first
+    std::array<view, cells> slot;          ///< the surface in each slot
+    std::array<bool, cells> filled{};      ///< the slot has a surface
+    std::array<candidate, cells> told;     ///< the candidates
+    std::array<std::size_t, cells> by;     ///< the candidate that each slot belongs to
+    std::array<scalar, cells> bar;         ///< largest c with which a candidate takes the slot [m]
+    std::array<std::size_t, cells> order;  ///< the open slots, the shallowest first
+    std::size_t open = 0;                  ///< number of open slots
+    std::array<bool, cells> kept{};        ///< its surface came, and was unusable
+    std::size_t count = 0;                 ///< number of candidates
+    std::size_t worst = 0;                 ///< the candidate that is dropped first
   };
 
   /// c of (M1) [m], or more than `most` if it is above that. Two surfaces in one place are told apart by stiffness.
@@ -249,10 +251,8 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
     const auto same_id = [&](std::size_t i, std::size_t k) {
       return ids_[i] != no_id && ids_[i] == id_of(now.told[k].number);
     };
-    open(now, kernels::largest<scalar>());
-    if (!ids.empty()) claim_all<Where::apart>(now, same_id);
-    open(now, within_);
-    claim_all<Where::apart>(now, [](std::size_t, std::size_t) { return true; });
+    if (!ids.empty()) claim_all<Where::apart>(now, kernels::largest<scalar>(), same_id);
+    claim_all<Where::apart>(now, within_, [](std::size_t, std::size_t) { return true; });
 
     for (std::size_t i = 0; i < cells; ++i) {
       if (now.by[i] != nobody) {
@@ -321,30 +321,55 @@ requires(Count >= 1 && surface_for<Surface, Space>) class contact_manifold {
     if (a.seen.covers != b.seen.covers) return b.seen.covers;
     return a.rank < b.rank;
   }
-  /// Opens slots without an owner to candidates with c below `gate` [m].
+  /// Opens slots without an owner to candidates with c below `gate` [m], in the order of their depths.
   constexpr void open(frame_state& now, scalar gate) const noexcept {
-    for (std::size_t i = 0; i < cells; ++i) {
-      const bool vacant = now.filled[i] && !now.kept[i] && now.by[i] == nobody;
-      now.bar[i] = vacant ? gate : scalar(-1);
+    now.open = 0;
+    for (std::size_t i = cells; i-- > 0;) {  // of two at one depth the first comes first
+      if (!now.filled[i] || now.kept[i] || now.by[i] != nobody) continue;
+      now.bar[i] = gate;
+      const std::size_t at = first_no_shallower(now, now.slot[i].depth);
+      for (std::size_t last = now.open++; last > at; --last) now.order[last] = now.order[last - 1];
+      now.order[at] = i;
     }
   }
+  /// The first of the open slots, in their order, that is no shallower than `depth` [m].
+  [[nodiscard]] static constexpr std::size_t first_no_shallower(const frame_state& now,
+                                                                scalar depth) noexcept {
+    std::size_t low = 0, high = now.open;
+    while (low < high) {
+      const std::size_t half = (low + high) / 2;
+      if (now.slot[now.order[half]].depth < depth) {
+        low = half + 1;
+      } else {
+        high = half;
+      }
+    }
+    return low;
+  }
   /// A candidate without a slot takes the nearest open slot whose owner has a larger c; that owner then looks for its
-  /// next nearest (stable matching).
+  /// next nearest (stable matching). |Δd| ≤ c, so the slots are tried from its own depth up, and from there down.
   template <bool Apart>
-  constexpr void claim_all(frame_state& now, const auto& may) const noexcept {
+  constexpr void claim_all(frame_state& now, scalar gate, const auto& may) const noexcept {
+    open(now, gate);
     for (std::size_t first = 0; first < now.count; ++first) {
       std::size_t k = now.told[first].placed ? nobody : first;
       while (k != nobody) {
+        const view& seen = now.told[k].seen;
         std::size_t mine = nobody;
-        scalar least = kernels::largest<scalar>();
-        for (std::size_t i = 0; i < cells; ++i) {
+        scalar least = gate;
+        const auto in_reach = [&](std::size_t i) {
+          if (!(kernels::magnitude(now.slot[i].depth - seen.depth) < least)) return false;
           const scalar most = kernels::smaller(now.bar[i], least);
-          if (!(most > scalar(0)) || !may(i, k)) continue;
-          const scalar c = cost<Apart>(now.slot[i], now.told[k].seen, most);
-          if (!(c < most)) continue;
+          if (!(most > scalar(0)) || !may(i, k)) return true;
+          const scalar c = cost<Apart>(now.slot[i], seen, most);
+          if (!(c < most)) return true;
           mine = i;
           least = c;
-        }
+          return true;
+        };
+        const std::size_t own = first_no_shallower(now, seen.depth);
+        for (std::size_t n = own; n < now.open && in_reach(now.order[n]);) ++n;
+        for (std::size_t n = own; n > 0 && in_reach(now.order[n - 1]);) --n;
         if (mine == nobody) break;
         now.bar[mine] = least;
         now.told[k].placed = true;
