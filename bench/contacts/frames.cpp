@@ -197,6 +197,7 @@ struct counted : plane {
 struct reach_row {
   double pressed = 0.0;  ///< at most [m]
   int cases = 0;
+  bool framed = false;           ///< all are shown again in each frame
   double all = 0.0, near = 0.0;  ///< looks a tick, of 64 surfaces, and of the three alone
   double worst = 0.0;            ///< of both, at most
   double off = 0.0;              ///< of the force [N]
@@ -206,30 +207,38 @@ ex::record record_of(const reach_row& r) {
           {"near", 3},
           {"pressed_mm", r.pressed * 1e3, "%.1f"},
           {"cases", r.cases},
+          {"frames", r.framed ? "each 33 ms" : "one"},
           {"looks_a_tick", r.all, "%.2f"},
           {"of_the_near_alone", r.near, "%.2f"},
           {"times_at_most", r.worst, "%.2f"},
           {"off_N", r.off, "%.1e"}};
 }
-reach_row reach(double pressed, int cases, std::uint64_t seed) {
-  reach_row row{.pressed = pressed, .cases = cases};
+reach_row reach(double pressed, bool framed, int cases, std::uint64_t seed) {
+  reach_row row{.pressed = pressed, .cases = cases, .framed = framed};
   draws d(seed);
   for (int i = 0; i < cases; ++i) {
     auto many = open_set<counted, 64>();
     auto few = open_set<counted, 3>();
+    ph::contact_manifold<counted, 64> seen;
+    ph::contact_manifold<counted, 3> seen_alone;
+    std::vector<counted> all, alone;
     const vector z = d.direction(), x = d3::orthogonal(z), y = d3::cross(z, x);
     for (int k = 0; k < 64; ++k) {
       const vector n = k == 0 ? x : k == 1 ? y : k == 2 ? z : vector(d.direction());
       const double at = k < 3 ? d.between(0.2, 1.0) * pressed : -d.between(0.04, 0.2);
       const counted wall{{vector(n * at), n, 1000.0}};
-      many.source().update(k, wall);
-      if (k < 3) few.source().update(k, wall);
+      all.push_back(wall);
+      if (k < 3) alone.push_back(wall);
     }
     const vector way = d.direction();
     long in_many = 0, in_few = 0;
     const double far = pressed / 2.0;
     for (int n = 0; n < run_end; ++n) {  // to and fro, at 10 mm/s at most
       const vector at = way * (far * std::sin(0.01 / far * T * n));
+      if (n == 0 || (framed && n % frame == 0)) {
+        seen.show(many.source(), all, at);
+        seen_alone.show(few.source(), alone, at);
+      }
       looks = 0;
       const vector f = many.tick(at, ph::seconds{T}).force;
       in_many += looks;
@@ -278,16 +287,19 @@ std::vector<std::string> run_frames(const session& s) {
   });
   ex::show_rows(s.out, "frames", rows);
 
-  s.out.section("Frames: what is near",
-                "A finger at 10 mm/s in a corner of three walls that it presses by up to so much "
-                "and half as much, with 61 "
-                "more that are 40 to 200 mm away: surfaces that are looked at in a tick. The bar "
-                "is twice those of the "
-                "three alone for 1 mm, and half of all beyond.");
+  s.out.section(
+      "Frames: what is near",
+      "A finger at 10 mm/s in a corner of three walls that it presses by up to so much "
+      "and half as much, with 61 "
+      "more that are 40 to 200 mm away, shown once or again each 33 ms: surfaces that are "
+      "looked at in a tick. The bar is twice those of the "
+      "three alone for 1 mm, and half of all beyond.");
   std::vector<reach_row> near;
   for (const double pressed : {1e-3, 3e-3}) {
-    near.push_back(
-        reach(pressed, s.chosen.quick ? 5 : 100, static_cast<std::uint64_t>(s.chosen.seed)));
+    for (const bool framed : {false, true}) {
+      near.push_back(reach(pressed, framed, s.chosen.quick ? 5 : 100,
+                           static_cast<std::uint64_t>(s.chosen.seed)));
+    }
   }
   ex::publish(s.out, "frames_near", near);
 
@@ -302,10 +314,10 @@ std::vector<std::string> run_frames(const session& s) {
     bar(r.manifold.late, 1e-3, "a second later off by");
     expect(found, r.number.off > 0.1, "frames, " + r.scene + ": the control, by number, is right");
   }
-  expect(found, near[0].worst <= 2.0,
-         "frames: 64 surfaces are looked at " + ex::format("%.2f", near[0].worst) +
-             " times as often as 3");
   for (const auto& r : near) {
+    expect(found, r.pressed > 1e-3 || r.worst <= 2.0,
+           "frames: 64 surfaces are looked at " + ex::format("%.2f", r.worst) +
+               " times as often as 3");
     expect(found, r.all <= 32.0, "frames: more than half of 64 surfaces are looked at in a tick");
     expect(found, r.off <= 1e-9, "frames: surfaces out of reach are felt");
   }
