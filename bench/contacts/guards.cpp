@@ -614,7 +614,8 @@ slow_row fall_slowly(slow_row row, std::uint64_t seed, int cases) {
 /// what settles, or of three times as a control.
 struct heave_row {
   const char* hand = "";
-  double least_Hz = 0.0, most_Hz = 0.0;  ///< at which the hand kneads by 0.5 to 4 mm; 0: it holds still
+  double least_Hz = 0.0,
+         most_Hz = 0.0;  ///< at which the hand kneads by 0.5 to 4 mm; 0: it holds still
   bool steep = false;
   int cases = 0, softened = 0;
   double away = 0.0;      ///< mean of 1 - s over all cases and ticks
@@ -649,11 +650,9 @@ heave_row heave_often(heave_row row, std::uint64_t seed, int cases) {
     const double kneads = still ? 0.0 : d.scale(5e-4, 4e-3);
     const double beat = still ? 0.0 : turn * d.scale(row.least_Hz, row.most_Hz);
     for (const bool softens : {true, false}) {
-      auto port = ph::make_guard<d1>({.mass = m * known,
-                                      .damping = damping,
-                                      .force_limit = 20.0,
-                                      .longest_tick = longest},
-                                     ph::known_hand{.force = 15.0});
+      auto port = ph::make_guard<d1>(
+          {.mass = m * known, .damping = damping, .force_limit = 20.0, .longest_tick = longest},
+          ph::known_hand{.force = 15.0});
       ph::settled_force rule = port.source().parameters();
       rule.softens = softens;
       static_cast<void>(port.set(rule));

@@ -387,9 +387,9 @@ PH_API int32_t ph_mesh_move(ph_mesh* mesh, const double position[3],
 PH_API int32_t ph_mesh_set_materials(ph_mesh* mesh, const double* materials,
                                      uint32_t material_count, const uint8_t* material_of, char* why,
                                      size_t room) PH_NOTHROW;
-/// Says what is doubtful of the shape that was told last and almost surely a slip: millimetres for metres, a place far from
-/// the origin, more triangles than can move 20 times a second, or some that have left those beside which they were made,
-/// so that ticks take long. It is no refusal: "" if nothing is. It takes as long as ph_mesh_create.
+/// Says what is doubtful of the shape that was told last and almost surely a slip: millimetres for metres, a place far
+/// from the origin, more triangles than can move 20 times a second, or some that have left those beside which they were
+/// made, so that ticks take long. It is no refusal: "" if nothing is. It takes as long as ph_mesh_create.
 PH_API int32_t ph_mesh_doubt(const ph_mesh* mesh, char* doubt, size_t room) PH_NOTHROW;
 /// Lets a mesh_touch, or all points of a mesh_tool, touch this mesh as well. Call it, and the next one, in the thread
 /// of its ticks.
