@@ -3,6 +3,7 @@
 #include "quiet.hpp"
 
 #include "../common/shares.hpp"
+#include <passive_haptics/compositions.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -249,6 +250,57 @@ quiet_row late_row(const session& s, const still_hand& hand, int cases) {
       });
 }
 
+/// A touch, asked as a set of one slot is.
+template <class Touch>
+class one_slot {
+ public:
+  one_slot(Touch touch, const plane& wall) : touch_(touch), normal_(wall.normal) {
+    static_cast<void>(touch_.update(wall));
+  }
+  auto tick(const vector& x, ph::seconds<double> dt) {
+    const auto out = touch_.tick(x, dt);
+    pressed_ = vector(out.force).norm();
+    return out;
+  }
+  [[nodiscard]] const one_slot& source() const { return *this; }
+  [[nodiscard]] const one_slot& slot(int /*i*/) const { return *this; }
+  [[nodiscard]] double pressed() const { return pressed_; }
+  [[nodiscard]] vector normal() const { return normal_; }
+  [[nodiscard]] double can_be() const { return touch_.explain().shown; }
+
+ private:
+  Touch touch_;
+  vector normal_;
+  double pressed_ = 0.0;
+};
+
+/// make_touch on a plane.
+template <int Late>
+quiet_row touch_row(const session& s, const still_hand& hand, int cases) {
+  const auto seed = (static_cast<std::uint64_t>(s.chosen.seed) << 32U) + (1U << 31U);
+  return judged(
+      {.scene = std::to_string(Late) + " ticks late", .hand = hand.name, .cases = cases},
+      [&](int i) {
+        const auto scene = scene_of(kinds[0], hand, seed + static_cast<std::uint64_t>(i));
+        const auto& is = scene.device;
+        one_slot port(ph::make_touch<d3, plane, ph::late_loop_limits<Late>>(
+                          ph::exact_device{.mass = scene.told,
+                                           .damping = is.damping,
+                                           .force_limit = 20.0,
+                                           .longest_tick = T,
+                                           .latency = Late},
+                          ph::known_hand{.force = 1.2 * held_point::most(is)}),
+                      scene.walls[0]);
+        vector end;
+        quiet_run run = held_still<Late>(port, 1, is, no_news, &end);
+        run.asked = scene.walls[0].stiffness;
+        run.can_be = port.can_be();
+        run.shown = ex::shown_by(
+            [&](const vector& at) -> vector { return port.tick(at, ph::seconds{T}).force; }, end);
+        return run;
+      });
+}
+
 /// A figure of the last window of all scenes, a curve for each kind and one for the control.
 void plot_at_rest(const session& s, const std::vector<quiet_row>& rows,
                   const std::vector<quiet_row>& undamped, const std::string& name,
@@ -328,6 +380,17 @@ std::vector<std::string> run_quiet(const session& s) {
   }
   ex::publish(s.out, "quiet_late", late);
 
+  s.out.section("Quiet: make_touch",
+                "The same bar for one plane behind make_touch, on time and late, drawn as above; "
+                "shown over what explain() says.");
+  std::vector<quiet_row> touches;
+  for (const auto& hand : still_hands) {
+    touches.push_back(touch_row<0>(s, hand, cases));
+    touches.push_back(touch_row<1>(s, hand, cases / 2));
+    touches.push_back(touch_row<2>(s, hand, cases / 2));
+  }
+  ex::publish(s.out, "quiet_touch", touches);
+
   s.out.section("Quiet: without a damper",
                 "The control: such scenes in a relaxed hand on the same springs, ζ = 0, of which a "
                 "quarter must not be quiet within 5 s.");
@@ -355,6 +418,12 @@ std::vector<std::string> run_quiet(const session& s) {
                " of the stiffness that it could show");
   }
   for (const auto& r : late) expect_quiet(found, r);
+  for (const auto& r : touches) {
+    expect_quiet(found, r);
+    expect(found, r.share >= least_share,
+           "make_touch, " + r.scene + ", hand " + r.hand + ": shows " +
+               ex::format("%.2f", r.share) + " of what it says");
+  }
   return found;
 }
 
