@@ -209,6 +209,7 @@ TEST_CASE("a settled force says how much of a steep one it shows, and shows all 
     const double w = 2.0 + random.number<double>();
     x += 1e-5 * (w - 2.0) * (n % 100 < 50 ? 0.0 : 1.0);
     (void)guard.tick(x, 1ms, w);
+    CHECK(guard.explain().shown <= most * (1.0 + 1e-12));  // what is no slope is not said to be one
   }
   CHECK(guard.source().shown() == 1.0);
 }

@@ -160,7 +160,7 @@ class settled_force::on : private part_at<given_force, P> {
     const bool shapes = e.asked > 0.0;  // the force of a surface
     if (shapes && !softens_) return;
     if (!shapes) e.asked = e.shown = std::numeric_limits<double>::infinity();
-    if (!(s < 1.0) && seen_.steep && seen_.felt > steepest_) {
+    if (!(s < 1.0) && seen_.felt > steepest_ && seen_.along.share(steepest_) < scalar(1)) {
       if (!shapes) e.asked = e.shown = static_cast<double>(seen_.felt);
       return;
     }
