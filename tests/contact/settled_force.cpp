@@ -202,6 +202,11 @@ TEST_CASE("a settled force says how much of a steep one it shows, and shows all 
   CHECK_THAT(guard.explain().shown, WithinRel(0.75 * most, 1e-6));
   CHECK(guard.explain().stiffness == ph::softened_by::mass_and_tick);
   guard.reset();
+  ph::settled_force on_steps = rule;
+  on_steps.most = most;  // on encoders, where a press is a row of jumps, the slope alone counts
+  auto stepped = guard_of<d1>(on_steps);
+  for (int n = 0; n < 50; ++n) (void)stepped.tick(-1e-5 * n, 1ms, 4.0 * most * 1e-5 * n);
+  CHECK_THAT(double(stepped.source().shown()), WithinRel(0.75 / 4.0, 0.03));
 
   ph::laws::samples random(3);
   double x = 0.0;
