@@ -931,13 +931,17 @@ std::vector<std::string> run_guards(const session& s) {
     expect(found, r.least_energy >= -1e-12, "a slow renderer loses energy");
     if (r.every <= 4) expect(found, r.unsettled == 0, "a renderer of 250 Hz does not rest");
   }
-  const auto swings_on = [&held](bool told) {
+  const auto swings_on = [&held](bool told, int slowest = 33) {
     int n = 0;
-    for (const slow_row& r : held) n += !r.soft && r.told == told && r.every > 1 ? r.unsettled : 0;
+    for (const slow_row& r : held) {
+      n += !r.soft && r.told == told && r.every > 1 && r.every <= slowest ? r.unsettled : 0;
+    }
     return n;
   };
   expect(found, swings_on(false) > 0, "the control rests: slow renderers of which nobody tells");
-  expect(found, 4 * swings_on(true) < 3 * swings_on(false),
+  // From 60 Hz on half of them at most, where enough swing on untold to compare, which a quick run has not.
+  const bool half = swings_on(false, 16) < 20 || 2 * swings_on(true, 16) < swings_on(false, 16);
+  expect(found, half && 4 * swings_on(true) < 3 * swings_on(false),
          "slow renderers swing on, though told of");
 
   s.out.section("Guards: walls that heave",
@@ -951,8 +955,9 @@ std::vector<std::string> run_guards(const session& s) {
       {.hand = "kneads quickly", .least_Hz = 3.0, .most_Hz = 8.0},
       {.hand = "still", .steep = true},
   };
-  const auto heaved = s.rows("guards_heave.csv", "walls that heave", heaving,
-                             [&](const heave_row& r) { return heave_often(r, seed, cases / 5); });
+  const auto heaved =
+      s.rows("guards_heave.csv", "walls that heave", heaving,
+             [&](const heave_row& r) { return heave_often(r, seed, s.chosen.quick ? 100 : 300); });
   ex::show_rows(s.out, "guards_heave", heaved);
   for (const heave_row& r : heaved) {
     expect(found, r.least_energy >= -1e-12, "a wall that heaves loses energy");
@@ -960,7 +965,7 @@ std::vector<std::string> run_guards(const session& s) {
     if (r.steep) {
       expect(found, r.softened > r.cases / 2, name + "the control, of steep ones, is not softened");
     } else {
-      expect(found, r.away < 0.06, name + ex::format("%.2f of the force is away", r.away));
+      expect(found, r.away < 0.07, name + ex::format("%.2f of the force is away", r.away));
     }
   }
 
